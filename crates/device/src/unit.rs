@@ -1,0 +1,59 @@
+//! What a unit model brings: objects, process data, checks, and nothing of the protocol.
+
+use objects::ObjectServer;
+use time::{Duration, Instant};
+use wire::{AlState, AlStatusCode};
+
+/// Lengths in bytes of the process data that the mapping asks for. Zero: there is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ProcessDataAreas {
+    /// Outputs, master to slave (RxPDO).
+    pub outputs_bytes: u16,
+    /// Inputs, slave to master (TxPDO).
+    pub inputs_bytes: u16,
+}
+
+/// One refresh: what the SyncManagers hold, for the unit to take and to fill.
+pub struct Exchange<'a> {
+    /// State of the EtherCAT state machine at this refresh.
+    pub state: AlState,
+    /// The newest whole outputs; none unless the slave is in OP, the master has sent outputs since it
+    /// entered OP, and the process data watchdog is alive.
+    pub outputs: Option<&'a [u8]>,
+    /// The inputs to fill, `inputs_bytes` long; empty below SAFE-OP. They hold older inputs on entry.
+    pub inputs: &'a mut [u8],
+}
+
+/// A unit model on the slave stack.
+pub trait Unit {
+    /// The object dictionary behind CoE; none for a unit without a mailbox.
+    fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
+        None
+    }
+
+    /// Lengths of the process data by the mapping that is set now.
+    fn process_data(&self) -> ProcessDataAreas;
+
+    /// The unit's own checks at PRE-OP to SAFE-OP, before the stack compares the SyncManagers with
+    /// [`Unit::process_data`].
+    ///
+    /// # Errors
+    /// The AL status code that the slave shows; it stays in PRE-OP.
+    fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
+        Ok(())
+    }
+
+    /// The state machine has arrived in `state`.
+    fn entered(&mut self, _now: Instant, _state: AlState) {}
+
+    /// Time between two refreshes (Free-Run).
+    fn refresh_period(&self) -> Duration;
+
+    /// Moves data between the SyncManagers and the application.
+    fn refresh(&mut self, now: Instant, exchange: Exchange<'_>);
+
+    /// Explicit Device ID that the slave tells when AL control bit 5 asks; none when it has none.
+    fn explicit_device_id(&self) -> Option<u16> {
+        None
+    }
+}

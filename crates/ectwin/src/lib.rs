@@ -1,0 +1,1 @@
+//! ectwin, the EtherCAT twin: virtual slave units for tests of EtherCAT masters.

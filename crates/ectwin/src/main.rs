@@ -1,0 +1,2 @@
+//! The `ectwin` command.
+fn main() {}

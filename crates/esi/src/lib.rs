@@ -1,0 +1,1 @@
+//! ESI and SII: written and read from one device description.

@@ -1,0 +1,1 @@
+//! Real media and the real clock: raw, UDP, TAP and in-memory links.

@@ -1,0 +1,1 @@
+//! Mailbox services: request bytes in, reply bytes or abort code out.

@@ -1,0 +1,1 @@
+//! The NX-ECT101 as a unit model: objects, allocation, refresh, files.

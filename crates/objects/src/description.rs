@@ -1,0 +1,185 @@
+//! What exists in the dictionary: objects and entries, as ETG.1000.6 describes them by SDO information.
+
+use core::ops::RangeInclusive;
+
+use bitflags::bitflags;
+use wire::{AlState, DataType, ObjectIndex, SubIndex};
+
+bitflags! {
+    /// Access word of an entry, as SDO information shows it.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub struct AccessRights: u16 {
+        /// Readable in PRE-OP.
+        const READ_PRE_OP = 1 << 0;
+        /// Readable in SAFE-OP.
+        const READ_SAFE_OP = 1 << 1;
+        /// Readable in OP.
+        const READ_OP = 1 << 2;
+        /// Writable in PRE-OP.
+        const WRITE_PRE_OP = 1 << 3;
+        /// Writable in SAFE-OP.
+        const WRITE_SAFE_OP = 1 << 4;
+        /// Writable in OP.
+        const WRITE_OP = 1 << 5;
+        /// May be mapped into an RxPDO.
+        const RX_PDO = 1 << 6;
+        /// May be mapped into a TxPDO.
+        const TX_PDO = 1 << 7;
+        /// Kept by a backup (device replacement).
+        const BACKUP = 1 << 8;
+        /// A setting (startup parameter).
+        const SETTING = 1 << 9;
+    }
+}
+
+impl AccessRights {
+    /// Readable in every state that has a mailbox.
+    pub const READ: Self = Self::READ_PRE_OP.union(Self::READ_SAFE_OP).union(Self::READ_OP);
+    /// Writable in every state that has a mailbox.
+    pub const WRITE: Self = Self::WRITE_PRE_OP.union(Self::WRITE_SAFE_OP).union(Self::WRITE_OP);
+
+    /// Whether `state` lets a master read.
+    #[must_use]
+    pub fn readable_in(self, state: AlState) -> bool {
+        self.intersects(match state {
+            AlState::PreOp => Self::READ_PRE_OP,
+            AlState::SafeOp => Self::READ_SAFE_OP,
+            AlState::Op => Self::READ_OP,
+            AlState::Init | AlState::Boot | AlState::Other(_) => Self::empty(),
+        })
+    }
+
+    /// Whether `state` lets a master write.
+    #[must_use]
+    pub fn writable_in(self, state: AlState) -> bool {
+        self.intersects(match state {
+            AlState::PreOp => Self::WRITE_PRE_OP,
+            AlState::SafeOp => Self::WRITE_SAFE_OP,
+            AlState::Op => Self::WRITE_OP,
+            AlState::Init | AlState::Boot | AlState::Other(_) => Self::empty(),
+        })
+    }
+}
+
+/// Object code, as SDO information shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ObjectCode {
+    /// VAR, 7: one value at subindex 0.
+    Variable,
+    /// ARRAY, 8: entries of one type, subindex 0 counts them.
+    Array,
+    /// RECORD, 9: entries of several types, subindex 0 counts them.
+    Record,
+}
+
+impl ObjectCode {
+    /// The code on the wire.
+    #[must_use]
+    pub const fn code(self) -> u8 {
+        match self {
+            Self::Variable => 7,
+            Self::Array => 8,
+            Self::Record => 9,
+        }
+    }
+}
+
+/// One entry of an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Its subindex.
+    pub sub: SubIndex,
+    /// Its name.
+    pub name: String,
+    /// Its data type.
+    pub data_type: DataType,
+    /// Its length in bits; a value takes `bit_length` rounded up to whole bytes by SDO.
+    pub bit_length: u16,
+    /// Who may touch it, when; whether it can be mapped.
+    pub access: AccessRights,
+    /// Value at power-on, little endian, rounded up to whole bytes.
+    pub default: Vec<u8>,
+    /// The values that a write may set, empty for any.
+    pub limits: Vec<RangeInclusive<u64>>,
+}
+
+impl Entry {
+    /// Length of the value in bytes, as an SDO carries it.
+    #[must_use]
+    pub fn size_bytes(&self) -> usize {
+        usize::from(self.bit_length).div_ceil(8)
+    }
+}
+
+/// One object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Object {
+    /// Its index.
+    pub index: ObjectIndex,
+    /// Its name.
+    pub name: String,
+    /// Variable, array or record.
+    pub code: ObjectCode,
+    /// Data type of the variable or of the record.
+    pub data_type: DataType,
+    /// Whether a master may read and write it by complete access.
+    pub complete_access: bool,
+    /// Its entries, ascending by subindex; gaps are allowed.
+    pub entries: Vec<Entry>,
+}
+
+impl Object {
+    /// The entry at `sub`.
+    #[must_use]
+    pub fn entry(&self, sub: SubIndex) -> Option<&Entry> {
+        let at = self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok()?;
+        self.entries.get(at)
+    }
+
+    /// The highest subindex that exists.
+    #[must_use]
+    pub fn max_sub(&self) -> SubIndex {
+        self.entries.last().map_or(SubIndex::ZERO, |entry| entry.sub)
+    }
+}
+
+/// All objects of a unit model, ascending by index.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ObjectTable {
+    objects: Vec<Object>,
+}
+
+impl ObjectTable {
+    /// A table of these objects.
+    ///
+    /// # Panics
+    /// If an index or a subindex stands twice: the table is ours.
+    #[must_use]
+    pub fn new(mut objects: Vec<Object>) -> Self {
+        objects.sort_by_key(|object| object.index);
+        assert!(objects.windows(2).all(|pair| pair[0].index < pair[1].index), "an object stands twice");
+        for object in &objects {
+            let ascending = object.entries.windows(2).all(|pair| pair[0].sub < pair[1].sub);
+            assert!(ascending, "{}: an entry stands twice or out of order", object.index);
+        }
+        Self { objects }
+    }
+
+    /// The object at `index`.
+    #[must_use]
+    pub fn object(&self, index: ObjectIndex) -> Option<&Object> {
+        let at = self.objects.binary_search_by_key(&index, |object| object.index).ok()?;
+        self.objects.get(at)
+    }
+
+    /// The entry at `index` and `sub`.
+    #[must_use]
+    pub fn entry(&self, index: ObjectIndex, sub: SubIndex) -> Option<&Entry> {
+        self.object(index)?.entry(sub)
+    }
+
+    /// All objects, ascending by index.
+    pub fn iter(&self) -> impl Iterator<Item = &Object> {
+        self.objects.iter()
+    }
+}

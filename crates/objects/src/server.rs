@@ -1,0 +1,28 @@
+//! Who answers for the values of a dictionary.
+
+use wire::{ObjectIndex, SubIndex};
+
+use crate::ObjectTable;
+
+/// SDO abort code (placeholder until `wire::SdoAbort`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SdoAbort(pub u32);
+
+/// The values of one unit. The caller has checked existence, access right, state and length against
+/// [`ObjectServer::table`]; the server decides on the value, and may still refuse by an abort code.
+pub trait ObjectServer {
+    /// What exists.
+    fn table(&self) -> &ObjectTable;
+
+    /// Copies the value of an entry into `value`, which has the entry's size in bytes.
+    ///
+    /// # Errors
+    /// The abort code that the master gets.
+    fn read(&mut self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) -> Result<(), SdoAbort>;
+
+    /// Takes a new value for an entry; `value` has the entry's size in bytes. A refused write changes nothing.
+    ///
+    /// # Errors
+    /// The abort code that the master gets.
+    fn write(&mut self, index: ObjectIndex, sub: SubIndex, value: &[u8]) -> Result<(), SdoAbort>;
+}

@@ -1,0 +1,1 @@
+//! ESCs joined by ports and links: the way of a frame.
