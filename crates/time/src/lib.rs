@@ -155,7 +155,8 @@ impl FromStr for Duration {
     fn from_str(text: &str) -> Result<Self, NotADuration> {
         let number_length = text.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or(NotADuration)?;
         let (number, unit) = text.split_at(number_length);
-        let (_, nanos) = UNITS.into_iter().find(|(name, _)| *name == unit.trim_start()).ok_or(NotADuration)?;
+        let (_, nanos) =
+            UNITS.into_iter().find(|(name, _)| *name == unit.trim_start()).ok_or(NotADuration)?;
         let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
         if (whole.is_empty() && fraction.is_empty()) || fraction.len() > nanos.ilog10() as usize {
             return Err(NotADuration);
@@ -176,7 +177,9 @@ mod tests {
 
     #[test]
     fn durations_read_as_engineers_write_them() {
-        for (text, nanos) in [("1ms", 1_000_000), ("1.5ms", 1_500_000), ("250us", 250_000), ("2 s", 2_000_000_000)] {
+        for (text, nanos) in
+            [("1ms", 1_000_000), ("1.5ms", 1_500_000), ("250us", 250_000), ("2 s", 2_000_000_000)]
+        {
             assert_eq!(text.parse::<Duration>(), Ok(Duration::from_nanos(nanos)), "{text}");
         }
     }

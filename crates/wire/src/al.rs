@@ -115,11 +115,7 @@ impl AlStatus {
     /// Takes the register apart; reserved bits are dropped, a slave shows them as 0.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
-        Self {
-            state: AlState::from_bits(bits),
-            error: bits & 0x10 != 0,
-            device_id_loaded: bits & 0x20 != 0,
-        }
+        Self { state: AlState::from_bits(bits), error: bits & 0x10 != 0, device_id_loaded: bits & 0x20 != 0 }
     }
 
     /// Puts the register together.

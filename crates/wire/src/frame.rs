@@ -1,0 +1,182 @@
+//! The way from an Ethernet frame to its datagrams.
+
+use crate::datagram::{DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader};
+
+/// EtherType of EtherCAT in Ethernet II.
+pub const ETHERTYPE_ETHERCAT: u16 = 0x88A4;
+/// UDP destination port of EtherCAT in UDP, 34980.
+pub const UDP_PORT_ETHERCAT: u16 = 0x88A4;
+/// Longest Ethernet frame that an ESC takes, without FCS, with one VLAN tag.
+pub const FRAME_BYTES_MAX: usize = 1518;
+/// Bytes of the EtherCAT header in front of the datagrams.
+pub const ETHERCAT_HEADER_BYTES: usize = 2;
+
+const ETHERTYPE_VLAN: u16 = 0x8100;
+const ETHERTYPE_IPV4: u16 = 0x0800;
+const IP_PROTOCOL_UDP: u8 = 17;
+const MAC_BYTES: usize = 12;
+const UDP_HEADER_BYTES: usize = 8;
+const TYPE_DATAGRAMS: u16 = 1;
+
+/// What an ESC makes of a frame (ETG.1000.4; reference 1.1, 1.2, 1.7).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameKind {
+    /// Datagrams to process.
+    Datagrams(Layout),
+    /// EtherCAT of another type than datagrams: forwarded untouched.
+    OtherType,
+    /// Not EtherCAT: forwarded or destroyed by the forwarding rule.
+    NotEtherCat,
+    /// Broken: nothing of it takes effect, and it is counted.
+    Defective(Defect),
+}
+
+/// Where the datagrams of a checked frame stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    start: usize,
+    end: usize,
+    udp_checksum_at: Option<usize>,
+}
+
+/// Why a frame is broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// It ends within the Ethernet or the EtherCAT header.
+    TooShort,
+    /// It is longer than [`FRAME_BYTES_MAX`].
+    TooLong,
+    /// Its EtherCAT header promises more bytes than came.
+    Truncated,
+    /// A datagram does not fit into the length that the EtherCAT header tells.
+    DatagramBeyondEnd,
+}
+
+impl FrameKind {
+    /// Looks at a frame from its destination address on, without FCS. Padding behind the datagrams is
+    /// ignored: the EtherCAT length counts, so that frames of 29 bytes, as they come over veth, are fine.
+    #[must_use]
+    pub fn of(frame: &[u8]) -> Self {
+        if frame.len() > FRAME_BYTES_MAX {
+            return Self::Defective(Defect::TooLong);
+        }
+        match locate(frame) {
+            Ok(Some(at)) => at.check(frame),
+            Ok(None) => Self::NotEtherCat,
+            Err(defect) => Self::Defective(defect),
+        }
+    }
+}
+
+impl Layout {
+    /// Opens the datagrams one after the other for editing in place.
+    #[must_use]
+    pub fn datagrams<'a>(&self, frame: &'a mut [u8]) -> Datagrams<'a> {
+        Datagrams { rest: frame.get_mut(self.start..self.end) }
+    }
+
+    /// Marks the frame as having passed a slave: the locally administered bit of the source address, and
+    /// no UDP checksum, since the data under it have changed.
+    pub fn mark_passed(&self, frame: &mut [u8]) {
+        mark_source_address(frame);
+        if let Some(checksum) = self.udp_checksum_at.and_then(|at| frame.get_mut(at..at + 2)) {
+            checksum.fill(0);
+        }
+    }
+}
+
+/// Sets the locally administered bit of the source address, as every ESC does in every frame that passes
+/// its processing unit; the rest of the address stays.
+pub fn mark_source_address(frame: &mut [u8]) {
+    if let Some(first) = frame.get_mut(6) {
+        *first |= 0x02;
+    }
+}
+
+/// The datagrams of a frame, in order.
+pub struct Datagrams<'a> {
+    rest: Option<&'a mut [u8]>,
+}
+
+impl<'a> Iterator for Datagrams<'a> {
+    type Item = Datagram<'a>;
+
+    #[inline]
+    fn next(&mut self) -> Option<Datagram<'a>> {
+        let (datagram, rest) = Datagram::open(self.rest.take()?)?;
+        self.rest = datagram.header.more_follow.then_some(rest);
+        Some(datagram)
+    }
+}
+
+/// Where the EtherCAT header stands, before its length is believed.
+struct Located {
+    header_at: usize,
+    udp_checksum_at: Option<usize>,
+}
+
+fn locate(frame: &[u8]) -> Result<Option<Located>, Defect> {
+    let mut at = MAC_BYTES;
+    let mut ethertype = be_u16(frame, at).ok_or(Defect::TooShort)?;
+    if ethertype == ETHERTYPE_VLAN {
+        at += 4;
+        ethertype = be_u16(frame, at).ok_or(Defect::TooShort)?;
+    }
+    at += 2;
+    match ethertype {
+        ETHERTYPE_ETHERCAT => Ok(Some(Located { header_at: at, udp_checksum_at: None })),
+        ETHERTYPE_IPV4 => Ok(locate_in_udp(frame, at)),
+        _ => Ok(None),
+    }
+}
+
+/// EtherCAT in UDP: the ESC looks at protocol and destination port, not at IP addresses.
+fn locate_in_udp(frame: &[u8], ip_at: usize) -> Option<Located> {
+    let version_and_length = *frame.get(ip_at)?;
+    let ip_header_bytes = usize::from(version_and_length & 0x0F) * 4;
+    let is_udp = version_and_length >> 4 == 4 && *frame.get(ip_at + 9)? == IP_PROTOCOL_UDP;
+    let udp_at = ip_at + ip_header_bytes;
+    let is_ethercat = is_udp && ip_header_bytes >= 20 && be_u16(frame, udp_at + 2)? == UDP_PORT_ETHERCAT;
+    is_ethercat.then_some(Located { header_at: udp_at + UDP_HEADER_BYTES, udp_checksum_at: Some(udp_at + 6) })
+}
+
+impl Located {
+    fn check(&self, frame: &[u8]) -> FrameKind {
+        let Some(header) = frame.get(self.header_at..self.header_at + ETHERCAT_HEADER_BYTES) else {
+            return FrameKind::Defective(Defect::TooShort);
+        };
+        let header = u16::from_le_bytes([header[0], header[1]]);
+        if header >> 12 != TYPE_DATAGRAMS {
+            return FrameKind::OtherType;
+        }
+        let start = self.header_at + ETHERCAT_HEADER_BYTES;
+        let end = start + usize::from(header & 0x07FF);
+        match frame.get(start..end) {
+            None => FrameKind::Defective(Defect::Truncated),
+            Some(area) if !chain_fits(area) => FrameKind::Defective(Defect::DatagramBeyondEnd),
+            Some(_) => FrameKind::Datagrams(Layout { start, end, udp_checksum_at: self.udp_checksum_at }),
+        }
+    }
+}
+
+/// Whether every datagram of the chain lies within `area`. The chain ends at a datagram without the more
+/// flag, or where the length is used up.
+fn chain_fits(mut area: &[u8]) -> bool {
+    while !area.is_empty() {
+        let Some(head) = area.first_chunk::<DATAGRAM_HEADER_BYTES>() else { return false };
+        let header = DatagramHeader::unpack(head);
+        let Some(rest) = area.get(DATAGRAM_OVERHEAD_BYTES + usize::from(header.length_bytes)..) else {
+            return false;
+        };
+        if !header.more_follow {
+            return true;
+        }
+        area = rest;
+    }
+    true
+}
+
+fn be_u16(bytes: &[u8], at: usize) -> Option<u16> {
+    let pair = bytes.get(at..at + 2)?;
+    Some(u16::from_be_bytes([pair[0], pair[1]]))
+}
