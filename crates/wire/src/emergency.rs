@@ -1,0 +1,33 @@
+//! Emergency: what a slave tells on its own when something goes wrong (ETG.1000.6, emergency; CiA 301).
+
+/// An emergency message, CoE service 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Emergency {
+    /// Emergency error code; 0x0000 says that the error is gone.
+    pub code: u16,
+    /// Error register, as object 0x1001 has it.
+    pub error_register: u8,
+    /// Manufacturer's own octets.
+    pub manufacturer: [u8; 5],
+}
+
+impl Emergency {
+    /// Length of the message after the CoE header.
+    pub const LENGTH_BYTES: usize = 8;
+
+    /// The emergency at the start of `bytes`, the octets after the CoE header; none if they are fewer than eight.
+    #[must_use]
+    pub fn parse(bytes: &[u8]) -> Option<Self> {
+        let [code_0, code_1, error_register, m0, m1, m2, m3, m4, ..] = *bytes else { return None };
+        let code = u16::from_le_bytes([code_0, code_1]);
+        Some(Self { code, error_register, manufacturer: [m0, m1, m2, m3, m4] })
+    }
+
+    /// The octets after the CoE header.
+    #[must_use]
+    pub fn pack(self) -> [u8; Self::LENGTH_BYTES] {
+        let [code_0, code_1] = self.code.to_le_bytes();
+        let [m0, m1, m2, m3, m4] = self.manufacturer;
+        [code_0, code_1, self.error_register, m0, m1, m2, m3, m4]
+    }
+}
