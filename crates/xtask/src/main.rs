@@ -1,2 +1,61 @@
-//! Our own checks: cargo xtask ci.
-fn main() {}
+//! Our own checks: `cargo xtask ci` runs all of them and names those that failed.
+
+mod arrows;
+mod ci;
+mod metadata;
+mod sources;
+mod tests_step;
+mod tidy;
+mod tools;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Our own checks. Without root and without anything but Rust they run as far as they can and say what
+/// they left out.
+#[derive(Parser)]
+#[command(name = "cargo xtask", bin_name = "cargo xtask")]
+struct Arguments {
+    #[command(subcommand)]
+    task: Task,
+}
+
+#[derive(Subcommand)]
+enum Task {
+    /// Everything that has to hold before a change lands
+    Ci(ci::Options),
+    /// Which crate uses which, and what the core must not touch
+    Arrows,
+    /// The licences and origins of what we depend on
+    Licences,
+    /// The habits of the house: lengths, words, pages, purposes
+    Tidy,
+}
+
+fn main() -> ExitCode {
+    let outcome = match Arguments::parse().task {
+        Task::Ci(options) => return ci::run(&options),
+        Task::Arrows => arrows::check(),
+        Task::Licences => tools::licences(),
+        Task::Tidy => tidy::check(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("{reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What a check says when something is wrong: lines for people, ready to print.
+type Outcome = Result<(), String>;
+
+/// Findings as an outcome: none is good, else one line each under `title`.
+fn report(title: &str, findings: &[String]) -> Outcome {
+    if findings.is_empty() {
+        return Ok(());
+    }
+    Err(format!("{title}:\n  {}", findings.join("\n  ")))
+}

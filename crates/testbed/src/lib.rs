@@ -1,0 +1,21 @@
+//! For tests only: network namespaces, veth pairs, child processes, and the count of what was skipped.
+//!
+//! A test over a real interface runs in a network namespace of its own and needs no root for it:
+//!
+//! ```no_run
+//! use ectwin_testbed as testbed;
+//!
+//! // In a #[test] fn frames_cross_a_wire():
+//! testbed::in_network_namespace("frames_cross_a_wire", || {
+//!     testbed::add_veth_pair("master", "unit");
+//!     // … open both ends …
+//! });
+//! ```
+
+mod namespace;
+mod process;
+mod skip;
+
+pub use namespace::{MasterSide, add_veth_pair, in_network_namespace, ip};
+pub use process::Process;
+pub use skip::{has_program, python_with, skip};

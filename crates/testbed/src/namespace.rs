@@ -1,0 +1,95 @@
+//! Network namespaces for tests, made without root where the kernel lets users do so.
+
+use std::env;
+use std::process::{Command, ExitStatus};
+
+use crate::process::Process;
+use crate::skip::{skip, succeeds};
+
+/// Set inside the namespace to the name of the test that was started there.
+const INSIDE_VARIABLE: &str = "ECTWIN_INSIDE_NAMESPACE";
+
+/// The ways into a new network namespace: as root, and as an ordinary user by a user namespace.
+const WAYS: [&[&str]; 2] = [&["--net"], &["--user", "--map-root-user", "--net"]];
+
+/// Runs `body` in a network namespace of its own, or says that `test` was skipped.
+///
+/// `test` is the path of the test function inside its binary. The test binary is started once more inside
+/// the namespace with this test alone; `body` runs there.
+///
+/// # Panics
+/// When the test fails in its namespace.
+pub fn in_network_namespace(test: &str, body: impl FnOnce()) {
+    if env::var(INSIDE_VARIABLE).is_ok_and(|inside| inside == test) {
+        return body();
+    }
+    let Some(way) = WAYS.into_iter().find(|way| succeeds(Command::new("unshare").args(*way).arg("true")))
+    else {
+        return skip(test, "no network namespace: `unshare -Urn` is not permitted here");
+    };
+    let Ok(binary) = env::current_exe() else { panic!("{test}: the test binary has no path") };
+    let mut command = Command::new("unshare");
+    command.args(way).arg(binary).args(["--exact", test, "--nocapture"]).env(INSIDE_VARIABLE, test);
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
+    let printed = String::from_utf8_lossy(&output.stdout);
+    // A name that matches no test would pass with nothing run.
+    assert!(printed.contains("running 1 test"), "{test}: no such test in its binary\n{printed}");
+    eprint!("{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.status.success(), "{test} failed in its namespace\n{printed}");
+}
+
+/// Runs `ip` (iproute2) with these arguments.
+///
+/// # Panics
+/// When it fails.
+pub fn ip(arguments: &[&str]) {
+    let status = Command::new("ip").args(arguments).status();
+    assert!(status.as_ref().is_ok_and(ExitStatus::success), "ip {arguments:?}: {status:?}");
+}
+
+/// Adds a cable with an interface at each end, both up, to this namespace.
+///
+/// # Panics
+/// When the kernel refuses.
+pub fn add_veth_pair(one: &str, other: &str) {
+    ip(&["link", "add", one, "type", "veth", "peer", "name", other]);
+    ip(&["link", "set", one, "up"]);
+    ip(&["link", "set", other, "up"]);
+}
+
+/// A second network namespace, for the master, with one interface of ours moved into it.
+pub struct MasterSide {
+    process: Process,
+}
+
+impl MasterSide {
+    /// Makes the namespace, moves `interface` into it, and starts `program` there once it is up.
+    ///
+    /// # Panics
+    /// When the kernel refuses, or the program cannot be started.
+    #[must_use]
+    pub fn start(interface: &str, program: &Command) -> Self {
+        // The shell waits until the interface has arrived, then becomes the program.
+        let script = "echo in && read -r _ && ip link set \"$0\" up && exec \"$@\"";
+        let mut command = Command::new("unshare");
+        command
+            .args(["--net", "sh", "-c", script, interface])
+            .arg(program.get_program())
+            .args(program.get_args());
+        for (name, value) in program.get_envs() {
+            if let Some(value) = value {
+                command.env(name, value);
+            }
+        }
+        let mut process = Process::start(&mut command);
+        process.wait_for_line("in");
+        ip(&["link", "set", interface, "netns", &process.id().to_string()]);
+        process.say("go");
+        Self { process }
+    }
+
+    /// Waits until the program has ended.
+    pub fn wait(&mut self) -> ExitStatus {
+        self.process.wait()
+    }
+}

@@ -1,0 +1,82 @@
+//! A child process that is read line by line and does not outlive its test.
+
+use std::io::{BufRead, BufReader, Write};
+use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
+
+/// A running child: its standard output is ours to read, its standard error goes to the test's.
+pub struct Process {
+    child: Child,
+    stdout: BufReader<ChildStdout>,
+    line: String,
+}
+
+impl Process {
+    /// Starts `command`.
+    ///
+    /// # Panics
+    /// When it cannot be started.
+    #[must_use]
+    pub fn start(command: &mut Command) -> Self {
+        let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+        let mut child = child.unwrap_or_else(|error| panic!("{command:?}: {error}"));
+        let Some(stdout) = child.stdout.take() else { panic!("{command:?}: has no standard output") };
+        Self { child, stdout: BufReader::new(stdout), line: String::new() }
+    }
+
+    /// Its process identifier.
+    #[must_use]
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Waits for a line that begins with `start` and returns it; prints what it passes over.
+    ///
+    /// # Panics
+    /// When the output ends before such a line.
+    pub fn wait_for_line(&mut self, start: &str) -> &str {
+        loop {
+            self.line.clear();
+            match self.stdout.read_line(&mut self.line) {
+                Ok(0) => panic!("the output ended before a line `{start}…`: {:?}", self.child.wait()),
+                Ok(_) if self.line.starts_with(start) => return self.line.trim_end(),
+                Ok(_) => print!("{}", self.line),
+                Err(error) => panic!("waiting for a line `{start}…`: {error}"),
+            }
+        }
+    }
+
+    /// Writes a line to its standard input.
+    ///
+    /// # Panics
+    /// When it has closed its input.
+    pub fn say(&mut self, line: &str) {
+        let said = self.child.stdin.as_mut().map(|stdin| writeln!(stdin, "{line}"));
+        assert!(matches!(said, Some(Ok(()))), "could not say `{line}`: {said:?}");
+    }
+
+    /// Sends SIGINT, as Ctrl-C does.
+    ///
+    /// # Panics
+    /// When the signal cannot be sent.
+    pub fn interrupt(&self) {
+        let sent = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status();
+        assert!(sent.as_ref().is_ok_and(ExitStatus::success), "kill -INT: {sent:?}");
+    }
+
+    /// Prints what is left of the output and waits for the end.
+    ///
+    /// # Panics
+    /// When the child cannot be waited for.
+    pub fn wait(&mut self) -> ExitStatus {
+        let rest = std::io::read_to_string(&mut self.stdout).unwrap_or_default();
+        print!("{rest}");
+        self.child.wait().unwrap_or_else(|error| panic!("waiting for the child: {error}"))
+    }
+}
+
+impl Drop for Process {
+    /// A test that panics leaves nothing running. An error means that the child has ended already.
+    fn drop(&mut self) {
+        let _ended = self.child.kill().and_then(|()| self.child.wait());
+    }
+}

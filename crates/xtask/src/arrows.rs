@@ -1,0 +1,177 @@
+//! The floors of the house: which crate may use which, and what the core must never touch.
+
+use crate::metadata::{self, Metadata, Package};
+use crate::sources::{self, Source};
+use crate::{Outcome, report};
+
+/// One crate, its floor, and whom it may use.
+struct Row {
+    name: &'static str,
+    floor: u8,
+    may_use: MayUse,
+}
+
+enum MayUse {
+    Only(&'static [&'static str]),
+    AnyFloorBelow,
+}
+
+use MayUse::{AnyFloorBelow, Only};
+
+const fn row(name: &'static str, floor: u8, may_use: MayUse) -> Row {
+    Row { name, floor, may_use }
+}
+
+/// docs/architecture.md says why. A new crate is a new row; an arrow that runs up is never one.
+const FLOORS: &[Row] = &[
+    row("time", 1, Only(&[])),
+    row("wire", 1, Only(&[])),
+    row("esc", 2, Only(&["time", "wire"])),
+    row("objects", 2, Only(&["wire"])),
+    row("segment", 3, Only(&["time", "wire", "esc"])),
+    row("mailbox", 3, Only(&["wire", "objects"])),
+    row("esi", 3, Only(&["wire", "objects"])),
+    row("device", 4, AnyFloorBelow),
+    row("nx-ect101", 5, Only(&["time", "wire", "objects", "esi", "device"])),
+    row("plc", 6, Only(&["time", "nx-ect101"])),
+    row("link", 7, Only(&["time", "segment"])),
+    row("ectwin", 8, AnyFloorBelow),
+    row("xtask", 9, AnyFloorBelow),
+    // Namespaces and child processes for tests: dev-dependencies may name it from any floor.
+    row(FOR_TESTS, 0, Only(&[])),
+];
+
+const FOR_TESTS: &str = "testbed";
+
+/// The first floor that may do input and output.
+const SHELL_FLOOR: u8 = 7;
+
+/// Crates of others that do input and output, ask the clock or start threads.
+const SHELL_CRATES: &[&str] =
+    &["axum", "crossbeam-channel", "mio", "parking_lot", "pnet_datalink", "socket2", "tokio", "tun-rs"];
+
+/// What the core's code must not name: time is an argument, a frame goes in and a frame comes out.
+const SHELL_WORDS: &[&str] = &[
+    "std::fs",
+    "std::net",
+    "std::process",
+    "std::sync::Mutex",
+    "std::sync::RwLock",
+    "std::thread",
+    "std::time",
+    "Instant::now",
+    "Mutex<",
+    "RwLock<",
+    "SystemTime::now",
+];
+
+/// Checks both.
+pub(crate) fn check() -> Outcome {
+    let metadata = metadata::read()?;
+    let mut findings = wrong_arrows(&metadata);
+    findings.extend(sources::read()?.iter().flat_map(shell_words));
+    report("arrows", &findings)
+}
+
+fn find(name: &str) -> Option<&'static Row> {
+    FLOORS.iter().find(|row| row.name == name)
+}
+
+fn wrong_arrows(metadata: &Metadata) -> Vec<String> {
+    let mut findings = Vec::new();
+    for package in &metadata.packages {
+        match find(package.short_name()) {
+            Some(row) => findings.extend(wrong_arrows_of(row, package)),
+            None => findings.push(format!("{}: has no row in crates/xtask/src/arrows.rs", package.name)),
+        }
+    }
+    let exists = |row: &&Row| metadata.packages.iter().any(|package| package.short_name() == row.name);
+    findings.extend(
+        FLOORS.iter().filter(|row| !exists(row)).map(|row| format!("{}: has a row and no crate", row.name)),
+    );
+    findings
+}
+
+fn wrong_arrows_of(row: &Row, package: &Package) -> Vec<String> {
+    let wrong = |dependency: &&metadata::Dependency| {
+        if !dependency.is_ours() {
+            return row.floor < SHELL_FLOOR
+                && !dependency.is_for_tests()
+                && SHELL_CRATES.contains(&dependency.name.as_str());
+        }
+        !may_use(row, dependency.short_name(), dependency.is_for_tests())
+    };
+    let line =
+        |dependency: &metadata::Dependency| format!("{} may not use {}", package.name, dependency.name);
+    package.dependencies.iter().filter(wrong).map(line).collect()
+}
+
+/// Tests may look at any floor below their own, the code only at those in its row.
+fn may_use(row: &Row, used: &str, for_tests: bool) -> bool {
+    if used == FOR_TESTS {
+        return for_tests;
+    }
+    let below = find(used).is_some_and(|used| used.floor < row.floor);
+    match row.may_use {
+        Only(names) if !for_tests => names.contains(&used),
+        Only(_) | AnyFloorBelow => below,
+    }
+}
+
+fn shell_words(source: &Source) -> Vec<String> {
+    let Some(name) = source.path.strip_prefix("crates/").and_then(|path| path.split('/').next()) else {
+        return Vec::new();
+    };
+    let in_core = find(name).is_some_and(|row| (1..SHELL_FLOOR).contains(&row.floor));
+    if !in_core || source.extension() != "rs" || source.is_test() {
+        return Vec::new();
+    }
+    let code = source.code_lines().filter(|(_, line)| !line.trim_start().starts_with("//"));
+    code.flat_map(|(number, line)| {
+        SHELL_WORDS
+            .iter()
+            .filter(move |word| line.contains(*word))
+            .map(move |word| format!("{}:{number}: `{word}` is for links and the binary", source.path))
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_row_lets_an_arrow_run_up_or_sideways() {
+        for row in FLOORS {
+            let Only(names) = row.may_use else { continue };
+            for used in names {
+                let used = find(used).expect("a row names crates that have a row");
+                assert!(used.floor < row.floor, "{} uses {}", row.name, used.name);
+            }
+        }
+    }
+
+    #[test]
+    fn code_uses_what_its_row_names_and_tests_what_lies_below() {
+        let link = find("link").expect("has a row");
+        assert!(may_use(link, "segment", false));
+        assert!(!may_use(link, "device", false));
+        assert!(may_use(link, "device", true));
+        assert!(!may_use(link, "ectwin", true));
+        assert!(may_use(link, FOR_TESTS, true));
+        assert!(!may_use(link, FOR_TESTS, false));
+    }
+
+    #[test]
+    fn a_clock_in_the_core_is_found_and_one_in_its_tests_is_not() {
+        let clock = "fn now() { std::time::Instant::now(); }\n";
+        let source = |path: &str, text: String| Source { path: path.to_string(), text };
+        assert!(!shell_words(&source("crates/esc/src/lib.rs", clock.to_string())).is_empty());
+        assert!(
+            shell_words(&source("crates/esc/src/lib.rs", format!("#[cfg(test)]\nmod tests {{ {clock} }}")))
+                .is_empty()
+        );
+        assert!(shell_words(&source("crates/esc/tests/frames.rs", clock.to_string())).is_empty());
+        assert!(shell_words(&source("crates/link/src/lib.rs", clock.to_string())).is_empty());
+    }
+}

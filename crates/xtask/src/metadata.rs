@@ -1,0 +1,72 @@
+//! What `cargo metadata` says of our own crates.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use serde::Deserialize;
+
+use crate::tools::root;
+
+/// Our crates.
+#[derive(Deserialize)]
+pub(crate) struct Metadata {
+    pub(crate) packages: Vec<Package>,
+}
+
+/// One crate of ours.
+#[derive(Deserialize)]
+pub(crate) struct Package {
+    pub(crate) name: String,
+    pub(crate) description: Option<String>,
+    pub(crate) dependencies: Vec<Dependency>,
+}
+
+/// One line of a crate's dependencies.
+#[derive(Deserialize)]
+pub(crate) struct Dependency {
+    pub(crate) name: String,
+    pub(crate) kind: Option<String>,
+    pub(crate) path: Option<PathBuf>,
+}
+
+impl Package {
+    /// The name of its folder under crates/, which is also its name in our code.
+    pub(crate) fn short_name(&self) -> &str {
+        short(&self.name)
+    }
+}
+
+impl Dependency {
+    /// Whether it is a crate of this workspace.
+    pub(crate) fn is_ours(&self) -> bool {
+        self.path.is_some()
+    }
+
+    /// Whether only tests, examples and benchmarks see it.
+    pub(crate) fn is_for_tests(&self) -> bool {
+        self.kind.as_deref() == Some("dev")
+    }
+
+    /// The name without our prefix.
+    pub(crate) fn short_name(&self) -> &str {
+        short(&self.name)
+    }
+}
+
+fn short(name: &str) -> &str {
+    name.strip_prefix("ectwin-").unwrap_or(name)
+}
+
+/// Asks cargo.
+///
+/// # Errors
+/// When cargo cannot be asked or answers something else.
+pub(crate) fn read() -> Result<Metadata, String> {
+    let mut command = Command::new("cargo");
+    command.args(["metadata", "--no-deps", "--format-version", "1", "--locked"]).current_dir(root());
+    let output = command.output().map_err(|error| format!("cargo metadata: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("cargo metadata: {}", String::from_utf8_lossy(&output.stderr)));
+    }
+    serde_json::from_slice(&output.stdout).map_err(|error| format!("cargo metadata: {error}"))
+}

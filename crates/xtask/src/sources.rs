@@ -1,0 +1,57 @@
+//! The files of the checkout, as git sees them.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::tools::root;
+
+/// One text file of the project.
+pub(crate) struct Source {
+    /// Its path from the top folder, with `/`.
+    pub(crate) path: String,
+    pub(crate) text: String,
+}
+
+impl Source {
+    /// What the path ends in after the last dot.
+    pub(crate) fn extension(&self) -> &str {
+        self.path.rsplit_once('.').map_or("", |(_, extension)| extension)
+    }
+
+    /// Whether the whole file is there for tests only.
+    pub(crate) fn is_test(&self) -> bool {
+        let in_folder = |name: &str| {
+            self.path.starts_with(&format!("{name}/")) || self.path.contains(&format!("/{name}/"))
+        };
+        in_folder("tests") || in_folder("benches") || self.path.ends_with("tests.rs")
+    }
+
+    /// The lines that are not tests, numbered from 1: up to the module of tests that ends a file.
+    pub(crate) fn code_lines(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.text
+            .lines()
+            .take_while(|line| line.trim() != "#[cfg(test)]")
+            .enumerate()
+            .map(|(at, line)| (at + 1, line))
+    }
+}
+
+/// Every text file that is tracked, or would be with `git add`.
+///
+/// # Errors
+/// When git cannot list the files.
+pub(crate) fn read() -> Result<Vec<Source>, String> {
+    let mut command = Command::new("git");
+    command.args(["ls-files", "--cached", "--others", "--exclude-standard", "-z"]).current_dir(root());
+    let output = command.output().map_err(|error| format!("git ls-files: {error}"))?;
+    if !output.status.success() {
+        return Err(format!("git ls-files: {}", String::from_utf8_lossy(&output.stderr)));
+    }
+    let paths = String::from_utf8_lossy(&output.stdout);
+    // What is no text (captures), and what was removed and not yet told to git, is left out.
+    let read = |path: &str| {
+        let text = std::fs::read_to_string(root().join(PathBuf::from(path))).ok()?;
+        Some(Source { path: path.to_string(), text })
+    };
+    Ok(paths.split('\0').filter(|path| !path.is_empty()).filter_map(read).collect())
+}

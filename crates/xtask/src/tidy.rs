@@ -1,0 +1,113 @@
+//! The habits of the house, checked by machine: lengths, words, purposes.
+
+use crate::metadata;
+use crate::sources::{self, Source};
+use crate::{Outcome, report};
+
+/// Lines of code that one file may have, tests beside it counted alike.
+const CODE_LINES: usize = 600;
+/// Lines that a page may have.
+const PAGE_LINES: usize = 400;
+/// Characters of the sentence that says what a crate is for.
+const PURPOSE_CHARACTERS: usize = 160;
+
+/// What must not stay in a file, split so that this table does not find itself, and why.
+const WORDS: &[(&str, &str, &[&str], &str)] = &[
+    ("TO", "DO", ALL, "finish it, or file an issue"),
+    ("FIX", "ME", ALL, "finish it, or file an issue"),
+    ("todo", "!(", RUST, "finish it"),
+    ("unimplemented", "!(", RUST, "finish it"),
+    ("dbg", "!(", RUST, "use tracing"),
+    ("#[igno", "re", RUST, "assert what holds today and say why"),
+    ("pytest.mark.", "skip", PYTHON, "say the skip by testbed, so that it is counted"),
+];
+
+/// What must not stand in a test.
+const TEST_WORDS: &[(&str, &str, &[&str], &str)] =
+    &[("sleep", "(", SCRIPTS, "a test waits for an event, not for time")];
+
+const ALL: &[&str] = &["rs", "py", "sh", "toml", "md", "yml", "js"];
+const RUST: &[&str] = &["rs"];
+const PYTHON: &[&str] = &["py"];
+const SCRIPTS: &[&str] = &["rs", "py", "sh"];
+
+/// Names that say nothing of what is inside.
+const EMPTY_NAMES: &[&str] = &["utils.rs", "util.rs", "helpers.rs", "helper.rs", "misc.rs", "part2.rs"];
+
+/// Checks all of it.
+pub(crate) fn check() -> Outcome {
+    let mut findings = purposes()?;
+    for source in &sources::read()? {
+        findings.extend(length(source));
+        findings.extend(name(source));
+        findings.extend(words(source, WORDS));
+        if source.is_test() {
+            findings.extend(words(source, TEST_WORDS));
+        }
+    }
+    report("tidy", &findings)
+}
+
+fn purposes() -> Result<Vec<String>, String> {
+    let without = |package: &metadata::Package| {
+        let purpose = package.description.as_deref().unwrap_or_default();
+        let is_one_line =
+            !purpose.is_empty() && !purpose.contains('\n') && purpose.len() <= PURPOSE_CHARACTERS;
+        let sentence = is_one_line && purpose.ends_with('.');
+        (!sentence).then(|| format!("{}: needs a description: one sentence with its full stop", package.name))
+    };
+    Ok(metadata::read()?.packages.iter().filter_map(without).collect())
+}
+
+fn length(source: &Source) -> Option<String> {
+    let limit = match source.extension() {
+        "rs" | "py" => CODE_LINES,
+        "md" => PAGE_LINES,
+        _ => return None,
+    };
+    let lines = source.text.lines().count();
+    (lines > limit).then(|| format!("{}: {lines} lines, {limit} at most: split it by noun", source.path))
+}
+
+fn name(source: &Source) -> Option<String> {
+    let file = source.path.rsplit('/').next()?;
+    EMPTY_NAMES.contains(&file).then(|| format!("{}: name it after what it holds", source.path))
+}
+
+fn words(source: &Source, table: &[(&str, &str, &[&str], &str)]) -> Vec<String> {
+    let mut findings = Vec::new();
+    for (start, end, extensions, remedy) in table {
+        if !extensions.contains(&source.extension()) {
+            continue;
+        }
+        let word = format!("{start}{end}");
+        let hits = source.text.lines().enumerate().filter(|(_, line)| line.contains(&word));
+        findings.extend(hits.map(|(at, _)| format!("{}:{}: `{word}`: {remedy}", source.path, at + 1)));
+    }
+    findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(path: &str, text: &str) -> Source {
+        Source { path: path.to_string(), text: text.to_string() }
+    }
+
+    #[test]
+    fn long_files_are_found_by_their_kind() {
+        assert_eq!(length(&source("crates/esc/src/lib.rs", &"\n".repeat(CODE_LINES))), None);
+        assert!(length(&source("crates/esc/src/lib.rs", &"\n".repeat(CODE_LINES + 1))).is_some());
+        assert!(length(&source("docs/glossary.md", &"\n".repeat(PAGE_LINES + 1))).is_some());
+        assert_eq!(length(&source("Cargo.lock", &"\n".repeat(10_000))), None);
+    }
+
+    #[test]
+    fn an_open_end_is_found_with_its_line() {
+        let open = format!("fn main() {{\n    {}{}\n}}", "todo", "!()");
+        let found = words(&source("crates/esc/src/lib.rs", &open), WORDS);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found.iter().all(|line| line.starts_with("crates/esc/src/lib.rs:2:")), "{found:?}");
+    }
+}
