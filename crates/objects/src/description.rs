@@ -5,6 +5,8 @@ use core::ops::RangeInclusive;
 use bitflags::bitflags;
 use wire::{AlState, DataType, ObjectIndex, SubIndex};
 
+use crate::layout::Layout;
+
 bitflags! {
     /// Access word of an entry, as SDO information shows it.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,6 +111,31 @@ impl Entry {
     pub fn size_bytes(&self) -> usize {
         usize::from(self.bit_length).div_ceil(8)
     }
+
+    /// Whether the limits let `value`, little endian, through. Values longer than 64 bits have no limits.
+    #[must_use]
+    pub fn allows(&self, value: &[u8]) -> bool {
+        if self.limits.is_empty() {
+            return true;
+        }
+        unsigned(value).is_none_or(|value| self.limits.iter().any(|limit| limit.contains(&value)))
+    }
+
+    /// Whether complete access packs it bit by bit behind its neighbour: booleans, BIT1 to BIT8, bit
+    /// arrays, and whatever else is no whole number of octets.
+    #[must_use]
+    pub fn is_bit_packed(&self) -> bool {
+        const BIT_LENGTH_MAX: u16 = 64;
+        let bit_type = matches!(self.data_type.0, 0x0001 | 0x002D..=0x002F | 0x0030..=0x0037);
+        self.bit_length <= BIT_LENGTH_MAX && (bit_type || !self.bit_length.is_multiple_of(8))
+    }
+}
+
+/// The little-endian number in `value`; none if it is longer than 64 bits.
+pub(crate) fn unsigned(value: &[u8]) -> Option<u64> {
+    let mut octets = [0; 8];
+    octets.get_mut(..value.len())?.copy_from_slice(value);
+    Some(u64::from_le_bytes(octets))
 }
 
 /// One object.
@@ -141,45 +168,20 @@ impl Object {
     pub fn max_sub(&self) -> SubIndex {
         self.entries.last().map_or(SubIndex::ZERO, |entry| entry.sub)
     }
-}
 
-/// All objects of a unit model, ascending by index.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct ObjectTable {
-    objects: Vec<Object>,
-}
-
-impl ObjectTable {
-    /// A table of these objects.
-    ///
-    /// # Panics
-    /// If an index or a subindex stands twice: the table is ours.
+    /// Whether subindex 0 is a number of entries that a master sets: a PDO mapping or assignment that is
+    /// not fixed. Its entries are writable only while subindex 0 is 0, and complete access covers as many
+    /// of them as subindex 0 says (ETG.1000.6, PDO mapping and SyncManager PDO assignment).
     #[must_use]
-    pub fn new(mut objects: Vec<Object>) -> Self {
-        objects.sort_by_key(|object| object.index);
-        assert!(objects.windows(2).all(|pair| pair[0].index < pair[1].index), "an object stands twice");
-        for object in &objects {
-            let ascending = object.entries.windows(2).all(|pair| pair[0].sub < pair[1].sub);
-            assert!(ascending, "{}: an entry stands twice or out of order", object.index);
-        }
-        Self { objects }
+    pub fn is_counted_by_master(&self) -> bool {
+        let holds_pdos = matches!(self.index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);
+        let count = self.entry(SubIndex::ZERO).map_or(AccessRights::empty(), |entry| entry.access);
+        holds_pdos && self.code != ObjectCode::Variable && count.intersects(AccessRights::WRITE)
     }
 
-    /// The object at `index`.
+    /// Where complete access from `first` on (0 or 1) puts each entry.
     #[must_use]
-    pub fn object(&self, index: ObjectIndex) -> Option<&Object> {
-        let at = self.objects.binary_search_by_key(&index, |object| object.index).ok()?;
-        self.objects.get(at)
-    }
-
-    /// The entry at `index` and `sub`.
-    #[must_use]
-    pub fn entry(&self, index: ObjectIndex, sub: SubIndex) -> Option<&Entry> {
-        self.object(index)?.entry(sub)
-    }
-
-    /// All objects, ascending by index.
-    pub fn iter(&self) -> impl Iterator<Item = &Object> {
-        self.objects.iter()
+    pub fn layout(&self, first: SubIndex) -> Layout<'_> {
+        Layout::new(self, first)
     }
 }

@@ -4,8 +4,16 @@
 //! values of one unit and answers for them. Who speaks CoE asks the table what exists and who may touch it,
 //! and the server only for values.
 
+pub mod complete;
 mod description;
+mod dictionary;
+mod layout;
 mod server;
+mod table;
 
-pub use description::{AccessRights, Entry, Object, ObjectCode, ObjectTable};
-pub use server::{ObjectServer, SdoAbort};
+pub use description::{AccessRights, Entry, Object, ObjectCode};
+pub use dictionary::Dictionary;
+pub use layout::{Layout, Slot};
+pub use server::ObjectServer;
+pub use table::ObjectTable;
+pub use wire::SdoAbort;
