@@ -1,0 +1,175 @@
+//! The loop that answers the frames of a port in real time.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use time::{Duration, Instant};
+
+use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
+
+/// Longest sleep, so that the stop flag is seen on a link without traffic.
+const STOP_CHECK: Duration = Duration::from_millis(100);
+/// A poll is late when it runs this long after its deadline.
+const LATE: Duration = Duration::from_millis(1);
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameFate {
+    /// It came back to the port where it went in.
+    Returned,
+    /// It did not.
+    Destroyed,
+}
+
+/// What lies behind a port: a segment of units. It reads no clock.
+pub trait Responder {
+    /// A frame passes through, edited in place.
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate;
+
+    /// Does what is due at `now`.
+    fn poll(&mut self, now: Instant);
+
+    /// When [`Responder::poll`] has to be called next; [`Instant::NEVER`] if a frame comes first.
+    fn deadline(&self) -> Instant;
+}
+
+impl<R: Responder + ?Sized> Responder for &mut R {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        (**self).frame(now, frame)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        (**self).poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        (**self).deadline()
+    }
+}
+
+/// A frame and its answer.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<'a> {
+    /// When the frame was received.
+    pub received: Instant,
+    /// The frame as the master sent it.
+    pub request: &'a [u8],
+    /// When the answer had been sent.
+    pub answered: Instant,
+    /// The frame as it went back; nothing if it was destroyed.
+    pub answer: Option<&'a [u8]>,
+}
+
+/// Someone who looks at frames after they have been answered.
+pub trait Observer {
+    /// A frame has been answered or destroyed.
+    fn frame(&mut self, seen: Seen<'_>);
+}
+
+/// What a run came to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Statistics {
+    /// Frames received.
+    pub frames: u64,
+    /// Frames that did not come back to the port.
+    pub destroyed: u64,
+    /// Answers that the port did not take.
+    pub unsent: u64,
+    /// Polls that ran 1 ms or more after their deadline: the machine was busy elsewhere.
+    pub late_polls: u64,
+}
+
+/// Answers the frames of `port` until `stop` is set or the other end closes the link. A frame is answered
+/// before anything else happens; the observer and what is due come after it. Allocates at the start only.
+///
+/// # Errors
+/// The medium is gone.
+pub fn run<'o, P: FramePort, R: Responder>(
+    port: &mut P,
+    responder: &mut R,
+    observer: Option<&'o mut (dyn Observer + 'o)>,
+    clock: &Clock,
+    stop: &AtomicBool,
+) -> io::Result<Statistics> {
+    let mut run = Run { port, responder, observer, clock, statistics: Statistics::default() };
+    let mut buffers = Buffers { frame: vec![0; FRAME_BUFFER_BYTES], request: vec![0; FRAME_BUFFER_BYTES] };
+    // The flag carries no data: who sets it only wants the loop to end.
+    while !stop.load(Ordering::Relaxed) {
+        match run.turn(&mut buffers) {
+            Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => break,
+            other => other?,
+        }
+    }
+    Ok(run.statistics)
+}
+
+struct Run<'a, 'o, P, R> {
+    port: &'a mut P,
+    responder: &'a mut R,
+    observer: Option<&'o mut (dyn Observer + 'o)>,
+    clock: &'a Clock,
+    statistics: Statistics,
+}
+
+struct Buffers {
+    frame: Vec<u8>,
+    request: Vec<u8>,
+}
+
+impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
+    fn turn(&mut self, buffers: &mut Buffers) -> io::Result<()> {
+        let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
+        if let Some(length_bytes) = self.port.receive(&mut buffers.frame, wait)? {
+            self.answer(length_bytes, buffers);
+        }
+        self.poll_if_due();
+        Ok(())
+    }
+
+    fn answer(&mut self, length_bytes: usize, buffers: &mut Buffers) {
+        let received = self.clock.now();
+        let (Some(frame), Some(request)) =
+            (buffers.frame.get_mut(..length_bytes), buffers.request.get_mut(..length_bytes))
+        else {
+            return;
+        };
+        if self.observer.is_some() {
+            request.copy_from_slice(frame);
+        }
+        let fate = self.responder.frame(received, frame);
+        if fate == FrameFate::Returned {
+            self.send(frame);
+        }
+        self.count(fate);
+        if let Some(observer) = &mut self.observer {
+            let answer = (fate == FrameFate::Returned).then_some(&*frame);
+            observer.frame(Seen { received, request, answered: self.clock.now(), answer });
+        }
+    }
+
+    /// A frame that cannot be sent is lost, as on a cable; the master sends another one.
+    fn send(&mut self, frame: &[u8]) {
+        if let Err(error) = self.port.send(frame) {
+            if self.statistics.unsent == 0 {
+                tracing::warn!("an answer could not be sent: {error}; further ones are only counted");
+            }
+            self.statistics.unsent += 1;
+        }
+    }
+
+    fn count(&mut self, fate: FrameFate) {
+        self.statistics.frames += 1;
+        self.statistics.destroyed += u64::from(fate == FrameFate::Destroyed);
+    }
+
+    fn poll_if_due(&mut self) {
+        let (now, deadline) = (self.clock.now(), self.responder.deadline());
+        if now >= deadline {
+            self.statistics.late_polls += u64::from(now.saturating_since(deadline) >= LATE);
+            self.responder.poll(now);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+use std::thread;
+
+use super::*;
+use crate::memory;
+
+/// Sets the highest bit of what passes, destroys frames that start with 0, polls every millisecond.
+#[derive(Default)]
+struct Marker {
+    next: Instant,
+    polls: u64,
+}
+
+impl Responder for Marker {
+    fn frame(&mut self, _now: Instant, frame: &mut [u8]) -> FrameFate {
+        match frame.first_mut() {
+            None | Some(0) => FrameFate::Destroyed,
+            Some(first) => {
+                *first |= 0x80;
+                FrameFate::Returned
+            }
+        }
+    }
+
+    fn poll(&mut self, now: Instant) {
+        self.polls += 1;
+        self.next = now + Duration::from_millis(1);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.next
+    }
+}
+
+#[derive(Default)]
+struct Notes(Vec<(Vec<u8>, Option<Vec<u8>>)>);
+
+impl Observer for Notes {
+    fn frame(&mut self, seen: Seen<'_>) {
+        assert!(seen.answered >= seen.received);
+        self.0.push((seen.request.to_vec(), seen.answer.map(<[u8]>::to_vec)));
+    }
+}
+
+/// A master sends `frames`, takes `answers` of them back and closes the link.
+fn run_against(frames: &[&[u8]], answers: usize, observer: Option<&mut dyn Observer>) -> Statistics {
+    let (mut master, mut unit) = memory::pair();
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            frames.iter().for_each(|frame| master.send(frame).unwrap());
+            for _ in 0..answers {
+                master.receive(&mut [0; 64], Duration::from_secs(10)).unwrap().unwrap();
+            }
+        });
+        run(&mut unit, &mut Marker::default(), observer, &Clock::start(), &AtomicBool::new(false)).unwrap()
+    })
+}
+
+#[test]
+fn frames_are_answered_and_destroyed_ones_are_counted() {
+    let statistics = run_against(&[&[1, 2], &[0, 9], &[3]], 2, None);
+    assert_eq!((statistics.frames, statistics.destroyed, statistics.unsent), (3, 1, 0));
+}
+
+#[test]
+fn an_observer_sees_the_request_as_it_came_and_the_answer_as_it_went() {
+    let mut notes = Notes::default();
+    run_against(&[&[1, 2], &[0, 9]], 1, Some(&mut notes));
+    assert_eq!(notes.0, [(vec![1, 2], Some(vec![0x81, 2])), (vec![0, 9], None)]);
+}
+
+#[test]
+fn a_closed_link_ends_the_run() {
+    assert_eq!(run_against(&[], 0, None).frames, 0);
+}
+
+#[test]
+fn the_stop_flag_ends_the_run() {
+    let (_master, mut unit) = memory::pair();
+    let statistics =
+        run(&mut unit, &mut Marker::default(), None, &Clock::start(), &AtomicBool::new(true)).unwrap();
+    assert_eq!(statistics, Statistics::default());
+}
+
+/// Stops the run by its own deadline, without a single frame.
+struct Countdown<'a> {
+    stop: &'a AtomicBool,
+    left: u32,
+    due: Instant,
+}
+
+impl Responder for Countdown<'_> {
+    fn frame(&mut self, _now: Instant, _frame: &mut [u8]) -> FrameFate {
+        FrameFate::Returned
+    }
+
+    fn poll(&mut self, now: Instant) {
+        assert!(now >= self.due);
+        self.left -= 1;
+        self.due = now + Duration::from_millis(2);
+        self.stop.store(self.left == 0, Ordering::Relaxed);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.due
+    }
+}
+
+#[test]
+fn what_is_due_happens_at_its_deadline_without_frames() {
+    let (_master, mut unit) = memory::pair();
+    let (clock, stop) = (Clock::start(), AtomicBool::new(false));
+    let mut countdown = Countdown { stop: &stop, left: 5, due: Instant::ZERO };
+    run(&mut unit, &mut countdown, None, &clock, &stop).unwrap();
+    assert_eq!(countdown.left, 0);
+    assert!(clock.now() >= Instant::ZERO + Duration::from_millis(8));
+}

@@ -1,0 +1,44 @@
+//! A TAP interface: the master opens it like a network card, and we are the cable.
+
+use std::io;
+
+use time::Duration;
+use tun_rs::{DeviceBuilder, Layer, SyncDevice};
+
+use crate::port::{may_be_ethercat, receive_from};
+use crate::{FramePort, LinkSpec, OpenError};
+
+/// Our end of a TAP interface. The interface goes away with it unless it was there before.
+pub(crate) struct TapPort {
+    device: SyncDevice,
+}
+
+impl TapPort {
+    pub(crate) fn open(name: &str) -> Result<Self, OpenError> {
+        let device = make(name).map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))?;
+        Ok(Self { device })
+    }
+}
+
+fn make(name: &str) -> io::Result<SyncDevice> {
+    let builder = DeviceBuilder::new().name(name).layer(Layer::L2).inherit_enable_state();
+    let device = builder.build_sync()?;
+    device.set_nonblocking(true)?;
+    // One that an administrator made for this user may be opened by him, but not be set up.
+    if let Err(error) = device.enabled(true) {
+        tracing::warn!("cannot set {name} up ({error}): `sudo ip link set {name} up`");
+    }
+    Ok(device)
+}
+
+impl FramePort for TapPort {
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
+        let received = receive_from(&self.device, wait, || self.device.recv(buffer))?;
+        // The kernel greets the new interface with IPv6 and ARP.
+        Ok(received.filter(|length_bytes| buffer.get(..*length_bytes).is_some_and(may_be_ethercat)))
+    }
+
+    fn send(&mut self, frame: &[u8]) -> io::Result<()> {
+        self.device.send(frame).map(|_| ())
+    }
+}
