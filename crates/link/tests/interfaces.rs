@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
 use ectwin_link::{FRAME_BUFFER_BYTES, FramePort, OpenError, open};
-use ectwin_testbed::{add_veth_pair, in_network_namespace, ip, skip};
+use testbed::{add_veth_pair, in_network_namespace, ip, skip};
 use time::Duration;
 
 const SOON: Duration = Duration::from_secs(10);
