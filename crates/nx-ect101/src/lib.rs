@@ -1,1 +1,16 @@
 //! The NX-ECT101 as a unit model: objects, allocation, refresh, files.
+
+mod allocation;
+mod data_sets;
+mod exchange;
+mod mapping;
+pub mod nx_bus;
+mod status;
+mod tables;
+mod timing;
+
+pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
+pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
+pub use status::{NxUnitStatus, SlaveStatus};
+pub use tables::object_table;
+pub use timing::Timing;

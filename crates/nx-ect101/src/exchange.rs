@@ -1,0 +1,181 @@
+//! The exchange plan: which bytes of the SyncManagers and of the process images belong together.
+//!
+//! It is made when the mapping is fixed, at PRE-OP to SAFE-OP, so that a refresh only copies. An entry is in
+//! it when both sides have it: the PDO mapping object of a data set maps subindex k, and the CPU Unit has
+//! allocated I/O entry k of the same data set (manual, 5-2 and 5-3-5).
+
+use core::ops::Range;
+
+use wire::ObjectIndex;
+
+use crate::allocation::ImageLayout;
+use crate::data_sets::{DataSet, Direction};
+use crate::mapping::{MappedEntry, Mapping};
+use crate::status::NxUnitStatus;
+
+/// Most entries of one direction: six assigned PDOs of 40 entries.
+const MAX_ENTRIES: usize = 240;
+
+/// Copies of one direction and the status fields among the inputs.
+#[derive(Debug)]
+pub(crate) struct ExchangePlan {
+    /// Outputs to process image M to C.
+    pub(crate) m_to_c: Vec<ByteCopy>,
+    /// Process image C to M to inputs.
+    pub(crate) c_to_m: Vec<ByteCopy>,
+    /// Status among the inputs.
+    pub(crate) status: Vec<StatusField>,
+}
+
+/// A run of bytes that goes from one image to the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ByteCopy {
+    /// Where it starts in the image that is read.
+    pub(crate) from: usize,
+    /// Where it starts in the image that is written.
+    pub(crate) to: usize,
+    /// How long it is.
+    pub(crate) length_bytes: usize,
+}
+
+/// Where a status lies among the inputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct StatusField {
+    source: StatusSource,
+    bit_offset: usize,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum StatusSource {
+    /// 6003 at this subindex.
+    NxUnitStatus(u8),
+    /// 10F3:04.
+    NewMessages,
+    /// 2002:01.
+    SysmacError,
+}
+
+/// What the unit tells the master among the inputs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct StatusToMaster {
+    /// 6003.
+    pub(crate) nx_unit: NxUnitStatus,
+    /// 10F3:04, New Messages Available.
+    pub(crate) new_messages: bool,
+    /// 2002:01, Sysmac Error Status.
+    pub(crate) sysmac_error: u8,
+}
+
+impl ExchangePlan {
+    /// A plan that exchanges nothing, with room for the largest one.
+    pub(crate) fn empty() -> Self {
+        Self {
+            m_to_c: Vec::with_capacity(MAX_ENTRIES),
+            c_to_m: Vec::with_capacity(MAX_ENTRIES),
+            status: Vec::with_capacity(MAX_ENTRIES),
+        }
+    }
+
+    /// Forgets what it held and follows this mapping.
+    pub(crate) fn rebuild(&mut self, mapping: &Mapping, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
+        self.m_to_c.clear();
+        self.c_to_m.clear();
+        self.status.clear();
+        for (pdo, entry, bits) in mapped_entries(mapping, Direction::MToC) {
+            if let Some((mapped, place)) = pair(pdo, entry, &bits, m_to_c) {
+                push(&mut self.m_to_c, mapped, place);
+            }
+        }
+        for (pdo, entry, bits) in mapped_entries(mapping, Direction::CToM) {
+            if let Some(source) = StatusSource::of(entry) {
+                self.status.push(StatusField { source, bit_offset: bits.start });
+            } else if let Some((mapped, place)) = pair(pdo, entry, &bits, c_to_m) {
+                push(&mut self.c_to_m, place, mapped);
+            }
+        }
+    }
+}
+
+impl StatusSource {
+    fn of(entry: MappedEntry) -> Option<Self> {
+        match (entry.index().0, entry.sub().0) {
+            (0x6003, sub) => Some(Self::NxUnitStatus(sub)),
+            (0x10F3, 0x04) => Some(Self::NewMessages),
+            (0x2002, 0x01) => Some(Self::SysmacError),
+            _ => None,
+        }
+    }
+
+    const fn value(self, status: StatusToMaster) -> (u8, usize) {
+        match self {
+            Self::NxUnitStatus(sub) => (status.nx_unit.bit(sub) as u8, 1),
+            Self::NewMessages => (status.new_messages as u8, 1),
+            Self::SysmacError => (status.sysmac_error, 8),
+        }
+    }
+}
+
+/// Every mapped entry of `direction` with its PDO and the bits that it takes in the SyncManager.
+fn mapped_entries(
+    mapping: &Mapping,
+    direction: Direction,
+) -> impl Iterator<Item = (ObjectIndex, MappedEntry, Range<usize>)> + '_ {
+    let entries = mapping.assigned(direction).flat_map(|pdo| mapping.entries(pdo).map(move |entry| (pdo, entry)));
+    entries.scan(0, |offset, (pdo, entry)| {
+        let start = *offset;
+        *offset += entry.bit_length();
+        Some((pdo, entry, start..*offset))
+    })
+}
+
+/// The bytes of an entry in the SyncManager and in the process image; none if one side does not have it, if
+/// the PDO is not the one of its data set, or if stray bits before it have moved it off a byte boundary.
+fn pair(
+    pdo: ObjectIndex,
+    entry: MappedEntry,
+    bits: &Range<usize>,
+    layout: &ImageLayout,
+) -> Option<(Range<usize>, Range<usize>)> {
+    let set = DataSet::of_pdo(pdo).filter(|set| set.pdo_entry == entry.index())?;
+    let place = layout.place(set.direction, set.kind, entry.sub())?;
+    let mapped = bits.start / 8..bits.end / 8;
+    (bits.start % 8 == 0 && mapped.len() == place.len()).then_some((mapped, place))
+}
+
+/// Adds a copy, joined to the last one where both images go on.
+fn push(copies: &mut Vec<ByteCopy>, from: Range<usize>, to: Range<usize>) {
+    let length_bytes = from.len();
+    match copies.last_mut() {
+        Some(last) if last.from + last.length_bytes == from.start && last.to + last.length_bytes == to.start => {
+            last.length_bytes += length_bytes;
+        }
+        _ => copies.push(ByteCopy { from: from.start, to: to.start, length_bytes }),
+    }
+}
+
+/// Does the copies. One that lies outside either image is left out.
+pub(crate) fn copy(copies: &[ByteCopy], from: &[u8], to: &mut [u8]) {
+    for copy in copies {
+        let source = from.get(copy.from..copy.from + copy.length_bytes);
+        let target = to.get_mut(copy.to..copy.to + copy.length_bytes);
+        if let (Some(source), Some(target)) = (source, target) {
+            target.copy_from_slice(source);
+        }
+    }
+}
+
+/// Adds the status to inputs that are zero where it lies.
+pub(crate) fn put_status(fields: &[StatusField], status: StatusToMaster, inputs: &mut [u8]) {
+    for field in fields {
+        let (value, bit_length) = field.source.value(status);
+        for bit in 0..bit_length {
+            let at = field.bit_offset + bit;
+            if let Some(byte) = inputs.get_mut(at / 8) {
+                *byte |= (value >> bit & 1) << (at % 8);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

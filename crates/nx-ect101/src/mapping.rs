@@ -1,0 +1,232 @@
+//! PDO mapping and PDO assignment: 1601–1603, 1A00–1A03, 1BFE, 1BFF, 1C12, 1C13, as masters write them.
+//!
+//! A master clears subindex 0, writes the elements, sets subindex 0; or it writes all at once by complete
+//! access. Every element that exists and can be mapped is taken here: whether the settings fit together is
+//! checked at PRE-OP to SAFE-OP, as the manual's events say.
+
+use objects::{AccessRights, Object, ObjectTable};
+use wire::{DataType, ObjectIndex, SdoAbort, SubIndex};
+
+use crate::data_sets::{Assignment, Direction};
+
+/// What an element of a PDO mapping object maps (manual, A-6-5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MappedEntry(u32);
+
+impl MappedEntry {
+    /// Bits 31 to 16; 0 for padding and for an element that maps nothing.
+    pub(crate) const fn index(self) -> ObjectIndex {
+        ObjectIndex((self.0 >> 16) as u16)
+    }
+
+    /// Bits 15 to 8.
+    pub(crate) const fn sub(self) -> SubIndex {
+        SubIndex((self.0 >> 8) as u8)
+    }
+
+    /// Bits 7 to 0.
+    pub(crate) const fn bit_length(self) -> usize {
+        (self.0 & 0xFF) as usize
+    }
+}
+
+/// All mapping and assignment objects of one unit with their present values.
+#[derive(Clone, Debug)]
+pub(crate) struct Mapping {
+    lists: Vec<List>,
+}
+
+/// One object: a count at subindex 0 and its elements, those beyond the count included.
+#[derive(Clone, Debug)]
+struct List {
+    index: ObjectIndex,
+    direction: Direction,
+    content: Content,
+    count: u8,
+    elements: Vec<u32>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Content {
+    /// Elements are mapped entries, 32 bits.
+    Entries,
+    /// Elements are PDO mapping objects, 16 bits.
+    Pdos,
+}
+
+impl Mapping {
+    /// The factory setting: the defaults of the table.
+    pub(crate) fn factory(table: &ObjectTable) -> Self {
+        Self { lists: table.iter().filter_map(List::of_object).collect() }
+    }
+
+    /// Whether `index` is a mapping or assignment object.
+    pub(crate) fn has(&self, index: ObjectIndex) -> bool {
+        self.list(index).is_some()
+    }
+
+    /// Copies the value of an entry into `value`.
+    pub(crate) fn read(&self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) -> Result<(), SdoAbort> {
+        let list = self.list(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
+        let number = match sub.0.checked_sub(1) {
+            None => u32::from(list.count),
+            Some(at) => *list.elements.get(usize::from(at)).ok_or(SdoAbort::SUBINDEX_DOES_NOT_EXIST)?,
+        };
+        for (to, from) in value.iter_mut().zip(number.to_le_bytes()) {
+            *to = from;
+        }
+        Ok(())
+    }
+
+    /// Takes a count or an element.
+    pub(crate) fn write(
+        &mut self,
+        table: &ObjectTable,
+        index: ObjectIndex,
+        sub: SubIndex,
+        value: &[u8],
+    ) -> Result<(), SdoAbort> {
+        let list = self.list_mut(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
+        let number = little_endian(value);
+        match sub.0.checked_sub(1) {
+            None => list.set_count(number),
+            Some(_) if list.count != 0 => Err(SdoAbort::SUBINDEX_ZERO_NOT_CLEARED),
+            Some(at) => list.set_element(table, usize::from(at), number),
+        }
+    }
+
+    /// Takes a count and the first elements, all or nothing (complete access from subindex 0).
+    pub(crate) fn write_all(
+        &mut self,
+        table: &ObjectTable,
+        index: ObjectIndex,
+        count: u8,
+        elements: &[u8],
+    ) -> Result<(), SdoAbort> {
+        let list = self.list_mut(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
+        let elements = elements.chunks_exact(list.content.element_bytes());
+        if !elements.remainder().is_empty() {
+            return Err(SdoAbort::LENGTH_MISMATCH);
+        }
+        let mut candidate = list.clone();
+        for (at, value) in elements.enumerate() {
+            candidate.set_element(table, at, little_endian(value))?;
+        }
+        candidate.set_count(u32::from(count))?;
+        *list = candidate;
+        Ok(())
+    }
+
+    /// The PDO mapping objects that are assigned in `direction`, in the order of their assignment.
+    pub(crate) fn assigned(&self, direction: Direction) -> impl Iterator<Item = ObjectIndex> + '_ {
+        let list = self.list(Assignment::of(direction).object);
+        let elements = list.into_iter().flat_map(List::counted);
+        elements.filter(|&element| element != 0).map(|element| ObjectIndex(element as u16))
+    }
+
+    /// The entries that the PDO mapping object `pdo` maps, in order, padding included.
+    pub(crate) fn entries(&self, pdo: ObjectIndex) -> impl Iterator<Item = MappedEntry> + '_ {
+        self.list(pdo).into_iter().flat_map(List::counted).map(MappedEntry)
+    }
+
+    /// Length in bytes of all assigned PDOs of `direction`, rounded up at the end.
+    pub(crate) fn size_bytes(&self, direction: Direction) -> usize {
+        let entries = self.assigned(direction).flat_map(|pdo| self.entries(pdo));
+        entries.map(MappedEntry::bit_length).sum::<usize>().div_ceil(8)
+    }
+
+    /// Whether an assigned PDO maps this entry (subindex 0 never is).
+    pub(crate) fn is_mapped(&self, index: ObjectIndex, sub: SubIndex) -> bool {
+        [Direction::MToC, Direction::CToM].into_iter().any(|direction| {
+            let mut entries = self.assigned(direction).flat_map(|pdo| self.entries(pdo));
+            entries.any(|entry| (entry.index(), entry.sub()) == (index, sub))
+        })
+    }
+
+    fn list(&self, index: ObjectIndex) -> Option<&List> {
+        self.lists.iter().find(|list| list.index == index)
+    }
+
+    fn list_mut(&mut self, index: ObjectIndex) -> Option<&mut List> {
+        self.lists.iter_mut().find(|list| list.index == index)
+    }
+}
+
+impl List {
+    /// The list of a mapping or assignment object; none for every other object.
+    fn of_object(object: &Object) -> Option<Self> {
+        let assignment = [Direction::MToC, Direction::CToM]
+            .into_iter()
+            .find(|&direction| Assignment::of(direction).object == object.index);
+        let (content, direction) = match assignment {
+            Some(direction) => (Content::Pdos, direction),
+            None if object.data_type != DataType::PDO_MAPPING => return None,
+            None if object.index.0 < 0x1A00 => (Content::Entries, Direction::MToC),
+            None => (Content::Entries, Direction::CToM),
+        };
+        let mut numbers = object.entries.iter().map(|entry| little_endian(&entry.default));
+        let count = numbers.next().map_or(0, |count| count as u8);
+        Some(Self { index: object.index, direction, content, count, elements: numbers.collect() })
+    }
+
+    fn counted(&self) -> impl Iterator<Item = u32> + '_ {
+        self.elements.iter().copied().take(usize::from(self.count))
+    }
+
+    fn set_count(&mut self, count: u32) -> Result<(), SdoAbort> {
+        let count = u8::try_from(count).map_err(|_| SdoAbort::PDO_LENGTH_EXCEEDED)?;
+        if usize::from(count) > self.elements.len() {
+            return Err(SdoAbort::PDO_LENGTH_EXCEEDED);
+        }
+        self.count = count;
+        Ok(())
+    }
+
+    fn set_element(&mut self, table: &ObjectTable, at: usize, number: u32) -> Result<(), SdoAbort> {
+        let element = self.elements.get_mut(at).ok_or(SdoAbort::PDO_LENGTH_EXCEEDED)?;
+        let mappable = number == 0
+            || match self.content {
+                Content::Entries => entry_is_mappable(table, self.direction, MappedEntry(number)),
+                Content::Pdos => pdo_is_assignable(self.direction, number),
+            };
+        if !mappable {
+            return Err(SdoAbort::NOT_MAPPABLE);
+        }
+        *element = number;
+        Ok(())
+    }
+}
+
+impl Content {
+    const fn element_bytes(self) -> usize {
+        match self {
+            Self::Entries => 4,
+            Self::Pdos => 2,
+        }
+    }
+}
+
+/// Any entry that can go this way, with its own length: the rules about which entry belongs to which PDO are
+/// checked at PRE-OP to SAFE-OP, else their events could never occur.
+fn entry_is_mappable(table: &ObjectTable, direction: Direction, mapped: MappedEntry) -> bool {
+    let wanted = match direction {
+        Direction::MToC => AccessRights::RX_PDO,
+        Direction::CToM => AccessRights::TX_PDO,
+    };
+    let entry = table.entry(mapped.index(), mapped.sub());
+    entry.is_some_and(|entry| {
+        entry.access.contains(wanted) && usize::from(entry.bit_length) == mapped.bit_length()
+    })
+}
+
+fn pdo_is_assignable(direction: Direction, number: u32) -> bool {
+    Assignment::of(direction).allowed.iter().any(|pdo| u32::from(pdo.0) == number)
+}
+
+/// A value of at most four bytes, little endian.
+fn little_endian(value: &[u8]) -> u32 {
+    value.iter().take(4).rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
+}
+
+#[cfg(test)]
+mod tests;

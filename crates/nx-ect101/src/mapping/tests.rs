@@ -1,0 +1,147 @@
+//! Mapping and assignment objects, written right and wrong.
+
+use super::*;
+use crate::tables::object_table;
+
+const OUTPUTS: ObjectIndex = ObjectIndex(0x1C12);
+const INPUTS: ObjectIndex = ObjectIndex(0x1C13);
+
+fn factory() -> Mapping {
+    Mapping::factory(&object_table())
+}
+
+fn write(mapping: &mut Mapping, index: u16, sub: u8, number: u32) -> Result<(), SdoAbort> {
+    mapping.write(&object_table(), ObjectIndex(index), SubIndex(sub), &number.to_le_bytes())
+}
+
+/// Clears, writes elements, sets the count: as masters do it without complete access.
+fn set(mapping: &mut Mapping, index: u16, elements: &[u32]) -> Result<(), SdoAbort> {
+    write(mapping, index, 0, 0)?;
+    for (sub, &element) in (1..).zip(elements) {
+        write(mapping, index, sub, element)?;
+    }
+    write(mapping, index, 0, elements.len() as u32)
+}
+
+fn sizes(mapping: &Mapping) -> (usize, usize) {
+    (mapping.size_bytes(Direction::MToC), mapping.size_bytes(Direction::CToM))
+}
+
+/// The entries 1 to `count` of the object `base`.
+fn entries(base: u32, count: u32) -> Vec<u32> {
+    (1..=count).map(|sub| base | sub << 8).collect()
+}
+
+#[test]
+fn the_factory_setting_maps_180_and_183_bytes() {
+    assert_eq!(sizes(&factory()), (180, 183));
+}
+
+#[test]
+fn the_manuals_examples_have_the_manuals_sizes() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1601, &entries(0x7000_00F0, 40)).expect("40 entries");
+    set(&mut mapping, 0x1A01, &entries(0x6000_00F0, 40)).expect("40 entries");
+    assert_eq!(sizes(&mapping), (1200, 1203), "UINT arrays at maximum");
+
+    for (index, base, count) in
+        [(0x1601, 0x7000_00F0, 10), (0x1602, 0x7001_0050, 10), (0x1603, 0x7002_0020, 30), (0x1A01, 0x6000_00F0, 10)]
+    {
+        set(&mut mapping, index, &entries(base, count)).expect("fits");
+    }
+    set(&mut mapping, 0x1A02, &entries(0x6001_0050, 10)).expect("fits");
+    set(&mut mapping, 0x1A03, &entries(0x6002_0020, 30)).expect("fits");
+    set(&mut mapping, 0x1C12, &[0x1601, 0x1602, 0x1603]).expect("fits");
+    set(&mut mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1BFE, 0x1BFF]).expect("fits");
+    assert_eq!(sizes(&mapping), (520, 524), "UINT, BYTE and UDINT");
+}
+
+#[test]
+fn the_operation_example_has_196_and_199_bytes() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1C12, &[0x1601, 0x1603]).expect("fits");
+    set(&mut mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1A03, 0x1BFE]).expect("fits");
+    assert_eq!(sizes(&mapping), (196, 199));
+}
+
+#[test]
+fn an_element_is_refused_while_subindex_0_is_not_0() {
+    let mut mapping = factory();
+    assert_eq!(write(&mut mapping, 0x1601, 1, 0x7000_01F0), Err(SdoAbort::SUBINDEX_ZERO_NOT_CLEARED));
+    assert_eq!(write(&mut mapping, 0x1C13, 1, 0x1A00), Err(SdoAbort::SUBINDEX_ZERO_NOT_CLEARED));
+}
+
+#[test]
+fn what_cannot_be_mapped_is_refused() {
+    let mut mapping = factory();
+    write(&mut mapping, 0x1601, 0, 0).expect("cleared");
+    let missing = 0x7000_29F0;
+    let not_mappable = 0x1018_0120;
+    let other_direction = 0x6000_01F0;
+    let other_length = 0x7000_0110;
+    let count = 0x7000_0008;
+    let padding = 0x0000_0008;
+    for element in [missing, not_mappable, other_direction, other_length, count, padding] {
+        assert_eq!(write(&mut mapping, 0x1601, 1, element), Err(SdoAbort::NOT_MAPPABLE), "{element:08X}");
+    }
+    write(&mut mapping, 0x1C12, 0, 0).expect("cleared");
+    for element in [0x1600, 0x1A00, 0x1601_0000] {
+        assert_eq!(write(&mut mapping, 0x1C12, 1, element), Err(SdoAbort::NOT_MAPPABLE), "{element:04X}");
+    }
+}
+
+#[test]
+fn an_entry_of_another_data_set_is_left_to_the_rules() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1601, &[0x7001_0150, 0, 0x7000_01F0]).expect("all exist and can be mapped");
+    set(&mut mapping, 0x1A01, &[0x6003_0101, 0x10F3_0401, 0x2002_0108]).expect("all exist and can be mapped");
+    assert_eq!(sizes(&mapping), (40, 2 + 2 + 1));
+}
+
+#[test]
+fn a_count_beyond_the_elements_is_refused() {
+    let mut mapping = factory();
+    for (index, count) in [(0x1601, 41), (0x1602, 11), (0x1603, 33), (0x1C12, 4), (0x1C13, 7), (0x1601, 256)] {
+        assert_eq!(write(&mut mapping, index, 0, count), Err(SdoAbort::PDO_LENGTH_EXCEEDED), "{index:04X}");
+    }
+    assert_eq!(sizes(&mapping), (180, 183));
+}
+
+#[test]
+fn a_refused_complete_access_changes_nothing() {
+    let (table, mut mapping) = (object_table(), factory());
+    let mut refused = |count, elements: &[u8]| mapping.write_all(&table, OUTPUTS, count, elements).unwrap_err();
+    assert_eq!(refused(2, &[0x02, 0x16, 0x00, 0x1A]), SdoAbort::NOT_MAPPABLE);
+    assert_eq!(refused(4, &[0x02, 0x16]), SdoAbort::PDO_LENGTH_EXCEEDED);
+    assert_eq!(refused(1, &[0x02, 0x16, 0x03]), SdoAbort::LENGTH_MISMATCH);
+    assert_eq!(refused(3, &[0x02, 0x16, 0, 0, 0, 0, 0, 0]), SdoAbort::PDO_LENGTH_EXCEEDED);
+    assert_eq!(mapping.assigned(Direction::MToC).collect::<Vec<_>>(), [ObjectIndex(0x1601)]);
+}
+
+#[test]
+fn complete_access_writes_without_clearing_first() {
+    let mut mapping = factory();
+    mapping.write_all(&object_table(), INPUTS, 2, &[0x00, 0x1A, 0x03, 0x1A]).expect("fits");
+    assert_eq!(sizes(&mapping).1, 2 + 16);
+}
+
+#[test]
+fn elements_read_back_beyond_the_count_too() {
+    let mapping = factory();
+    let mut value = [0; 4];
+    mapping.read(ObjectIndex(0x1601), SubIndex(40), &mut value).expect("exists");
+    assert_eq!(value, 0x7000_28F0_u32.to_le_bytes());
+    let mut count = [0];
+    mapping.read(INPUTS, SubIndex::ZERO, &mut count).expect("exists");
+    assert_eq!(count, [3]);
+}
+
+#[test]
+fn an_entry_is_mapped_as_long_as_its_pdo_is_assigned_and_counts_it() {
+    let mut mapping = factory();
+    let mapped = |mapping: &Mapping, index, sub| mapping.is_mapped(ObjectIndex(index), SubIndex(sub));
+    assert!(mapped(&mapping, 0x7000, 6) && !mapped(&mapping, 0x7000, 7) && !mapped(&mapping, 0x7000, 0));
+    assert!(!mapped(&mapping, 0x7001, 1) && mapped(&mapping, 0x6003, 1));
+    set(&mut mapping, 0x1C12, &[]).expect("no RxPDO");
+    assert!(!mapped(&mapping, 0x7000, 6));
+}

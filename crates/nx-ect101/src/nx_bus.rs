@@ -1,0 +1,152 @@
+//! The NX bus between the unit and the CPU Unit: where two threads meet.
+//!
+//! Each direction is a [`ProcessImage`] in a triple buffer: wait-free on both sides, never torn, and the reader
+//! gets the newest whole image. Who writes and who reads are two types, and each exists once.
+
+use crate::allocation::{ImageLayout, IoAllocation};
+use crate::data_sets::Direction;
+use crate::status::SlaveStatus;
+
+/// A process image and what is told along with it.
+#[derive(Clone, Debug)]
+pub struct ProcessImage<H> {
+    /// What is told along with the data.
+    pub header: H,
+    bytes: Vec<u8>,
+}
+
+impl<H: Clone + Send> ProcessImage<H> {
+    /// Two ends of an image of `size_bytes` zeros. All memory that they ever use is allocated here.
+    #[must_use]
+    pub fn split(header: H, size_bytes: usize) -> (ProcessImageWriter<H>, ProcessImageReader<H>) {
+        let (input, output) = triple_buffer::triple_buffer(&Self { header, bytes: vec![0; size_bytes] });
+        (ProcessImageWriter(input), ProcessImageReader(output))
+    }
+
+    /// The data, as long as the image was made.
+    #[must_use]
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+}
+
+/// The end that writes an image.
+#[derive(Debug)]
+pub struct ProcessImageWriter<H: Send>(triple_buffer::Input<ProcessImage<H>>);
+
+impl<H: Send> ProcessImageWriter<H> {
+    /// Hands over a whole image. What `bytes` has too many of is left out, what it lacks keeps an older value:
+    /// both ends are made for one size.
+    pub fn publish(&mut self, header: H, bytes: &[u8]) {
+        let image = self.0.input_buffer_mut();
+        image.header = header;
+        let length_bytes = image.bytes.len().min(bytes.len());
+        image.bytes[..length_bytes].copy_from_slice(&bytes[..length_bytes]);
+        self.0.publish();
+    }
+}
+
+/// The end that reads an image.
+#[derive(Debug)]
+pub struct ProcessImageReader<H: Send>(triple_buffer::Output<ProcessImage<H>>);
+
+impl<H: Send> ProcessImageReader<H> {
+    /// The newest whole image; the one that was split if none was published yet.
+    pub fn newest(&mut self) -> &ProcessImage<H> {
+        self.0.read()
+    }
+}
+
+/// What the unit tells the CPU Unit along with the data M to C.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct UnitHeader {
+    /// EtherCAT Slave Status, NX object 6003:01.
+    pub status: SlaveStatus,
+    /// NX Unit I/O Data Active Status: the unit refreshes, its I/O data can be used for control.
+    pub io_data_active: bool,
+    /// NX Unit Error Status: the unit has an error.
+    pub error: bool,
+}
+
+/// What the CPU Unit tells the unit along with the data C to M.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CpuHeader {
+    /// The CPU Unit does I/O refreshing.
+    pub refreshing: bool,
+    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has none.
+    pub system_time_ns: u64,
+}
+
+/// The unit's end of the NX bus.
+#[derive(Debug)]
+pub struct UnitEnd {
+    /// Data from the master to the CPU Unit.
+    pub m_to_c: ProcessImageWriter<UnitHeader>,
+    /// Data from the CPU Unit to the master.
+    pub c_to_m: ProcessImageReader<CpuHeader>,
+}
+
+/// The CPU Unit's end of the NX bus.
+#[derive(Debug)]
+pub struct CpuEnd {
+    /// Data from the master to the CPU Unit.
+    pub m_to_c: ProcessImageReader<UnitHeader>,
+    /// Where the entries lie in it.
+    pub m_to_c_layout: ImageLayout,
+    /// Data from the CPU Unit to the master.
+    pub c_to_m: ProcessImageWriter<CpuHeader>,
+    /// Where the entries lie in it.
+    pub c_to_m_layout: ImageLayout,
+}
+
+/// The NX bus of one unit with this I/O allocation.
+#[must_use]
+pub fn connect(allocation: &IoAllocation) -> (UnitEnd, CpuEnd) {
+    let m_to_c_layout = allocation.layout(Direction::MToC);
+    let c_to_m_layout = allocation.layout(Direction::CToM);
+    let (unit_writes, cpu_reads) = ProcessImage::split(UnitHeader::default(), m_to_c_layout.size_bytes());
+    let (cpu_writes, unit_reads) = ProcessImage::split(CpuHeader::default(), c_to_m_layout.size_bytes());
+    let unit = UnitEnd { m_to_c: unit_writes, c_to_m: unit_reads };
+    (unit, CpuEnd { m_to_c: cpu_reads, m_to_c_layout, c_to_m: cpu_writes, c_to_m_layout })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reader_gets_the_newest_whole_image() {
+        let (mut writer, mut reader) = ProcessImage::split(0, 4);
+        assert_eq!((reader.newest().header, reader.newest().bytes()), (0, &[0; 4][..]));
+        for generation in 1..=5u8 {
+            writer.publish(i32::from(generation), &[generation; 4]);
+        }
+        assert_eq!((reader.newest().header, reader.newest().bytes()), (5, &[5; 4][..]));
+        assert_eq!(reader.newest().header, 5, "without a new image the last one stays");
+    }
+
+    #[test]
+    fn an_image_is_never_torn_between_threads() {
+        let (mut writer, mut reader) = ProcessImage::split(0u8, 1200);
+        let writing = std::thread::spawn(move || {
+            for generation in 0..20_000u32 {
+                let value = (generation % 251) as u8;
+                writer.publish(value, &[value; 1200]);
+            }
+        });
+        while !writing.is_finished() {
+            let image = reader.newest();
+            assert!(image.bytes().iter().all(|&byte| byte == image.header));
+        }
+        writing.join().expect("the writer ends");
+    }
+
+    #[test]
+    fn a_bus_starts_with_defaults_on_both_ends() {
+        let (mut unit, mut cpu) = connect(&IoAllocation::factory());
+        assert_eq!(unit.c_to_m.newest().bytes(), [0; 180]);
+        assert!(!unit.c_to_m.newest().header.refreshing);
+        assert_eq!(cpu.m_to_c.newest().bytes(), [0; 180]);
+        assert_eq!(cpu.m_to_c.newest().header.status.bits(), 0x0200);
+    }
+}

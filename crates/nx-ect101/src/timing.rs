@@ -1,0 +1,79 @@
+//! Times of the unit, from `tables/timing.toml` (manual, 7-9).
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+use time::Duration;
+
+use crate::tables;
+
+static TIMES: LazyLock<TimingFile> =
+    LazyLock::new(|| tables::parse("timing.toml", include_str!("../tables/timing.toml")));
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TimingFile {
+    sdo_response_us: u64,
+    t_slave: Vec<SlaveRow>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SlaveRow {
+    max_bytes: Option<usize>,
+    period_us: u64,
+}
+
+/// Whether the unit takes the time that the manual gives, or none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Timing {
+    /// T_slave by size, SDO responses after 2 ms.
+    #[default]
+    Exact,
+    /// SDO responses at once, T_slave at its shortest.
+    Fast,
+}
+
+impl Timing {
+    /// T_slave, the time between two refreshes (Free-Run), for `total_bytes` of I/O data between CPU Unit and
+    /// unit: both directions and the EtherCAT Slave Status (manual, 7-9-1).
+    #[must_use]
+    pub fn slave_period(self, total_bytes: usize) -> Duration {
+        let total_bytes = if self == Self::Fast { 0 } else { total_bytes };
+        let holds = |row: &&SlaveRow| row.max_bytes.is_none_or(|max_bytes| total_bytes <= max_bytes);
+        match TIMES.t_slave.iter().find(holds) {
+            Some(row) => Duration::from_micros(row.period_us),
+            None => panic!("tables/timing.toml: the last row of t_slave has no max_bytes"),
+        }
+    }
+
+    /// How long after its request an SDO response is complete (manual, 7-9-2).
+    #[must_use]
+    pub fn sdo_response(self) -> Duration {
+        match self {
+            Self::Exact => Duration::from_micros(TIMES.sdo_response_us),
+            Self::Fast => Duration::ZERO,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn t_slave_has_the_rows_of_the_manual() {
+        let cases = [(0, 1000), (362, 1000), (800, 1000), (801, 1500), (1600, 1500), (1601, 2000), (2402, 2000)];
+        for (total_bytes, period_us) in cases {
+            let period = Duration::from_micros(period_us);
+            assert_eq!(Timing::Exact.slave_period(total_bytes), period, "{total_bytes} bytes");
+        }
+    }
+
+    #[test]
+    fn fast_waits_for_nothing_and_still_refreshes_every_millisecond() {
+        assert_eq!(Timing::Fast.slave_period(2402), Duration::from_millis(1));
+        assert_eq!(Timing::Fast.sdo_response(), Duration::ZERO);
+        assert_eq!(Timing::Exact.sdo_response(), Duration::from_millis(2));
+    }
+}
