@@ -59,7 +59,9 @@ impl Process {
     /// # Panics
     /// When the signal cannot be sent.
     pub fn interrupt(&self) {
-        let sent = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status();
+        // The shell's own kill: the program of that name is not on every machine.
+        let kill = format!("kill -INT {}", self.child.id());
+        let sent = Command::new("sh").args(["-c", &kill]).status();
         assert!(sent.as_ref().is_ok_and(ExitStatus::success), "kill -INT: {sent:?}");
     }
 
