@@ -1,1 +1,9 @@
 //! ESCs joined by ports and links: the way of a frame.
+//!
+//! A segment is a line of ESCs with two ports each. A frame passes the processing unit of each, turns at
+//! the first closed loop, and comes back. Frames are edited in place; nothing is allocated on their way.
+
+mod datagram;
+mod segment;
+
+pub use segment::{FrameFate, Segment};

@@ -1,0 +1,293 @@
+//! The end of a frame: register writes take effect, SyncManagers hand over.
+
+use time::Instant;
+
+use crate::ecat::split_bank;
+use crate::esc::{Esc, Mapping, Passage, Protection};
+use crate::events::{AlEvents, EcatEvents};
+use crate::fmmu::{FMMU_BYTES, Fmmu, Span};
+use crate::registers::{BYTES, Effect, USER_RAM_START, at};
+use crate::shadow::Shadow;
+use crate::sii::Sii;
+use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SyncManagerSettings};
+
+const RESET_SEQUENCE: [u8; 3] = *b"RES";
+/// DL control bit 24: the station alias answers too.
+const USE_ALIAS: u8 = 1;
+/// What 0x0040 reads after each step of the sequence.
+const RESET_READBACK: [u8; 3] = [0, 1, 2];
+
+impl Esc {
+    /// Closes a good frame: what it wrote takes effect.
+    #[inline]
+    pub fn end_of_frame(&mut self, passage: &Passage) {
+        if self.dirty {
+            self.dirty = false;
+            self.commit(passage);
+        }
+    }
+
+    fn commit(&mut self, passage: &Passage) {
+        let now = passage.arrival;
+        for n in 0..self.sync_managers.len() {
+            if self.sync_managers[n].complete {
+                self.hand_over(n, now);
+            }
+        }
+        if let Some(mut shadow) = self.shadow.take() {
+            self.commit_registers(&shadow, passage);
+            shadow.clear();
+            self.shadow = Some(shadow);
+        }
+        self.update_masked_events();
+    }
+
+    fn hand_over(&mut self, n: usize, now: Instant) {
+        let sm = &mut self.sync_managers[n];
+        sm.end_of_frame();
+        let settings = sm.settings;
+        if settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
+            self.watchdog.trigger(&mut self.memory, now);
+        }
+    }
+
+    fn commit_registers(&mut self, shadow: &Shadow, passage: &Passage) {
+        if shadow.is_empty() {
+            return;
+        }
+        let mut n = 0;
+        while let Some((offset, data)) = shadow.get(n) {
+            self.commit_write(offset, data, passage);
+            n += 1;
+        }
+        self.protection = Protection {
+            registers: self.memory.u8(at::WRITE_REGISTER_PROTECTION) & 1 != 0,
+            everything: self.memory.u8(at::ESC_WRITE_PROTECTION) & 1 != 0,
+            ..Protection::default()
+        };
+    }
+
+    /// Stores what the table lets be stored, then runs each effect of the bytes touched, once.
+    fn commit_write(&mut self, offset: u16, data: &[u8], passage: &Passage) {
+        let mut effects = 0u32;
+        for (offset, byte) in (offset..USER_RAM_START).zip(data) {
+            if !self.accepts_write(offset) {
+                continue;
+            }
+            let effect = BYTES.effect(offset);
+            effects |= 1 << effect as u32;
+            if stores(effect) {
+                self.memory.set_u8(offset, *byte);
+            }
+        }
+        // SyncManagers decide about their bytes as a whole: a write that disables one may also set it.
+        let first_sm = at::SYNC_MANAGER.max(offset);
+        let has = |effect: Effect| effects & 1 << effect as u32 != 0;
+        if has(Effect::SyncManager) {
+            self.write_sync_managers(offset, data, first_sm);
+        }
+        if has(Effect::Fmmu) || has(Effect::SyncManager) {
+            self.update_mappings();
+        }
+        self.run_effects(has, offset, data, passage);
+    }
+
+    fn run_effects(&mut self, has: impl Fn(Effect) -> bool, offset: u16, data: &[u8], passage: &Passage) {
+        let now = passage.arrival;
+        if has(Effect::AlControl) {
+            self.al_control_pending = true;
+            self.al_events |= AlEvents::AL_CONTROL;
+        }
+        if has(Effect::DlControl) && self.ports.dl_control_written(&mut self.memory) {
+            self.ports_changed = true;
+            self.ecat_events |= EcatEvents::DL_STATUS;
+        }
+        if has(Effect::Watchdog) {
+            self.watchdog.configure(&mut self.memory, now);
+        }
+        if has(Effect::SiiOwner) {
+            Sii::owner_written(&mut self.memory);
+        }
+        if has(Effect::SiiCommand) {
+            self.write_sii(offset, data, now);
+        }
+        if has(Effect::Reset) {
+            self.advance_reset(data[0]);
+        }
+        if has(Effect::DcLatch) {
+            self.dc.latch(&mut self.memory, passage);
+        }
+        if has(Effect::DcSystemTime) && offset <= at::SYSTEM_TIME {
+            let from = usize::from(at::SYSTEM_TIME - offset);
+            let bytes = data.get(from..).unwrap_or_default().iter().take(4);
+            let received = (0..).zip(bytes).fold(0, |time, (n, byte)| time | u32::from(*byte) << (8 * n));
+            self.dc.synchronise(&mut self.memory, received, now);
+        }
+        if has(Effect::DcSpeedCounter) {
+            self.dc.reset_control_loop(&mut self.memory);
+        }
+        self.clear_counters(&has);
+        self.update_addresses();
+    }
+
+    fn clear_counters(&mut self, has: &impl Fn(Effect) -> bool) {
+        let counters = [
+            (Effect::ClearPortErrors, at::PORT_ERRORS, 12),
+            (Effect::ClearProcessingUnitErrors, at::PROCESSING_UNIT_ERRORS, 1),
+            (Effect::ClearPdiErrors, at::PDI_ERRORS, 1),
+            (Effect::ClearLostLinks, at::LOST_LINKS, 4),
+            (Effect::ClearWatchdogCounters, at::WATCHDOG_COUNTER, 2),
+        ];
+        for (effect, offset, bytes) in counters {
+            if has(effect) {
+                self.memory.slice_mut(offset, bytes).fill(0);
+            }
+        }
+    }
+
+    pub(crate) fn update_addresses(&mut self) {
+        self.station_address = self.memory.u16(at::STATION_ADDRESS);
+        let uses_alias = self.memory.u8(at::DL_CONTROL + 3) & USE_ALIAS != 0;
+        self.answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
+    }
+
+    /// Address and data may come with the command or before it; the command runs when its byte is written.
+    fn write_sii(&mut self, offset: u16, data: &[u8], now: Instant) {
+        if self.sii.is_busy(now) {
+            return;
+        }
+        let command_at = at::SII_CONTROL + 1;
+        let byte = |at: u16| offset.le(&at).then(|| data.get(usize::from(at - offset)).copied()).flatten();
+        for at in at::SII_ADDRESS..at::SII_DATA + 8 {
+            if let Some(byte) = byte(at) {
+                self.memory.set_u8(at, byte);
+            }
+        }
+        if let Some(command) = byte(command_at) {
+            let low = byte(at::SII_CONTROL).unwrap_or(0);
+            self.sii.run_command(u16::from_le_bytes([low, command]), &mut self.memory, now);
+            // A reload may have changed the PDI configuration, never the alias.
+        }
+    }
+
+    fn write_sync_managers(&mut self, offset: u16, data: &[u8], first: u16) {
+        let end = usize::from(offset) + data.len();
+        let (first_sm, _) = split_bank(first - at::SYNC_MANAGER, SYNC_MANAGER_BYTES);
+        for n in first_sm..usize::from(self.config.sync_manager_count) {
+            let registers = at::SYNC_MANAGER + (n * SYNC_MANAGER_BYTES) as u16;
+            if usize::from(registers) >= end {
+                break;
+            }
+            self.write_sync_manager(n, registers, offset, data);
+        }
+    }
+
+    fn write_sync_manager(&mut self, n: usize, registers: u16, offset: u16, data: &[u8]) {
+        let written = |byte: u16| {
+            let at = registers + byte;
+            at.checked_sub(offset).and_then(|from| data.get(usize::from(from))).copied()
+        };
+        let activation = written(6);
+        if let Some(activation) = activation {
+            self.memory.set_u8(registers + 6, activation);
+            self.al_events |= AlEvents::SYNC_MANAGER_ACTIVATION;
+        }
+        // The activation counts first: a write that also disables the SyncManager may set it.
+        if self.takes_settings(n) || activation.is_some_and(|activation| activation & 1 == 0) {
+            for byte in 0..5 {
+                if let Some(value) = written(byte) {
+                    self.memory.set_u8(registers + byte, value);
+                }
+            }
+        }
+        let mut bytes = [0; SYNC_MANAGER_BYTES];
+        bytes.copy_from_slice(self.memory.slice(registers, SYNC_MANAGER_BYTES));
+        self.sync_managers[n].set(SyncManagerSettings::from_bytes(&bytes));
+        self.stop_watchdog_without_trigger();
+    }
+
+    pub(crate) fn stop_watchdog_without_trigger(&mut self) {
+        let watched = |sm: &crate::SyncManager| sm.settings.enabled && sm.settings.watchdog_trigger;
+        if !self.sync_managers.iter().any(watched) {
+            self.watchdog.stop(&mut self.memory);
+        }
+    }
+
+    /// Takes the FMMUs apart, once, so that the frame's path finds them ready.
+    pub(crate) fn update_mappings(&mut self) {
+        self.read_mappings.clear();
+        self.write_mappings.clear();
+        for n in 0..u16::from(self.config.fmmu_count) {
+            let mut bytes = [0; FMMU_BYTES];
+            bytes.copy_from_slice(self.memory.slice(at::FMMU + n * FMMU_BYTES as u16, FMMU_BYTES));
+            let fmmu = Fmmu::from_bytes(&bytes);
+            if !fmmu.active {
+                continue;
+            }
+            let mapping = Mapping { fmmu, bytewise: fmmu.is_bytewise(), sync_manager: self.holder_of(&fmmu) };
+            if fmmu.read {
+                self.read_mappings.push(mapping);
+            }
+            if fmmu.write {
+                self.write_mappings.push(mapping);
+            }
+        }
+        self.read_span = cover(&self.read_mappings);
+        self.write_span = cover(&self.write_mappings);
+        self.mappings_alias =
+            self.read_mappings.iter().any(|read| self.write_mappings.iter().any(|write| alias(read, write)));
+    }
+
+    /// The SyncManager that holds the whole physical range of a mapping; the lowest one where two overlap.
+    fn holder_of(&self, fmmu: &Fmmu) -> Option<u8> {
+        let (start, end) = physical_range(fmmu);
+        let touches =
+            |sm: &crate::SyncManager| sm.active && u32::from(sm.settings.start) < end && start < sm.end();
+        let (n, sm) = (0u8..).zip(&self.sync_managers).find(|(_, sm)| touches(sm))?;
+        let holds = u32::from(sm.settings.start) <= start && end <= sm.end();
+        holds.then_some(n)
+    }
+
+    /// "RES" in three frames asks for a reset, which whoever drives this ESC carries out.
+    fn advance_reset(&mut self, byte: u8) {
+        let step = usize::from(self.reset_progress);
+        self.reset_progress = match RESET_SEQUENCE.get(step) {
+            Some(expected) if *expected == byte => self.reset_progress + 1,
+            _ => u8::from(byte == RESET_SEQUENCE[0]),
+        };
+        if usize::from(self.reset_progress) == RESET_SEQUENCE.len() {
+            self.reset_progress = 0;
+            self.reset_requested = true;
+        }
+        self.memory.set_u8(at::ESC_RESET_ECAT, RESET_READBACK[usize::from(self.reset_progress)]);
+    }
+}
+
+const fn stores(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::Store
+            | Effect::Protection
+            | Effect::DlControl
+            | Effect::AlControl
+            | Effect::Watchdog
+            | Effect::SiiOwner
+            | Effect::Fmmu
+            | Effect::DcSpeedCounter
+    )
+}
+
+fn cover(mappings: &[Mapping]) -> Span {
+    mappings.iter().fold(Span::EMPTY, |span, mapping| span.cover(mapping.fmmu.logical_bytes()))
+}
+
+fn physical_range(fmmu: &Fmmu) -> (u32, u32) {
+    let start = u32::from(fmmu.physical_start);
+    (start, start + u32::from(fmmu.length_bytes))
+}
+
+fn alias(read: &Mapping, write: &Mapping) -> bool {
+    let ((read_start, read_end), (write_start, write_end)) =
+        (physical_range(&read.fmmu), physical_range(&write.fmmu));
+    read_start < write_end && write_start < read_end
+}

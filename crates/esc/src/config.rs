@@ -1,0 +1,52 @@
+//! What an ESC is built with: sizes, features, and the choices where real controllers differ.
+
+use time::Duration;
+
+/// Build of one ESC. The default is the ESC of the ET1100 class with two MII ports.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EscConfig {
+    /// FMMUs, 0 to 16.
+    pub fmmu_count: u8,
+    /// SyncManagers, 0 to 16.
+    pub sync_manager_count: u8,
+    /// Process data RAM in KiB, 1 to 60.
+    pub ram_kib: u8,
+    /// Whether distributed clocks exist (64 bits); without them 0x0900 to 0x09FF do not answer.
+    pub distributed_clocks: bool,
+    /// When an SII command is finished.
+    pub sii: SiiTiming,
+    /// Whether an enabled SyncManager takes new settings.
+    pub sync_manager_writes: SyncManagerWrites,
+}
+
+/// How long the SII takes for a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SiiTiming {
+    /// Finished when the next frame comes.
+    Immediate,
+    /// Busy for this long after the frame with the command, as a real EEPROM is (0.1 to 1 ms).
+    Busy(Duration),
+}
+
+/// What a write to start, length and control of a SyncManager does while it is enabled. The bytes are
+/// writable only while it is disabled (reference 2.13, C080); some stacks rewrite them all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SyncManagerWrites {
+    /// Ignored, as in an ET1100. A write that also disables the SyncManager sets them.
+    OnlyWhileDisabled,
+    /// Taken over; the buffers start anew.
+    Always,
+}
+
+impl Default for EscConfig {
+    fn default() -> Self {
+        Self {
+            fmmu_count: 8,
+            sync_manager_count: 8,
+            ram_kib: 8,
+            distributed_clocks: true,
+            sii: SiiTiming::Immediate,
+            sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
+        }
+    }
+}

@@ -1,0 +1,522 @@
+//! The face of the wire: what datagrams read and write, inside a frame.
+
+use time::Instant;
+
+use crate::config::SyncManagerWrites;
+use crate::esc::{Esc, Mapping};
+use crate::events::EcatEvents;
+use crate::fmmu::{FMMU_BYTES, Span};
+use crate::registers::{BYTES, Effect, PROCESS_RAM_START, USER_RAM_START, at, is_live};
+use crate::sii::Sii;
+use crate::sync_manager::{Reach, SYNC_MANAGER_BYTES};
+
+/// Longest data of one datagram in an Ethernet frame.
+const DATA_BYTES_MAX: usize = 1_500;
+
+/// What an access reached, for the working counter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Access {
+    /// At least one byte or bit was read.
+    pub read: bool,
+    /// At least one byte or bit was written.
+    pub written: bool,
+}
+
+impl Esc {
+    /// Whether a configured-address command with this station address is for this ESC.
+    #[inline]
+    #[must_use]
+    pub fn answers_to(&self, station_address: u16) -> bool {
+        self.station_address == station_address || self.answering_alias == Some(station_address)
+    }
+
+    /// The ECAT event request as its mask lets it into the IRQ field of datagrams.
+    #[inline]
+    #[must_use]
+    pub const fn masked_events(&self) -> u16 {
+        self.masked_events
+    }
+
+    /// Reads memory into `data`. Tells whether at least one byte could be read; bytes that could not stay.
+    #[inline]
+    pub fn read(&mut self, offset: u16, data: &mut [u8], now: Instant) -> bool {
+        self.read_with(offset, data.len(), now, |at, bytes| {
+            if let Some(target) = data.get_mut(at..at + bytes.len()) {
+                target.copy_from_slice(bytes);
+            }
+        })
+    }
+
+    /// Reads memory and ORs it into `data`, as a broadcast read does.
+    #[inline]
+    pub fn read_or(&mut self, offset: u16, data: &mut [u8], now: Instant) -> bool {
+        self.read_with(offset, data.len(), now, |at, bytes| {
+            let target = data.get_mut(at..).unwrap_or_default();
+            target.iter_mut().zip(bytes).for_each(|(target, byte)| *target |= byte);
+        })
+    }
+
+    #[inline]
+    fn read_with(
+        &mut self,
+        offset: u16,
+        length_bytes: usize,
+        now: Instant,
+        mut sink: impl FnMut(usize, &[u8]),
+    ) -> bool {
+        if offset >= PROCESS_RAM_START {
+            return self.read_ram(u32::from(offset), 0, length_bytes, &mut sink);
+        }
+        let registers_bytes = length_bytes.min(usize::from(PROCESS_RAM_START - offset));
+        let registers = self.read_registers(offset, registers_bytes, now, &mut sink);
+        let rest = length_bytes - registers_bytes;
+        let ram = rest > 0 && self.read_ram(u32::from(PROCESS_RAM_START), registers_bytes, rest, &mut sink);
+        registers || ram
+    }
+
+    #[inline]
+    fn read_registers(
+        &mut self,
+        offset: u16,
+        length_bytes: usize,
+        now: Instant,
+        sink: &mut impl FnMut(usize, &[u8]),
+    ) -> bool {
+        if length_bytes == 0 {
+            return false;
+        }
+        let last = offset + (length_bytes - 1) as u16;
+        if (offset >> 4..=last >> 4).any(|page| is_live(page << 4)) {
+            return self.read_live_registers(offset, length_bytes, now, sink);
+        }
+        sink(0, self.memory.slice(offset, length_bytes));
+        true
+    }
+
+    /// Registers whose value is worked out when it is read, or whose reading does something.
+    fn read_live_registers(
+        &mut self,
+        offset: u16,
+        length_bytes: usize,
+        now: Instant,
+        sink: &mut impl FnMut(usize, &[u8]),
+    ) -> bool {
+        if !self.config.distributed_clocks && offset >> 8 == 0x09 {
+            return false;
+        }
+        self.show_live_registers(now);
+        sink(0, self.memory.slice(offset, length_bytes));
+        let touched = |register: u16, bytes: u16| {
+            offset < register + bytes && register < offset.saturating_add(length_bytes as u16)
+        };
+        if touched(at::DL_STATUS, 2) {
+            self.clear_ecat_event(EcatEvents::DL_STATUS);
+        }
+        if touched(at::AL_STATUS, 2) {
+            self.clear_ecat_event(EcatEvents::AL_STATUS);
+        }
+        true
+    }
+
+    pub(crate) fn show_live_registers(&mut self, now: Instant) {
+        let ecat_events = self.all_ecat_events().bits();
+        let al_events = self.all_al_events().bits();
+        self.memory.set_u16(at::ECAT_EVENT_REQUEST, ecat_events);
+        self.memory.set_u32(at::AL_EVENT_REQUEST, al_events);
+        self.memory.set_u16(at::SII_CONTROL, self.sii.status(now));
+        let count = usize::from(self.config.sync_manager_count);
+        for (n, sm) in (0u16..).zip(self.sync_managers.iter().take(count)) {
+            let registers = at::SYNC_MANAGER + n * SYNC_MANAGER_BYTES as u16;
+            self.memory.set_u8(registers + 5, sm.status());
+            self.memory.set_u8(registers + 7, sm.pdi_control());
+        }
+        self.dc.show(&mut self.memory, now);
+    }
+
+    /// Reads RAM piece by piece, as SyncManagers cut it.
+    #[inline]
+    fn read_ram(
+        &mut self,
+        offset: u32,
+        sink_from: usize,
+        length_bytes: usize,
+        sink: &mut impl FnMut(usize, &[u8]),
+    ) -> bool {
+        let mut done = 0;
+        let mut any = false;
+        while done < length_bytes {
+            let piece = self.piece(offset + done as u32, length_bytes - done);
+            if let Some(bytes) = self.readable(&piece).and_then(|at| self.memory.get(at, piece.length_bytes))
+            {
+                sink(sink_from + done, bytes);
+                any = true;
+            }
+            done += piece.length_bytes;
+        }
+        any
+    }
+
+    /// Writes memory. Tells whether at least one byte could be written.
+    #[inline]
+    pub fn write(&mut self, offset: u16, data: &[u8]) -> bool {
+        if self.protection != Default::default() && self.is_protected(offset) {
+            return false;
+        }
+        if offset >= PROCESS_RAM_START {
+            return self.write_ram(u32::from(offset), data);
+        }
+        let (user_ram_from, ram_from) = (usize::from(USER_RAM_START), usize::from(PROCESS_RAM_START));
+        let split = |limit: usize| limit.saturating_sub(usize::from(offset)).min(data.len());
+        let registers = self.write_registers(offset, &data[..split(user_ram_from)]);
+        let user_ram = &data[split(user_ram_from)..split(ram_from)];
+        if !user_ram.is_empty() {
+            self.memory.slice_mut(offset.max(USER_RAM_START), user_ram.len()).copy_from_slice(user_ram);
+        }
+        let ram = self.write_ram(u32::from(PROCESS_RAM_START), &data[split(ram_from)..]);
+        registers || !user_ram.is_empty() || ram
+    }
+
+    fn is_protected(&self, offset: u16) -> bool {
+        let protection = &self.protection;
+        let enables = offset == at::ESC_WRITE_ENABLE || offset == at::WRITE_REGISTER_ENABLE;
+        let everything = protection.everything && !protection.everything_enabled;
+        let registers = protection.registers && !protection.registers_enabled && offset < USER_RAM_START;
+        !enables && (everything || registers)
+    }
+
+    /// Register writes wait for the end of the frame.
+    fn write_registers(&mut self, offset: u16, data: &[u8]) -> bool {
+        let mut offsets = (offset..).take(data.len());
+        if !offsets.any(|offset| self.accepts_write(offset)) {
+            return false;
+        }
+        // The enable registers count within the same frame.
+        if offset == at::WRITE_REGISTER_ENABLE {
+            self.protection.registers_enabled = data[0] & 1 != 0;
+        } else if offset == at::ESC_WRITE_ENABLE {
+            self.protection.everything_enabled = data[0] & 1 != 0;
+        }
+        self.dirty = true;
+        self.shadow.as_mut().is_some_and(|shadow| shadow.push(offset, data))
+    }
+
+    /// Whether the wire may write the byte at `offset` now.
+    pub(crate) fn accepts_write(&self, offset: u16) -> bool {
+        let dc_missing = offset >> 8 == 0x09 && !self.config.distributed_clocks;
+        BYTES.writable(offset)
+            && !dc_missing
+            && match BYTES.effect(offset) {
+                Effect::AlControl => !self.al_control_pending,
+                Effect::SiiCommand => Sii::ecat_owns(&self.memory),
+                Effect::Fmmu => {
+                    let (n, byte) = split_bank(offset - at::FMMU, FMMU_BYTES);
+                    n < usize::from(self.config.fmmu_count) && byte < 13
+                }
+                Effect::SyncManager => {
+                    let (n, byte) = split_bank(offset - at::SYNC_MANAGER, SYNC_MANAGER_BYTES);
+                    n < usize::from(self.config.sync_manager_count)
+                        && match byte {
+                            0..=4 => self.takes_settings(n),
+                            _ => byte == 6,
+                        }
+                }
+                _ => true,
+            }
+    }
+
+    pub(crate) fn takes_settings(&self, sync_manager: usize) -> bool {
+        let enabled = self.sync_managers.get(sync_manager).is_some_and(|sm| sm.settings.enabled);
+        !enabled || self.config.sync_manager_writes == SyncManagerWrites::Always
+    }
+
+    #[inline]
+    fn write_ram(&mut self, offset: u32, data: &[u8]) -> bool {
+        let mut done = 0;
+        let mut any = false;
+        while done < data.len() {
+            let piece = self.piece(offset + done as u32, data.len() - done);
+            let target = self.writable(&piece);
+            if let Some(target) = target.and_then(|at| self.memory.get_mut(at, piece.length_bytes)) {
+                target.copy_from_slice(&data[done..done + piece.length_bytes]);
+                any = true;
+            }
+            done += piece.length_bytes;
+        }
+        any
+    }
+
+    /// Reads what was there before, and writes what came: APRW, FPRW.
+    pub fn read_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
+        self.exchange(offset, data, |esc, data| esc.read(offset, data, now))
+    }
+
+    /// ORs what was there before into the data, and writes what came: BRW.
+    pub fn read_or_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
+        self.exchange(offset, data, |esc, data| esc.read_or(offset, data, now))
+    }
+
+    fn exchange(
+        &mut self,
+        offset: u16,
+        data: &mut [u8],
+        read: impl FnOnce(&mut Self, &mut [u8]) -> bool,
+    ) -> Access {
+        let mut incoming = [0; DATA_BYTES_MAX];
+        let Some(incoming) = incoming.get_mut(..data.len()) else { return Access::default() };
+        incoming.copy_from_slice(data);
+        Access { read: read(self, data), written: self.write(offset, incoming) }
+    }
+
+    /// The longest piece of RAM from `offset` on that one SyncManager holds, or none does.
+    fn piece(&self, offset: u32, length_bytes: usize) -> Piece {
+        let mut length = length_bytes as u32;
+        for (n, sm) in (0u8..).zip(&self.sync_managers) {
+            let start = u32::from(sm.settings.start);
+            if !sm.active || offset >= sm.end() {
+                continue;
+            }
+            if offset >= start {
+                let length_bytes = length.min(sm.end() - offset) as usize;
+                return Piece { offset, length_bytes, sync_manager: Some(n) };
+            }
+            length = length.min(start - offset);
+        }
+        let room = (self.memory.end() as u32).saturating_sub(offset);
+        // What lies behind the RAM is one piece that nobody can reach.
+        let length = if room == 0 { length } else { length.min(room) };
+        Piece { offset, length_bytes: length as usize, sync_manager: None }
+    }
+
+    /// Where a piece is read from, as its SyncManager has it.
+    #[inline]
+    fn readable(&mut self, piece: &Piece) -> Option<u32> {
+        let Some(n) = piece.sync_manager else { return Some(piece.offset) };
+        let sm = self.sync_managers.get_mut(usize::from(n))?;
+        let from = (piece.offset - u32::from(sm.settings.start)) as u16;
+        let buffer = sm.ecat_read(Reach { from, to: from + piece.length_bytes as u16 })?;
+        self.dirty = true;
+        Some(buffer + u32::from(from))
+    }
+
+    /// Where a piece is written to, as its SyncManager has it.
+    #[inline]
+    fn writable(&mut self, piece: &Piece) -> Option<u32> {
+        let Some(n) = piece.sync_manager else { return Some(piece.offset) };
+        let sm = self.sync_managers.get_mut(usize::from(n))?;
+        let from = (piece.offset - u32::from(sm.settings.start)) as u16;
+        let buffer = sm.ecat_write(Reach { from, to: from + piece.length_bytes as u16 })?;
+        self.dirty = true;
+        Some(buffer + u32::from(from))
+    }
+
+    /// LRD: replaces the bits of `data` that an FMMU maps for reading.
+    #[inline]
+    pub fn logical_read(&mut self, address: u32, data: &mut [u8], now: Instant) -> bool {
+        let bytes = logical_bytes(address, data.len());
+        self.read_span.overlaps(bytes) && self.read_mapped(bytes, data, now)
+    }
+
+    /// LWR: stores the bits of `data` that an FMMU maps for writing.
+    #[inline]
+    pub fn logical_write(&mut self, address: u32, data: &[u8]) -> bool {
+        let bytes = logical_bytes(address, data.len());
+        self.write_span.overlaps(bytes) && self.write_mapped(bytes, data)
+    }
+
+    /// LRW: both, each from what was there before.
+    #[inline]
+    pub fn logical_read_write(&mut self, address: u32, data: &mut [u8], now: Instant) -> Access {
+        let bytes = logical_bytes(address, data.len());
+        let (reads, writes) = (self.read_span.overlaps(bytes), self.write_span.overlaps(bytes));
+        if !self.mappings_alias {
+            let written = writes && self.write_mapped(bytes, data);
+            return Access { written, read: reads && self.read_mapped(bytes, data, now) };
+        }
+        let mut incoming = [0; DATA_BYTES_MAX];
+        let Some(incoming) = incoming.get_mut(..data.len()) else { return Access::default() };
+        incoming.copy_from_slice(data);
+        let read = reads && self.read_mapped(bytes, data, now);
+        Access { read, written: writes && self.write_mapped(bytes, incoming) }
+    }
+
+    /// The lowest-numbered FMMU wins where several map the same bit, so it comes last.
+    fn read_mapped(&mut self, datagram: Span, data: &mut [u8], now: Instant) -> bool {
+        let mut any = false;
+        for n in (0..self.read_mappings.len()).rev() {
+            let mapping = self.read_mappings[n];
+            if !mapping.fmmu.logical_bytes().overlaps(datagram) {
+                continue;
+            }
+            any |= if mapping.bytewise {
+                let (range, physical) = byte_overlap(&mapping, datagram);
+                self.read_mapping_bytes(&mapping, physical, &mut data[range], now)
+            } else {
+                self.read_mapping_bits(&mapping, datagram, data, now)
+            };
+        }
+        any
+    }
+
+    #[inline]
+    fn read_mapping_bytes(
+        &mut self,
+        mapping: &Mapping,
+        physical: u16,
+        data: &mut [u8],
+        now: Instant,
+    ) -> bool {
+        let Some(_) = mapping.sync_manager else { return self.read(physical, data, now) };
+        let piece =
+            Piece { offset: physical.into(), length_bytes: data.len(), sync_manager: mapping.sync_manager };
+        let source = self.readable(&piece).and_then(|at| self.memory.get(at, data.len()));
+        source.is_some_and(|bytes| {
+            data.copy_from_slice(bytes);
+            true
+        })
+    }
+
+    fn read_mapping_bits(
+        &mut self,
+        mapping: &Mapping,
+        datagram: Span,
+        data: &mut [u8],
+        now: Instant,
+    ) -> bool {
+        let bits = bit_overlap(mapping, datagram);
+        let Some(range) = PhysicalBits::of(mapping, bits) else { return false };
+        let mut bytes = [0; DATA_BYTES_MAX];
+        let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
+        if !self.read(range.offset, bytes, now) {
+            return false;
+        }
+        for (n, logical) in (bits.start..bits.end).enumerate() {
+            let value = bit(bytes, range.first_bit + n);
+            set_bit(data, (logical - datagram.start * 8) as usize, value);
+        }
+        true
+    }
+
+    fn write_mapped(&mut self, datagram: Span, data: &[u8]) -> bool {
+        let mut any = false;
+        for n in 0..self.write_mappings.len() {
+            let mapping = self.write_mappings[n];
+            if !mapping.fmmu.logical_bytes().overlaps(datagram) {
+                continue;
+            }
+            any |= if mapping.bytewise {
+                let (range, physical) = byte_overlap(&mapping, datagram);
+                self.write_mapping_bytes(&mapping, physical, &data[range])
+            } else {
+                self.write_mapping_bits(&mapping, datagram, data)
+            };
+        }
+        any
+    }
+
+    #[inline]
+    fn write_mapping_bytes(&mut self, mapping: &Mapping, physical: u16, data: &[u8]) -> bool {
+        if mapping.sync_manager.is_none() || self.protection != Default::default() {
+            return self.write(physical, data);
+        }
+        let piece =
+            Piece { offset: physical.into(), length_bytes: data.len(), sync_manager: mapping.sync_manager };
+        let target = self.writable(&piece).and_then(|at| self.memory.get_mut(at, data.len()));
+        target.is_some_and(|bytes| {
+            bytes.copy_from_slice(data);
+            true
+        })
+    }
+
+    /// A bit-wise write touches whole bytes; the bits that are not mapped keep what the buffer holds.
+    fn write_mapping_bits(&mut self, mapping: &Mapping, datagram: Span, data: &[u8]) -> bool {
+        let bits = bit_overlap(mapping, datagram);
+        let Some(range) = PhysicalBits::of(mapping, bits) else { return false };
+        let mut bytes = [0; DATA_BYTES_MAX];
+        let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
+        self.peek_for_write(range.offset, bytes);
+        for (n, logical) in (bits.start..bits.end).enumerate() {
+            let value = bit(data, (logical - datagram.start * 8) as usize);
+            set_bit(bytes, range.first_bit + n, value);
+        }
+        self.write(range.offset, bytes)
+    }
+
+    /// What a write at `offset` would replace, without any side effect.
+    fn peek_for_write(&self, offset: u16, bytes: &mut [u8]) {
+        let piece = self.piece(u32::from(offset), bytes.len());
+        let sm = piece.sync_manager.and_then(|n| self.sync_managers.get(usize::from(n)));
+        let base = sm.map_or(u32::from(offset), |sm| {
+            sm.ecat_buffer() + (u32::from(offset) - u32::from(sm.settings.start))
+        });
+        if let Some(current) = self.memory.get(base, bytes.len()) {
+            bytes.copy_from_slice(current);
+        }
+    }
+}
+
+/// A piece of RAM under one SyncManager or under none.
+struct Piece {
+    offset: u32,
+    length_bytes: usize,
+    sync_manager: Option<u8>,
+}
+
+/// The physical bytes around a run of mapped bits.
+struct PhysicalBits {
+    offset: u16,
+    length_bytes: usize,
+    /// The first mapped bit, counted from the first of these bytes.
+    first_bit: usize,
+}
+
+impl PhysicalBits {
+    /// None if no bit is left, or if the bits leave the address space.
+    fn of(mapping: &Mapping, bits: Span) -> Option<Self> {
+        if bits.start >= bits.end {
+            return None;
+        }
+        let first = mapping.fmmu.physical_bit(bits.start);
+        let last = mapping.fmmu.physical_bit(bits.end - 1);
+        let offset = u16::try_from(first / 8).ok()?;
+        Some(Self {
+            offset,
+            length_bytes: (last / 8 - first / 8 + 1) as usize,
+            first_bit: (first % 8) as usize,
+        })
+    }
+}
+
+#[inline]
+fn logical_bytes(address: u32, length_bytes: usize) -> Span {
+    let start = u64::from(address);
+    Span { start, end: start + length_bytes as u64 }
+}
+
+/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start.
+#[inline]
+fn byte_overlap(mapping: &Mapping, datagram: Span) -> (core::ops::Range<usize>, u16) {
+    let bytes = mapping.fmmu.logical_bytes();
+    let both = bytes.intersection(datagram);
+    let range = (both.start - datagram.start) as usize..(both.end - datagram.start) as usize;
+    (range, mapping.fmmu.physical_start.wrapping_add((both.start - bytes.start) as u16))
+}
+
+fn bit_overlap(mapping: &Mapping, datagram: Span) -> Span {
+    let bits = Span { start: datagram.start * 8, end: datagram.end * 8 };
+    mapping.fmmu.logical_bits().intersection(bits)
+}
+
+fn bit(bytes: &[u8], at: usize) -> bool {
+    bytes.get(at / 8).is_some_and(|byte| byte >> (at % 8) & 1 != 0)
+}
+
+fn set_bit(bytes: &mut [u8], at: usize, value: bool) {
+    if let Some(byte) = bytes.get_mut(at / 8) {
+        *byte = *byte & !(1 << (at % 8)) | u8::from(value) << (at % 8);
+    }
+}
+
+/// Which one of a bank of registers, and which byte of it.
+pub(crate) fn split_bank(from_bank_start: u16, size_bytes: usize) -> (usize, usize) {
+    (usize::from(from_bank_start) / size_bytes, usize::from(from_bank_start) % size_bytes)
+}

@@ -1,0 +1,255 @@
+//! The controller itself: its parts, power-on, and what both faces need.
+
+use arrayvec::ArrayVec;
+use time::Instant;
+
+use crate::config::EscConfig;
+use crate::dc::Dc;
+use crate::events::{AlEvents, EcatEvents};
+use crate::fmmu::{FMMUS_MAX, Fmmu, Span};
+use crate::memory::Memory;
+use crate::pdi::Pdi;
+use crate::ports::{self, Port, PortStatus, Ports};
+use crate::registers::at;
+use crate::shadow::Shadow;
+use crate::sii::Sii;
+use crate::sync_manager::{SYNC_MANAGERS_MAX, SyncManager};
+use crate::watchdog::Watchdog;
+
+/// Features: distributed clocks, 64 bits wide.
+const FEATURES_DC: u16 = 0x000C;
+/// Features: enhanced link detection MII, separate handling of FCS errors.
+const FEATURES_LINK: u16 = 0x00C0;
+/// Ports 0 and 1 are MII, 2 and 3 do not exist.
+const PORTS_MII: u8 = 0x0F;
+
+/// When a frame passed this ESC.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Passage {
+    /// Came in at port 0.
+    pub arrival: Instant,
+    /// Came back at port 1, or passed it inside where its loop is closed.
+    pub returned_out: Instant,
+}
+
+/// One EtherCAT slave controller.
+#[derive(Clone, Debug)]
+pub struct Esc {
+    // What every datagram looks at comes first.
+    pub(crate) station_address: u16,
+    /// The alias, where DL control bit 24 lets it answer.
+    pub(crate) answering_alias: Option<u16>,
+    pub(crate) read_span: Span,
+    pub(crate) write_span: Span,
+    /// Something waits for the end of the frame.
+    pub(crate) dirty: bool,
+    pub(crate) protection: Protection,
+    /// A loop has opened or closed since [`Esc::take_ports_changed`].
+    pub(crate) ports_changed: bool,
+    /// The visible part of the ECAT event request, for the IRQ field of datagrams.
+    pub(crate) masked_events: u16,
+
+    pub(crate) memory: Memory,
+    pub(crate) sync_managers: [SyncManager; SYNC_MANAGERS_MAX],
+    pub(crate) read_mappings: ArrayVec<Mapping, FMMUS_MAX>,
+    pub(crate) write_mappings: ArrayVec<Mapping, FMMUS_MAX>,
+    /// A read mapping and a write mapping share memory: LRW then has to read before it writes.
+    pub(crate) mappings_alias: bool,
+    pub(crate) shadow: Option<Box<Shadow>>,
+    pub(crate) ports: Ports,
+    pub(crate) sii: Sii,
+    pub(crate) dc: Dc,
+    pub(crate) watchdog: Watchdog,
+    pub(crate) ecat_events: EcatEvents,
+    pub(crate) al_events: AlEvents,
+    /// AL control holds a request that the PDI has not read.
+    pub(crate) al_control_pending: bool,
+    pub(crate) reset_progress: u8,
+    pub(crate) reset_requested: bool,
+    pub(crate) config: EscConfig,
+}
+
+/// An FMMU that is switched on, and the SyncManager that it lies in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Mapping {
+    pub(crate) fmmu: Fmmu,
+    pub(crate) bytewise: bool,
+    /// The SyncManager whose buffer holds the whole physical range.
+    pub(crate) sync_manager: Option<u8>,
+}
+
+/// Write protection as it applies to the frame that is passing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Protection {
+    pub(crate) registers: bool,
+    pub(crate) everything: bool,
+    /// This frame has written the enable register.
+    pub(crate) registers_enabled: bool,
+    pub(crate) everything_enabled: bool,
+}
+
+impl Esc {
+    /// An ESC that gets power at `now`, with this EEPROM image.
+    #[must_use]
+    pub fn power_on(config: EscConfig, sii_image: Vec<u8>, now: Instant) -> Self {
+        let mut esc = Self {
+            station_address: 0,
+            answering_alias: None,
+            read_span: Span::EMPTY,
+            write_span: Span::EMPTY,
+            dirty: false,
+            ports_changed: true,
+            protection: Protection::default(),
+            masked_events: 0,
+            memory: Memory::at_power_on(config.ram_kib),
+            sync_managers: [SyncManager::default(); SYNC_MANAGERS_MAX],
+            read_mappings: ArrayVec::new(),
+            write_mappings: ArrayVec::new(),
+            mappings_alias: false,
+            shadow: Some(Box::default()),
+            ports: Ports::new(),
+            sii: Sii::new(sii_image, config.sii),
+            dc: Dc::new(now),
+            watchdog: Watchdog::default(),
+            ecat_events: EcatEvents::default(),
+            al_events: AlEvents::default(),
+            al_control_pending: false,
+            reset_progress: 0,
+            reset_requested: false,
+            config,
+        };
+        esc.load_constants();
+        esc
+    }
+
+    /// Back to the state after power-on; cables and EEPROM stay as they are.
+    pub fn reset(&mut self, now: Instant) {
+        let ports = self.ports;
+        let image = core::mem::take(self.sii.image_mut());
+        *self = Self::power_on(self.config.clone(), image, now);
+        for port in [Port::In, Port::Out] {
+            self.ports.set_link(port, ports.status(port).link, &mut self.memory);
+        }
+        self.ecat_events = EcatEvents::default();
+    }
+
+    fn load_constants(&mut self) {
+        let memory = &mut self.memory;
+        memory.set_u8(at::FMMU_COUNT, self.config.fmmu_count);
+        memory.set_u8(at::SM_COUNT, self.config.sync_manager_count);
+        memory.set_u8(at::RAM_KIB, self.config.ram_kib);
+        memory.set_u8(at::PORT_DESCRIPTOR, PORTS_MII);
+        let dc = if self.config.distributed_clocks { FEATURES_DC } else { 0 };
+        memory.set_u16(at::FEATURES, FEATURES_LINK | dc);
+        self.sii.power_on(memory);
+        ports::set_pdi_operational(memory, self.sii.is_loaded());
+        self.ports.update(memory);
+    }
+
+    /// The face of the application.
+    pub fn pdi(&mut self, now: Instant) -> Pdi<'_> {
+        Pdi::new(self, now)
+    }
+
+    /// The configured station address, register 0x0010.
+    #[must_use]
+    pub const fn station_address(&self) -> u16 {
+        self.station_address
+    }
+
+    /// Link and loop of a port.
+    #[must_use]
+    pub const fn port(&self, port: Port) -> PortStatus {
+        self.ports.status(port)
+    }
+
+    /// A cable is plugged into or pulled out of a port.
+    pub fn set_link(&mut self, port: Port, link: bool) {
+        if self.ports.set_link(port, link, &mut self.memory) {
+            self.ports_changed = true;
+            self.raise_ecat_event(EcatEvents::DL_STATUS);
+        }
+    }
+
+    /// Whether frames may take another way than before.
+    #[inline]
+    pub fn take_ports_changed(&mut self) -> bool {
+        core::mem::take(&mut self.ports_changed)
+    }
+
+    /// A frame came with an error: counted as invalid at port 0, where it came in first.
+    pub fn count_invalid_frame(&mut self, port: Port) {
+        self.memory.count_up(at::PORT_ERRORS + 2 * u16::from(port == Port::Out));
+    }
+
+    /// A frame came that another ESC had already marked as broken.
+    pub fn count_forwarded_error(&mut self, port: Port) {
+        self.memory.count_up(at::FORWARDED_ERRORS + u16::from(port == Port::Out));
+    }
+
+    /// The processing unit met a frame that it cannot process.
+    pub fn count_processing_unit_error(&mut self) {
+        self.memory.count_up(at::PROCESSING_UNIT_ERRORS);
+    }
+
+    /// Whether frames that are not EtherCAT are destroyed here (DL control bit 0) or forwarded.
+    #[must_use]
+    pub fn destroys_foreign_frames(&self) -> bool {
+        self.memory.u8(at::DL_CONTROL) & 1 != 0
+    }
+
+    /// When something happens here by itself: the watchdog. [`Instant::NEVER`] if nothing does.
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
+        self.watchdog.deadline().unwrap_or(Instant::NEVER)
+    }
+
+    /// Lets time pass.
+    pub fn advance(&mut self, now: Instant) {
+        if self.watchdog.expire(&mut self.memory, now) {
+            self.al_events |= AlEvents::WATCHDOG;
+        }
+    }
+
+    /// Whether the PDI has something to do: an event that its mask lets through, or a reset.
+    #[must_use]
+    pub fn interrupts_pdi(&self) -> bool {
+        self.reset_requested || !self.visible_al_events().is_empty()
+    }
+
+    pub(crate) fn visible_al_events(&self) -> AlEvents {
+        self.all_al_events() & AlEvents::from_bits_truncate(self.memory.u32(at::AL_EVENT_MASK))
+    }
+
+    /// The AL event request: what is kept here, and what the SyncManagers show.
+    pub(crate) fn all_al_events(&self) -> AlEvents {
+        let sync_managers = self.sync_managers.iter().enumerate();
+        let bits = sync_managers
+            .filter(|(_, sm)| sm.active && sm.settings.pdi_event && sm.has_event())
+            .fold(0, |bits, (n, _)| bits | 0x100 << n);
+        self.al_events | AlEvents::from_bits_truncate(bits)
+    }
+
+    pub(crate) fn all_ecat_events(&self) -> EcatEvents {
+        let sync_managers = self.sync_managers.iter().take(8).enumerate();
+        let bits = sync_managers
+            .filter(|(_, sm)| sm.active && sm.settings.ecat_event && sm.has_event())
+            .fold(0, |bits, (n, _)| bits | 0x10 << n);
+        self.ecat_events | EcatEvents::from_bits_truncate(bits)
+    }
+
+    pub(crate) fn raise_ecat_event(&mut self, event: EcatEvents) {
+        self.ecat_events |= event;
+        self.update_masked_events();
+    }
+
+    pub(crate) fn clear_ecat_event(&mut self, event: EcatEvents) {
+        self.ecat_events -= event;
+        self.update_masked_events();
+    }
+
+    pub(crate) fn update_masked_events(&mut self) {
+        let mask = self.memory.u16(at::ECAT_EVENT_MASK);
+        self.masked_events = if mask == 0 { 0 } else { self.all_ecat_events().bits() & mask };
+    }
+}

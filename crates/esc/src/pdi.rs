@@ -1,0 +1,262 @@
+//! The face of the application: events, AL status, mailboxes, buffers, SII.
+
+use time::Instant;
+use wire::{AlControl, AlStatus, AlStatusCode};
+
+use crate::esc::Esc;
+use crate::events::{AlEvents, EcatEvents};
+use crate::ports;
+use crate::registers::{PdiAccess, REGISTERS, at};
+use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
+use crate::watchdog::Watchdog;
+
+/// The ESC as its application sees it, at one moment.
+pub struct Pdi<'a> {
+    esc: &'a mut Esc,
+    now: Instant,
+}
+
+impl<'a> Pdi<'a> {
+    pub(crate) fn new(esc: &'a mut Esc, now: Instant) -> Self {
+        Self { esc, now }
+    }
+
+    /// AL event request, masked by the AL event mask.
+    #[must_use]
+    pub fn events(&self) -> AlEvents {
+        self.esc.visible_al_events()
+    }
+
+    /// Takes the watchdog event, as reading 0x0440 does.
+    pub fn take_watchdog_event(&mut self) -> bool {
+        let expired = self.esc.al_events.contains(AlEvents::WATCHDOG);
+        self.esc.al_events -= AlEvents::WATCHDOG;
+        expired
+    }
+
+    /// Takes the event that an activation byte has been written, as reading 0x0806 + 8n does.
+    pub fn take_activation_event(&mut self) -> bool {
+        let changed = self.esc.al_events.contains(AlEvents::SYNC_MANAGER_ACTIVATION);
+        self.esc.al_events -= AlEvents::SYNC_MANAGER_ACTIVATION;
+        changed
+    }
+
+    /// Takes a state request, if there is one; the wire may write the next.
+    pub fn take_al_control(&mut self) -> Option<AlControl> {
+        let pending = core::mem::take(&mut self.esc.al_control_pending);
+        self.esc.al_events -= AlEvents::AL_CONTROL;
+        pending.then(|| AlControl::from_bits(self.esc.memory.u16(at::AL_CONTROL)))
+    }
+
+    /// Sets AL status; the code goes first, so that it is valid no later than the error bit.
+    pub fn set_al_status(&mut self, status: AlStatus, code: AlStatusCode) {
+        self.esc.memory.set_u16(at::AL_STATUS_CODE, code.0);
+        self.esc.memory.set_u16(at::AL_STATUS, status.bits());
+        self.esc.raise_ecat_event(EcatEvents::AL_STATUS);
+    }
+
+    /// AL status as the wire sees it.
+    #[must_use]
+    pub fn al_status(&self) -> AlStatus {
+        AlStatus::from_bits(self.esc.memory.u16(at::AL_STATUS))
+    }
+
+    /// AL status code as the wire sees it.
+    #[must_use]
+    pub fn al_status_code(&self) -> AlStatusCode {
+        AlStatusCode(self.esc.memory.u16(at::AL_STATUS_CODE))
+    }
+
+    /// Settings of a SyncManager.
+    #[must_use]
+    pub fn sync_manager(&self, index: SmIndex) -> SyncManagerSettings {
+        self.sm(index).settings
+    }
+
+    /// Opens or closes a SyncManager for the wire (PDI control bit 0).
+    pub fn set_deactivated(&mut self, index: SmIndex, deactivated: bool) {
+        self.sm_mut(index).deactivate_by_pdi(deactivated);
+        self.esc.update_mappings();
+        if deactivated {
+            self.esc.watchdog.stop(&mut self.esc.memory);
+        }
+    }
+
+    /// Whether the master asks for the last mailbox message again.
+    #[must_use]
+    pub fn repeat_requested(&self, index: SmIndex) -> bool {
+        let sm = self.sm(index);
+        sm.settings.enabled && sm.settings.repeat_request != sm.repeat_acknowledge
+    }
+
+    /// Tells the master that the message stands in the mailbox again.
+    pub fn acknowledge_repeat(&mut self, index: SmIndex) {
+        let sm = self.sm_mut(index);
+        sm.repeat_acknowledge = sm.settings.repeat_request;
+    }
+
+    /// Whether a mailbox SyncManager holds a message.
+    #[must_use]
+    pub fn mailbox_full(&self, index: SmIndex) -> bool {
+        self.sm(index).full
+    }
+
+    /// The message in a full mailbox of the wire; it stays there until [`Pdi::release_mailbox`].
+    #[must_use]
+    pub fn mailbox(&self, index: SmIndex) -> Option<&[u8]> {
+        let sm = self.sm(index);
+        let writes = sm.settings.mode == SmMode::Mailbox && sm.settings.direction == SmDirection::EcatWrites;
+        (writes && sm.full).then(|| self.esc.memory.get(sm.ecat_buffer(), sm.settings.length_bytes.into()))?
+    }
+
+    /// The message has been read: the wire may write the next.
+    pub fn release_mailbox(&mut self, index: SmIndex) {
+        self.sm_mut(index).pdi_took_mailbox();
+        self.esc.update_masked_events();
+    }
+
+    /// Puts a message into an empty mailbox for the wire. False if it is full, closed or too small.
+    pub fn fill_mailbox(&mut self, index: SmIndex, message: &[u8]) -> bool {
+        let sm = *self.sm(index);
+        let reads = sm.settings.mode == SmMode::Mailbox && sm.settings.direction == SmDirection::EcatReads;
+        let length = usize::from(sm.settings.length_bytes);
+        if !reads || !sm.active || sm.full || message.len() > length {
+            return false;
+        }
+        let Some(area) = self.esc.memory.get_mut(sm.ecat_buffer(), length) else { return false };
+        let (head, tail) = area.split_at_mut(message.len());
+        head.copy_from_slice(message);
+        tail.fill(0);
+        self.sm_mut(index).pdi_filled_mailbox();
+        self.esc.update_masked_events();
+        true
+    }
+
+    /// Throws away a message that the wire has not read.
+    pub fn empty_mailbox(&mut self, index: SmIndex) {
+        self.sm_mut(index).full = false;
+    }
+
+    /// The newest whole outputs, and whether they are new since the last call.
+    #[must_use]
+    pub fn read_buffer(&mut self, index: SmIndex) -> (&[u8], bool) {
+        let length = usize::from(self.sm(index).settings.length_bytes);
+        let (at, fresh) = self.sm_mut(index).pdi_read_buffer();
+        (self.esc.memory.get(at, length).unwrap_or_default(), fresh)
+    }
+
+    /// Whether the wire has written whole outputs since the SyncManager was enabled.
+    #[must_use]
+    pub fn outputs_received(&self, index: SmIndex) -> bool {
+        self.sm(index).was_written()
+    }
+
+    /// Outputs to take and inputs to fill, both in place: `exchange(outputs, inputs)`. The inputs are
+    /// published whole afterwards. A SyncManager that is not active shows as empty.
+    pub fn exchange(&mut self, outputs: SmIndex, inputs: SmIndex, exchange: impl FnOnce(&[u8], &mut [u8])) {
+        let length = |sm: &SyncManager| if sm.active { usize::from(sm.settings.length_bytes) } else { 0 };
+        let (out_bytes, in_bytes) = (length(self.sm(outputs)), length(self.sm(inputs)));
+        let (out_at, _) = self.sm_mut(outputs).pdi_read_buffer();
+        let in_at = self.sm(inputs).pdi_write_buffer();
+        let (out, into) = self.esc.memory.two(out_at, out_bytes, in_at, in_bytes);
+        exchange(out, into);
+        if in_bytes > 0 {
+            self.sm_mut(inputs).pdi_publish();
+        }
+        self.esc.update_masked_events();
+    }
+
+    /// Whether the process data watchdog has expired since the last complete write.
+    #[must_use]
+    pub fn watchdog_expired(&self) -> bool {
+        Watchdog::is_expired(&self.esc.memory)
+    }
+
+    /// Process data watchdog time register 0x0420; 0 is off.
+    #[must_use]
+    pub fn watchdog_time(&self) -> u16 {
+        self.esc.memory.u16(at::WATCHDOG_TIME_PROCESS_DATA)
+    }
+
+    /// DC activation, register 0x0981.
+    #[must_use]
+    pub fn dc_activation(&self) -> u8 {
+        self.esc.memory.u8(0x0981)
+    }
+
+    /// Sets the configured station alias, register 0x0012.
+    pub fn set_station_alias(&mut self, alias: u16) {
+        self.esc.memory.set_u16(at::STATION_ALIAS, alias);
+        self.esc.update_addresses();
+    }
+
+    /// Whether the SII configuration was loaded without an error.
+    #[must_use]
+    pub fn sii_loaded(&self) -> bool {
+        self.esc.sii.is_loaded()
+    }
+
+    /// The EEPROM image.
+    #[must_use]
+    pub fn sii_image(&self) -> &[u8] {
+        self.esc.sii.image()
+    }
+
+    /// Takes or gives back the EEPROM (0x0501 bit 0). It can be taken only where the master offers it.
+    pub fn take_sii(&mut self, take: bool) -> bool {
+        let offered = self.esc.memory.u8(at::SII_OWNER) & 1 != 0;
+        let taken = take && offered;
+        self.esc.memory.set_u8(at::SII_PDI_STATE, u8::from(taken));
+        taken == take
+    }
+
+    /// Writes a word of the EEPROM, for a PDI that has taken it. False behind its end or without it.
+    pub fn write_sii_word(&mut self, word_address: u16, word: u16) -> bool {
+        let owns = self.esc.memory.u8(at::SII_PDI_STATE) & 1 != 0;
+        let at = usize::from(word_address) * 2;
+        let bytes = self.esc.sii.image_mut().get_mut(at..at + 2).filter(|_| owns);
+        bytes.is_some_and(|bytes| {
+            bytes.copy_from_slice(&word.to_le_bytes());
+            true
+        })
+    }
+
+    /// Shows in DL status whether the application runs.
+    pub fn set_operational(&mut self, operational: bool) {
+        ports::set_pdi_operational(&mut self.esc.memory, operational);
+    }
+
+    /// Takes the wish of the master that the controller be reset ("RES" at 0x0040).
+    pub fn take_reset_request(&mut self) -> bool {
+        core::mem::take(&mut self.esc.reset_requested)
+    }
+
+    /// Any register as the PDI reads it, at most 8 bytes, little endian.
+    #[must_use]
+    pub fn register(&mut self, offset: u16, size_bytes: u16) -> u64 {
+        self.esc.show_live_registers(self.now);
+        let bytes = self.esc.memory.slice(offset & 0x0FFF, usize::from(size_bytes.min(8)));
+        (0..).zip(bytes).fold(0, |value, (n, byte)| value | u64::from(*byte) << (8 * n))
+    }
+
+    /// Writes one register byte where the register map lets the PDI. False elsewhere.
+    pub fn set_register(&mut self, offset: u16, value: u8) -> bool {
+        let writable = REGISTERS.iter().any(|row| {
+            let end = row.offset + row.stride_bytes * (row.count - 1) + row.size_bytes;
+            row.pdi == PdiAccess::ReadWrite && (row.offset..end).contains(&offset)
+        });
+        if writable {
+            self.esc.memory.set_u8(offset, value);
+            self.esc.update_masked_events();
+        }
+        writable
+    }
+
+    fn sm(&self, index: SmIndex) -> &SyncManager {
+        &self.esc.sync_managers[usize::from(index.0 & 0x0F)]
+    }
+
+    fn sm_mut(&mut self, index: SmIndex) -> &mut SyncManager {
+        &mut self.esc.sync_managers[usize::from(index.0 & 0x0F)]
+    }
+}

@@ -1,0 +1,377 @@
+//! SyncManagers: settings, mailbox handshake, and the three buffers (reference 2.13, 3.1 to 3.4).
+
+/// Bytes of one SyncManager in the register map.
+pub(crate) const SYNC_MANAGER_BYTES: usize = 8;
+/// Most SyncManagers that an ESC has.
+pub(crate) const SYNC_MANAGERS_MAX: usize = 16;
+
+/// Which SyncManager, 0 to 15.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SmIndex(pub u8);
+
+impl SmIndex {
+    /// Mailbox, master to slave.
+    pub const MAILBOX_RECEIVE: Self = Self(0);
+    /// Mailbox, slave to master.
+    pub const MAILBOX_SEND: Self = Self(1);
+    /// Process data outputs.
+    pub const OUTPUTS: Self = Self(2);
+    /// Process data inputs.
+    pub const INPUTS: Self = Self(3);
+}
+
+/// Control bits 1:0: how the buffer is handed over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SmMode {
+    /// 00: three buffers, never blocked.
+    Buffered,
+    /// 10: one buffer with handshake.
+    Mailbox,
+    /// 01 or 11, reserved.
+    Other(u8),
+}
+
+/// Control bits 3:2: who writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SmDirection {
+    /// 00: the wire reads, the PDI writes.
+    EcatReads,
+    /// 01: the wire writes, the PDI reads.
+    EcatWrites,
+    /// 10 or 11, reserved.
+    Other(u8),
+}
+
+/// The settings of a SyncManager, as the master wrote them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SyncManagerSettings {
+    /// Physical start address.
+    pub start: u16,
+    /// Length of one buffer in bytes.
+    pub length_bytes: u16,
+    /// Buffered or mailbox.
+    pub mode: SmMode,
+    /// Who writes.
+    pub direction: SmDirection,
+    /// Control bit 4: requests an ECAT event.
+    pub ecat_event: bool,
+    /// Control bit 5: requests an AL event.
+    pub pdi_event: bool,
+    /// Control bit 6: a complete write triggers the process data watchdog.
+    pub watchdog_trigger: bool,
+    /// The control byte as it was written, reserved bits included.
+    pub control: u8,
+    /// Activation bit 0.
+    pub enabled: bool,
+    /// Activation bit 1: toggles to ask for the last mailbox message again.
+    pub repeat_request: bool,
+}
+
+impl SyncManagerSettings {
+    /// Takes the register bytes apart.
+    #[must_use]
+    pub const fn from_bytes(bytes: &[u8; SYNC_MANAGER_BYTES]) -> Self {
+        let control = bytes[4];
+        Self {
+            start: u16::from_le_bytes([bytes[0], bytes[1]]),
+            length_bytes: u16::from_le_bytes([bytes[2], bytes[3]]),
+            mode: match control & 3 {
+                0 => SmMode::Buffered,
+                2 => SmMode::Mailbox,
+                other => SmMode::Other(other),
+            },
+            direction: match control >> 2 & 3 {
+                0 => SmDirection::EcatReads,
+                1 => SmDirection::EcatWrites,
+                other => SmDirection::Other(other),
+            },
+            ecat_event: control & 0x10 != 0,
+            pdi_event: control & 0x20 != 0,
+            watchdog_trigger: control & 0x40 != 0,
+            control,
+            enabled: bytes[6] & 1 != 0,
+            repeat_request: bytes[6] & 2 != 0,
+        }
+    }
+}
+
+impl Default for SyncManagerSettings {
+    fn default() -> Self {
+        Self::from_bytes(&[0; SYNC_MANAGER_BYTES])
+    }
+}
+
+/// The three areas of a buffered SyncManager inside ESC memory: which one the wire has, which one the PDI
+/// has, and the one between them. The three indexes are always different.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct SmBuffers {
+    ecat: u8,
+    pdi: u8,
+    between: u8,
+    /// The one between holds a whole image that its reader has not taken yet.
+    fresh: bool,
+    /// The last one that was written whole, if any was.
+    last_written: Option<u8>,
+}
+
+impl SmBuffers {
+    const START: Self = Self { ecat: 0, pdi: 1, between: 2, fresh: false, last_written: None };
+
+    fn publish(writer: &mut u8, between: &mut u8) {
+        core::mem::swap(writer, between);
+    }
+}
+
+/// One SyncManager: settings and state.
+#[derive(Clone, Copy, Debug)]
+pub struct SyncManager {
+    pub(crate) settings: SyncManagerSettings,
+    /// PDI control bit 0: the application has closed it.
+    pub(crate) deactivated_by_pdi: bool,
+    /// PDI control bit 1: follows the repeat request.
+    pub(crate) repeat_acknowledge: bool,
+    /// Enabled, not closed by the PDI, and not empty.
+    pub(crate) active: bool,
+    pub(crate) buffers: SmBuffers,
+    /// Mailbox mode: full.
+    pub(crate) full: bool,
+    /// The wire has begun an access at the first byte.
+    open: bool,
+    /// This frame has touched the last byte of an open access: handed over at the end of the frame.
+    pub(crate) complete: bool,
+    /// Status bit 0: written, cleared when the first byte is read.
+    pub(crate) interrupt_write: bool,
+    /// Status bit 1: read, cleared when the first byte is written.
+    pub(crate) interrupt_read: bool,
+}
+
+impl Default for SyncManager {
+    fn default() -> Self {
+        Self {
+            settings: SyncManagerSettings::default(),
+            deactivated_by_pdi: false,
+            repeat_acknowledge: false,
+            active: false,
+            buffers: SmBuffers::START,
+            full: false,
+            open: false,
+            complete: false,
+            interrupt_write: false,
+            interrupt_read: false,
+        }
+    }
+}
+
+/// Which bytes of the buffer an access touches, counted from its first byte; end excluded.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach {
+    pub(crate) from: u16,
+    pub(crate) to: u16,
+}
+
+impl SyncManager {
+    /// Its settings.
+    #[must_use]
+    pub const fn settings(&self) -> &SyncManagerSettings {
+        &self.settings
+    }
+
+    /// First byte behind the buffer that is addressed.
+    #[inline]
+    pub(crate) const fn end(&self) -> u32 {
+        self.settings.start as u32 + self.settings.length_bytes as u32
+    }
+
+    /// Takes new settings: all hand-over starts anew, except when only the repeat request toggles.
+    pub(crate) fn set(&mut self, settings: SyncManagerSettings) {
+        let repeat_only = SyncManagerSettings { repeat_request: self.settings.repeat_request, ..settings };
+        let restart = repeat_only != self.settings;
+        self.settings = settings;
+        if restart {
+            self.restart();
+            self.repeat_acknowledge = false;
+        }
+        self.update_active();
+    }
+
+    pub(crate) fn deactivate_by_pdi(&mut self, deactivated: bool) {
+        if self.deactivated_by_pdi != deactivated {
+            self.deactivated_by_pdi = deactivated;
+            self.restart();
+            self.update_active();
+        }
+    }
+
+    fn restart(&mut self) {
+        *self = Self {
+            settings: self.settings,
+            deactivated_by_pdi: self.deactivated_by_pdi,
+            repeat_acknowledge: self.repeat_acknowledge,
+            ..Self::default()
+        };
+    }
+
+    fn update_active(&mut self) {
+        self.active = self.settings.enabled && !self.deactivated_by_pdi && self.settings.length_bytes > 0;
+    }
+
+    /// The wire writes `reach`: the offset of the buffer to write to, or none if it is refused.
+    #[inline]
+    pub(crate) fn ecat_write(&mut self, reach: Reach) -> Option<u32> {
+        if !matches!(self.settings.direction, SmDirection::EcatWrites) {
+            return None;
+        }
+        let whole = self.settings.length_bytes;
+        match self.settings.mode {
+            SmMode::Mailbox if self.full || self.complete => return None,
+            SmMode::Other(_) => return None,
+            SmMode::Mailbox | SmMode::Buffered => {}
+        }
+        if reach.from == 0 {
+            self.open = true;
+            self.interrupt_read = false;
+        } else if !self.open && matches!(self.settings.mode, SmMode::Mailbox) {
+            return None;
+        }
+        if reach.to == whole && self.open {
+            self.open = false;
+            self.complete = true;
+        }
+        Some(self.ecat_buffer())
+    }
+
+    /// The wire reads `reach`: the offset of the buffer to read from, or none if it is refused.
+    #[inline]
+    pub(crate) fn ecat_read(&mut self, reach: Reach) -> Option<u32> {
+        if !matches!(self.settings.direction, SmDirection::EcatReads) {
+            return None;
+        }
+        match self.settings.mode {
+            SmMode::Mailbox if !self.full => return None,
+            SmMode::Other(_) => return None,
+            SmMode::Mailbox | SmMode::Buffered => {}
+        }
+        if reach.from == 0 {
+            self.open = true;
+            self.interrupt_write = false;
+            if self.buffers.fresh {
+                self.buffers.fresh = false;
+                SmBuffers::publish(&mut self.buffers.ecat, &mut self.buffers.between);
+            }
+        } else if !self.open && matches!(self.settings.mode, SmMode::Mailbox) {
+            return None;
+        }
+        if reach.to == self.settings.length_bytes && self.open {
+            self.open = false;
+            self.complete = true;
+        }
+        Some(self.ecat_buffer())
+    }
+
+    #[inline]
+    pub(crate) fn ecat_buffer(&self) -> u32 {
+        self.buffer(self.buffers.ecat)
+    }
+
+    /// Memory offset of a buffer; a mailbox has one only.
+    #[inline]
+    fn buffer(&self, index: u8) -> u32 {
+        let start = u32::from(self.settings.start);
+        match self.settings.mode {
+            SmMode::Buffered => start + u32::from(index) * u32::from(self.settings.length_bytes),
+            SmMode::Mailbox | SmMode::Other(_) => start,
+        }
+    }
+
+    /// Hands over at the end of a good frame. Tells whether the PDI has something new to see.
+    pub(crate) fn end_of_frame(&mut self) -> bool {
+        if !self.complete {
+            return false;
+        }
+        self.complete = false;
+        match (self.settings.mode, self.settings.direction) {
+            (SmMode::Mailbox, SmDirection::EcatWrites) => {
+                self.full = true;
+                self.interrupt_write = true;
+            }
+            (SmMode::Mailbox, _) => {
+                self.full = false;
+                self.interrupt_read = true;
+            }
+            (_, SmDirection::EcatWrites) => {
+                self.buffers.last_written = Some(self.buffers.ecat);
+                SmBuffers::publish(&mut self.buffers.ecat, &mut self.buffers.between);
+                self.buffers.fresh = true;
+                self.interrupt_write = true;
+            }
+            _ => self.interrupt_read = true,
+        }
+        true
+    }
+
+    /// The PDI takes the newest whole outputs: the buffer's offset, and whether they are new.
+    pub(crate) fn pdi_read_buffer(&mut self) -> (u32, bool) {
+        let fresh = core::mem::take(&mut self.buffers.fresh);
+        if fresh {
+            SmBuffers::publish(&mut self.buffers.pdi, &mut self.buffers.between);
+        }
+        self.interrupt_write = false;
+        (self.buffer(self.buffers.pdi), fresh)
+    }
+
+    /// Whether the wire has ever written a whole buffer since the SyncManager was enabled.
+    pub(crate) const fn was_written(&self) -> bool {
+        self.buffers.last_written.is_some()
+    }
+
+    /// The PDI's own buffer, to be filled before [`SyncManager::pdi_publish`].
+    pub(crate) fn pdi_write_buffer(&self) -> u32 {
+        self.buffer(self.buffers.pdi)
+    }
+
+    /// The PDI has filled its buffer: the wire gets it with its next read of the first byte.
+    pub(crate) fn pdi_publish(&mut self) {
+        self.buffers.last_written = Some(self.buffers.pdi);
+        SmBuffers::publish(&mut self.buffers.pdi, &mut self.buffers.between);
+        self.buffers.fresh = true;
+        self.interrupt_write = true;
+        self.interrupt_read = false;
+    }
+
+    /// The PDI has emptied a mailbox of the wire.
+    pub(crate) fn pdi_took_mailbox(&mut self) {
+        self.full = false;
+        self.interrupt_write = false;
+        self.interrupt_read = true;
+    }
+
+    /// The PDI has filled a mailbox for the wire.
+    pub(crate) fn pdi_filled_mailbox(&mut self) {
+        self.full = true;
+        self.open = false;
+        self.interrupt_write = true;
+        self.interrupt_read = false;
+    }
+
+    /// Status byte, register +5.
+    pub(crate) fn status(&self) -> u8 {
+        let last_written = match self.settings.mode {
+            SmMode::Buffered => self.buffers.last_written.unwrap_or(3) << 4,
+            SmMode::Mailbox | SmMode::Other(_) => 0x30,
+        };
+        u8::from(self.interrupt_write)
+            | u8::from(self.interrupt_read) << 1
+            | u8::from(self.full) << 3
+            | last_written
+    }
+
+    /// PDI control byte, register +7.
+    pub(crate) fn pdi_control(&self) -> u8 {
+        u8::from(self.deactivated_by_pdi) | u8::from(self.repeat_acknowledge) << 1
+    }
+
+    /// Whether it shows in the event requests.
+    pub(crate) const fn has_event(&self) -> bool {
+        self.interrupt_write || self.interrupt_read
+    }
+}

@@ -1,0 +1,233 @@
+//! The line: which ESCs a frame reaches, and what becomes of it.
+
+use esc::{Esc, LoopState, Passage, Port};
+use time::{Duration, Instant};
+use wire::{Defect, FrameKind, Layout, mark_source_address};
+
+use crate::datagram::pass;
+
+/// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of a real ESC.
+const HOP: Duration = Duration::from_nanos(500);
+/// From the processing unit of the last ESC to its closed port 1.
+const TURN: Duration = Duration::from_nanos(100);
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameFate {
+    /// It came back to the end where it was sent.
+    Returned,
+    /// It left at the other end of the line, to the master's second port.
+    CrossedOver,
+    /// It was destroyed, or a master's network interface would drop it for its FCS.
+    Destroyed,
+}
+
+/// A line of ESCs behind a master.
+#[derive(Clone, Debug)]
+pub struct Segment {
+    escs: Vec<Esc>,
+    way: Way,
+}
+
+/// The way of a frame that comes in at the master's end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Way {
+    /// ESCs that it passes.
+    reach: usize,
+    end: WayEnd,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum WayEnd {
+    Turns,
+    CrossesOver,
+    /// A loop is held open by DL control where no cable is.
+    Lost,
+}
+
+impl Segment {
+    /// A line of these ESCs, all cables plugged in, the far end open.
+    #[must_use]
+    pub fn new(mut escs: Vec<Esc>) -> Self {
+        let last = escs.len().saturating_sub(1);
+        for (position, esc) in escs.iter_mut().enumerate() {
+            esc.set_link(Port::In, true);
+            esc.set_link(Port::Out, position < last);
+        }
+        let mut segment = Self { escs, way: Way { reach: 0, end: WayEnd::Lost } };
+        segment.follow_ports();
+        segment
+    }
+
+    /// Number of ESCs in the line, powered or not.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.escs.len()
+    }
+
+    /// Whether there is no ESC at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.escs.is_empty()
+    }
+
+    /// The ESC at a position, counted from the master.
+    #[must_use]
+    pub fn esc(&self, position: usize) -> Option<&Esc> {
+        self.escs.get(position)
+    }
+
+    /// The ESC at a position, for its application.
+    #[must_use]
+    pub fn esc_mut(&mut self, position: usize) -> Option<&mut Esc> {
+        self.escs.get_mut(position)
+    }
+
+    /// Plugs or pulls the cable in front of the ESC at `position`; 0 is the cable to the master, the
+    /// number of ESCs is the cable from the far end to the master's second port.
+    pub fn set_cable(&mut self, position: usize, plugged: bool) {
+        if let Some(esc) = self.escs.get_mut(position) {
+            esc.set_link(Port::In, plugged);
+        }
+        if let Some(esc) = position.checked_sub(1).and_then(|before| self.escs.get_mut(before)) {
+            esc.set_link(Port::Out, plugged);
+        }
+        self.follow_ports();
+    }
+
+    /// A frame comes from the master at `now`, from its destination address on, without FCS.
+    pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        let way = self.way;
+        if way.reach == 0 {
+            return FrameFate::Destroyed;
+        }
+        let fate = match FrameKind::of(frame) {
+            FrameKind::Datagrams(layout) => {
+                self.pass_datagrams(0..way.reach, now, frame, &layout);
+                layout.mark_passed(frame);
+                FrameFate::Returned
+            }
+            FrameKind::OtherType => {
+                mark_source_address(frame);
+                FrameFate::Returned
+            }
+            FrameKind::NotEtherCat => self.pass_foreign(way.reach, frame),
+            FrameKind::Defective(defect) => self.pass_defective(way.reach, defect),
+        };
+        match (fate, way.end) {
+            (FrameFate::Returned, WayEnd::CrossesOver) => FrameFate::CrossedOver,
+            (FrameFate::Returned, WayEnd::Lost) => FrameFate::Destroyed,
+            (fate, _) => fate,
+        }
+    }
+
+    /// A frame comes from the master's second port, at the far end. It runs back without being processed
+    /// until it meets a closed port 0; there it is marked as circulating, and destroyed if it already was.
+    pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        let open_in = |esc: &Esc| esc.port(Port::In).loop_state == LoopState::Open;
+        let Some(first) = self.escs.iter().rposition(|esc| !open_in(esc)) else {
+            return FrameFate::CrossedOver;
+        };
+        let FrameKind::Datagrams(layout) = FrameKind::of(frame) else { return FrameFate::Destroyed };
+        if layout.datagrams(frame).any(|datagram| datagram.header.circulating) {
+            return FrameFate::Destroyed;
+        }
+        for mut datagram in layout.datagrams(frame) {
+            datagram.header.circulating = true;
+            datagram.close();
+        }
+        self.pass_datagrams(first..self.escs.len(), now, frame, &layout);
+        layout.mark_passed(frame);
+        FrameFate::Returned
+    }
+
+    /// Datagram by datagram along the line: the ESCs share nothing but the datagram, so that the order is
+    /// the same as ESC by ESC.
+    fn pass_datagrams(
+        &mut self,
+        positions: core::ops::Range<usize>,
+        now: Instant,
+        frame: &mut [u8],
+        layout: &Layout,
+    ) {
+        let escs = self.escs.get_mut(positions).unwrap_or_default();
+        for mut datagram in layout.datagrams(frame) {
+            pass(escs, &mut datagram, now, HOP);
+            datagram.close();
+        }
+        let mut ports_changed = false;
+        let turn = now + HOP * escs.len().saturating_sub(1) as u64 + TURN;
+        let mut back = HOP * escs.len().saturating_sub(1) as u64;
+        let mut arrival = now;
+        for esc in escs {
+            esc.end_of_frame(&Passage { arrival, returned_out: turn + back });
+            ports_changed |= esc.take_ports_changed();
+            arrival += HOP;
+            back = back - HOP;
+        }
+        if ports_changed {
+            self.follow_ports();
+        }
+    }
+
+    /// A frame that is not EtherCAT: the first ESC whose forwarding rule says so destroys it.
+    fn pass_foreign(&mut self, reach: usize, frame: &mut [u8]) -> FrameFate {
+        mark_source_address(frame);
+        for esc in &mut self.escs[..reach] {
+            if esc.destroys_foreign_frames() {
+                esc.count_processing_unit_error();
+                return FrameFate::Destroyed;
+            }
+        }
+        FrameFate::Returned
+    }
+
+    /// A broken frame runs through, takes no effect, and is counted: by the first ESC where it came in, by
+    /// the others as an error that was already marked.
+    fn pass_defective(&mut self, reach: usize, defect: Defect) -> FrameFate {
+        let (first, others) = match self.escs[..reach].split_first_mut() {
+            Some((first, others)) => (first, others),
+            None => return FrameFate::Destroyed,
+        };
+        match defect {
+            Defect::TooShort | Defect::TooLong => first.count_invalid_frame(Port::In),
+            Defect::Truncated | Defect::DatagramBeyondEnd => first.count_processing_unit_error(),
+        }
+        others.iter_mut().for_each(|esc| esc.count_forwarded_error(Port::In));
+        FrameFate::Destroyed
+    }
+
+    /// When something happens in an ESC by itself.
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
+        self.escs.iter().map(Esc::deadline).min().unwrap_or(Instant::NEVER)
+    }
+
+    /// Lets time pass in all ESCs.
+    pub fn advance(&mut self, now: Instant) {
+        self.escs.iter_mut().for_each(|esc| esc.advance(now));
+    }
+
+    fn follow_ports(&mut self) {
+        self.way = self.find_way();
+        self.escs.iter_mut().for_each(|esc| {
+            esc.take_ports_changed();
+        });
+    }
+
+    fn find_way(&self) -> Way {
+        if !self.escs.first().is_some_and(|esc| esc.port(Port::In).link) {
+            return Way { reach: 0, end: WayEnd::Lost };
+        }
+        for (position, esc) in self.escs.iter().enumerate() {
+            let out = esc.port(Port::Out);
+            let reach = position + 1;
+            match (out.loop_state, out.link) {
+                (LoopState::Closed, _) => return Way { reach, end: WayEnd::Turns },
+                (LoopState::Open, false) => return Way { reach, end: WayEnd::Lost },
+                (LoopState::Open, true) => {}
+            }
+        }
+        Way { reach: self.escs.len(), end: WayEnd::CrossesOver }
+    }
+}
