@@ -1,0 +1,158 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::tests::small_device;
+use crate::{FmmuUsage, PortPhysics};
+
+/// Dumps of the field: words 0 to 6 of a drive, and the `ConfigData` of two published ESI samples.
+const VECTORS: [([u8; 14], u8); 3] = [
+    ([0x05, 0x06, 0x0B, 0x0E, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0], 0x40),
+    ([0x80, 0x0E, 0x00, 0xCC, 0x88, 0x13, 0xFF, 0, 0, 0, 0, 0x80, 0, 0], 0xC3),
+    ([0x05, 0x0E, 0x03, 0x06, 0x10, 0x27, 0, 0, 0, 0, 0, 0, 0, 0], 0xD7),
+];
+
+#[test]
+fn the_checksum_is_that_of_the_field() {
+    for (configuration, crc) in VECTORS {
+        assert_eq!(checksum(&configuration), crc);
+    }
+    assert_eq!(CRC.checksum(b"123456789"), CONFIGURATION_CRC.check);
+}
+
+#[test]
+fn an_image_has_the_size_of_the_eeprom_and_no_finding() {
+    let description = small_device();
+    let image = image(&description);
+    assert_eq!(image.len(), 2048);
+    assert_eq!(lint(&image), []);
+    assert_eq!(compare(&image, &description), []);
+}
+
+#[test]
+fn an_image_reads_back() {
+    let description = small_device();
+    let contents = parse(&image(&description)).unwrap();
+    let header = &contents.header;
+    assert_eq!((header.vendor_id, header.product_code, header.revision), (0x83, 0x1234, 0x10000));
+    assert_eq!((header.size_word, header.size_bytes(), header.version), (0x000F, 2048, 1));
+    assert_eq!(header.station_alias(), 0x0102);
+    assert_eq!(header.receive, description.mailbox.as_ref().unwrap().receive);
+    let general = contents.general.as_ref().unwrap();
+    assert_eq!(contents.string(general.order_code), Some("MINI-1"));
+    assert_eq!(contents.string(general.name), Some("Small device"));
+    assert_eq!(
+        general.ports,
+        [PortPhysics::Mii, PortPhysics::Ebus, PortPhysics::Unused, PortPhysics::Unused]
+    );
+    assert_eq!(
+        contents.fmmus,
+        [FmmuUsage::Outputs, FmmuUsage::Inputs, FmmuUsage::MailboxState, FmmuUsage::Unused]
+    );
+    let bits: Vec<u32> = contents
+        .tx_pdos
+        .iter()
+        .map(|pdo| pdo.entries.iter().map(|entry| u32::from(entry.bit_length)).sum())
+        .collect();
+    assert_eq!(bits, [16, 8]);
+    assert_eq!(contents.tx_pdos.iter().map(|pdo| pdo.sync_manager).collect::<Vec<_>>(), [Some(3), None]);
+    assert_eq!(contents.rx_pdos[0].entries[0].data_type, wire::DataType::UNSIGNED16);
+}
+
+#[test]
+fn categories_stand_in_the_order_of_the_field() {
+    let contents = parse(&image(&small_device())).unwrap();
+    let categories: Vec<(u16, usize)> =
+        contents.categories.iter().map(|category| (category.number, category.length_bytes)).collect();
+    assert_eq!(categories.iter().map(|(number, _)| *number).collect::<Vec<_>>(), [10, 30, 40, 41, 50, 51]);
+    assert_eq!(categories[1].1, 32);
+}
+
+#[test]
+fn what_does_not_fit_is_refused_with_place_value_and_limit() {
+    let mut description = small_device();
+    description.eeprom_bytes = 256;
+    let error = try_image(&description).unwrap_err();
+    insta::assert_snapshot!(error, @"EEPROM size: contents take 344 bytes, limit 256");
+    description.eeprom_bytes = 2000;
+    let error = try_image(&description).unwrap_err();
+    insta::assert_snapshot!(error, @"EEPROM size: 2000 bytes, expected 128 to 8388608 in steps of 128");
+    description.eeprom_bytes = 2048;
+    description.name = "x".repeat(256);
+    let error = try_image(&description).unwrap_err();
+    insta::assert_snapshot!(error, @"SII string `xxxxxxxxxxxxxxxxxxxx...`: 256 bytes, limit 255");
+}
+
+#[test]
+fn lint_names_place_value_and_expectation() {
+    let mut image = image(&small_device());
+    image[14] ^= 0xFF;
+    image[124] = 0x07;
+    image[48] = 0x34;
+    image[57] = 0x80;
+    let findings: Vec<String> = lint(&image).iter().map(ToString::to_string).collect();
+    insta::assert_snapshot!(findings.join("\n"), @"
+    checksum in word 7: 0x07, expected 0xF8 (C022)
+    size in word 0x3E: 1024 bytes (word 0x0007), expected 2048 bytes (C025)
+    mailbox protocols in word 0x1C: undefined bits 0x8000, expected 0 there (C024)
+    receive mailbox in words 0x18 and 0x19: 0x1034, 128 bytes, expected 0x1000, 128 bytes as in category 41 (C036)
+    ");
+}
+
+#[test]
+fn compare_names_what_differs() {
+    let mut description = small_device();
+    let image = image(&description);
+    description.revision = 0x20000;
+    description.esc_configuration[0] = 0;
+    description.fmmus.pop();
+    let findings: Vec<String> = compare(&image, &description).iter().map(ToString::to_string).collect();
+    insta::assert_snapshot!(findings.join("\n"), @"
+    revision number: 0x10000, expected 0x20000 (C023)
+    words 0 to 6: 800E00CC8813FF00020100000000, expected 000000CC8813FF00020100000000 (C026)
+    FMMU category: differs, expected as in the description (C027)
+    ");
+}
+
+#[test]
+fn a_blank_eeprom_is_empty_of_categories() {
+    let blank = [0xFF; 2048];
+    assert_eq!(parse(&blank).unwrap().categories, []);
+    assert!(lint(&blank).iter().any(|finding| finding.check == "C022"));
+}
+
+proptest! {
+    #[test]
+    fn any_bytes_are_read_or_refused(bytes in proptest::collection::vec(any::<u8>(), 0..2048)) {
+        let _ = parse(&bytes);
+        let _ = lint(&bytes);
+        let _ = compare(&bytes, &small_device());
+    }
+
+    #[test]
+    fn any_damage_to_an_image_is_read_or_refused(
+        damage in proptest::collection::vec((0usize..512, any::<u8>()), 0..8),
+        length in 0usize..=2048,
+    ) {
+        let mut image = image(&small_device());
+        for (at, value) in damage {
+            image[at] = value;
+        }
+        image.truncate(length);
+        let _ = parse(&image);
+        let _ = lint(&image);
+    }
+
+    #[test]
+    fn identity_and_configuration_survive(words in any::<[u16; 4]>(), numbers in any::<[u32; 4]>(), alias: u16) {
+        let mut description = small_device();
+        description.esc_configuration = words;
+        description.station_alias = alias;
+        description.vendor.id = numbers[0];
+        (description.product_code, description.revision, description.serial) = (numbers[1], numbers[2], numbers[3]);
+        let image = image(&description);
+        let header = parse(&image).unwrap().header;
+        prop_assert_eq!([header.vendor_id, header.product_code, header.revision, header.serial], numbers);
+        prop_assert_eq!(header.station_alias(), alias);
+        prop_assert_eq!(lint(&image), vec![]);
+    }
+}

@@ -1,0 +1,118 @@
+//! What a description asks of the master: init commands, time-outs, presets, texts.
+
+use wire::{ObjectIndex, SubIndex};
+
+/// A transition of the EtherCAT state machine, by the standard's letters (ETG.1000.6).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transition {
+    /// INIT to PRE-OP.
+    Ip,
+    /// PRE-OP to INIT.
+    Pi,
+    /// PRE-OP to SAFE-OP.
+    Ps,
+    /// SAFE-OP to PRE-OP.
+    Sp,
+    /// SAFE-OP to INIT.
+    Si,
+    /// SAFE-OP to OP.
+    So,
+    /// OP to SAFE-OP.
+    Os,
+    /// OP to PRE-OP.
+    Op,
+    /// OP to INIT.
+    Oi,
+    /// INIT to BOOT.
+    Ib,
+    /// BOOT to INIT.
+    Bi,
+}
+
+impl Transition {
+    /// Its letters.
+    #[must_use]
+    pub const fn letters(self) -> &'static str {
+        match self {
+            Self::Ip => "IP",
+            Self::Pi => "PI",
+            Self::Ps => "PS",
+            Self::Sp => "SP",
+            Self::Si => "SI",
+            Self::So => "SO",
+            Self::Os => "OS",
+            Self::Op => "OP",
+            Self::Oi => "OI",
+            Self::Ib => "IB",
+            Self::Bi => "BI",
+        }
+    }
+}
+
+/// An SDO download that the master makes at a transition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct InitCommand {
+    /// When.
+    pub transition: Transition,
+    /// Where: index.
+    pub index: ObjectIndex,
+    /// Where: subindex.
+    pub sub: SubIndex,
+    /// What, as the SDO carries it (little endian).
+    pub data: Vec<u8>,
+    /// Why.
+    pub comment: String,
+}
+
+/// How long a master should wait, in milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Timeouts {
+    /// INIT to PRE-OP.
+    pub pre_op_ms: u32,
+    /// PRE-OP to SAFE-OP, SAFE-OP to OP.
+    pub safe_op_op_ms: u32,
+    /// Any state to INIT.
+    pub back_to_init_ms: u32,
+    /// OP to SAFE-OP.
+    pub back_to_safe_op_ms: u32,
+    /// Until the mailbox takes a request.
+    pub mailbox_request_ms: u32,
+    /// From a mailbox request to its reply.
+    pub mailbox_response_ms: u32,
+}
+
+impl Default for Timeouts {
+    /// The values that ESI files in the field carry.
+    fn default() -> Self {
+        Self {
+            pre_op_ms: 3_000,
+            safe_op_op_ms: 9_000,
+            back_to_init_ms: 5_000,
+            back_to_safe_op_ms: 200,
+            mailbox_request_ms: 100,
+            mailbox_response_ms: 2_000,
+        }
+    }
+}
+
+/// Registers of the ESC that the master should preset; none: it leaves them at reset value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EscPresets {
+    /// 0x0108, read/write offset.
+    pub read_write_offset: Option<u16>,
+    /// 0x0400, watchdog divider.
+    pub watchdog_divider: Option<u16>,
+    /// 0x0410, PDI watchdog time.
+    pub pdi_watchdog: Option<u16>,
+    /// 0x0420, process data watchdog time.
+    pub process_data_watchdog: Option<u16>,
+}
+
+/// A text of the diagnosis history (ETG.1020, object 10F3).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DiagMessage {
+    /// The text ID that a message carries.
+    pub text_id: u16,
+    /// The text, with `%d` and the like for its parameters.
+    pub text: String,
+}

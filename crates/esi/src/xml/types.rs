@@ -1,0 +1,86 @@
+//! Names of data types in an ESI file (ETG.2000, ETG.1020).
+
+use wire::DataType;
+
+/// Base types of a fixed length: code, name, bits.
+const BASE_TYPES: [(u16, &str, u16); 27] = [
+    (0x0001, "BOOL", 1),
+    (0x0002, "SINT", 8),
+    (0x0003, "INT", 16),
+    (0x0004, "DINT", 32),
+    (0x0005, "USINT", 8),
+    (0x0006, "UINT", 16),
+    (0x0007, "UDINT", 32),
+    (0x0008, "REAL", 32),
+    (0x0011, "LREAL", 64),
+    (0x0015, "LINT", 64),
+    (0x001B, "ULINT", 64),
+    (0x001D, "GUID", 128),
+    (0x001E, "BYTE", 8),
+    (0x001F, "WORD", 16),
+    (0x0020, "DWORD", 32),
+    (0x002D, "BITARR8", 8),
+    (0x002E, "BITARR16", 16),
+    (0x002F, "BITARR32", 32),
+    (0x0030, "BIT1", 1),
+    (0x0031, "BIT2", 2),
+    (0x0032, "BIT3", 3),
+    (0x0033, "BIT4", 4),
+    (0x0034, "BIT5", 5),
+    (0x0035, "BIT6", 6),
+    (0x0036, "BIT7", 7),
+    (0x0037, "BIT8", 8),
+    (0x0010, "INT24", 24),
+];
+
+/// Types that are an array of a base type: code, name of the base type, bits of an element.
+const ARRAY_TYPES: [(u16, &str, u16); 6] = [
+    (0x000A, "BYTE", 8),
+    (0x000B, "UINT", 16),
+    (0x0260, "INT", 16),
+    (0x0261, "SINT", 8),
+    (0x0262, "DINT", 32),
+    (0x0263, "UDINT", 32),
+];
+
+/// What a data type is made of.
+pub(super) enum Shape {
+    /// Nothing but bits.
+    Base,
+    /// Elements of a base type.
+    Array {
+        /// Name of the base type.
+        base: &'static str,
+        /// Bits of an element.
+        element_bits: u16,
+    },
+}
+
+/// Name of a data type for an entry of `bit_length` bits: `UINT`, `STRING(20)`, `ARRAY [0..9] OF BYTE`.
+pub(super) fn name(data_type: DataType, bit_length: u16) -> String {
+    if let Some((_, name, _)) = BASE_TYPES.iter().find(|(code, ..)| *code == data_type.0) {
+        return (*name).into();
+    }
+    match shape(data_type, bit_length) {
+        Shape::Array { base, element_bits } => {
+            let last = (bit_length / element_bits).saturating_sub(1);
+            format!("ARRAY [0..{last}] OF {base}")
+        }
+        Shape::Base if data_type == DataType::VISIBLE_STRING => format!("STRING({})", bit_length / 8),
+        Shape::Base => format!("BITARR{bit_length}"),
+    }
+}
+
+/// What `data_type` is made of. Whole bytes of an unknown type are bytes.
+pub(super) fn shape(data_type: DataType, bit_length: u16) -> Shape {
+    let known = |code: u16| BASE_TYPES.iter().any(|(base, ..)| *base == code);
+    if known(data_type.0) || data_type == DataType::VISIBLE_STRING {
+        return Shape::Base;
+    }
+    match ARRAY_TYPES.iter().find(|(code, _, bits)| *code == data_type.0 && bit_length.is_multiple_of(*bits))
+    {
+        Some((_, base, element_bits)) => Shape::Array { base, element_bits: *element_bits },
+        None if bit_length.is_multiple_of(8) => Shape::Array { base: "BYTE", element_bits: 8 },
+        None => Shape::Base,
+    }
+}
