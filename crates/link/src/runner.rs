@@ -3,6 +3,7 @@
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+pub use segment::FrameFate;
 use time::{Duration, Instant};
 
 use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
@@ -11,15 +12,6 @@ use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
 const STOP_CHECK: Duration = Duration::from_millis(100);
 /// A poll is late when it runs this long after its deadline.
 const LATE: Duration = Duration::from_millis(1);
-
-/// What became of a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum FrameFate {
-    /// It came back to the port where it went in.
-    Returned,
-    /// It did not.
-    Destroyed,
-}
 
 /// What lies behind a port: a segment of units. It reads no clock.
 pub trait Responder {
@@ -56,13 +48,13 @@ pub struct Seen<'a> {
     pub request: &'a [u8],
     /// When the answer had been sent.
     pub answered: Instant,
-    /// The frame as it went back; nothing if it was destroyed.
+    /// The frame as it went back; nothing if it did not.
     pub answer: Option<&'a [u8]>,
 }
 
 /// Someone who looks at frames after they have been answered.
 pub trait Observer {
-    /// A frame has been answered or destroyed.
+    /// A frame has been answered, or did not come back.
     fn frame(&mut self, seen: Seen<'_>);
 }
 
@@ -71,7 +63,7 @@ pub trait Observer {
 pub struct Statistics {
     /// Frames received.
     pub frames: u64,
-    /// Frames that did not come back to the port.
+    /// Frames that did not come back: destroyed, or gone out at the far end.
     pub destroyed: u64,
     /// Answers that the port did not take.
     pub unsent: u64,
@@ -159,7 +151,7 @@ impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
 
     fn count(&mut self, fate: FrameFate) {
         self.statistics.frames += 1;
-        self.statistics.destroyed += u64::from(fate == FrameFate::Destroyed);
+        self.statistics.destroyed += u64::from(fate != FrameFate::Returned);
     }
 
     fn poll_if_due(&mut self) {
