@@ -1,7 +1,8 @@
-//! The habits of the house, checked by machine: lengths, words, purposes.
+//! The habits of the house, checked by machine: lengths, words, links, purposes.
 
 use crate::metadata;
 use crate::sources::{self, Source};
+use crate::tools::root;
 use crate::{Outcome, report};
 
 /// Lines of code that one file may have, tests beside it counted alike.
@@ -41,6 +42,7 @@ pub(crate) fn check() -> Outcome {
         findings.extend(length(source));
         findings.extend(name(source));
         findings.extend(words(source, WORDS));
+        findings.extend(dead_links(source));
         if source.is_test() {
             findings.extend(words(source, TEST_WORDS));
         }
@@ -87,6 +89,24 @@ fn words(source: &Source, table: &[(&str, &str, &[&str], &str)]) -> Vec<String> 
     findings
 }
 
+/// Links of a page to files that are not there.
+fn dead_links(source: &Source) -> Vec<String> {
+    if source.extension() != "md" {
+        return Vec::new();
+    }
+    let page = root().join(&source.path);
+    let is_dead = |target: &&str| {
+        let file = target.split('#').next().unwrap_or_default();
+        let is_ours = !file.is_empty() && !file.contains(':');
+        is_ours && !page.parent().is_some_and(|folder| folder.join(file).exists())
+    };
+    let targets = source.text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
+    targets
+        .filter(is_dead)
+        .map(|target| format!("{}: links to {target}, which is not there", source.path))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -101,6 +121,16 @@ mod tests {
         assert!(length(&source("crates/esc/src/lib.rs", &"\n".repeat(CODE_LINES + 1))).is_some());
         assert!(length(&source("docs/glossary.md", &"\n".repeat(PAGE_LINES + 1))).is_some());
         assert_eq!(length(&source("Cargo.lock", &"\n".repeat(10_000))), None);
+    }
+
+    #[test]
+    fn a_link_to_nowhere_is_found() {
+        let page = |text: &str| source("docs/page.md", text);
+        assert_eq!(
+            dead_links(&page("[a](../Cargo.toml#x), [b](https://example.org), [c](#here)")),
+            Vec::<String>::new()
+        );
+        assert_eq!(dead_links(&page("[a](../no-such-file.md)")).len(), 1);
     }
 
     #[test]
