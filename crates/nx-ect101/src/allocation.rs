@@ -87,7 +87,9 @@ impl IoAllocation {
     /// Slave Status. It sets T_slave (manual, 7-9-1).
     #[must_use]
     pub fn total_bytes(&self) -> usize {
-        self.layout(Direction::MToC).size_bytes() + self.layout(Direction::CToM).size_bytes() + SLAVE_STATUS_BYTES
+        self.layout(Direction::MToC).size_bytes()
+            + self.layout(Direction::CToM).size_bytes()
+            + SLAVE_STATUS_BYTES
     }
 }
 
@@ -151,7 +153,8 @@ pub(crate) mod tests {
     #[test]
     fn the_manuals_examples_have_the_manuals_sizes() {
         assert_eq!(IoAllocation::factory(), symmetric([6, 0, 0]));
-        let examples = [([6, 0, 0], 180), ([40, 0, 0], 1200), ([10, 10, 30], 520), ([20, 0, 32], 728), ([6, 0, 4], 196)];
+        let examples =
+            [([6, 0, 0], 180), ([40, 0, 0], 1200), ([10, 10, 30], 520), ([20, 0, 32], 728), ([6, 0, 4], 196)];
         for (counts, size_bytes) in examples {
             let allocation = symmetric(counts);
             assert_eq!(allocation.layout(Direction::MToC).size_bytes(), size_bytes);

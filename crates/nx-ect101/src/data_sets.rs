@@ -200,7 +200,10 @@ mod tests {
         let objects = tables::object_table();
         for direction in [Direction::MToC, Direction::CToM] {
             let assignment = Assignment::of(direction);
-            assert_eq!(objects.object(assignment.object).expect("exists").max_sub().0 as usize, assignment.allowed.len());
+            assert_eq!(
+                objects.object(assignment.object).expect("exists").max_sub().0 as usize,
+                assignment.allowed.len()
+            );
             assert!(assignment.allowed.iter().all(|&pdo| objects.object(pdo).is_some()));
         }
     }

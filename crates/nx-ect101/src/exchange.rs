@@ -120,7 +120,8 @@ fn mapped_entries(
     mapping: &Mapping,
     direction: Direction,
 ) -> impl Iterator<Item = (ObjectIndex, MappedEntry, Range<usize>)> + '_ {
-    let entries = mapping.assigned(direction).flat_map(|pdo| mapping.entries(pdo).map(move |entry| (pdo, entry)));
+    let entries =
+        mapping.assigned(direction).flat_map(|pdo| mapping.entries(pdo).map(move |entry| (pdo, entry)));
     entries.scan(0, |offset, (pdo, entry)| {
         let start = *offset;
         *offset += entry.bit_length();
@@ -139,14 +140,16 @@ fn pair(
     let set = DataSet::of_pdo(pdo).filter(|set| set.pdo_entry == entry.index())?;
     let place = layout.place(set.direction, set.kind, entry.sub())?;
     let mapped = bits.start / 8..bits.end / 8;
-    (bits.start % 8 == 0 && mapped.len() == place.len()).then_some((mapped, place))
+    (bits.start.is_multiple_of(8) && mapped.len() == place.len()).then_some((mapped, place))
 }
 
 /// Adds a copy, joined to the last one where both images go on.
 fn push(copies: &mut Vec<ByteCopy>, from: Range<usize>, to: Range<usize>) {
     let length_bytes = from.len();
     match copies.last_mut() {
-        Some(last) if last.from + last.length_bytes == from.start && last.to + last.length_bytes == to.start => {
+        Some(last)
+            if last.from + last.length_bytes == from.start && last.to + last.length_bytes == to.start =>
+        {
             last.length_bytes += length_bytes;
         }
         _ => copies.push(ByteCopy { from: from.start, to: to.start, length_bytes }),

@@ -2,15 +2,19 @@
 
 mod allocation;
 mod data_sets;
+mod dictionary;
 mod exchange;
+mod identification;
 mod mapping;
 pub mod nx_bus;
 mod status;
 mod tables;
 mod timing;
+mod unit;
 
 pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use status::{NxUnitStatus, SlaveStatus};
 pub use tables::object_table;
 pub use timing::Timing;
+pub use unit::{NxEct101, UnitSettings};

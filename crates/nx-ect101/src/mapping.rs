@@ -1,7 +1,7 @@
 //! PDO mapping and PDO assignment: 1601–1603, 1A00–1A03, 1BFE, 1BFF, 1C12, 1C13, as masters write them.
 //!
-//! A master clears subindex 0, writes the elements, sets subindex 0; or it writes all at once by complete
-//! access. Every element that exists and can be mapped is taken here: whether the settings fit together is
+//! A master clears subindex 0, writes the elements, sets subindex 0; complete access comes here as the same
+//! sequence. Every element that exists and can be mapped is taken here: whether the settings fit together is
 //! checked at PRE-OP to SAFE-OP, as the manual's events say.
 
 use objects::{AccessRights, Object, ObjectTable};
@@ -95,28 +95,6 @@ impl Mapping {
         }
     }
 
-    /// Takes a count and the first elements, all or nothing (complete access from subindex 0).
-    pub(crate) fn write_all(
-        &mut self,
-        table: &ObjectTable,
-        index: ObjectIndex,
-        count: u8,
-        elements: &[u8],
-    ) -> Result<(), SdoAbort> {
-        let list = self.list_mut(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
-        let elements = elements.chunks_exact(list.content.element_bytes());
-        if !elements.remainder().is_empty() {
-            return Err(SdoAbort::LENGTH_MISMATCH);
-        }
-        let mut candidate = list.clone();
-        for (at, value) in elements.enumerate() {
-            candidate.set_element(table, at, little_endian(value))?;
-        }
-        candidate.set_count(u32::from(count))?;
-        *list = candidate;
-        Ok(())
-    }
-
     /// The PDO mapping objects that are assigned in `direction`, in the order of their assignment.
     pub(crate) fn assigned(&self, direction: Direction) -> impl Iterator<Item = ObjectIndex> + '_ {
         let list = self.list(Assignment::of(direction).object);
@@ -197,15 +175,6 @@ impl List {
     }
 }
 
-impl Content {
-    const fn element_bytes(self) -> usize {
-        match self {
-            Self::Entries => 4,
-            Self::Pdos => 2,
-        }
-    }
-}
-
 /// Any entry that can go this way, with its own length: the rules about which entry belongs to which PDO are
 /// checked at PRE-OP to SAFE-OP, else their events could never occur.
 fn entry_is_mappable(table: &ObjectTable, direction: Direction, mapped: MappedEntry) -> bool {
@@ -229,4 +198,4 @@ fn little_endian(value: &[u8]) -> u32 {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

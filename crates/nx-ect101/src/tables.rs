@@ -253,7 +253,10 @@ mod tests {
         assert_eq!(entry(0x1A01, 0x16).name, "22nd Input Object to be mapped");
         assert_eq!(entry(0x10F3, 0x06).name, "Diagnosis Message 1");
         assert_eq!(entry(0x6000, 0x09).name, "UINTs 09 C to M");
-        assert_eq!([1, 2, 3, 4, 11, 12, 13, 21, 22, 23].map(ordinal).concat(), "1st2nd3rd4th11th12th13th21st22nd23rd");
+        assert_eq!(
+            [1, 2, 3, 4, 11, 12, 13, 21, 22, 23].map(ordinal).concat(),
+            "1st2nd3rd4th11th12th13th21st22nd23rd"
+        );
     }
 
     #[test]
@@ -282,6 +285,9 @@ mod tests {
     fn data_types_are_those_of_the_standard() {
         let table = object_table();
         let data_type = |index| table.object(ObjectIndex(index)).expect("exists").data_type.0;
-        assert_eq!([0x1018, 0x1601, 0x1C12, 0x1C32, 0x6000, 0x6001].map(data_type), [0x23, 0x21, 6, 0x29, 0x0B, 0x0A]);
+        assert_eq!(
+            [0x1018, 0x1601, 0x1C12, 0x1C32, 0x6000, 0x6001].map(data_type),
+            [0x23, 0x21, 6, 0x29, 0x0B, 0x0A]
+        );
     }
 }

@@ -63,7 +63,8 @@ mod tests {
 
     #[test]
     fn t_slave_has_the_rows_of_the_manual() {
-        let cases = [(0, 1000), (362, 1000), (800, 1000), (801, 1500), (1600, 1500), (1601, 2000), (2402, 2000)];
+        let cases =
+            [(0, 1000), (362, 1000), (800, 1000), (801, 1500), (1600, 1500), (1601, 2000), (2402, 2000)];
         for (total_bytes, period_us) in cases {
             let period = Duration::from_micros(period_us);
             assert_eq!(Timing::Exact.slave_period(total_bytes), period, "{total_bytes} bytes");

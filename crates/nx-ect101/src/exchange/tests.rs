@@ -7,6 +7,7 @@ use super::*;
 use crate::allocation::tests::symmetric;
 use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::{Assignment, DataSetKind};
+use crate::mapping::tests::set;
 use crate::tables::object_table;
 
 fn plan(mapping: &Mapping, allocation: &IoAllocation) -> ExchangePlan {
@@ -19,10 +20,8 @@ fn factory() -> Mapping {
     Mapping::factory(&object_table())
 }
 
-fn assign(mapping: &mut Mapping, direction: Direction, pdos: &[u16]) {
-    let elements: Vec<u8> = pdos.iter().flat_map(|pdo| pdo.to_le_bytes()).collect();
-    let object = Assignment::of(direction).object;
-    mapping.write_all(&object_table(), object, pdos.len() as u8, &elements).expect("assignable");
+fn assign(mapping: &mut Mapping, direction: Direction, pdos: &[u32]) {
+    set(mapping, Assignment::of(direction).object.0, pdos).expect("assignable");
 }
 
 #[test]
@@ -63,26 +62,28 @@ fn status_lies_where_its_pdos_are() {
 /// Any elements that a master can write, right or wrong.
 fn any_mapping() -> impl Strategy<Value = Mapping> {
     let subs = |max| prop::collection::vec(1..=max, 0..=usize::from(max));
-    let rx = prop::collection::vec(0x1601..=0x1603u16, 0..=3);
-    let tx = prop::collection::vec(prop::sample::select(&[0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1BFE, 0x1BFF][..]), 0..=6);
-    (subs(40u8), subs(10u8), subs(32u8), rx, tx, any::<bool>()).prop_map(|(uints, bytes, udints, rx, tx, bit)| {
-        let mut mapping = factory();
-        let kinds = [(0x00F0, uints), (0x0001_0050, bytes), (0x0002_0020, udints)];
-        for ((base, subs), number) in kinds.into_iter().zip(1..) {
-            for (pdo, area) in [(0x1600 + number, 0x7000_0000u32), (0x1A00 + number, 0x6000_0000)] {
-                let mut elements: Vec<u32> = subs.iter().map(|&sub| area | base | u32::from(sub) << 8).collect();
-                if bit && pdo >= 0x1A00 && !elements.is_empty() {
-                    elements[0] = 0x6003_0101;
+    let rx = prop::collection::vec(0x1601..=0x1603u32, 0..=3);
+    let tx =
+        prop::collection::vec(prop::sample::select(&[0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1BFE, 0x1BFF]), 0..=6);
+    (subs(40u8), subs(10u8), subs(32u8), rx, tx, any::<bool>()).prop_map(
+        |(uints, bytes, udints, rx, tx, bit)| {
+            let mut mapping = factory();
+            let kinds = [(0x00F0, uints), (0x0001_0050, bytes), (0x0002_0020, udints)];
+            for ((base, subs), number) in kinds.into_iter().zip(1..) {
+                for (pdo, area) in [(0x1600 + number, 0x7000_0000u32), (0x1A00 + number, 0x6000_0000)] {
+                    let mut elements: Vec<u32> =
+                        subs.iter().map(|&sub| area | base | u32::from(sub) << 8).collect();
+                    if bit && pdo >= 0x1A00 && !elements.is_empty() {
+                        elements[0] = 0x6003_0101;
+                    }
+                    set(&mut mapping, pdo, &elements).expect("mappable");
                 }
-                let bytes: Vec<u8> = elements.iter().flat_map(|element| element.to_le_bytes()).collect();
-                let count = elements.len() as u8;
-                mapping.write_all(&object_table(), ObjectIndex(pdo), count, &bytes).expect("mappable");
             }
-        }
-        assign(&mut mapping, Direction::MToC, &rx);
-        assign(&mut mapping, Direction::CToM, &tx);
-        mapping
-    })
+            assign(&mut mapping, Direction::MToC, &rx);
+            assign(&mut mapping, Direction::CToM, &tx);
+            mapping
+        },
+    )
 }
 
 /// Any entries that a unit file can allocate, right or wrong.
@@ -90,9 +91,9 @@ fn any_allocation() -> impl Strategy<Value = IoAllocation> {
     let entries = prop::collection::vec((0x6000..=0x6002u16, 1..=40u8), 0..40);
     prop::collection::vec(entries, 6).prop_map(|sets| {
         let mut allocation = IoAllocation::empty();
-        let places = [Direction::MToC, Direction::CToM].into_iter().flat_map(|direction| {
-            DataSetKind::ALL.map(|kind| (direction, kind))
-        });
+        let places = [Direction::MToC, Direction::CToM]
+            .into_iter()
+            .flat_map(|direction| DataSetKind::ALL.map(|kind| (direction, kind)));
         for ((direction, kind), entries) in places.zip(sets) {
             let area = if direction == Direction::CToM { 0x1000 } else { 0 };
             let entry = |(index, sub)| IoEntry { index: ObjectIndex(index + area), sub: SubIndex(sub) };

@@ -3,7 +3,6 @@
 use super::*;
 use crate::tables::object_table;
 
-const OUTPUTS: ObjectIndex = ObjectIndex(0x1C12);
 const INPUTS: ObjectIndex = ObjectIndex(0x1C13);
 
 fn factory() -> Mapping {
@@ -15,7 +14,7 @@ fn write(mapping: &mut Mapping, index: u16, sub: u8, number: u32) -> Result<(), 
 }
 
 /// Clears, writes elements, sets the count: as masters do it without complete access.
-fn set(mapping: &mut Mapping, index: u16, elements: &[u32]) -> Result<(), SdoAbort> {
+pub(crate) fn set(mapping: &mut Mapping, index: u16, elements: &[u32]) -> Result<(), SdoAbort> {
     write(mapping, index, 0, 0)?;
     for (sub, &element) in (1..).zip(elements) {
         write(mapping, index, sub, element)?;
@@ -44,9 +43,12 @@ fn the_manuals_examples_have_the_manuals_sizes() {
     set(&mut mapping, 0x1A01, &entries(0x6000_00F0, 40)).expect("40 entries");
     assert_eq!(sizes(&mapping), (1200, 1203), "UINT arrays at maximum");
 
-    for (index, base, count) in
-        [(0x1601, 0x7000_00F0, 10), (0x1602, 0x7001_0050, 10), (0x1603, 0x7002_0020, 30), (0x1A01, 0x6000_00F0, 10)]
-    {
+    for (index, base, count) in [
+        (0x1601, 0x7000_00F0, 10),
+        (0x1602, 0x7001_0050, 10),
+        (0x1603, 0x7002_0020, 30),
+        (0x1A01, 0x6000_00F0, 10),
+    ] {
         set(&mut mapping, index, &entries(base, count)).expect("fits");
     }
     set(&mut mapping, 0x1A02, &entries(0x6001_0050, 10)).expect("fits");
@@ -101,28 +103,11 @@ fn an_entry_of_another_data_set_is_left_to_the_rules() {
 #[test]
 fn a_count_beyond_the_elements_is_refused() {
     let mut mapping = factory();
-    for (index, count) in [(0x1601, 41), (0x1602, 11), (0x1603, 33), (0x1C12, 4), (0x1C13, 7), (0x1601, 256)] {
+    for (index, count) in [(0x1601, 41), (0x1602, 11), (0x1603, 33), (0x1C12, 4), (0x1C13, 7), (0x1601, 256)]
+    {
         assert_eq!(write(&mut mapping, index, 0, count), Err(SdoAbort::PDO_LENGTH_EXCEEDED), "{index:04X}");
     }
     assert_eq!(sizes(&mapping), (180, 183));
-}
-
-#[test]
-fn a_refused_complete_access_changes_nothing() {
-    let (table, mut mapping) = (object_table(), factory());
-    let mut refused = |count, elements: &[u8]| mapping.write_all(&table, OUTPUTS, count, elements).unwrap_err();
-    assert_eq!(refused(2, &[0x02, 0x16, 0x00, 0x1A]), SdoAbort::NOT_MAPPABLE);
-    assert_eq!(refused(4, &[0x02, 0x16]), SdoAbort::PDO_LENGTH_EXCEEDED);
-    assert_eq!(refused(1, &[0x02, 0x16, 0x03]), SdoAbort::LENGTH_MISMATCH);
-    assert_eq!(refused(3, &[0x02, 0x16, 0, 0, 0, 0, 0, 0]), SdoAbort::PDO_LENGTH_EXCEEDED);
-    assert_eq!(mapping.assigned(Direction::MToC).collect::<Vec<_>>(), [ObjectIndex(0x1601)]);
-}
-
-#[test]
-fn complete_access_writes_without_clearing_first() {
-    let mut mapping = factory();
-    mapping.write_all(&object_table(), INPUTS, 2, &[0x00, 0x1A, 0x03, 0x1A]).expect("fits");
-    assert_eq!(sizes(&mapping).1, 2 + 16);
 }
 
 #[test]

@@ -1,0 +1,96 @@
+//! The objects of one unit: which ones only keep a value, and which ones do more.
+
+use objects::{Dictionary, ObjectServer, ObjectTable};
+use time::Duration;
+use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
+
+use crate::identification::Identification;
+use crate::mapping::Mapping;
+use crate::tables::object_table;
+
+/// Answers for the object dictionary of one unit.
+#[derive(Debug)]
+pub(crate) struct UnitObjects {
+    values: Dictionary,
+    pub(crate) mapping: Mapping,
+    pub(crate) identification: Identification,
+    pub(crate) state: AlState,
+    /// Time between two refreshes.
+    period: Duration,
+    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has told none.
+    pub(crate) system_time_ns: u64,
+}
+
+impl UnitObjects {
+    /// The objects at power-on.
+    pub(crate) fn power_on(serial: u32, identification: Identification, period: Duration) -> Self {
+        let table = object_table();
+        let mapping = Mapping::factory(&table);
+        let mut values = Dictionary::new(table);
+        let known = values.set_unsigned(ObjectIndex(0x1018), SubIndex(4), u64::from(serial));
+        assert!(known, "tables/coe_objects.toml: 1018:04 holds a serial number");
+        Self { values, mapping, identification, state: AlState::Init, period, system_time_ns: 0 }
+    }
+
+    /// 1C32:02 and 1C33:02: in Free-Run the time between two local timer events (manual, A-6-6). The timer
+    /// runs for process data, so below SAFE-OP the value is the manual's default, 0.
+    fn cycle_time_ns(&self) -> u64 {
+        match self.state {
+            AlState::SafeOp | AlState::Op => self.period.as_nanos(),
+            _ => 0,
+        }
+    }
+
+    /// An object of the device profile area cannot be touched by SDO while a PDO carries it (manual, A-6-9).
+    fn refuse_mapped(&self, index: ObjectIndex, sub: SubIndex) -> Result<(), SdoAbort> {
+        let carried = index.0 >= 0x6000 && self.mapping.is_mapped(index, sub);
+        if carried { Err(SdoAbort::LOCAL_CONTROL) } else { Ok(()) }
+    }
+}
+
+impl ObjectServer for UnitObjects {
+    fn table(&self) -> &ObjectTable {
+        self.values.table()
+    }
+
+    fn read(&mut self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) -> Result<(), SdoAbort> {
+        if self.mapping.has(index) {
+            return self.mapping.read(index, sub, value);
+        }
+        self.refuse_mapped(index, sub)?;
+        let number = match (index.0, sub.0) {
+            (0x10E0, 1) => u64::from(self.identification.alias_register_value()),
+            (0x10E0, 3) => u64::from(self.identification.switch_value()),
+            (0x10F8, 0) => self.system_time_ns,
+            (0x1C32 | 0x1C33, 2) => self.cycle_time_ns(),
+            _ => return self.values.read(index, sub, value),
+        };
+        for (to, from) in value.iter_mut().zip(number.to_le_bytes()) {
+            *to = from;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, index: ObjectIndex, sub: SubIndex, value: &[u8]) -> Result<(), SdoAbort> {
+        if self.mapping.has(index) {
+            return self.mapping.write(self.values.table(), index, sub, value);
+        }
+        self.refuse_mapped(index, sub)?;
+        match (index.0, sub.0) {
+            (0x10E0, 1) => self.identification.set_software(word(value)?),
+            (0x10E0, 3) => self.identification.reload_switch(word(value)?),
+            // The diagnosis history is empty: there is no record to acknowledge, and nothing to clear.
+            (0x10F3, 3) if value != [0] => Err(SdoAbort::VALUE_OUT_OF_RANGE),
+            // Commands that clear error status and logs; they read 0 ever after (manual, A-6-7).
+            (0x10F3, 3) | (0x2002, 2) | (0x2100, 0) => Ok(()),
+            _ => self.values.write(index, sub, value),
+        }
+    }
+}
+
+fn word(value: &[u8]) -> Result<u16, SdoAbort> {
+    value.try_into().map(u16::from_le_bytes).map_err(|_| SdoAbort::LENGTH_MISMATCH)
+}
+
+#[cfg(test)]
+mod tests;

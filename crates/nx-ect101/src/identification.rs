@@ -1,0 +1,93 @@
+//! The Explicit Device ID: ID switch, software setting, and the alias in ESC register 0x0012 (manual, 3-3 and
+//! A-6-4, object 10E0).
+
+use wire::SdoAbort;
+
+/// Where the unit's ID comes from and what it is now.
+///
+/// Switch and software setting are taken over at power-on only; object 10E0 changes the alias at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Identification {
+    switch: u8,
+    at_power_on: u16,
+    software: u16,
+    station_alias: u16,
+}
+
+impl Identification {
+    /// The ID at power-on: the switch, or the software setting while the switch is at 0x00.
+    pub(crate) fn at_power_on(switch: u8, software: u16) -> Self {
+        let id = if switch == 0 { software } else { u16::from(switch) };
+        Self { switch, at_power_on: id, software, station_alias: id }
+    }
+
+    /// The Explicit Device ID; none while it is 0, which the manual's setting ranges leave out.
+    pub(crate) fn explicit_device_id(self) -> Option<u16> {
+        (self.at_power_on != 0).then_some(self.at_power_on)
+    }
+
+    /// What ESC register 0x0012 should hold.
+    pub(crate) const fn station_alias(self) -> u16 {
+        self.station_alias
+    }
+
+    /// Reads 10E0:01, Configured Station Alias register value.
+    pub(crate) fn alias_register_value(self) -> u16 {
+        if self.switch == 0 { self.software } else { u16::from(self.switch) }
+    }
+
+    /// Reads 10E0:03, Reload ID-selector value.
+    pub(crate) fn switch_value(self) -> u16 {
+        u16::from(self.switch)
+    }
+
+    /// Writes 10E0:01: the software setting, unless the switch is in force.
+    pub(crate) fn set_software(&mut self, id: u16) -> Result<(), SdoAbort> {
+        if self.switch != 0 {
+            return Err(SdoAbort::LOCAL_CONTROL);
+        }
+        self.software = id;
+        self.station_alias = id;
+        Ok(())
+    }
+
+    /// Writes 10E0:03: 0 takes the switch over again, if it is in force.
+    pub(crate) fn reload_switch(&mut self, command: u16) -> Result<(), SdoAbort> {
+        if self.switch == 0 || command != 0 {
+            return Err(SdoAbort::LOCAL_CONTROL);
+        }
+        self.station_alias = u16::from(self.switch);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn with_the_switch_at_0_software_sets_the_id() {
+        let mut id = Identification::at_power_on(0x00, 300);
+        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(300), 300));
+        assert_eq!(id.set_software(500), Ok(()));
+        assert_eq!((id.alias_register_value(), id.station_alias()), (500, 500));
+        assert_eq!(id.explicit_device_id(), Some(300), "until the next power-on");
+        assert_eq!(id.reload_switch(0), Err(SdoAbort::LOCAL_CONTROL));
+        assert_eq!(id.switch_value(), 0);
+    }
+
+    #[test]
+    fn with_the_switch_set_it_is_in_force() {
+        let mut id = Identification::at_power_on(0x21, 300);
+        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(0x21), 0x21));
+        assert_eq!(id.set_software(500), Err(SdoAbort::LOCAL_CONTROL));
+        assert_eq!(id.reload_switch(1), Err(SdoAbort::LOCAL_CONTROL));
+        assert_eq!(id.reload_switch(0), Ok(()));
+        assert_eq!((id.alias_register_value(), id.switch_value()), (0x21, 0x21));
+    }
+
+    #[test]
+    fn without_switch_and_software_setting_there_is_no_id() {
+        assert_eq!(Identification::at_power_on(0, 0).explicit_device_id(), None);
+    }
+}

@@ -1,0 +1,185 @@
+//! The unit itself: objects, mapping and refresh behind the slave stack.
+
+use device::{Exchange, ProcessDataAreas, Unit};
+use objects::ObjectServer;
+use time::{Duration, Instant};
+use wire::{AlState, AlStatusCode, ObjectIndex};
+
+use crate::allocation::{ImageLayout, IoAllocation};
+use crate::data_sets::{Direction, Limits, StatusPdo};
+use crate::dictionary::UnitObjects;
+use crate::exchange::{self, ExchangePlan, StatusToMaster};
+use crate::identification::Identification;
+use crate::nx_bus::{self, CpuEnd, UnitEnd, UnitHeader};
+use crate::status::{NxUnitStatus, SlaveStatus};
+use crate::timing::Timing;
+
+/// How one unit is set up, on its case and by its support software.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitSettings {
+    /// Serial number, object 1018:04.
+    pub serial: u32,
+    /// ID switch, 0x00 to 0xFF. 0x00: the ID is set by software.
+    pub id_switch: u8,
+    /// ID set by software, in force while the ID switch is at 0x00; 0: none.
+    pub software_id: u16,
+    /// Whether the unit takes the times that the manual gives.
+    pub timing: Timing,
+    /// I/O allocation of the CPU Unit.
+    pub io_allocation: IoAllocation,
+}
+
+impl Default for UnitSettings {
+    /// The factory setting with the ID switch at 0x01, as in the manual's example (A-1-2).
+    fn default() -> Self {
+        Self {
+            serial: 1,
+            id_switch: 0x01,
+            software_id: 0,
+            timing: Timing::Exact,
+            io_allocation: IoAllocation::factory(),
+        }
+    }
+}
+
+/// An NX-ECT101 in operation.
+#[derive(Debug)]
+pub struct NxEct101 {
+    objects: UnitObjects,
+    bus: UnitEnd,
+    m_to_c_layout: ImageLayout,
+    c_to_m_layout: ImageLayout,
+    plan: ExchangePlan,
+    /// The data M to C as last received. What is not exchanged stays 0.
+    m_to_c: Vec<u8>,
+    period: Duration,
+    timing: Timing,
+    status: SlaveStatus,
+}
+
+impl NxEct101 {
+    /// Turns a unit on; the other value is the CPU Unit's end of its NX bus. All memory that the unit ever
+    /// uses is allocated here.
+    #[must_use]
+    pub fn power_on(settings: &UnitSettings) -> (Self, CpuEnd) {
+        let (bus, cpu_end) = nx_bus::connect(&settings.io_allocation);
+        let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
+        let identification = Identification::at_power_on(settings.id_switch, settings.software_id);
+        let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
+        let unit = Self {
+            objects: UnitObjects::power_on(settings.serial, identification, period),
+            bus,
+            m_to_c: vec![0; m_to_c_layout.size_bytes()],
+            m_to_c_layout,
+            c_to_m_layout: settings.io_allocation.layout(Direction::CToM),
+            plan: ExchangePlan::empty(),
+            period,
+            timing: settings.timing,
+            status: SlaveStatus::default(),
+        };
+        (unit, cpu_end)
+    }
+
+    /// What ESC register 0x0012 should hold: the ID at power-on, then what object 10E0 has set.
+    #[must_use]
+    pub fn station_alias(&self) -> u16 {
+        self.objects.identification.station_alias()
+    }
+
+    /// How long after its request an SDO response is complete.
+    #[must_use]
+    pub fn sdo_response_time(&self) -> Duration {
+        self.timing.sdo_response()
+    }
+
+    /// EtherCAT Slave Status as the CPU Unit was last told.
+    #[must_use]
+    pub fn slave_status(&self) -> SlaveStatus {
+        self.status
+    }
+
+    /// Takes in outputs and tells the status to the CPU Unit.
+    fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
+        if let Some(outputs) = outputs {
+            exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
+        }
+        let header = UnitHeader { status: self.status, io_data_active: true, error: false };
+        self.bus.m_to_c.publish(header, &self.m_to_c);
+    }
+
+    /// Fills the inputs from the newest data of the CPU Unit.
+    fn refresh_c_to_m(&mut self, inputs: &mut [u8]) {
+        inputs.fill(0);
+        exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
+        let nx_unit = NxUnitStatus {
+            c_to_m_valid: self.status.c_to_m_valid,
+            m_to_c_valid: self.status.m_to_c_valid,
+            ..NxUnitStatus::default()
+        };
+        let status = StatusToMaster { nx_unit, ..StatusToMaster::default() };
+        exchange::put_status(&self.plan.status, status, inputs);
+    }
+}
+
+impl Unit for NxEct101 {
+    fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
+        Some(&mut self.objects)
+    }
+
+    fn process_data(&self) -> ProcessDataAreas {
+        let length = |direction| {
+            // Three or six PDOs of at most 1,275 bytes each.
+            u16::try_from(self.objects.mapping.size_bytes(direction)).unwrap_or(u16::MAX)
+        };
+        ProcessDataAreas { outputs_bytes: length(Direction::MToC), inputs_bytes: length(Direction::CToM) }
+    }
+
+    fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
+        let mandatory = StatusPdo::all().iter().filter(|pdo| pdo.mandatory);
+        let assigned =
+            |pdo: ObjectIndex| self.objects.mapping.assigned(Direction::CToM).any(|other| other == pdo);
+        if !mandatory.map(|pdo| pdo.index).all(assigned) {
+            return Err(AlStatusCode::INVALID_INPUT_MAPPING);
+        }
+        let (areas, limits) = (self.process_data(), Limits::of_model());
+        if areas.outputs_bytes > limits.rxpdo_bytes {
+            return Err(AlStatusCode::INVALID_OUTPUT_MAPPING);
+        }
+        if areas.inputs_bytes > limits.txpdo_bytes {
+            return Err(AlStatusCode::INVALID_INPUT_MAPPING);
+        }
+        self.plan.rebuild(&self.objects.mapping, &self.m_to_c_layout, &self.c_to_m_layout);
+        // What the new mapping does not exchange has its default value again.
+        self.m_to_c.fill(0);
+        Ok(())
+    }
+
+    fn entered(&mut self, _now: Instant, state: AlState) {
+        self.objects.state = state;
+    }
+
+    fn refresh_period(&self) -> Duration {
+        self.period
+    }
+
+    fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
+        let cpu = self.bus.c_to_m.newest().header;
+        self.objects.system_time_ns = cpu.system_time_ns;
+        let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
+        self.status = SlaveStatus {
+            sdo_enabled: process_data || exchange.state == AlState::PreOp,
+            m_to_c_valid: cpu.refreshing && exchange.outputs.is_some(),
+            c_to_m_valid: cpu.refreshing && process_data,
+            ..self.status
+        };
+        self.refresh_m_to_c(exchange.outputs);
+        self.refresh_c_to_m(exchange.inputs);
+    }
+
+    fn explicit_device_id(&self) -> Option<u16> {
+        self.objects.identification.explicit_device_id()
+    }
+}
+
+#[cfg(test)]
+mod tests;

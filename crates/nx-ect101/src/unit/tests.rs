@@ -1,0 +1,145 @@
+//! The unit between a master's SyncManagers and a CPU Unit's NX bus, without either.
+
+use super::*;
+use crate::allocation::tests::symmetric;
+use crate::mapping::tests::set;
+use crate::nx_bus::CpuHeader;
+
+const NOW: Instant = Instant::ZERO;
+const REFRESHING: CpuHeader = CpuHeader { refreshing: true, system_time_ns: 1_700_000_000_000_000_000 };
+
+struct Bench {
+    unit: NxEct101,
+    cpu: CpuEnd,
+    inputs: Vec<u8>,
+}
+
+impl Bench {
+    fn power_on(settings: &UnitSettings) -> Self {
+        let (unit, cpu) = NxEct101::power_on(settings);
+        Self { unit, cpu, inputs: Vec::new() }
+    }
+
+    fn factory() -> Self {
+        Self::power_on(&UnitSettings::default())
+    }
+
+    fn to_safe_op(&mut self) {
+        self.unit.check_mapping(NOW).expect("the mapping is right");
+        self.unit.entered(NOW, AlState::SafeOp);
+        self.inputs = vec![0xEE; usize::from(self.unit.process_data().inputs_bytes)];
+    }
+
+    fn refresh(&mut self, state: AlState, outputs: Option<&[u8]>) {
+        self.unit.refresh(NOW, Exchange { state, outputs, inputs: &mut self.inputs });
+    }
+}
+
+#[test]
+fn data_goes_both_ways_in_op() {
+    let mut bench = Bench::factory();
+    bench.to_safe_op();
+    let outputs: Vec<u8> = (0..180).collect();
+    bench.cpu.c_to_m.publish(REFRESHING, &[0xA5; 180]);
+    bench.refresh(AlState::Op, Some(&outputs));
+    let image = bench.cpu.m_to_c.newest();
+    assert_eq!(image.bytes(), outputs);
+    assert_eq!((image.header.status.bits(), image.header.io_data_active), (0x0207, true));
+    let expected = [&[0x16, 0x00][..], &[0xA5; 180], &[0x00]].concat();
+    assert_eq!(bench.inputs, expected);
+}
+
+#[test]
+fn the_valid_flags_follow_state_outputs_and_refreshing() {
+    let mut bench = Bench::factory();
+    bench.to_safe_op();
+    let mut status = |refreshing, state, outputs: Option<&[u8]>| {
+        bench.cpu.c_to_m.publish(CpuHeader { refreshing, ..REFRESHING }, &[0; 180]);
+        bench.refresh(state, outputs);
+        (bench.unit.slave_status().bits(), bench.inputs[0])
+    };
+    assert_eq!(status(true, AlState::SafeOp, None), (0x0205, 0x12));
+    assert_eq!(status(true, AlState::Op, None), (0x0205, 0x12));
+    assert_eq!(status(true, AlState::Op, Some(&[0; 180])), (0x0207, 0x16));
+    assert_eq!(status(false, AlState::Op, Some(&[0; 180])), (0x0201, 0x10));
+}
+
+#[test]
+fn below_safe_op_only_sdo_communications_are_told() {
+    let mut bench = Bench::factory();
+    for (state, bits) in [(AlState::Init, 0x0200), (AlState::PreOp, 0x0201), (AlState::Boot, 0x0200)] {
+        bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
+        bench.refresh(state, None);
+        assert_eq!(bench.cpu.m_to_c.newest().header.status.bits(), bits, "{state}");
+    }
+}
+
+#[test]
+fn the_last_outputs_stay_when_they_stop() {
+    let mut bench = Bench::factory();
+    bench.to_safe_op();
+    bench.refresh(AlState::Op, Some(&[7; 180]));
+    bench.refresh(AlState::SafeOp, None);
+    bench.refresh(AlState::SafeOp, None);
+    let image = bench.cpu.m_to_c.newest();
+    assert_eq!(image.bytes(), [7; 180]);
+    assert!(!image.header.status.m_to_c_valid);
+}
+
+#[test]
+fn what_only_one_side_has_stays_0() {
+    let io_allocation = symmetric([2, 1, 0]);
+    let mut bench = Bench::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
+    bench.to_safe_op();
+    bench.cpu.c_to_m.publish(REFRESHING, &[9; 70]);
+    bench.refresh(AlState::Op, Some(&[5; 180]));
+    assert_eq!(
+        bench.cpu.m_to_c.newest().bytes(),
+        [[5; 10]; 6].concat().into_iter().chain([0; 10]).collect::<Vec<_>>()
+    );
+    assert!(bench.inputs[2..62].iter().all(|&byte| byte == 9));
+    assert!(bench.inputs[62..183].iter().all(|&byte| byte == 0));
+}
+
+#[test]
+fn a_mapping_without_the_unit_status_is_refused() {
+    let mut bench = Bench::factory();
+    set(&mut bench.unit.objects.mapping, 0x1C13, &[0x1A01]).expect("assignable");
+    assert_eq!(bench.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_INPUT_MAPPING));
+}
+
+#[test]
+fn a_mapping_beyond_the_limits_is_refused() {
+    let forty = |base: u32| (1..=40).map(|sub| base | sub << 8).collect::<Vec<_>>();
+    let mut outputs = Bench::factory();
+    set(&mut outputs.unit.objects.mapping, 0x1601, &forty(0x7000_00F0)).expect("1,200 bytes");
+    assert_eq!(outputs.unit.check_mapping(NOW), Ok(()));
+    set(&mut outputs.unit.objects.mapping, 0x1C12, &[0x1601, 0x1603]).expect("assignable");
+    assert_eq!(outputs.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_OUTPUT_MAPPING));
+
+    let mut inputs = Bench::factory();
+    set(&mut inputs.unit.objects.mapping, 0x1A01, &forty(0x6000_00F0)).expect("1,200 bytes");
+    set(&mut inputs.unit.objects.mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1BFE, 0x1BFF]).expect("1,204 bytes");
+    assert_eq!(inputs.unit.check_mapping(NOW), Ok(()));
+    set(&mut inputs.unit.objects.mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1A02, 0x1BFE]).expect("assignable");
+    assert_eq!(inputs.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_INPUT_MAPPING));
+}
+
+#[test]
+fn a_unit_starts_with_180_and_183_bytes_every_millisecond() {
+    let (unit, _cpu) = NxEct101::power_on(&UnitSettings::default());
+    assert_eq!(unit.process_data(), ProcessDataAreas { outputs_bytes: 180, inputs_bytes: 183 });
+    assert_eq!(unit.refresh_period(), Duration::from_millis(1));
+    assert_eq!((unit.explicit_device_id(), unit.station_alias()), (Some(1), 1));
+}
+
+#[test]
+fn the_timestamp_is_the_system_time_of_the_cpu_unit() {
+    let mut bench = Bench::factory();
+    bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
+    bench.refresh(AlState::PreOp, None);
+    let mut value = [0; 8];
+    let objects = bench.unit.objects().expect("a unit with a mailbox");
+    objects.read(ObjectIndex(0x10F8), wire::SubIndex::ZERO, &mut value).expect("readable");
+    assert_eq!(u64::from_le_bytes(value), REFRESHING.system_time_ns);
+}
