@@ -56,4 +56,9 @@ pub trait Unit {
     fn explicit_device_id(&self) -> Option<u16> {
         None
     }
+
+    /// Station alias that the unit wants in register 0x0012; none leaves what the SII has loaded.
+    fn station_alias(&self) -> Option<u16> {
+        None
+    }
 }

@@ -1,0 +1,71 @@
+//! What the slave stack is told about its unit: memory layout, time-outs, the choices where slaves differ.
+
+use esc::EscConfig;
+use mailbox::{AbortProfile, MailboxSizes};
+use time::Duration;
+
+/// A part of the ESC memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// Offset of its first byte.
+    pub start: u16,
+    /// Length in bytes.
+    pub length_bytes: u16,
+}
+
+/// The two mailboxes, at the places that SII and ESI tell the master.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MailboxConfig {
+    /// SyncManager 0, master to slave.
+    pub receive: Area,
+    /// SyncManager 1, slave to master.
+    pub send: Area,
+    /// From the receipt of a request to its response.
+    pub response_time: Duration,
+    /// Abort codes where manuals differ.
+    pub aborts: AbortProfile,
+}
+
+impl MailboxConfig {
+    pub(crate) const fn sizes(&self) -> MailboxSizes {
+        MailboxSizes { receive_bytes: self.receive.length_bytes, send_bytes: self.send.length_bytes }
+    }
+}
+
+/// Whether SAFE-OP to OP waits for outputs (reference 5.4). ethercrab asks for OP before it sends any,
+/// SOEM sends them first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputsBeforeOp {
+    /// OP without having seen outputs; they are not valid until they come.
+    NotRequired,
+    /// OP with the first outputs; without them AL status code 0x001B after this time.
+    Within(Duration),
+}
+
+/// What PRE-OP to SAFE-OP says to a watchdog time that no SyncManager triggers (AL status code 0x001F).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WatchdogCheck {
+    /// Nothing.
+    Off,
+    /// With outputs and a watchdog time, the outputs' SyncManager has to trigger the watchdog.
+    TriggerRequired,
+}
+
+/// Everything about the stack of one unit.
+#[derive(Clone, Debug)]
+pub struct DeviceConfig {
+    /// The controller.
+    pub esc: EscConfig,
+    /// EEPROM image at power-on.
+    pub sii_image: Vec<u8>,
+    /// The mailboxes; none for a unit without.
+    pub mailbox: Option<MailboxConfig>,
+    /// Where the outputs' SyncManager 2 starts.
+    pub outputs_start: u16,
+    /// Where the inputs' SyncManager 3 starts. (A unit without mailbox uses the same numbers.)
+    pub inputs_start: u16,
+    /// SAFE-OP to OP.
+    pub outputs_before_op: OutputsBeforeOp,
+    /// PRE-OP to SAFE-OP.
+    pub watchdog_check: WatchdogCheck,
+}

@@ -1,0 +1,316 @@
+//! One slave: the stack around a unit, on one ESC.
+
+use esc::{AlEvents, Esc, Pdi, SmIndex};
+use time::{Duration, Instant};
+use wire::{AlControl, AlState, AlStatus, AlStatusCode};
+
+use crate::checks;
+use crate::config::{DeviceConfig, OutputsBeforeOp};
+use crate::mailbox_service::MailboxService;
+use crate::state_machine::{Check, refusal, transition};
+use crate::unit::{Exchange, Unit};
+
+/// What the stack listens to. Process data are not among it: the refresh runs freely.
+const EVENTS: AlEvents = AlEvents::AL_CONTROL
+    .union(AlEvents::SYNC_MANAGER_ACTIVATION)
+    .union(AlEvents::WATCHDOG)
+    .union(AlEvents::from_bits_truncate(0x0300));
+const AL_EVENT_MASK: u16 = 0x0204;
+
+/// A slave under power.
+#[derive(Debug)]
+pub struct Device<U> {
+    unit: U,
+    config: DeviceConfig,
+    mailbox: Option<MailboxService>,
+    status: AlStatus,
+    code: AlStatusCode,
+    /// The master has asked for OP; outputs have to come before this moment.
+    op_deadline: Option<Instant>,
+    next_refresh: Instant,
+}
+
+impl<U: Unit> Device<U> {
+    /// A slave that gets power at `now`, and the ESC that belongs to it.
+    #[must_use]
+    pub fn power_on(config: DeviceConfig, unit: U, now: Instant) -> (Self, Esc) {
+        let esc = Esc::power_on(config.esc.clone(), config.sii_image.clone(), now);
+        let mut device = Self {
+            unit,
+            config,
+            mailbox: None,
+            status: AlStatus::default(),
+            code: AlStatusCode::NO_ERROR,
+            op_deadline: None,
+            next_refresh: now,
+        };
+        let mailbox = device.config.mailbox;
+        device.mailbox = mailbox.and_then(|mailbox| {
+            device.unit.objects().map(|objects| MailboxService::new(mailbox, objects.table()))
+        });
+        let mut esc = esc;
+        device.start(&mut esc, now);
+        (device, esc)
+    }
+
+    /// Starts again from INIT, as after power-on; the EEPROM keeps what was written to it.
+    pub fn restart(&mut self, esc: &mut Esc, now: Instant) {
+        esc.reset(now);
+        self.status = AlStatus::default();
+        self.code = AlStatusCode::NO_ERROR;
+        self.op_deadline = None;
+        if let Some(mailbox) = &mut self.mailbox {
+            mailbox.reset();
+        }
+        self.start(esc, now);
+    }
+
+    fn start(&mut self, esc: &mut Esc, now: Instant) {
+        let mut pdi = esc.pdi(now);
+        for (n, byte) in (0u16..).zip(EVENTS.bits().to_le_bytes()) {
+            pdi.set_register(AL_EVENT_MASK + n, byte);
+        }
+        self.next_refresh = now;
+        self.follow_alias(&mut pdi);
+        self.unit.entered(now, AlState::Init);
+    }
+
+    /// The unit model.
+    #[must_use]
+    pub const fn unit(&self) -> &U {
+        &self.unit
+    }
+
+    /// The unit model, for what its application does to it.
+    pub const fn unit_mut(&mut self) -> &mut U {
+        &mut self.unit
+    }
+
+    /// State and error indication, as AL status shows them.
+    #[must_use]
+    pub const fn al_status(&self) -> AlStatus {
+        self.status
+    }
+
+    /// AL status code as register 0x0134 shows it.
+    #[must_use]
+    pub const fn al_status_code(&self) -> AlStatusCode {
+        self.code
+    }
+
+    /// When the device has to be polled next, whatever the wire does.
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
+        let mailbox = self.mailbox.as_ref().map_or(Instant::NEVER, MailboxService::deadline);
+        self.next_refresh.min(mailbox).min(self.op_deadline.unwrap_or(Instant::NEVER))
+    }
+
+    /// Does what is due at `now`: requests of the master, expired times, the refresh.
+    pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
+        esc.advance(now);
+        if esc.pdi(now).take_reset_request() {
+            self.restart(esc, now);
+        }
+        let mut pdi = esc.pdi(now);
+        if pdi.take_activation_event() {
+            self.watch_sync_managers(&mut pdi, now);
+        }
+        if let Some(control) = pdi.take_al_control() {
+            self.on_al_control(control, &mut pdi, now);
+        }
+        if pdi.take_watchdog_event() && self.status.state == AlState::Op {
+            self.fall_back(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, &mut pdi, now);
+        }
+        self.watch_op_request(&mut pdi, now);
+        if now >= self.next_refresh {
+            self.refresh(&mut pdi, now);
+        }
+        self.poll_mailbox(&mut pdi, now);
+    }
+
+    /// Runs the unit's refresh and sets the time of the next one; what was missed is not made up for.
+    fn refresh(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        self.exchange(pdi, now);
+        let period = self.unit.refresh_period();
+        self.next_refresh += period;
+        if self.next_refresh <= now && period > Duration::ZERO {
+            let missed = now.saturating_since(self.next_refresh).as_nanos() / period.as_nanos() + 1;
+            self.next_refresh += period * missed;
+        }
+    }
+
+    fn exchange(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        let state = self.status.state;
+        let valid = state == AlState::Op && pdi.outputs_received(SmIndex::OUTPUTS) && !pdi.watchdog_expired();
+        let unit = &mut self.unit;
+        if matches!(state, AlState::SafeOp | AlState::Op) {
+            pdi.exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
+                unit.refresh(now, Exchange { state, outputs: valid.then_some(outputs), inputs });
+            });
+        } else {
+            unit.refresh(now, Exchange { state, outputs: None, inputs: &mut [] });
+        }
+    }
+
+    fn poll_mailbox(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        let state = self.status.state;
+        if !matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op) {
+            return;
+        }
+        let (Some(mailbox), Some(objects)) = (&mut self.mailbox, self.unit.objects()) else { return };
+        if mailbox.poll(now, state, pdi, objects) {
+            self.follow_alias(pdi);
+        }
+    }
+
+    /// The unit may have been given another station alias.
+    fn follow_alias(&self, pdi: &mut Pdi<'_>) {
+        if let Some(alias) = self.unit.station_alias() {
+            pdi.set_station_alias(alias);
+        }
+    }
+
+    /// Queues an emergency message, if the state has a mailbox; false if it is lost.
+    pub fn queue_emergency(&mut self, emergency: wire::Emergency) -> bool {
+        self.mailbox.as_mut().is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok())
+    }
+
+    /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
+    fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
+        if self.status.error && !control.acknowledge && control.state != AlState::Init {
+            return;
+        }
+        self.op_deadline = None;
+        if self.status.error {
+            pdi.set_deactivated(SmIndex::OUTPUTS, false);
+        }
+        let from = self.status.state;
+        match transition(from, control.state) {
+            None => {
+                let (state, code) = refusal(from, control.state);
+                self.refuse(state, code, pdi, now);
+            }
+            Some(row) => match self.check(row.check, pdi, now) {
+                Err(code) => self.refuse(from, code, pdi, now),
+                Ok(Answer::Later(deadline)) => {
+                    self.op_deadline = Some(deadline);
+                    self.show(AlStatus { state: from, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
+                }
+                Ok(Answer::Now) => {
+                    self.enter(control.state, pdi, now);
+                    self.confirm(control, pdi);
+                }
+            },
+        }
+    }
+
+    fn check(&mut self, check: Check, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
+        match check {
+            Check::Nothing => {}
+            Check::Mailbox => checks::mailbox(&self.config, pdi)?,
+            Check::ProcessData => {
+                self.unit.check_mapping(now)?;
+                checks::process_data(&self.config, self.unit.process_data(), pdi)?;
+            }
+            Check::Outputs => {
+                let waits =
+                    self.unit.process_data().outputs_bytes > 0 && !pdi.outputs_received(SmIndex::OUTPUTS);
+                if let (OutputsBeforeOp::Within(limit), true) = (self.config.outputs_before_op, waits) {
+                    return Ok(Answer::Later(now + limit));
+                }
+            }
+        }
+        Ok(Answer::Now)
+    }
+
+    /// The state is reached: no error, and the Explicit Device ID where it is asked for.
+    fn confirm(&mut self, control: AlControl, pdi: &mut Pdi<'_>) {
+        let device_id = self.unit.explicit_device_id().filter(|_| control.device_id_request);
+        let status = AlStatus { state: control.state, error: false, device_id_loaded: device_id.is_some() };
+        self.show(status, AlStatusCode(device_id.unwrap_or(0)), pdi);
+    }
+
+    /// A refused request: the error is shown in `state`, which differs from the current one where OP drops.
+    fn refuse(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
+        if state == self.status.state {
+            self.show(AlStatus { state, error: true, device_id_loaded: false }, code, pdi);
+        } else {
+            self.fall_back(state, code, pdi, now);
+        }
+    }
+
+    /// The slave leaves its state on its own. Out of OP the outputs are closed until the master
+    /// acknowledges, so that it sees the working counter drop (reference 5.5, C063).
+    fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
+        if state == AlState::SafeOp {
+            pdi.set_deactivated(SmIndex::OUTPUTS, true);
+        }
+        self.op_deadline = None;
+        self.enter(state, pdi, now);
+        self.show(AlStatus { state, error: true, device_id_loaded: false }, code, pdi);
+    }
+
+    /// Changes the state inside; what the wire sees follows by [`Device::show`], so that the inputs of
+    /// SAFE-OP are there before AL status says so.
+    fn enter(&mut self, state: AlState, pdi: &mut Pdi<'_>, now: Instant) {
+        let before = self.status.state;
+        self.status.state = state;
+        if state == before {
+            return;
+        }
+        if matches!(state, AlState::Init | AlState::PreOp) {
+            pdi.set_deactivated(SmIndex::OUTPUTS, false);
+        }
+        if before == AlState::Init || state == AlState::Init {
+            if let Some(mailbox) = &mut self.mailbox {
+                mailbox.reset();
+            }
+            pdi.empty_mailbox(SmIndex::MAILBOX_SEND);
+        }
+        self.unit.entered(now, state);
+        self.exchange(pdi, now);
+    }
+
+    fn show(&mut self, status: AlStatus, code: AlStatusCode, pdi: &mut Pdi<'_>) {
+        self.status = status;
+        self.code = code;
+        pdi.set_al_status(status, code);
+    }
+
+    /// SyncManagers that become invalid take the slave down (reference 5.5).
+    fn watch_sync_managers(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        let state = self.status.state;
+        if state == AlState::Init {
+            return;
+        }
+        let mailbox = self.config.mailbox.as_ref();
+        if let Some(Err(code)) = mailbox.map(|mailbox| checks::mailbox_sync_managers(mailbox, pdi)) {
+            return self.fall_back(AlState::Init, code, pdi, now);
+        }
+        let areas = self.unit.process_data();
+        if matches!(state, AlState::SafeOp | AlState::Op)
+            && let Err(code) = checks::process_data_sync_managers(&self.config, areas, pdi)
+        {
+            self.fall_back(AlState::PreOp, code, pdi, now);
+        }
+    }
+
+    fn watch_op_request(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        let Some(deadline) = self.op_deadline else { return };
+        if pdi.outputs_received(SmIndex::OUTPUTS) {
+            self.op_deadline = None;
+            self.enter(AlState::Op, pdi, now);
+            self.show(AlStatus { state: AlState::Op, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
+        } else if now >= deadline {
+            self.op_deadline = None;
+            self.refuse(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, pdi, now);
+        }
+    }
+}
+
+/// When a transition that may happen happens.
+enum Answer {
+    Now,
+    /// As soon as outputs come, at the latest then.
+    Later(Instant),
+}

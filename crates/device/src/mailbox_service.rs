@@ -1,0 +1,116 @@
+//! SyncManagers 0 and 1 around the mailbox: when a request is served, when a message may go, repeats.
+
+use esc::{Pdi, SmIndex};
+use mailbox::Mailbox;
+use objects::{ObjectServer, ObjectTable};
+use time::Instant;
+use wire::AlState;
+
+use crate::config::MailboxConfig;
+
+/// The mailbox of a running device.
+#[derive(Debug)]
+pub(crate) struct MailboxService {
+    config: MailboxConfig,
+    mailbox: Mailbox,
+    request: Box<[u8]>,
+    reply: Box<[u8]>,
+    /// When the request that lies in SyncManager 0 is answered.
+    due: Option<Instant>,
+    /// A message of ours lies in SyncManager 1.
+    sent: bool,
+}
+
+impl MailboxService {
+    pub(crate) fn new(config: MailboxConfig, table: &ObjectTable) -> Self {
+        let buffer = |length_bytes: u16| vec![0; usize::from(length_bytes)].into_boxed_slice();
+        Self {
+            mailbox: Mailbox::new(config.sizes(), config.aborts, table),
+            request: buffer(config.receive.length_bytes),
+            reply: buffer(config.send.length_bytes),
+            due: None,
+            sent: false,
+            config,
+        }
+    }
+
+    pub(crate) fn mailbox(&mut self) -> &mut Mailbox {
+        &mut self.mailbox
+    }
+
+    /// Starts afresh, as at INIT to PRE-OP.
+    pub(crate) fn reset(&mut self) {
+        self.mailbox.reset();
+        self.due = None;
+        self.sent = false;
+    }
+
+    /// When a request is to be answered. While the send mailbox is full the next step is the master's read,
+    /// not a moment in time.
+    pub(crate) fn deadline(&self) -> Instant {
+        if self.sent { Instant::NEVER } else { self.due.unwrap_or(Instant::NEVER) }
+    }
+
+    /// Looks at both SyncManagers. Tells whether a request was served, which may have changed the unit.
+    pub(crate) fn poll(
+        &mut self,
+        now: Instant,
+        state: AlState,
+        pdi: &mut Pdi<'_>,
+        objects: &mut dyn ObjectServer,
+    ) -> bool {
+        if self.sent && !pdi.mailbox_full(SmIndex::MAILBOX_SEND) {
+            self.sent = false;
+            self.mailbox.confirm_read();
+        }
+        if pdi.repeat_requested(SmIndex::MAILBOX_SEND) {
+            self.repeat(pdi);
+        }
+        let served = self.serve(now, state, pdi, objects);
+        if !self.sent && self.mailbox.has_unsolicited() {
+            let length_bytes = self.mailbox.next_unsolicited(&mut self.reply);
+            self.send(length_bytes, pdi);
+        }
+        served
+    }
+
+    /// The lost message goes into the mailbox again; one that lies there unread follows it later.
+    fn repeat(&mut self, pdi: &mut Pdi<'_>) {
+        if let Some(length_bytes) = self.mailbox.repeat(&mut self.reply) {
+            pdi.empty_mailbox(SmIndex::MAILBOX_SEND);
+            self.send(Some(length_bytes), pdi);
+        }
+        pdi.acknowledge_repeat(SmIndex::MAILBOX_SEND);
+    }
+
+    /// A request stays in its mailbox, which refuses the next one, until its response can go.
+    fn serve(
+        &mut self,
+        now: Instant,
+        state: AlState,
+        pdi: &mut Pdi<'_>,
+        objects: &mut dyn ObjectServer,
+    ) -> bool {
+        let Some(message) = pdi.mailbox(SmIndex::MAILBOX_RECEIVE) else {
+            self.due = None;
+            return false;
+        };
+        let due = *self.due.get_or_insert(now + self.config.response_time);
+        if now < due || self.sent {
+            return false;
+        }
+        let length_bytes = message.len().min(self.request.len());
+        self.request[..length_bytes].copy_from_slice(&message[..length_bytes]);
+        pdi.release_mailbox(SmIndex::MAILBOX_RECEIVE);
+        self.due = None;
+        let reply = self.mailbox.request(&self.request[..length_bytes], state, objects, &mut self.reply);
+        self.send(reply, pdi);
+        true
+    }
+
+    fn send(&mut self, length_bytes: Option<usize>, pdi: &mut Pdi<'_>) {
+        if let Some(message) = length_bytes.and_then(|length| self.reply.get(..length)) {
+            self.sent = pdi.fill_mailbox(SmIndex::MAILBOX_SEND, message);
+        }
+    }
+}

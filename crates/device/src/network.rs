@@ -1,0 +1,94 @@
+//! A segment and the slaves on its ESCs: frames in, frames out, deadlines.
+
+use esc::Esc;
+use segment::{FrameFate, Segment};
+use time::Instant;
+
+use crate::config::DeviceConfig;
+use crate::device::Device;
+use crate::unit::Unit;
+
+/// A line of slaves behind a master, driven from outside: no clock, no thread.
+///
+/// [`Network::frame`] answers a frame and does nothing else; [`Network::poll`] lets the slaves react. Call
+/// it after each frame and whenever [`Network::deadline`] has come.
+#[derive(Debug)]
+pub struct Network<U> {
+    segment: Segment,
+    devices: Vec<Device<U>>,
+}
+
+impl<U: Unit> Network<U> {
+    /// Gives power to a line of units at `now`, the one next to the master first.
+    #[must_use]
+    pub fn power_on(units: impl IntoIterator<Item = (DeviceConfig, U)>, now: Instant) -> Self {
+        let powered = units.into_iter().map(|(config, unit)| Device::power_on(config, unit, now));
+        let (devices, escs): (Vec<_>, Vec<_>) = powered.unzip();
+        Self { segment: Segment::new(escs), devices }
+    }
+
+    /// A frame comes from the master; it is answered in place.
+    #[inline]
+    pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.segment.frame(now, frame)
+    }
+
+    /// Lets every slave that has something to do react.
+    pub fn poll(&mut self, now: Instant) {
+        for (position, device) in self.devices.iter_mut().enumerate() {
+            let Some(esc) = self.segment.esc_mut(position) else { continue };
+            if esc.interrupts_pdi() || device.deadline() <= now || esc.deadline() <= now {
+                device.poll(esc, now);
+            }
+        }
+    }
+
+    /// When [`Network::poll`] has to be called at the latest.
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
+        let devices = self.devices.iter().map(Device::deadline).min().unwrap_or(Instant::NEVER);
+        devices.min(self.segment.deadline())
+    }
+
+    /// Number of slaves.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.devices.len()
+    }
+
+    /// Whether there is no slave at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.devices.is_empty()
+    }
+
+    /// The slave at a position, counted from the master.
+    #[must_use]
+    pub fn device(&self, position: usize) -> Option<&Device<U>> {
+        self.devices.get(position)
+    }
+
+    /// The slave at a position, for its application.
+    #[must_use]
+    pub fn device_mut(&mut self, position: usize) -> Option<&mut Device<U>> {
+        self.devices.get_mut(position)
+    }
+
+    /// The ESC at a position.
+    #[must_use]
+    pub fn esc(&self, position: usize) -> Option<&Esc> {
+        self.segment.esc(position)
+    }
+
+    /// The line itself: cables, ESCs.
+    pub const fn segment_mut(&mut self) -> &mut Segment {
+        &mut self.segment
+    }
+
+    /// Starts one slave again, as its restart button does; a position without slave is nothing.
+    pub fn restart(&mut self, position: usize, now: Instant) {
+        if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
+            device.restart(esc, now);
+        }
+    }
+}

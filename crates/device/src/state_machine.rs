@@ -1,0 +1,70 @@
+//! The EtherCAT state machine as a table of rows, with the standard's letters (ETG.1000.6; reference 5.2).
+
+use wire::{AlState, AlStatusCode};
+
+/// What has to hold before a transition.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Check {
+    /// Nothing.
+    Nothing,
+    /// SII loaded, SyncManagers 0 and 1 as the SII tells.
+    Mailbox,
+    /// Mapping, SyncManagers 2 and 3, DC, watchdog.
+    ProcessData,
+    /// Outputs have come, where the unit waits for them.
+    Outputs,
+}
+
+/// One transition that the standard knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transition {
+    /// The standard's letters: from, to.
+    pub letters: &'static str,
+    /// Where it starts.
+    pub from: AlState,
+    /// Where it leads.
+    pub to: AlState,
+    /// What has to hold.
+    pub check: Check,
+}
+
+const fn row(letters: &'static str, from: AlState, to: AlState, check: Check) -> Transition {
+    Transition { letters, from, to, check }
+}
+
+use AlState::{Boot, Init, Op, PreOp, SafeOp};
+
+/// Every transition of a slave without BOOT; what stands in no row is refused by [`refusal`].
+pub const TRANSITIONS: &[Transition] = &[
+    row("II", Init, Init, Check::Nothing),
+    row("IP", Init, PreOp, Check::Mailbox),
+    row("PP", PreOp, PreOp, Check::Nothing),
+    row("PI", PreOp, Init, Check::Nothing),
+    row("PS", PreOp, SafeOp, Check::ProcessData),
+    row("SS", SafeOp, SafeOp, Check::Nothing),
+    row("SP", SafeOp, PreOp, Check::Nothing),
+    row("SI", SafeOp, Init, Check::Nothing),
+    row("SO", SafeOp, Op, Check::Outputs),
+    row("OO", Op, Op, Check::Nothing),
+    row("OS", Op, SafeOp, Check::Nothing),
+    row("OP", Op, PreOp, Check::Nothing),
+    row("OI", Op, Init, Check::Nothing),
+];
+
+/// The row for a request.
+#[must_use]
+pub fn transition(from: AlState, to: AlState) -> Option<&'static Transition> {
+    TRANSITIONS.iter().find(|row| row.from == from && row.to == to)
+}
+
+/// Why a request that stands in no row is refused, and the state that the slave then keeps: OP drops to
+/// SAFE-OP (reference 5.2, C061, C062), any other state stays.
+#[must_use]
+pub fn refusal(from: AlState, to: AlState) -> (AlState, AlStatusCode) {
+    let code = match (from, to) {
+        (_, AlState::Other(_)) => AlStatusCode::UNKNOWN_REQUESTED_STATE,
+        (Init, Boot) => AlStatusCode::BOOTSTRAP_NOT_SUPPORTED,
+        _ => AlStatusCode::INVALID_REQUESTED_STATE_CHANGE,
+    };
+    (if from == Op { SafeOp } else { from }, code)
+}
