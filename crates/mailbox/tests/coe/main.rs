@@ -1,0 +1,11 @@
+//! The CoE server as a master sees it; `Cnnn` names the statement of the conformance list that a test shows.
+#![expect(clippy::unwrap_used, reason = "a panic here is a failed test")]
+
+mod bench;
+mod complete_access;
+mod emergency;
+mod headers;
+mod information;
+mod properties;
+mod repeat;
+mod sdo;
