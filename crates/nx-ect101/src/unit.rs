@@ -29,6 +29,14 @@ pub struct UnitSettings {
     pub io_allocation: IoAllocation,
 }
 
+impl UnitSettings {
+    /// The Explicit Device ID at power-on: the ID switch, or the software ID while it is at 0x00; 0: none.
+    #[must_use]
+    pub fn explicit_device_id(&self) -> u16 {
+        Identification::at_power_on(self.id_switch, self.software_id).station_alias()
+    }
+}
+
 impl Default for UnitSettings {
     /// The factory setting with the ID switch at 0x01, as in the manual's example (A-1-2).
     fn default() -> Self {

@@ -1,0 +1,118 @@
+//! The unit file: one virtual unit as its user writes it (TOML).
+//!
+//! Everything that is wrong is told at once, with its place. Reading judges form, not rules: numbers beyond
+//! a mapping's maximum, entries of another data set or a wrong order are kept as they stand, with their
+//! spans, because the setting rules judge them and point into the file.
+
+mod entries;
+mod error;
+mod located;
+mod reader;
+mod sections;
+#[cfg(test)]
+mod tests;
+mod values;
+
+use std::path::PathBuf;
+
+use time::Duration;
+
+use crate::allocation::IoAllocation;
+use crate::timing::Timing;
+
+pub use entries::{DataSetEntries, Entries, EntryAddress, IoAllocationSection, MappingEntries, PdoSection};
+pub use error::{UnitFileError, UnitFileErrors};
+pub use located::Located;
+
+/// The unit models that a unit file can name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Model {
+    /// `nx-ect101`.
+    NxEct101,
+}
+
+/// Operating mode of the CPU Unit at power-on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CpuMode {
+    /// `run`: I/O is refreshed and the program runs.
+    #[default]
+    Run,
+    /// `program`: I/O is refreshed, the program stands.
+    Program,
+}
+
+/// Level that a user gives to an event whose level can be changed (manual, 8-3-4).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChangedLevel {
+    /// `observation`.
+    Observation,
+    /// `minor_fault`.
+    MinorFault,
+}
+
+/// The level of one event.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EventLevel {
+    /// Code of the event.
+    pub event_code: Located<u32>,
+    /// Its level.
+    pub level: Located<ChangedLevel>,
+}
+
+/// Section `[cpu]`: the CPU Unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CpuSection {
+    /// Period of the primary periodic task, 125 µs to 100 ms; 1 ms when left out.
+    pub task_period: Located<Duration>,
+    /// Mode at power-on; RUN when left out.
+    pub mode: Located<CpuMode>,
+    /// User program, relative to the unit file; none when left out.
+    pub program: Option<Located<PathBuf>>,
+}
+
+/// One virtual unit. What is left out has the value that its field names.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitFile {
+    /// The unit model; the one key that every file needs.
+    pub model: Located<Model>,
+    /// Device name on the NX bus, an IEC 61131-3 identifier of up to 127 characters; `N1` when left out.
+    pub name: Located<String>,
+    /// NX Unit number, 1 to 63; 1 when left out.
+    pub unit_number: Located<u8>,
+    /// Serial number; 1 when left out.
+    pub serial: Located<u32>,
+    /// ID switch, 0x00 (the Explicit Device ID is set by software) to 0xFF; 0x01 when left out.
+    pub id_switch: Located<u8>,
+    /// Whether the unit takes the times of the manual; exact when left out.
+    pub timing: Located<Timing>,
+    /// File of the non-volatile memory, relative to the unit file; memory only when left out.
+    pub storage: Option<Located<PathBuf>>,
+    /// I/O allocation of the CPU Unit; the factory setting when left out.
+    pub io_allocation: Option<Located<IoAllocationSection>>,
+    /// What a check takes the master to set; the factory setting when left out.
+    pub pdo: Option<Located<PdoSection>>,
+    /// Changed event levels, in the order of their codes.
+    pub event_levels: Vec<EventLevel>,
+    /// The CPU Unit.
+    pub cpu: CpuSection,
+}
+
+impl UnitFile {
+    /// Reads the text of a unit file.
+    ///
+    /// # Errors
+    /// Everything that is wrong, in the order of the file: text that is no TOML (then nothing else is
+    /// judged), unknown keys, wrong types, bad values, `model` missing.
+    pub fn parse(text: &str) -> Result<Self, UnitFileErrors> {
+        reader::parse(text, sections::unit)
+    }
+
+    /// The I/O allocation that the file asks for, right or wrong.
+    #[must_use]
+    pub fn io_allocation(&self) -> IoAllocation {
+        match &self.io_allocation {
+            Some(section) => section.value.to_allocation(),
+            None => IoAllocation::factory(),
+        }
+    }
+}

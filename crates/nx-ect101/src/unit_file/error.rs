@@ -1,0 +1,122 @@
+//! What is wrong with a unit file, and where.
+
+use core::fmt;
+use core::ops::Range;
+
+/// One thing that is wrong. Prints as `line:column: message, expected …`, to follow a file name and a colon.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitFileError {
+    /// The bytes of the file.
+    pub span: Range<usize>,
+    /// Line of the first byte, from 1.
+    pub line: usize,
+    /// Column of the first byte in characters, from 1.
+    pub column: usize,
+    /// What is wrong: place and value.
+    pub message: String,
+    /// What should stand there; empty when there is nothing to say.
+    pub expected: String,
+    /// The valid name nearest to what stands there, if one is near.
+    pub nearest: Option<String>,
+}
+
+impl UnitFileError {
+    pub(super) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
+        let (line, column) = position(text, span.start);
+        let Problem { message, expected, nearest } = problem;
+        Self { span, line, column, message, expected, nearest }
+    }
+}
+
+impl fmt::Display for UnitFileError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}:{}: {}", self.line, self.column, self.message)?;
+        if !self.expected.is_empty() {
+            write!(formatter, ", expected {}", self.expected)?;
+        }
+        match &self.nearest {
+            Some(name) => write!(formatter, "; did you mean `{name}`?"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl core::error::Error for UnitFileError {}
+
+/// Everything that is wrong with a unit file, in the order of the file; at least one thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitFileErrors(pub(super) Vec<UnitFileError>);
+
+impl UnitFileErrors {
+    /// The errors in the order of the file.
+    pub fn iter(&self) -> impl Iterator<Item = &UnitFileError> {
+        self.0.iter()
+    }
+
+    /// The errors as lines `file:line:column: message`.
+    #[must_use]
+    pub fn in_file(&self, file: impl fmt::Display) -> String {
+        self.0.iter().map(|error| format!("{file}:{error}")).collect::<Vec<_>>().join("\n")
+    }
+}
+
+impl fmt::Display for UnitFileErrors {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (at, error) in self.0.iter().enumerate() {
+            let separator = if at == 0 { "" } else { "\n" };
+            write!(formatter, "{separator}{error}")?;
+        }
+        Ok(())
+    }
+}
+
+impl core::error::Error for UnitFileErrors {}
+
+/// What is wrong, before it has a place.
+#[derive(Debug)]
+pub(super) struct Problem {
+    pub(super) message: String,
+    pub(super) expected: String,
+    pub(super) nearest: Option<String>,
+}
+
+impl Problem {
+    pub(super) fn new(message: impl Into<String>, expected: impl Into<String>) -> Self {
+        Self { message: message.into(), expected: expected.into(), nearest: None }
+    }
+
+    /// `word` is none of `names`: says which there are, and which is nearest.
+    pub(super) fn unknown(message: impl Into<String>, word: &str, names: &[&str]) -> Self {
+        Self { nearest: nearest(word, names), ..Self::new(message, one_of(names)) }
+    }
+}
+
+fn one_of(names: &[&str]) -> String {
+    match names {
+        [] => "nothing".into(),
+        [only] => format!("`{only}`"),
+        [head @ .., last] => {
+            let head: Vec<String> = head.iter().map(|name| format!("`{name}`")).collect();
+            format!("{} or `{last}`", head.join(", "))
+        }
+    }
+}
+
+/// The name that differs from `word` in the fewest letters, two or a third of its length at most.
+fn nearest(word: &str, names: &[&str]) -> Option<String> {
+    let word: String = word.chars().take(40).flat_map(char::to_lowercase).collect();
+    let distance = |name: &&str| strsim::osa_distance(&word, &name.to_lowercase());
+    let name = names.iter().copied().min_by_key(|name| distance(name))?;
+    let limit = (name.chars().count() / 3).max(2);
+    // A word of two letters is near to everything that has two letters.
+    (distance(&name) <= limit && distance(&name) < name.chars().count()).then(|| name.to_owned())
+}
+
+/// Line and column, both from 1, of the byte at `offset`.
+fn position(text: &str, offset: usize) -> (usize, usize) {
+    let before: Vec<char> =
+        text.char_indices().take_while(|(at, _)| *at < offset).map(|(_, character)| character).collect();
+    let line = before.iter().filter(|character| **character == '\n').count() + 1;
+    let column = before.iter().rev().take_while(|character| **character != '\n').count() + 1;
+    (line, column)
+}

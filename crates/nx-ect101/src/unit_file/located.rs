@@ -1,0 +1,26 @@
+//! Values that know where they stand.
+
+use core::ops::Range;
+
+/// A value and where it stands in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// The bytes of the file that it was read from; none when it was left out.
+    pub span: Option<Range<usize>>,
+}
+
+impl<T> Located<T> {
+    /// A value that stands in the file.
+    #[must_use]
+    pub const fn at(span: Range<usize>, value: T) -> Self {
+        Self { value, span: Some(span) }
+    }
+
+    /// A value that was left out.
+    #[must_use]
+    pub const fn left_out(value: T) -> Self {
+        Self { value, span: None }
+    }
+}

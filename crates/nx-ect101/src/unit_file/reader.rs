@@ -1,0 +1,165 @@
+//! Walks through a TOML document and collects what is wrong on the way.
+
+use core::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Problem, UnitFileError, UnitFileErrors};
+use super::located::Located;
+
+/// A value as the TOML parser hands it out.
+pub(super) type Value<'i> = Spanned<DeValue<'i>>;
+
+/// Reads `text` by `read`, which returns something only when it can; what was refused on the way wins.
+pub(super) fn parse<T>(
+    text: &str,
+    read: impl FnOnce(&mut Reader<'_>, &Section<'_, '_>) -> Option<T>,
+) -> Result<T, UnitFileErrors> {
+    let (document, syntax_errors) = DeTable::parse_recoverable(text);
+    let mut reader = Reader { text, errors: Vec::new() };
+    if !syntax_errors.is_empty() {
+        syntax_errors.iter().for_each(|error| reader.refuse_syntax(error));
+        return Err(reader.into_errors());
+    }
+    let root = Section { place: String::new(), span: document.span(), table: document.get_ref() };
+    match read(&mut reader, &root) {
+        Some(result) if reader.errors.is_empty() => Ok(result),
+        _ => Err(reader.into_errors()),
+    }
+}
+
+/// Collects errors.
+pub(super) struct Reader<'t> {
+    text: &'t str,
+    errors: Vec<UnitFileError>,
+}
+
+impl Reader<'_> {
+    /// Notes what is wrong at `span`.
+    pub(super) fn refuse(&mut self, span: Range<usize>, problem: Problem) {
+        self.errors.push(UnitFileError::new(self.text, span, problem));
+    }
+
+    /// Refuses every key of `section` that is none of `keys`.
+    pub(super) fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
+        for (key, _) in section.table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref())) {
+            let message = format!("unknown key `{}`", section.place_of(key.get_ref()));
+            self.refuse(key.span(), Problem::unknown(message, key.get_ref(), keys));
+        }
+    }
+
+    /// The value of `key` by `read`; none when it is left out or refused.
+    pub(super) fn value<T>(
+        &mut self,
+        section: &Section<'_, '_>,
+        key: &str,
+        read: impl FnOnce(&str, &DeValue<'_>) -> Result<T, Problem>,
+    ) -> Option<Located<T>> {
+        self.read(&section.place_of(key), section.get(key)?, read)
+    }
+
+    /// `value` by `read`; none when it is refused.
+    pub(super) fn read<T>(
+        &mut self,
+        place: &str,
+        value: &Value<'_>,
+        read: impl FnOnce(&str, &DeValue<'_>) -> Result<T, Problem>,
+    ) -> Option<Located<T>> {
+        match read(place, value.get_ref()) {
+            Ok(read) => Some(Located::at(value.span(), read)),
+            Err(problem) => {
+                self.refuse(value.span(), problem);
+                None
+            }
+        }
+    }
+
+    /// The table at `key`; none when it is left out, or no table.
+    pub(super) fn section<'d, 'i>(
+        &mut self,
+        parent: &Section<'d, 'i>,
+        key: &str,
+    ) -> Option<Section<'d, 'i>> {
+        let value = parent.get(key)?;
+        let place = parent.place_of(key);
+        match value.get_ref() {
+            DeValue::Table(table) => Some(Section { place, span: value.span(), table }),
+            other => {
+                self.refuse(value.span(), wrong_type(&place, other, "a table"));
+                None
+            }
+        }
+    }
+
+    /// Every element of the array `value` by `read`; those that are refused are left out.
+    pub(super) fn array<T>(
+        &mut self,
+        place: &str,
+        value: &Value<'_>,
+        mut read: impl FnMut(&str, &DeValue<'_>) -> Result<T, Problem>,
+    ) -> Vec<Located<T>> {
+        let elements = value.get_ref().as_array().into_iter().flat_map(|array| array.iter());
+        let numbered = elements.enumerate();
+        numbered.filter_map(|(at, each)| self.read(&format!("{place}[{at}]"), each, &mut read)).collect()
+    }
+
+    fn refuse_syntax(&mut self, error: &toml::de::Error) {
+        // The parser's text is a fragment already, with what it expected at its end.
+        let message = error.message().replace('\n', ", ");
+        let (message, expected) = message.split_once(", expected ").unwrap_or((&message, ""));
+        let span = error.span().unwrap_or(0..0);
+        self.refuse(span, Problem::new(format!("not TOML: {message}"), expected));
+    }
+
+    fn into_errors(mut self) -> UnitFileErrors {
+        self.errors.sort_by_key(|error| error.span.start);
+        UnitFileErrors(self.errors)
+    }
+}
+
+/// A table of the file.
+pub(super) struct Section<'d, 'i> {
+    place: String,
+    span: Range<usize>,
+    table: &'d DeTable<'i>,
+}
+
+impl<'d, 'i> Section<'d, 'i> {
+    /// The value of `key`.
+    pub(super) fn get(&self, key: &str) -> Option<&'d Value<'i>> {
+        self.table.iter().find(|(known, _)| known.get_ref() == key).map(|(_, value)| value)
+    }
+
+    /// All keys with their spans, and their values.
+    pub(super) fn entries(&self) -> impl Iterator<Item = (Located<&'d str>, &'d Value<'i>)> {
+        self.table.iter().map(|(key, value)| (Located::at(key.span(), key.get_ref().as_ref()), value))
+    }
+
+    /// `key` with the tables that it stands in.
+    pub(super) fn place_of(&self, key: &str) -> String {
+        match self.place.as_str() {
+            "" => key.to_owned(),
+            place => format!("{place}.{key}"),
+        }
+    }
+
+    /// `value` at the place of this table.
+    pub(super) fn locate<T>(&self, value: T) -> Located<T> {
+        Located::at(self.span.clone(), value)
+    }
+}
+
+/// `value` has another type than `expected`.
+pub(super) fn wrong_type(place: &str, value: &DeValue<'_>, expected: &str) -> Problem {
+    let found = match value {
+        DeValue::String(_) => "a string",
+        DeValue::Integer(_) => "an integer",
+        DeValue::Float(_) => "a float",
+        DeValue::Boolean(_) => "a boolean",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "an array",
+        DeValue::Table(_) => "a table",
+    };
+    Problem::new(format!("`{place}` is {found}"), expected)
+}

@@ -1,0 +1,214 @@
+//! The sections of a unit file, key by key.
+
+use time::Duration;
+use toml::de::DeValue;
+use wire::ObjectIndex;
+
+use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
+use super::error::Problem;
+use super::located::Located;
+use super::reader::{Reader, Section, Value, wrong_type};
+use super::{ChangedLevel, CpuMode, CpuSection, EventLevel, Model, UnitFile, values};
+use crate::data_sets::{DataSet, DataSetKind};
+use crate::timing::Timing;
+
+const UNIT_KEYS: [&str; 11] = [
+    "model",
+    "name",
+    "unit_number",
+    "serial",
+    "id_switch",
+    "timing",
+    "storage",
+    "io_allocation",
+    "pdo",
+    "event_levels",
+    "cpu",
+];
+const DATA_SET_KEYS: [(&str, DataSetKind); 3] =
+    [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
+/// Events whose level a user may change (manual, 8-3-4).
+const CHANGEABLE_EVENTS: [&str; 2] = ["39160000", "39170000"];
+
+/// The whole file; none when it does not name its model.
+pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
+    reader.only(file, &UNIT_KEYS);
+    if file.get("model").is_none() {
+        reader.refuse(0..0, Problem::new("`model` is missing", "`model = \"nx-ect101\"`"));
+    }
+    let model =
+        reader.value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
+    let unit_number =
+        reader.value(file, "unit_number", |place, value| values::integer(place, value, 1..=63, "1 to 63"));
+    let serial = reader.value(file, "serial", |place, value| {
+        values::integer(place, value, 0..=u32::MAX.into(), "0 to 4294967295")
+    });
+    let id_switch =
+        reader.value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
+    let timing = reader.value(file, "timing", |place, value| {
+        values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
+    });
+    let name = reader.value(file, "name", values::identifier);
+    let storage = reader.value(file, "storage", values::path);
+    let io_allocation = io_allocation(reader, file);
+    let pdo = pdo(reader, file);
+    let event_levels = event_levels(reader, file);
+    let cpu = cpu(reader, file);
+    Some(UnitFile {
+        model: model?,
+        name: name.unwrap_or_else(|| Located::left_out("N1".into())),
+        unit_number: unit_number.unwrap_or(Located::left_out(1)),
+        serial: serial.unwrap_or(Located::left_out(1)),
+        id_switch: id_switch.unwrap_or(Located::left_out(0x01)),
+        timing: timing.unwrap_or(Located::left_out(Timing::Exact)),
+        storage,
+        io_allocation,
+        pdo,
+        event_levels,
+        cpu,
+    })
+}
+
+fn io_allocation(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<IoAllocationSection>> {
+    let section = reader.section(file, "io_allocation")?;
+    reader.only(&section, &["m_to_c", "c_to_m"]);
+    let m_to_c = data_sets(reader, &section, "m_to_c");
+    let c_to_m = data_sets(reader, &section, "c_to_m");
+    Some(section.locate(IoAllocationSection { m_to_c, c_to_m }))
+}
+
+fn data_sets(reader: &mut Reader<'_>, parent: &Section<'_, '_>, key: &str) -> Vec<DataSetEntries> {
+    let Some(section) = reader.section(parent, key) else { return Vec::new() };
+    reader.only(&section, &DATA_SET_KEYS.map(|(key, _)| key));
+    let mut sets = Vec::new();
+    for (key, kind) in DATA_SET_KEYS {
+        let value = section.get(key);
+        if let Some(entries) = value.and_then(|value| entries(reader, &section.place_of(key), value)) {
+            sets.push(DataSetEntries { kind, entries });
+        }
+    }
+    sets
+}
+
+/// Short form or long form.
+fn entries(reader: &mut Reader<'_>, place: &str, value: &Value<'_>) -> Option<Located<Entries>> {
+    if value.get_ref().is_array() {
+        let list = reader.array(place, value, values::entry_address);
+        return Some(Located::at(value.span(), Entries::List(list)));
+    }
+    reader.read(place, value, |place, value| {
+        if !value.is_integer() {
+            let expected = "a number of entries, 0 to 255, or a list of entries: [\"6000:01\"]";
+            return Err(wrong_type(place, value, expected));
+        }
+        values::integer(place, value, 0..=255, "0 to 255").map(Entries::Count)
+    })
+}
+
+fn pdo(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<PdoSection>> {
+    let section = reader.section(file, "pdo")?;
+    reader.only(&section, &["assign", "mapping"]);
+    let mut pdo = PdoSection::default();
+    if let Some(assign) = reader.section(&section, "assign") {
+        reader.only(&assign, &["rx", "tx"]);
+        pdo.assign_rx = assignment(reader, &assign, "rx");
+        pdo.assign_tx = assignment(reader, &assign, "tx");
+    }
+    if let Some(mapping) = reader.section(&section, "mapping") {
+        pdo.mappings = mappings(reader, &mapping);
+    }
+    Some(section.locate(pdo))
+}
+
+fn assignment(
+    reader: &mut Reader<'_>,
+    section: &Section<'_, '_>,
+    key: &str,
+) -> Option<Located<Vec<Located<ObjectIndex>>>> {
+    let (place, value) = (section.place_of(key), section.get(key)?);
+    if !value.get_ref().is_array() {
+        let expected = "a list of PDO mapping objects: [0x1601]";
+        reader.refuse(value.span(), wrong_type(&place, value.get_ref(), expected));
+        return None;
+    }
+    Some(Located::at(value.span(), reader.array(&place, value, values::object_index)))
+}
+
+fn mappings(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<MappingEntries> {
+    let mut mappings: Vec<MappingEntries> = Vec::new();
+    for (key, value) in section.entries() {
+        let place = section.place_of(key.value);
+        let Some(pdo) = mapping_object(key.value) else {
+            refuse_mapping_key(reader, &place, key);
+            continue;
+        };
+        // `1a01` and `1A01` are two keys for TOML and one object for us.
+        if mappings.iter().any(|known| known.pdo.value == pdo) {
+            let problem = Problem::new(format!("`{place}` stands twice"), "one mapping for each object");
+            reader.refuse(key.span.unwrap_or_default(), problem);
+            continue;
+        }
+        if let Some(entries) = entries(reader, &place, value) {
+            mappings.push(MappingEntries { pdo: Located { value: pdo, span: key.span }, entries });
+        }
+    }
+    mappings.sort_by_key(|mapping| mapping.pdo.value);
+    mappings
+}
+
+/// The mapping object that `key` names, of those whose entries a master may set.
+fn mapping_object(key: &str) -> Option<ObjectIndex> {
+    let index = ObjectIndex(u16::try_from(values::hexadecimal(key, 4)?).ok()?);
+    DataSet::of_pdo(index).map(|_| index)
+}
+
+fn refuse_mapping_key(reader: &mut Reader<'_>, place: &str, key: Located<&str>) {
+    let mut names: Vec<String> = DataSet::all().iter().map(|set| format!("{:04X}", set.pdo.0)).collect();
+    names.sort_unstable();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let problem = Problem::unknown(format!("unknown key `{place}`"), key.value, &names);
+    reader.refuse(key.span.unwrap_or_default(), problem);
+}
+
+fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<EventLevel> {
+    let Some(section) = reader.section(file, "event_levels") else { return Vec::new() };
+    let mut levels = Vec::new();
+    for (key, value) in section.entries() {
+        let code = values::hexadecimal(key.value, 8).filter(|_| CHANGEABLE_EVENTS.contains(&key.value));
+        let Some(code) = code else {
+            let message = format!("`event_levels`: no event `{}` whose level can be changed", values::shown(key.value));
+            let problem = Problem::unknown(message, key.value, &CHANGEABLE_EVENTS);
+            reader.refuse(key.span.unwrap_or_default(), problem);
+            continue;
+        };
+        if let Some(level) = reader.read(&section.place_of(key.value), value, level) {
+            levels.push(EventLevel { event_code: Located { value: code, span: key.span }, level });
+        }
+    }
+    levels.sort_by_key(|level| level.event_code.value);
+    levels
+}
+
+fn level(place: &str, value: &DeValue<'_>) -> Result<ChangedLevel, Problem> {
+    let choices = [("observation", ChangedLevel::Observation), ("minor_fault", ChangedLevel::MinorFault)];
+    values::choice(place, value, &choices)
+}
+
+fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
+    let mut cpu = CpuSection {
+        task_period: Located::left_out(Duration::from_millis(1)),
+        mode: Located::left_out(CpuMode::Run),
+        program: None,
+    };
+    let Some(section) = reader.section(file, "cpu") else { return cpu };
+    reader.only(&section, &["task_period", "mode", "program"]);
+    if let Some(task_period) = reader.value(&section, "task_period", values::task_period) {
+        cpu.task_period = task_period;
+    }
+    let modes = [("run", CpuMode::Run), ("program", CpuMode::Program)];
+    if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
+        cpu.mode = mode;
+    }
+    cpu.program = reader.value(&section, "program", values::path);
+    cpu
+}
