@@ -1,6 +1,6 @@
 //! What a master may do with an object, in the order in which a slave looks: does the object exist, has it
 //! complete access, does the subindex exist, has anybody the right, in this state, does the length fit,
-//! does the value (reference 6.7).
+//! does the value (ETG.1000.6, SDO; the codes are those of CiA 301).
 
 use objects::{AccessRights, Entry, Object, ObjectServer, ObjectTable};
 use wire::{AlState, SdoAbort, SdoAccess, SdoTarget, SubIndex};

@@ -1,4 +1,4 @@
-//! Where complete access puts the entries of an object (ETG.1000.6, complete access; reference 6.6).
+//! Where complete access puts the entries of an object (ETG.1000.6, complete access).
 //!
 //! Subindex 0 of an array or record takes 16 bits when the access begins there, the value and an octet 0.
 //! Entries follow in the order of their subindexes, gaps take no place. Bit types follow each other

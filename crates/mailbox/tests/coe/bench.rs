@@ -18,7 +18,7 @@ pub(crate) const RW_PRE_OP: AccessRights = AccessRights::READ.union(AccessRights
 pub(crate) const TEXT_BYTES: usize = 100;
 pub(crate) const LONG_BYTES: usize = 2000;
 
-/// Takes `octets` for `target`, whatever way the size asks for.
+/// A slave's mailbox, its objects, its state, and the counter of the master's next message.
 pub(crate) struct Bench<S = Dictionary> {
     pub(crate) mailbox: Mailbox,
     pub(crate) objects: S,
