@@ -127,10 +127,10 @@ impl ImageLayout {
         self.size_bytes
     }
 
-    /// Where entry `sub` of the data set of `kind` lies; none if it is not allocated there.
+    /// Where entry `number` (its subindex) of the data set of `kind` lies; none if it is not allocated there.
     #[must_use]
-    pub fn place(&self, direction: Direction, kind: DataSetKind, sub: SubIndex) -> Option<Range<usize>> {
-        let wanted = IoEntry { index: DataSet::of(direction, kind).nx_entry, sub };
+    pub fn place(&self, direction: Direction, kind: DataSetKind, number: u8) -> Option<Range<usize>> {
+        let wanted = IoEntry { index: DataSet::of(direction, kind).nx_entry, sub: SubIndex(number) };
         let found = self.places.iter().find(|place| place.kind == kind && place.entry == wanted);
         found.map(|place| place.bytes.clone())
     }
@@ -165,7 +165,7 @@ pub(crate) mod tests {
     #[test]
     fn entries_lie_one_after_the_other() {
         let layout = symmetric([2, 1, 1]).layout(Direction::CToM);
-        let place = |kind, sub| layout.place(Direction::CToM, kind, SubIndex(sub));
+        let place = |kind, sub| layout.place(Direction::CToM, kind, sub);
         assert_eq!(place(DataSetKind::Uints, 2), Some(30..60));
         assert_eq!(place(DataSetKind::Bytes, 1), Some(60..70));
         assert_eq!(place(DataSetKind::Udint, 1), Some(70..74));
@@ -179,6 +179,6 @@ pub(crate) mod tests {
         allocation.allocate(Direction::MToC, DataSetKind::Uints, vec![stray]);
         let layout = allocation.layout(Direction::MToC);
         assert_eq!(layout.size_bytes(), 10);
-        assert_eq!(layout.place(Direction::MToC, DataSetKind::Bytes, SubIndex(1)), None);
+        assert_eq!(layout.place(Direction::MToC, DataSetKind::Bytes, 1), None);
     }
 }

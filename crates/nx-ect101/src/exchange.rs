@@ -138,7 +138,7 @@ fn pair(
     layout: &ImageLayout,
 ) -> Option<(Range<usize>, Range<usize>)> {
     let set = DataSet::of_pdo(pdo).filter(|set| set.pdo_entry == entry.index())?;
-    let place = layout.place(set.direction, set.kind, entry.sub())?;
+    let place = layout.place(set.direction, set.kind, entry.sub().0)?;
     let mapped = bits.start / 8..bits.end / 8;
     (bits.start.is_multiple_of(8) && mapped.len() == place.len()).then_some((mapped, place))
 }

@@ -1,0 +1,139 @@
+//! The CPU Unit: a primary periodic task that refreshes the I/O of one unit and runs a user program.
+
+use core::fmt;
+
+use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
+use time::{Duration, Instant};
+
+use crate::io::{Io, Program};
+
+/// Operating mode of the CPU Unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OperatingMode {
+    /// RUN: the user program runs.
+    #[default]
+    Run,
+    /// PROGRAM: the user program stands; the I/O exchange goes on and the values stay (manual, A-4).
+    Program,
+}
+
+/// How a CPU Unit is set up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CpuSettings {
+    /// Task period of the primary periodic task; not zero.
+    pub task_period: Duration,
+    /// Operating mode at power-on.
+    pub mode: OperatingMode,
+    /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
+    pub system_time_ns: Option<u64>,
+}
+
+impl Default for CpuSettings {
+    /// 1 ms, RUN, no system time.
+    fn default() -> Self {
+        Self { task_period: Duration::from_millis(1), mode: OperatingMode::Run, system_time_ns: None }
+    }
+}
+
+/// A CPU Unit in operation, with one unit on its NX bus.
+pub struct CpuUnit {
+    bus: CpuEnd,
+    program: Box<dyn Program + Send>,
+    io: Io,
+    mode: OperatingMode,
+    task_period: Duration,
+    powered_on: Instant,
+    system_time_ns: Option<u64>,
+    deadline: Instant,
+}
+
+impl CpuUnit {
+    /// Turns a CPU Unit on. Its first task period begins at `now`. All memory that it ever uses is allocated
+    /// here.
+    ///
+    /// # Panics
+    /// If the task period is zero: who reads settings refuses it.
+    #[must_use]
+    pub fn power_on(
+        now: Instant,
+        settings: CpuSettings,
+        bus: CpuEnd,
+        program: Box<dyn Program + Send>,
+    ) -> Self {
+        assert!(!settings.task_period.is_zero(), "the task period is zero");
+        Self {
+            io: Io::new(bus.m_to_c_layout.clone(), bus.c_to_m_layout.clone()),
+            bus,
+            program,
+            mode: settings.mode,
+            task_period: settings.task_period,
+            powered_on: now,
+            system_time_ns: settings.system_time_ns,
+            deadline: now,
+        }
+    }
+
+    /// When the next task period begins.
+    #[must_use]
+    pub const fn deadline(&self) -> Instant {
+        self.deadline
+    }
+
+    /// One task period: takes in the newest data M to C, runs the user program in RUN mode, hands over the
+    /// data C to M. Periods keep their phase; those that were missed by `now` are left out.
+    pub fn cycle(&mut self, now: Instant) {
+        self.refresh_inputs();
+        if self.mode == OperatingMode::Run {
+            self.program.scan(&mut self.io);
+        }
+        self.refresh_outputs(now);
+        let late = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
+        self.deadline += self.task_period * (late + 1);
+    }
+
+    /// The operating mode.
+    #[must_use]
+    pub const fn mode(&self) -> OperatingMode {
+        self.mode
+    }
+
+    /// Changes the operating mode, in force from the next task period on.
+    pub fn set_mode(&mut self, mode: OperatingMode) {
+        self.mode = mode;
+    }
+
+    /// The I/O as the user program sees it.
+    #[must_use]
+    pub const fn io(&self) -> &Io {
+        &self.io
+    }
+
+    /// The I/O, to be changed from outside the user program: what is set goes out with the next task period.
+    #[must_use]
+    pub const fn io_mut(&mut self) -> &mut Io {
+        &mut self.io
+    }
+
+    fn refresh_inputs(&mut self) {
+        let image = self.bus.m_to_c.newest();
+        self.io.header = image.header;
+        self.io.m_to_c.copy_from_slice(image.bytes());
+    }
+
+    fn refresh_outputs(&mut self, now: Instant) {
+        let running_ns = now.saturating_since(self.powered_on).as_nanos();
+        let system_time_ns = self.system_time_ns.map_or(0, |start_ns| start_ns.saturating_add(running_ns));
+        self.bus.c_to_m.publish(CpuHeader { refreshing: true, system_time_ns }, &self.io.c_to_m);
+    }
+}
+
+impl fmt::Debug for CpuUnit {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut fields = formatter.debug_struct("CpuUnit");
+        fields.field("mode", &self.mode).field("task_period", &self.task_period);
+        fields.field("deadline", &self.deadline).field("io", &self.io).finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests;

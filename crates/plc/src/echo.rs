@@ -1,0 +1,26 @@
+//! The copy program of the manual's example: what the master sends comes back.
+
+use nx_ect101::{DataSet, Direction};
+
+use crate::io::{Io, Program};
+
+/// Copies every entry M to C to the same entry C to M, as long as the I/O data can be used, the unit has no
+/// error, and the data of both directions is valid.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Echo;
+
+impl Program for Echo {
+    fn scan(&mut self, io: &mut Io) {
+        let usable = io.io_data_active() && !io.unit_error();
+        if !(usable && io.status().m_to_c_valid && io.status().c_to_m_valid) {
+            return;
+        }
+        for set in DataSet::all().iter().filter(|set| set.direction == Direction::MToC) {
+            for number in 1..=set.max_count {
+                if let Some((from, to)) = io.twin(set.kind, number) {
+                    io.c_to_m[to].copy_from_slice(&io.m_to_c[from]);
+                }
+            }
+        }
+    }
+}

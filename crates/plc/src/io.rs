@@ -1,0 +1,187 @@
+//! What a user program sees of one unit: its entries by data set, its status, the raw images.
+
+use core::ops::Range;
+
+use nx_ect101::nx_bus::UnitHeader;
+use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
+
+/// A user program.
+pub trait Program {
+    /// Runs once in a task period.
+    fn scan(&mut self, io: &mut Io);
+}
+
+impl<F: FnMut(&mut Io)> Program for F {
+    fn scan(&mut self, io: &mut Io) {
+        self(io);
+    }
+}
+
+/// The I/O of one unit as the last I/O refresh brought it, and what the next one takes along.
+#[derive(Clone, Debug)]
+pub struct Io {
+    pub(crate) m_to_c: Vec<u8>,
+    pub(crate) c_to_m: Vec<u8>,
+    pub(crate) header: UnitHeader,
+    m_to_c_layout: ImageLayout,
+    c_to_m_layout: ImageLayout,
+}
+
+impl Io {
+    pub(crate) fn new(m_to_c_layout: ImageLayout, c_to_m_layout: ImageLayout) -> Self {
+        Self {
+            m_to_c: vec![0; m_to_c_layout.size_bytes()],
+            c_to_m: vec![0; c_to_m_layout.size_bytes()],
+            header: UnitHeader::default(),
+            m_to_c_layout,
+            c_to_m_layout,
+        }
+    }
+
+    /// UINTs `number` M to C, 1 to 40; none if it is not allocated.
+    #[must_use]
+    pub fn uints(&self, number: u8) -> Option<[u16; 15]> {
+        let entry = self.entry(DataSetKind::Uints, number)?;
+        let mut elements = [0; 15];
+        for (element, octets) in elements.iter_mut().zip(entry.chunks_exact(2)) {
+            *element = u16::from_le_bytes(octets.try_into().ok()?);
+        }
+        Some(elements)
+    }
+
+    /// BYTES `number` M to C, 1 to 10; none if it is not allocated.
+    #[must_use]
+    pub fn bytes(&self, number: u8) -> Option<[u8; 10]> {
+        self.entry(DataSetKind::Bytes, number)?.try_into().ok()
+    }
+
+    /// UDINT `number` M to C, 1 to 32; none if it is not allocated.
+    #[must_use]
+    pub fn udint(&self, number: u8) -> Option<u32> {
+        self.entry(DataSetKind::Udint, number)?.try_into().map(u32::from_le_bytes).ok()
+    }
+
+    /// Sets UINTs `number` C to M, 1 to 40; false if it is not allocated.
+    pub fn set_uints(&mut self, number: u8, elements: [u16; 15]) -> bool {
+        let Some(entry) = self.entry_mut(DataSetKind::Uints, number) else { return false };
+        for (octets, element) in entry.chunks_exact_mut(2).zip(elements) {
+            octets.copy_from_slice(&element.to_le_bytes());
+        }
+        true
+    }
+
+    /// Sets BYTES `number` C to M, 1 to 10; false if it is not allocated.
+    pub fn set_bytes(&mut self, number: u8, elements: [u8; 10]) -> bool {
+        self.set_entry(DataSetKind::Bytes, number, &elements)
+    }
+
+    /// Sets UDINT `number` C to M, 1 to 32; false if it is not allocated.
+    pub fn set_udint(&mut self, number: u8, value: u32) -> bool {
+        self.set_entry(DataSetKind::Udint, number, &value.to_le_bytes())
+    }
+
+    /// The raw bytes of entry `number` M to C, little endian; none if it is not allocated.
+    #[must_use]
+    pub fn entry(&self, kind: DataSetKind, number: u8) -> Option<&[u8]> {
+        let place = self.m_to_c_layout.place(Direction::MToC, kind, number)?;
+        self.m_to_c.get(place)
+    }
+
+    /// The raw bytes of entry `number` C to M, little endian; none if it is not allocated.
+    #[must_use]
+    pub fn entry_mut(&mut self, kind: DataSetKind, number: u8) -> Option<&mut [u8]> {
+        let place = self.c_to_m_layout.place(Direction::CToM, kind, number)?;
+        self.c_to_m.get_mut(place)
+    }
+
+    /// The whole image M to C, entry after entry.
+    #[must_use]
+    pub fn m_to_c(&self) -> &[u8] {
+        &self.m_to_c
+    }
+
+    /// The whole image C to M, entry after entry.
+    #[must_use]
+    pub fn c_to_m(&self) -> &[u8] {
+        &self.c_to_m
+    }
+
+    /// The whole image C to M, to be changed.
+    #[must_use]
+    pub fn c_to_m_mut(&mut self) -> &mut [u8] {
+        &mut self.c_to_m
+    }
+
+    /// EtherCAT Slave Status of the unit.
+    #[must_use]
+    pub fn status(&self) -> SlaveStatus {
+        self.header.status
+    }
+
+    /// NX Unit I/O Data Active Status: the unit's I/O data can be used for control.
+    #[must_use]
+    pub fn io_data_active(&self) -> bool {
+        self.header.io_data_active
+    }
+
+    /// NX Unit Error Status: the unit has an error.
+    #[must_use]
+    pub fn unit_error(&self) -> bool {
+        self.header.error
+    }
+
+    /// Where the same entry lies in both images; none if only one direction has it allocated.
+    pub(crate) fn twin(&self, kind: DataSetKind, number: u8) -> Option<(Range<usize>, Range<usize>)> {
+        let from = self.m_to_c_layout.place(Direction::MToC, kind, number)?;
+        let to = self.c_to_m_layout.place(Direction::CToM, kind, number)?;
+        Some((from, to))
+    }
+
+    fn set_entry(&mut self, kind: DataSetKind, number: u8, value: &[u8]) -> bool {
+        let Some(entry) = self.entry_mut(kind, number) else { return false };
+        entry.copy_from_slice(value);
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nx_ect101::IoAllocation;
+
+    fn io() -> Io {
+        let mut allocation = IoAllocation::factory();
+        for direction in [Direction::MToC, Direction::CToM] {
+            allocation.select(direction, DataSetKind::Bytes, 2);
+            allocation.select(direction, DataSetKind::Udint, 4);
+        }
+        Io::new(allocation.layout(Direction::MToC), allocation.layout(Direction::CToM))
+    }
+
+    #[test]
+    fn entries_are_read_where_they_lie() {
+        let mut io = io();
+        io.m_to_c[30..34].copy_from_slice(&[0x34, 0x12, 0x78, 0x56]);
+        io.m_to_c[180] = 0xAB;
+        io.m_to_c[204..208].copy_from_slice(&0xDEAD_BEEF_u32.to_le_bytes());
+        assert_eq!(io.uints(2).expect("allocated")[..2], [0x1234, 0x5678]);
+        assert_eq!(io.bytes(1).expect("allocated")[0], 0xAB);
+        assert_eq!(io.udint(2), Some(0xDEAD_BEEF));
+    }
+
+    #[test]
+    fn entries_are_written_where_they_lie() {
+        let mut io = io();
+        assert!(io.set_uints(6, [0x0102; 15]) && io.set_bytes(2, [7; 10]) && io.set_udint(4, 0x0304_0506));
+        let expected =
+            [vec![0; 150], [2, 1].repeat(15), vec![0; 10], vec![7; 10], vec![0; 12], vec![6, 5, 4, 3]];
+        assert_eq!(io.c_to_m(), expected.concat());
+    }
+
+    #[test]
+    fn what_is_not_allocated_is_not_there() {
+        let mut io = io();
+        assert_eq!((io.uints(0), io.uints(7), io.bytes(3), io.udint(5)), (None, None, None, None));
+        assert!(!io.set_uints(7, [0; 15]) && !io.set_bytes(0, [0; 10]) && !io.set_udint(33, 0));
+    }
+}
