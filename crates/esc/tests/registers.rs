@@ -1,0 +1,262 @@
+//! Registers as the data sheet tells them: reset values, who may write, side effects, then every address.
+
+mod bench;
+
+use bench::Bench;
+use esc::{EcatAccess, EscConfig, Port, REGISTERS};
+use proptest::prelude::*;
+use time::Duration;
+use wire::{AlState, AlStatus, AlStatusCode};
+
+/// C012, C013: what stands there after power-on.
+#[test]
+fn power_on_values_tell_the_build() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.read(0x0000, 10), Some(vec![0x11, 0, 3, 0, 8, 8, 8, 0x0F, 0xCC, 0]));
+    assert_eq!(bench.read(0x0130, 6), Some(vec![1, 0, 0, 0, 0, 0]));
+    assert_eq!(bench.word(0x0120), 1);
+    assert_eq!(bench.read(0x0100, 4), Some(vec![1, 0, 7, 0]));
+    assert_eq!((bench.word(0x0400), bench.word(0x0420)), (0x09C2, 0x03E8));
+    assert_eq!(bench.word(0x0440), 1);
+}
+
+/// C018: the alias comes from the SII, and the wire does not change it.
+#[test]
+fn the_alias_is_word_4_and_read_only() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.word(0x0012), 0x1234);
+    assert!(!bench.write(0x0012, &[1, 0]));
+    assert_eq!(bench.word(0x0012), 0x1234);
+}
+
+/// C005: the alias answers only where DL control bit 24 says so.
+#[test]
+fn the_alias_answers_when_it_is_switched_on() {
+    let mut bench = Bench::new();
+    bench.write(0x0010, &[0xE9, 0x03]);
+    assert!(bench.esc.answers_to(0x03E9) && !bench.esc.answers_to(0x1234));
+    bench.write(0x0103, &[1]);
+    assert!(bench.esc.answers_to(0x03E9) && bench.esc.answers_to(0x1234));
+}
+
+#[test]
+fn a_register_write_takes_effect_at_the_end_of_its_frame() {
+    let mut bench = Bench::new();
+    assert!(bench.esc.write(0x0010, &[7, 0]));
+    let mut within = [0; 2];
+    bench.esc.read(0x0010, &mut within, bench.now);
+    assert_eq!(within, [0, 0]);
+    bench.end();
+    assert_eq!(bench.word(0x0010), 7);
+}
+
+/// AL control takes one request at a time.
+#[test]
+fn al_control_waits_for_the_pdi() {
+    let mut bench = Bench::new();
+    assert!(bench.write(0x0120, &[2, 0]));
+    assert!(!bench.write(0x0120, &[1, 0]));
+    let now = bench.now;
+    let control = bench.esc.pdi(now).take_al_control();
+    assert_eq!(control.map(|control| control.state), Some(AlState::PreOp));
+    assert!(bench.write(0x0120, &[1, 0]));
+}
+
+#[test]
+fn al_status_raises_an_event_that_reading_it_clears() {
+    let mut bench = Bench::new();
+    bench.write(0x0200, &[0x0C, 0]);
+    bench.word(0x0110);
+    bench.word(0x0130);
+    assert_eq!(bench.esc.masked_events(), 0);
+    let now = bench.now;
+    let status = AlStatus { state: AlState::PreOp, error: true, device_id_loaded: false };
+    bench.esc.pdi(now).set_al_status(status, AlStatusCode(0x11));
+    assert_eq!(bench.esc.masked_events(), 1 << 3);
+    assert_eq!(bench.read(0x0130, 6), Some(vec![0x12, 0, 0, 0, 0x11, 0]));
+    assert_eq!(bench.esc.masked_events(), 0);
+}
+
+/// C015, C016: any write clears all counters of its group, and only these.
+#[test]
+fn counters_are_cleared_by_writing() {
+    let mut bench = Bench::new();
+    bench.esc.count_invalid_frame(Port::In);
+    bench.esc.count_forwarded_error(Port::Out);
+    bench.esc.count_processing_unit_error();
+    bench.esc.set_link(Port::In, true);
+    bench.esc.set_link(Port::In, false);
+    assert_eq!(bench.read(0x0300, 20).map(|all| all.iter().map(|n| u32::from(*n)).sum::<u32>()), Some(4));
+    bench.write(0x0303, &[0]);
+    assert_eq!(bench.read(0x0300, 12), Some(vec![0; 12]));
+    assert_eq!((bench.byte(0x030C), bench.byte(0x0310)), (1, 1));
+    bench.write(0x0300, &[0; 20]);
+    assert_eq!(bench.read(0x0300, 20), Some(vec![0; 20]));
+}
+
+#[test]
+fn counters_stay_at_255() {
+    let mut bench = Bench::new();
+    (0..300).for_each(|_| bench.esc.count_processing_unit_error());
+    assert_eq!(bench.byte(0x030C), 255);
+}
+
+/// C019: protected registers need the enable register in the same frame.
+#[test]
+fn write_protection_asks_for_the_enable_register_in_the_same_frame() {
+    let mut bench = Bench::new();
+    bench.write(0x0021, &[1]);
+    assert!(!bench.write(0x0010, &[5, 0]));
+    assert!(bench.esc.write(0x0020, &[1]));
+    assert!(bench.esc.write(0x0010, &[5, 0]));
+    bench.end();
+    assert_eq!(bench.word(0x0010), 5);
+    assert!(!bench.write(0x0010, &[6, 0]));
+    assert!(bench.write(0x1000, &[1]), "RAM is not protected by the register protection");
+    assert!(bench.esc.write(0x0030, &[1]));
+    assert!(!bench.esc.write(0x0021, &[0]));
+    bench.end();
+}
+
+#[test]
+fn esc_write_protection_covers_ram_too() {
+    let mut bench = Bench::new();
+    bench.write(0x0031, &[1]);
+    assert!(!bench.write(0x1000, &[1]));
+    assert!(bench.esc.write(0x0030, &[1]));
+    assert!(bench.esc.write(0x1000, &[9]));
+    bench.end();
+    assert_eq!(bench.byte(0x1000), 9);
+}
+
+#[test]
+fn res_in_three_frames_asks_for_a_reset() {
+    let mut bench = Bench::new();
+    let readback: Vec<u8> = b"RES"
+        .iter()
+        .map(|byte| {
+            bench.write(0x0040, &[*byte]);
+            bench.byte(0x0040)
+        })
+        .collect();
+    assert_eq!(readback, [1, 2, 0]);
+    let now = bench.now;
+    assert!(bench.esc.pdi(now).take_reset_request());
+    b"RAS".iter().for_each(|byte| {
+        bench.write(0x0040, &[*byte]);
+    });
+    assert!(!bench.esc.pdi(now).take_reset_request());
+}
+
+#[test]
+fn without_distributed_clocks_nothing_answers_there() {
+    let mut bench = Bench::with(EscConfig { distributed_clocks: false, ..EscConfig::default() });
+    assert_eq!(bench.read(0x0910, 8), None);
+    assert!(!bench.write(0x0900, &[0; 4]));
+    assert_eq!(bench.word(0x0008) & 0x000C, 0);
+}
+
+#[test]
+fn beyond_the_ram_nothing_answers() {
+    let mut bench = Bench::new();
+    assert_eq!(bench.read(0x3000, 4), None);
+    assert!(!bench.write(0x3000, &[1]));
+    assert!(bench.read(0x2FFE, 4).is_some(), "one byte inside is enough to count");
+    assert!(bench.read(0xFFFF, 4).is_none());
+}
+
+/// Masters clear whole areas by block writes of 256 bytes; the writable bytes in them count.
+#[test]
+fn block_writes_over_register_areas_are_taken() {
+    let mut bench = Bench::new();
+    bench.set_sync_manager(2, 0x1100, 10, bench::OUTPUTS);
+    bench.set_fmmu(0, &[0, 0, 0, 0, 10, 0, 0, 7, 0, 0x11, 0, 2, 1]);
+    assert!(bench.write(0x0600, &[0; 256]));
+    assert!(bench.write(0x0800, &[0; 256]));
+    assert_eq!(bench.read(0x0600, 128), Some(vec![0; 128]));
+    assert_eq!(bench.read(0x0810, 5), Some(vec![0; 5]));
+}
+
+/// A FMMU or SyncManager that is not built in stays silent.
+#[test]
+fn banks_end_where_the_build_ends() {
+    let mut bench = Bench::new();
+    assert!(!bench.write(0x0680, &[1; 16]));
+    assert!(!bench.write(0x0840, &[1; 8]));
+    assert_eq!(bench.read(0x0680, 16), Some(vec![0; 16]));
+}
+
+/// C066, C068, C069: the watchdog runs from the first complete write on.
+#[test]
+fn the_process_data_watchdog_expires_after_its_time() {
+    let mut bench = Bench::new();
+    bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS);
+    bench.now = bench.now + Duration::from_secs(1);
+    bench.esc.advance(bench.now);
+    assert_eq!(bench.word(0x0440), 1, "nothing has been triggered yet");
+    bench.write(0x1100, &[1, 2]);
+    let due = bench.now + Duration::from_millis(100);
+    assert_eq!(bench.esc.deadline(), due);
+    bench.now = due;
+    bench.esc.advance(bench.now);
+    assert_eq!((bench.word(0x0440), bench.byte(0x0442)), (0, 1));
+    assert!(bench.esc.pdi(due).take_watchdog_event());
+    bench.write(0x1100, &[1, 2]);
+    assert_eq!(bench.word(0x0440), 1);
+    bench.write(0x0420, &[0, 0]);
+    assert_eq!(bench.esc.deadline(), time::Instant::NEVER);
+    bench.write(0x0442, &[0]);
+    assert_eq!(bench.byte(0x0442), 0);
+}
+
+/// C118: the system time advances; offset and delay show in it.
+#[test]
+fn system_time_is_local_time_with_offset_less_delay() {
+    let mut bench = Bench::new();
+    bench.now = time::Instant::from_nanos(5_000);
+    bench.write(0x0920, &1_000_000u64.to_le_bytes());
+    bench.write(0x0928, &300u32.to_le_bytes());
+    let time = bench.read(0x0910, 8).map(|bytes| u64::from_le_bytes(bytes.try_into().expect("eight bytes")));
+    assert_eq!(time, Some(1_000_000 + 5_000 - 300));
+}
+
+/// A slave whose delay is set right agrees with the reference clock.
+#[test]
+fn the_control_loop_brings_the_difference_to_nothing() {
+    let mut bench = Bench::new();
+    let mut difference = u32::MAX;
+    for cycle in 1..=2_000u64 {
+        bench.now = time::Instant::from_nanos(cycle * 1_000_000);
+        let reference = (cycle * 1_000_000 + 40_000) as u32;
+        bench.write(0x0910, &reference.to_le_bytes());
+        let bytes = bench.read(0x092C, 4).expect("DC is there");
+        difference = u32::from_le_bytes(bytes.try_into().expect("four bytes")) & 0x7FFF_FFFF;
+    }
+    assert!(difference < 10, "{difference} ns");
+}
+
+proptest! {
+    /// C014: whatever is written wherever, read-only registers stay, and nothing panics.
+    #[test]
+    fn read_only_registers_stay(
+        writes in prop::collection::vec((0u16..0x1200, prop::collection::vec(any::<u8>(), 1..64)), 1..40),
+    ) {
+        let mut bench = Bench::new();
+        let constants = |bench: &mut Bench| (bench.read(0x0000, 10), bench.word(0x0012), bench.read(0x0130, 6));
+        let before = constants(&mut bench);
+        for (offset, data) in writes {
+            bench.write(offset, &data);
+        }
+        bench.write(0x0031, &[0]);
+        prop_assert_eq!(constants(&mut bench), before);
+    }
+
+    /// Every register that the table lets the wire write counts a write, every other does not.
+    #[test]
+    fn a_write_counts_where_the_table_says_so(row in 0..REGISTERS.len()) {
+        let register = REGISTERS[row];
+        let mut bench = Bench::new();
+        let counts = bench.write(register.offset, &vec![0; usize::from(register.size_bytes)]);
+        prop_assert_eq!(counts, register.ecat == EcatAccess::ReadWrite, "{}", register.name);
+    }
+}

@@ -1,0 +1,141 @@
+//! The SII interface, in all the shapes in which masters use it.
+
+mod bench;
+
+use bench::{Bench, sii_image};
+use esc::{EscConfig, SiiTiming};
+use time::Duration;
+
+const WRITE_ENABLE_ERROR: u16 = 1 << 14;
+const COMMAND_ERROR: u16 = 1 << 13;
+const BUSY: u16 = 1 << 15;
+const CHECKSUM_ERROR: u16 = 1 << 11;
+
+fn words_8_to_11() -> Bench {
+    let mut image = sii_image();
+    image[16..24].copy_from_slice(&[1, 2, 3, 4, 5, 6, 7, 8]);
+    Bench::with_sii(EscConfig::default(), image)
+}
+
+#[test]
+fn six_bytes_at_once_read_four_or_eight() {
+    let mut bench = words_8_to_11();
+    assert!(bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
+    assert_eq!(bench.word(0x0502), 0x0040);
+    assert_eq!(bench.read(0x0508, 4), Some(vec![1, 2, 3, 4]));
+    assert_eq!(bench.read(0x0508, 8), Some(vec![1, 2, 3, 4, 5, 6, 7, 8]));
+}
+
+#[test]
+fn address_and_command_may_come_apart() {
+    let mut bench = words_8_to_11();
+    bench.write(0x0504, &[10, 0, 0, 0]);
+    bench.write(0x0502, &[0, 1]);
+    assert_eq!(bench.read(0x0508, 4), Some(vec![5, 6, 7, 8]));
+}
+
+/// GatorCAT writes two bytes and four bytes, both at 0x0502; IgH writes 0x80 into read-only bits.
+#[test]
+fn four_bytes_at_the_command_are_a_short_address() {
+    let mut bench = words_8_to_11();
+    bench.write(0x0502, &[0x80, 1, 10, 0]);
+    assert_eq!(bench.read(0x0508, 4), Some(vec![5, 6, 7, 8]));
+}
+
+/// C031: any word reads, behind the end as erased.
+#[test]
+fn every_word_reads_and_the_end_is_erased() {
+    let mut bench = Bench::new();
+    for (address, expected) in [(1023u32, vec![0, 0, 0xFF, 0xFF]), (70_000, vec![0xFF; 4])] {
+        let mut request = vec![0, 1];
+        request.extend(address.to_le_bytes());
+        bench.write(0x0502, &request);
+        assert_eq!(bench.word(0x0502) & (BUSY | COMMAND_ERROR), 0);
+        assert_eq!(bench.read(0x0508, 4), Some(expected));
+    }
+}
+
+/// C032: a write asks for the enable bit in the same write.
+#[test]
+fn a_write_without_enable_is_an_error_and_changes_nothing() {
+    let mut bench = Bench::new();
+    bench.write(0x0508, &[0xCD, 0xAB]);
+    bench.write(0x0502, &[0, 2, 4, 0, 0, 0]);
+    assert_eq!(bench.word(0x0502) & WRITE_ENABLE_ERROR, WRITE_ENABLE_ERROR);
+    bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    assert_eq!(bench.read(0x0508, 2), Some(vec![0x34, 0x12]));
+    bench.write(0x0508, &[0xCD, 0xAB]);
+    bench.write(0x0502, &[1, 2, 4, 0, 0, 0]);
+    assert_eq!(bench.word(0x0502) & WRITE_ENABLE_ERROR, 0);
+    bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    assert_eq!(bench.read(0x0508, 2), Some(vec![0xCD, 0xAB]));
+}
+
+#[test]
+fn an_unknown_command_is_an_error_that_a_nop_clears() {
+    let mut bench = Bench::new();
+    bench.write(0x0502, &[0, 7]);
+    assert_eq!(bench.word(0x0502) & COMMAND_ERROR, COMMAND_ERROR);
+    bench.write(0x0502, &[0, 0]);
+    assert_eq!(bench.word(0x0502) & COMMAND_ERROR, 0);
+}
+
+/// C033, C034: the PDI owns it until the master takes it back by force.
+#[test]
+fn ownership_decides_who_may_command() {
+    let mut bench = words_8_to_11();
+    bench.write(0x0500, &[1]);
+    assert!(!bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
+    let now = bench.now;
+    assert!(bench.esc.pdi(now).take_sii(true));
+    assert!(bench.esc.pdi(now).write_sii_word(8, 0xBEEF));
+    bench.write(0x0500, &[0]);
+    assert!(!bench.write(0x0502, &[0, 1, 8, 0, 0, 0]), "the PDI still has it");
+    bench.write(0x0500, &[2]);
+    bench.write(0x0500, &[0]);
+    assert!(bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
+    assert_eq!(bench.read(0x0508, 2), Some(vec![0xEF, 0xBE]));
+}
+
+#[test]
+fn a_slow_eeprom_is_busy_until_it_is_done() {
+    let wait = Duration::from_micros(300);
+    let slow = EscConfig { sii: SiiTiming::Busy(wait), ..EscConfig::default() };
+    let mut bench = Bench::with(slow);
+    bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    assert_eq!(bench.word(0x0502) & BUSY, BUSY);
+    bench.write(0x0502, &[0, 1, 8, 0, 0, 0]);
+    bench.now = bench.now + wait;
+    assert_eq!(bench.word(0x0502) & BUSY, 0);
+    assert_eq!(bench.read(0x0508, 2), Some(vec![0x34, 0x12]), "a command in between is not taken");
+}
+
+/// A wrong checksum: the configuration stays out, the controller still answers.
+#[test]
+fn a_wrong_checksum_shows_and_keeps_the_configuration_out() {
+    let mut image = sii_image();
+    image[14] ^= 1;
+    let mut bench = Bench::with_sii(EscConfig::default(), image);
+    assert_eq!(bench.word(0x0502) & CHECKSUM_ERROR, CHECKSUM_ERROR);
+    assert_eq!((bench.word(0x0012), bench.byte(0x0140), bench.word(0x0110) & 1), (0, 0, 0));
+}
+
+#[test]
+fn an_empty_eeprom_is_not_loaded() {
+    let mut bench = Bench::with_sii(EscConfig::default(), Vec::new());
+    assert_eq!(bench.word(0x0502) & (1 << 12), 1 << 12);
+    bench.write(0x0502, &[1, 2, 4, 0, 0, 0]);
+    bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    assert_eq!(bench.read(0x0508, 2), Some(vec![0xFF, 0xFF]));
+}
+
+/// C018: a reload takes the configuration, never the alias.
+#[test]
+fn a_reload_leaves_the_alias() {
+    let mut bench = Bench::new();
+    bench.write(0x0508, &[1, 0]);
+    bench.write(0x0502, &[1, 2, 4, 0, 0, 0]);
+    bench.write(0x0502, &[0, 4]);
+    assert_eq!(bench.word(0x0012), 0x1234);
+    assert_eq!(bench.word(0x0502) & CHECKSUM_ERROR, CHECKSUM_ERROR);
+}
