@@ -15,13 +15,13 @@ const LATE: Duration = Duration::from_millis(1);
 
 /// What lies behind a port: a segment of units. It reads no clock.
 pub trait Responder {
-    /// A frame passes through, edited in place.
+    /// A frame passes through, edited in place, and nothing else is done.
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate;
 
-    /// Does what is due at `now`.
+    /// Does what the last frame asked for and what is due at `now`; called after each frame and at each deadline.
     fn poll(&mut self, now: Instant);
 
-    /// When [`Responder::poll`] has to be called next; [`Instant::NEVER`] if a frame comes first.
+    /// When [`Responder::poll`] has to be called next without a frame; [`Instant::NEVER`]: it need not.
     fn deadline(&self) -> Instant;
 }
 
@@ -111,10 +111,11 @@ struct Buffers {
 impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
     fn turn(&mut self, buffers: &mut Buffers) -> io::Result<()> {
         let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
-        if let Some(length_bytes) = self.port.receive(&mut buffers.frame, wait)? {
+        let received = self.port.receive(&mut buffers.frame, wait)?;
+        if let Some(length_bytes) = received {
             self.answer(length_bytes, buffers);
         }
-        self.poll_if_due();
+        self.poll(received.is_some());
         Ok(())
     }
 
@@ -154,9 +155,9 @@ impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
         self.statistics.destroyed += u64::from(fate != FrameFate::Returned);
     }
 
-    fn poll_if_due(&mut self) {
+    fn poll(&mut self, after_frame: bool) {
         let (now, deadline) = (self.clock.now(), self.responder.deadline());
-        if now >= deadline {
+        if after_frame || now >= deadline {
             self.statistics.late_polls += u64::from(now.saturating_since(deadline) >= LATE);
             self.responder.poll(now);
         }
