@@ -29,7 +29,9 @@ impl Entries {
     #[must_use]
     pub fn addresses(&self, index: ObjectIndex) -> Vec<EntryAddress> {
         match self {
-            Self::Count(count) => (1..=*count).map(|sub| EntryAddress { index, sub: SubIndex(sub) }).collect(),
+            Self::Count(count) => {
+                (1..=*count).map(|sub| EntryAddress { index, sub: SubIndex(sub) }).collect()
+            }
             Self::List(list) => list.iter().map(|entry| entry.value).collect(),
         }
     }

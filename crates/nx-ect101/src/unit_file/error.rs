@@ -102,14 +102,21 @@ fn one_of(names: &[&str]) -> String {
     }
 }
 
-/// The name that differs from `word` in the fewest letters, two or a third of its length at most.
+/// The valid name that `word` was most likely meant to be, if one is near.
 fn nearest(word: &str, names: &[&str]) -> Option<String> {
     let word: String = word.chars().take(40).flat_map(char::to_lowercase).collect();
-    let distance = |name: &&str| strsim::osa_distance(&word, &name.to_lowercase());
-    let name = names.iter().copied().min_by_key(|name| distance(name))?;
-    let limit = (name.chars().count() / 3).max(2);
-    // A word of two letters is near to everything that has two letters.
-    (distance(&name) <= limit && distance(&name) < name.chars().count()).then(|| name.to_owned())
+    let distance = |name: &str| strsim::osa_distance(&word, &name.to_lowercase());
+    let near = names.iter().copied().filter(|name| is_near(&word, &name.to_lowercase()));
+    near.min_by_key(|name| distance(name)).map(str::to_owned)
+}
+
+/// Whether `word` is `name` with slips (two letters, or a third of it), a part of it, or an abbreviation.
+fn is_near(word: &str, name: &str) -> bool {
+    let (length, distance) = (name.chars().count(), strsim::osa_distance(word, name));
+    // A word of two letters is within two slips of everything that has two letters.
+    let slips = distance <= (length / 3).max(2) && distance < length;
+    let part = word.chars().count() >= 3 && (name.contains(word) || word.contains(name));
+    slips || part || strsim::jaro_winkler(word, name) >= 0.85
 }
 
 /// Line and column, both from 1, of the byte at `offset`.

@@ -7,6 +7,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, UnitFileError, UnitFileErrors};
 use super::located::Located;
+use super::values;
 
 /// A value as the TOML parser hands it out.
 pub(super) type Value<'i> = Spanned<DeValue<'i>>;
@@ -76,11 +77,7 @@ impl Reader<'_> {
     }
 
     /// The table at `key`; none when it is left out, or no table.
-    pub(super) fn section<'d, 'i>(
-        &mut self,
-        parent: &Section<'d, 'i>,
-        key: &str,
-    ) -> Option<Section<'d, 'i>> {
+    pub(super) fn section<'d, 'i>(&mut self, parent: &Section<'d, 'i>, key: &str) -> Option<Section<'d, 'i>> {
         let value = parent.get(key)?;
         let place = parent.place_of(key);
         match value.get_ref() {
@@ -109,7 +106,11 @@ impl Reader<'_> {
         let message = error.message().replace('\n', ", ");
         let (message, expected) = message.split_once(", expected ").unwrap_or((&message, ""));
         let span = error.span().unwrap_or(0..0);
-        self.refuse(span, Problem::new(format!("not TOML: {message}"), expected));
+        let found = match self.text.get(span.clone()).unwrap_or("") {
+            "" => String::new(),
+            found => format!(" at `{}`", values::shown(found)),
+        };
+        self.refuse(span, Problem::new(format!("not TOML: {message}{found}"), expected));
     }
 
     fn into_errors(mut self) -> UnitFileErrors {

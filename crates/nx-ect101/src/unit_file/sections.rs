@@ -36,15 +36,15 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     if file.get("model").is_none() {
         reader.refuse(0..0, Problem::new("`model` is missing", "`model = \"nx-ect101\"`"));
     }
-    let model =
-        reader.value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
+    let model = reader
+        .value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
     let unit_number =
         reader.value(file, "unit_number", |place, value| values::integer(place, value, 1..=63, "1 to 63"));
     let serial = reader.value(file, "serial", |place, value| {
         values::integer(place, value, 0..=u32::MAX.into(), "0 to 4294967295")
     });
-    let id_switch =
-        reader.value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
+    let id_switch = reader
+        .value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
     let timing = reader.value(file, "timing", |place, value| {
         values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
     });
@@ -176,7 +176,8 @@ fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<EventLev
     for (key, value) in section.entries() {
         let code = values::hexadecimal(key.value, 8).filter(|_| CHANGEABLE_EVENTS.contains(&key.value));
         let Some(code) = code else {
-            let message = format!("`event_levels`: no event `{}` whose level can be changed", values::shown(key.value));
+            let message =
+                format!("`event_levels`: no event `{}` whose level can be changed", values::shown(key.value));
             let problem = Problem::unknown(message, key.value, &CHANGEABLE_EVENTS);
             reader.refuse(key.span.unwrap_or_default(), problem);
             continue;

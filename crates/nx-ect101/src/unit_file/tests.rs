@@ -1,1 +1,293 @@
+use proptest::prelude::*;
+
 use super::*;
+use crate::data_sets::{DataSet, DataSetKind, Direction};
+
+const FACTORY: &str = include_str!("../../../../units/nx-ect101.toml");
+const ARRAYS: &str = include_str!("../../../../units/nx-ect101-1200-bytes.toml");
+const MIXED: &str = include_str!("../../../../units/nx-ect101-mixed-520-bytes.toml");
+
+/// A file with every key.
+const FULL: &str = r#"
+model = "nx-ect101"
+name = "N1"
+unit_number = 1
+serial = 1
+id_switch = 0x01
+timing = "exact"
+storage = "N1.nvm"
+
+[io_allocation.m_to_c]
+uints = 6
+udint = ["6002:01", "6002:02"]
+[io_allocation.c_to_m]
+uints = 6
+
+[pdo]
+assign.rx = [0x1601]
+assign.tx = [0x1A00, 0x1A01, 0x1BFE]
+mapping.1601 = 6
+mapping.1A03 = ["6002:02", "6001:01"]
+
+[event_levels]
+"39170000" = "observation"
+
+[cpu]
+task_period = "1ms"
+mode = "run"
+program = "echo.st"
+"#;
+
+#[test]
+fn a_file_with_every_key_reads_as_written() {
+    let file = UnitFile::parse(FULL).unwrap();
+    assert_eq!((file.model.value, file.name.value.as_str()), (Model::NxEct101, "N1"));
+    assert_eq!((file.unit_number.value, file.serial.value, file.id_switch.value), (1, 1, 1));
+    assert_eq!(file.timing.value, Timing::Exact);
+    assert_eq!(file.storage.unwrap().value, PathBuf::from("N1.nvm"));
+    let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
+    assert_eq!((level.event_code.value, level.level.value), (0x3917_0000, ChangedLevel::Observation));
+    assert_eq!(file.cpu.task_period.value, Duration::from_millis(1));
+    assert_eq!(file.cpu.mode.value, CpuMode::Run);
+    assert_eq!(file.cpu.program.unwrap().value, PathBuf::from("echo.st"));
+}
+
+#[test]
+fn entries_are_kept_as_written_with_their_places() {
+    let file = UnitFile::parse(FULL).unwrap();
+    let io_allocation = file.io_allocation.as_ref().unwrap();
+    let [uints, udint] = io_allocation.value.m_to_c.as_slice() else { panic!("{io_allocation:?}") };
+    assert_eq!((uints.kind, &uints.entries.value), (DataSetKind::Uints, &Entries::Count(6)));
+    let Entries::List(list) = &udint.entries.value else { panic!("{udint:?}") };
+    assert_eq!(list[1].value, address(0x6002, 2));
+    assert_eq!(&FULL[list[1].span.clone().unwrap()], "\"6002:02\"");
+    let pdo = file.pdo.as_ref().unwrap();
+    assert_eq!(assigned(&pdo.value.assign_tx), [0x1A00, 0x1A01, 0x1BFE]);
+    let [first, second] = pdo.value.mappings.as_slice() else { panic!("{pdo:?}") };
+    assert_eq!((first.pdo.value.0, &first.entries.value), (0x1601, &Entries::Count(6)));
+    assert_eq!(&FULL[second.pdo.span.clone().unwrap()], "1A03");
+    let wrong = [address(0x6002, 2), address(0x6001, 1)];
+    assert_eq!(second.entries.value.addresses(second.pdo.value), wrong);
+}
+
+#[test]
+fn what_is_left_out_is_as_documented() {
+    let file = UnitFile::parse("model = \"nx-ect101\"").unwrap();
+    assert_eq!(file.name, Located::left_out("N1".into()));
+    assert_eq!((file.unit_number.value, file.serial.value, file.id_switch.value), (1, 1, 1));
+    assert_eq!((file.timing.value, file.cpu.mode.value), (Timing::Exact, CpuMode::Run));
+    assert_eq!((&file.io_allocation, &file.pdo, &file.storage), (&None, &None, &None));
+    assert_eq!(file.io_allocation(), IoAllocation::factory());
+}
+
+#[test]
+fn a_data_set_that_is_left_out_is_not_selected() {
+    let file = UnitFile::parse("model = \"nx-ect101\"\n[io_allocation.m_to_c]\nbytes = 3").unwrap();
+    let allocation = file.io_allocation();
+    assert_eq!(allocation.layout(Direction::MToC).size_bytes(), 30);
+    assert_eq!(allocation.layout(Direction::CToM).size_bytes(), 0);
+}
+
+#[test]
+fn numbers_beyond_a_maximum_are_kept_for_the_rules() {
+    let text = "model = \"nx-ect101\"\nio_allocation.m_to_c.uints = 41\npdo.assign.tx = [0x1601]\npdo.mapping.1a01 = 99";
+    let file = UnitFile::parse(text).unwrap();
+    assert_eq!(file.io_allocation().entries(Direction::MToC, DataSetKind::Uints).len(), 41);
+    let pdo = file.pdo.unwrap().value;
+    assert_eq!(assigned(&pdo.assign_tx), [0x1601]);
+    assert_eq!(pdo.mappings[0].entries.value, Entries::Count(99));
+}
+
+/// The manual's three examples (6-3-4): both sides of each file come to the manual's total.
+#[test]
+fn the_files_of_the_manuals_examples_have_its_totals() {
+    for (text, total) in [(FACTORY, 180), (ARRAYS, 1200), (MIXED, 520)] {
+        let file = UnitFile::parse(text).unwrap();
+        for direction in [Direction::MToC, Direction::CToM] {
+            assert_eq!(file.io_allocation().layout(direction).size_bytes(), total);
+            assert_eq!(pdo_bytes(&file, direction), total);
+        }
+    }
+}
+
+#[test]
+fn the_factory_file_is_the_factory_setting() {
+    assert_eq!(UnitFile::parse(FACTORY).unwrap().io_allocation(), IoAllocation::factory());
+}
+
+/// Exchanged bytes of the assigned mappings of `direction`.
+fn pdo_bytes(file: &UnitFile, direction: Direction) -> usize {
+    let pdo = &file.pdo.as_ref().unwrap().value;
+    let assigned = assigned(if direction == Direction::MToC { &pdo.assign_rx } else { &pdo.assign_tx });
+    let mappings = pdo.mappings.iter().filter(|mapping| assigned.contains(&mapping.pdo.value.0));
+    let bytes = mappings.map(|mapping| {
+        let set = DataSet::of_pdo(mapping.pdo.value).unwrap();
+        assert_eq!(set.direction, direction);
+        mapping.entries.value.addresses(set.pdo_entry).len() * usize::from(set.entry_bytes)
+    });
+    bytes.sum()
+}
+
+fn assigned(list: &Option<Located<Vec<Located<wire::ObjectIndex>>>>) -> Vec<u16> {
+    list.iter().flat_map(|list| &list.value).map(|pdo| pdo.value.0).collect()
+}
+
+const fn address(index: u16, sub: u8) -> EntryAddress {
+    EntryAddress { index: wire::ObjectIndex(index), sub: wire::SubIndex(sub) }
+}
+
+/// Wrong files, a line of `=` between them; what a user is told is in the snapshot.
+const WRONG: &[(&str, &str)] = &[
+    ("empty file", ""),
+    ("comment only", "# nothing\n"),
+    ("not TOML at all", "this is no TOML"),
+    ("XML", "<EtherCATInfo/>"),
+    ("no value", "model ="),
+    ("open text", "model = \"nx-ect101\nname = \"N1\""),
+    ("open array", "model = \"nx-ect101\"\npdo.assign.rx = [0x1601"),
+    ("duplicate key", "model = \"nx-ect101\"\nserial = 1\nserial = 2"),
+    ("duplicate table", "model = \"nx-ect101\"\n[cpu]\n[cpu]"),
+    ("two of one mapping", "model = \"nx-ect101\"\npdo.mapping.1A01 = 1\npdo.mapping.1a01 = 2"),
+    ("model missing", "name = \"N1\""),
+    ("unknown model", "model = \"nx-ect102\""),
+    ("model of wrong type", "model = 101"),
+    (
+        "unknown keys",
+        "model = \"nx-ect101\"\nunit_nr = 1\nunitnumber = 1\nzzz = 1\n[cpu]\nperiod = 1\ntaskperiod = 1",
+    ),
+    ("key in the wrong table", "model = \"nx-ect101\"\n[cpu]\nserial = 1"),
+    ("unit number", "model = \"nx-ect101\"\nunit_number = 64"),
+    ("unit number 0", "model = \"nx-ect101\"\nunit_number = 0"),
+    ("unit number as text", "model = \"nx-ect101\"\nunit_number = \"1\""),
+    ("serial too big", "model = \"nx-ect101\"\nserial = 4294967296"),
+    ("serial negative", "model = \"nx-ect101\"\nserial = -1"),
+    ("serial a float", "model = \"nx-ect101\"\nserial = 1.5"),
+    (
+        "serial without end",
+        "model = \"nx-ect101\"\nserial = 99999999999999999999999999999999999999999999999999",
+    ),
+    ("id switch", "model = \"nx-ect101\"\nid_switch = 0x100"),
+    ("name with a blank", "model = \"nx-ect101\"\nname = \"N 1\""),
+    ("name with a digit first", "model = \"nx-ect101\"\nname = \"1N\""),
+    ("name empty", "model = \"nx-ect101\"\nname = \"\""),
+    ("timing", "model = \"nx-ect101\"\ntiming = \"fsat\""),
+    ("storage", "model = \"nx-ect101\"\nstorage = \"\""),
+    ("period", "model = \"nx-ect101\"\ncpu.task_period = \"1h\""),
+    ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"101ms\""),
+    ("period as a number", "model = \"nx-ect101\"\ncpu.task_period = 1"),
+    ("mode", "model = \"nx-ect101\"\n[cpu]\nmode = \"RUN\""),
+    ("cpu no table", "model = \"nx-ect101\"\ncpu = \"run\""),
+    ("array of tables", "model = \"nx-ect101\"\n[[cpu]]\nmode = \"run\""),
+    ("unknown data set", "model = \"nx-ect101\"\n[io_allocation.m_to_c]\nuint = 6"),
+    ("unknown direction", "model = \"nx-ect101\"\n[io_allocation.m_to_m]\nuints = 6"),
+    ("count", "model = \"nx-ect101\"\nio_allocation.m_to_c.uints = 256"),
+    ("count as text", "model = \"nx-ect101\"\nio_allocation.m_to_c.uints = \"6\""),
+    (
+        "entries",
+        "model = \"nx-ect101\"\nio_allocation.m_to_c.udint = [\"6002:01\", \"6002-02\", 3, \"60020:1\"]",
+    ),
+    ("assign no list", "model = \"nx-ect101\"\npdo.assign.rx = 0x1601"),
+    ("assign", "model = \"nx-ect101\"\npdo.assign.rx = [0x11601, \"1601\"]"),
+    ("mapping of no data set", "model = \"nx-ect101\"\npdo.mapping.1600 = 6\npdo.mapping.1A00 = 6"),
+    ("mapping", "model = \"nx-ect101\"\npdo.mapping.1601 = true"),
+    (
+        "event",
+        "model = \"nx-ect101\"\n[event_levels]\n\"39180000\" = \"observation\"\n\"10410000\" = \"observation\"",
+    ),
+    ("event level", "model = \"nx-ect101\"\nevent_levels.39160000 = \"minor\""),
+    ("after letters of more than one byte", "# µs\r\nmodel = \"nx-ect101\" \r\n\"ÄÖ\" = { a = 1 }\r\n"),
+    ("everything at once", "model = 1\nserial = -1\nmodell = 2\n[cpu]\nmode = 3\nprogram = 4"),
+];
+
+#[test]
+fn a_wrong_file_is_told_with_place_value_and_expectation() {
+    let told: Vec<String> = WRONG
+        .iter()
+        .map(|(title, text)| {
+            let errors = UnitFile::parse(text).unwrap_err();
+            format!("{title}:\n{}", errors.in_file("unit.toml"))
+        })
+        .collect();
+    insta::assert_snapshot!(told.join("\n"));
+}
+
+#[test]
+fn spans_point_at_what_is_wrong() {
+    let text = "model = \"nx-ect101\"\n[cpu]\nmode = \"walk\"";
+    let errors = UnitFile::parse(text).unwrap_err();
+    let error = errors.iter().next().unwrap();
+    assert_eq!((&text[error.span.clone()], error.line, error.column), ("\"walk\"", 3, 8));
+}
+
+#[test]
+fn a_file_of_deep_tables_is_refused() {
+    let text = format!("model = {}", "[".repeat(100_000));
+    assert!(UnitFile::parse(&text).is_err());
+}
+
+/// Pieces that reach further into the reader than random letters do.
+fn pieces() -> impl Strategy<Value = String> {
+    let piece = prop::sample::select(vec![
+        "model",
+        "nx-ect101",
+        "\"",
+        "=",
+        "[",
+        "]",
+        ".",
+        "\n",
+        "io_allocation",
+        "m_to_c",
+        "uints",
+        "6",
+        "-1",
+        "0x",
+        "pdo",
+        "mapping",
+        "1601",
+        "assign",
+        "rx",
+        "event_levels",
+        "39170000",
+        "cpu",
+        "task_period",
+        "1ms",
+        ",",
+        "{",
+        "}",
+        "ä",
+        "#",
+    ]);
+    prop::collection::vec(piece, 0..60).prop_map(|pieces| pieces.concat())
+}
+
+proptest! {
+    #[test]
+    fn any_text_is_read_or_refused(text in any::<String>()) {
+        check_errors(&text)?;
+    }
+
+    #[test]
+    fn any_pieces_are_read_or_refused(text in pieces()) {
+        check_errors(&text)?;
+    }
+
+    #[test]
+    fn any_damage_is_read_or_refused(at in 0..FACTORY.len(), length in 0usize..40, with in "\\PC{0,3}") {
+        let mut text: Vec<u8> = FACTORY.bytes().collect();
+        text.splice(at..(at + length).min(FACTORY.len()), with.bytes());
+        check_errors(&String::from_utf8_lossy(&text))?;
+    }
+}
+
+/// Nothing panics; every error lies in the text.
+fn check_errors(text: &str) -> Result<(), TestCaseError> {
+    if let Err(errors) = UnitFile::parse(text) {
+        prop_assert!(errors.iter().count() > 0);
+        for error in errors.iter() {
+            prop_assert!(error.span.end <= text.len() && error.line >= 1 && error.column >= 1);
+            prop_assert!(!error.to_string().contains('\n'));
+        }
+    }
+    Ok(())
+}

@@ -39,11 +39,7 @@ pub(super) fn text<'v>(place: &str, value: &'v DeValue<'_>, expected: &str) -> R
 }
 
 /// One of the words of `choices`.
-pub(super) fn choice<T: Copy>(
-    place: &str,
-    value: &DeValue<'_>,
-    choices: &[(&str, T)],
-) -> Result<T, Problem> {
+pub(super) fn choice<T: Copy>(place: &str, value: &DeValue<'_>, choices: &[(&str, T)]) -> Result<T, Problem> {
     let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
     let expected = quoted.join(" or ");
@@ -57,7 +53,8 @@ pub(super) fn choice<T: Copy>(
 
 /// An identifier of IEC 61131-3.
 pub(super) fn identifier(place: &str, value: &DeValue<'_>) -> Result<String, Problem> {
-    let expected = "an identifier: letters, digits and single underscores, no digit first, 127 characters at most";
+    let expected =
+        "an identifier: letters, digits and single underscores, no digit first, 127 characters at most";
     let name = text(place, value, expected)?;
     let letters = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let first = name.starts_with(|c: char| !c.is_ascii_digit());
