@@ -1,0 +1,189 @@
+//! The way of a frame: ports, cables, broken frames, times.
+
+use esc::{Esc, EscConfig, Port};
+use segment::{FrameFate, Segment};
+use time::Instant;
+use wire::{Command, FrameBuilder, returned_datagrams};
+
+fn line(length: usize) -> Segment {
+    let escs = (0..length).map(|_| Esc::power_on(EscConfig::default(), sii(), Instant::ZERO));
+    Segment::new(escs.collect())
+}
+
+fn sii() -> Vec<u8> {
+    let mut image = vec![0; 128];
+    image[14] = wire::sii_checksum(&[0; 14]);
+    image
+}
+
+fn count(segment: &mut Segment) -> u16 {
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
+    segment.frame(Instant::ZERO, &mut frame);
+    returned_datagrams(&frame)[0].working_counter
+}
+
+fn read(segment: &mut Segment, position: u16, offset: u16, length_bytes: usize) -> Vec<u8> {
+    let data = vec![0; length_bytes];
+    let mut frame =
+        FrameBuilder::new().physical(Command::Aprd, position.wrapping_neg(), offset, &data).finish();
+    segment.frame(Instant::ZERO, &mut frame);
+    returned_datagrams(&frame).remove(0).data
+}
+
+fn write(segment: &mut Segment, position: u16, offset: u16, data: &[u8]) -> FrameFate {
+    let mut frame =
+        FrameBuilder::new().physical(Command::Apwr, position.wrapping_neg(), offset, data).finish();
+    segment.frame(Instant::ZERO, &mut frame)
+}
+
+/// C017 and the values of reference 1.8: two open ports in the middle, one at the end.
+#[test]
+fn dl_status_tells_the_topology() {
+    let mut line = line(2);
+    assert_eq!(read(&mut line, 0, 0x0110, 2), 0x5A33u16.to_le_bytes());
+    assert_eq!(read(&mut line, 1, 0x0110, 2), 0x5613u16.to_le_bytes());
+}
+
+#[test]
+fn a_pulled_cable_shortens_the_line_and_counts_lost_links() {
+    let mut line = line(4);
+    assert_eq!(count(&mut line), 4);
+    line.set_cable(2, false);
+    assert_eq!(count(&mut line), 2);
+    assert_eq!(read(&mut line, 1, 0x0310, 2), [0, 1]);
+    line.set_cable(2, true);
+    assert_eq!(count(&mut line), 4);
+    assert_eq!(read(&mut line, 2, 0x0310, 2), [1, 0]);
+}
+
+#[test]
+fn without_the_cable_to_the_master_nothing_comes_back() {
+    let mut line = line(2);
+    line.set_cable(0, false);
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+}
+
+#[test]
+fn a_port_that_the_master_closes_ends_the_line() {
+    let mut line = line(3);
+    write(&mut line, 1, 0x0101, &[0x0C]);
+    assert_eq!(count(&mut line), 2);
+    write(&mut line, 1, 0x0101, &[0x00]);
+    assert_eq!(count(&mut line), 3);
+}
+
+#[test]
+fn a_port_that_is_held_open_without_a_cable_loses_the_frame() {
+    let mut line = line(2);
+    assert_eq!(write(&mut line, 1, 0x0101, &[0x08]), FrameFate::Returned);
+    assert_eq!(write(&mut line, 1, 0x0101, &[0x00]), FrameFate::Destroyed);
+    assert_eq!(count(&mut line), 2, "the write was processed before the frame was lost");
+}
+
+#[test]
+fn auto_close_opens_again_only_by_a_write() {
+    let mut line = line(2);
+    write(&mut line, 0, 0x0101, &[0x04]);
+    line.set_cable(1, false);
+    line.set_cable(1, true);
+    assert_eq!(count(&mut line), 1);
+    write(&mut line, 0, 0x0101, &[0x04]);
+    assert_eq!(count(&mut line), 2);
+}
+
+/// C020: from the far end into a segment that was cut: marked once, then destroyed.
+#[test]
+fn a_frame_circulates_once_in_a_segment_that_was_cut() {
+    let mut line = line(3);
+    line.set_cable(3, true);
+    line.set_cable(1, false);
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Returned);
+    let returned = returned_datagrams(&frame).remove(0);
+    assert_eq!((returned.working_counter, returned.header.circulating), (2, true));
+    assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+}
+
+#[test]
+fn a_ring_that_is_whole_lets_frames_cross() {
+    let mut line = line(3);
+    line.set_cable(3, true);
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::CrossedOver);
+    assert_eq!(returned_datagrams(&frame)[0].working_counter, 0, "not processed on the way back");
+    assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::CrossedOver);
+    assert_eq!(returned_datagrams(&frame)[0].working_counter, 3);
+}
+
+/// C010: the locally administered bit is set, the rest of the source address stays.
+#[test]
+fn the_source_address_is_marked() {
+    let mut frame = FrameBuilder::new().physical(Command::Nop, 0, 0, &[0]).finish();
+    line(1).frame(Instant::ZERO, &mut frame);
+    assert_eq!(frame[6..12], [0x12, 0x10, 0x10, 0x10, 0x10, 0x10]);
+}
+
+/// C011: a truncated frame changes nothing; the first ESC counts it, the others an error that was marked.
+#[test]
+fn a_truncated_frame_is_counted_along_the_line() {
+    let mut line = line(2);
+    let frame = FrameBuilder::new().physical(Command::Bwr, 0, 0x0010, &[7, 0]).finish();
+    let mut truncated = frame[..frame.len() - 1].to_vec();
+    assert_eq!(line.frame(Instant::ZERO, &mut truncated), FrameFate::Destroyed);
+    assert_eq!(read(&mut line, 0, 0x0010, 2), [0, 0]);
+    assert_eq!((read(&mut line, 0, 0x030C, 1), read(&mut line, 1, 0x0308, 1)), (vec![1], vec![1]));
+}
+
+#[test]
+fn a_runt_and_a_giant_are_invalid_frames() {
+    let mut line = line(1);
+    line.frame(Instant::ZERO, &mut [0; 10]);
+    line.frame(Instant::ZERO, &mut [0; 1600]);
+    assert_eq!(read(&mut line, 0, 0x0300, 1), [2]);
+}
+
+/// C021: foreign frames are destroyed or forwarded by the forwarding rule.
+#[test]
+fn foreign_frames_follow_the_forwarding_rule() {
+    let mut line = line(2);
+    let foreign = || {
+        let mut frame = vec![0; 60];
+        frame[12..14].copy_from_slice(&[0x86, 0xDD]);
+        frame
+    };
+    assert_eq!(line.frame(Instant::ZERO, &mut foreign()), FrameFate::Destroyed);
+    assert_eq!(read(&mut line, 0, 0x030C, 1), [1]);
+    write(&mut line, 0, 0x0100, &[0]);
+    write(&mut line, 1, 0x0100, &[0]);
+    let mut frame = foreign();
+    assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Returned);
+    assert_eq!(frame[6], 2);
+}
+
+/// C117: a write to 0x0900 latches, and times grow along the way of the frame.
+#[test]
+fn receive_times_grow_along_the_way() {
+    let mut line = line(3);
+    let mut frame = FrameBuilder::new().physical(Command::Bwr, 0, 0x0900, &[0; 4]).finish();
+    line.frame(Instant::from_nanos(1_000_000), &mut frame);
+    assert_eq!(returned_datagrams(&frame)[0].working_counter, 3);
+    let times: Vec<(u32, u32)> = (0..3)
+        .map(|position| {
+            let times = read(&mut line, position, 0x0900, 8);
+            let time = |at: usize| u32::from_le_bytes(times[at..at + 4].try_into().expect("four bytes"));
+            (time(0), time(4))
+        })
+        .collect();
+    assert!(times[0].0 < times[1].0 && times[1].0 < times[2].0, "{times:?}");
+    assert!(times[2].0 < times[2].1 && times[2].1 < times[1].1 && times[1].1 < times[0].1, "{times:?}");
+    let delay = ((times[0].1 - times[0].0) - (times[1].1 - times[1].0)) / 2;
+    assert_eq!(delay, times[1].0 - times[0].0, "the delay that a master works out is the real one");
+}
+
+#[test]
+fn ports_of_the_line_are_known() {
+    let line = line(2);
+    let out = |position| line.esc(position).map(|esc| esc.port(Port::Out).link);
+    assert_eq!((out(0), out(1), out(2)), (Some(true), Some(false), None));
+}
