@@ -13,6 +13,8 @@ mod unit;
 
 pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, WatchdogCheck};
 pub use device::Device;
+pub use esc::{EscConfig, SiiTiming, SyncManagerWrites};
+pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;
 pub use state_machine::{Check, TRANSITIONS, Transition, refusal, transition};

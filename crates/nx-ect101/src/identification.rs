@@ -11,14 +11,14 @@ pub(crate) struct Identification {
     switch: u8,
     at_power_on: u16,
     software: u16,
-    station_alias: u16,
+    station_alias: Option<u16>,
 }
 
 impl Identification {
     /// The ID at power-on: the switch, or the software setting while the switch is at 0x00.
     pub(crate) fn at_power_on(switch: u8, software: u16) -> Self {
         let id = if switch == 0 { software } else { u16::from(switch) };
-        Self { switch, at_power_on: id, software, station_alias: id }
+        Self { switch, at_power_on: id, software, station_alias: (id != 0).then_some(id) }
     }
 
     /// The Explicit Device ID; none while it is 0, which the manual's setting ranges leave out.
@@ -26,8 +26,9 @@ impl Identification {
         (self.at_power_on != 0).then_some(self.at_power_on)
     }
 
-    /// What ESC register 0x0012 should hold.
-    pub(crate) const fn station_alias(self) -> u16 {
+    /// What ESC register 0x0012 should hold; none while nobody has set an ID, which leaves what the SII has
+    /// loaded.
+    pub(crate) const fn station_alias(self) -> Option<u16> {
         self.station_alias
     }
 
@@ -47,7 +48,7 @@ impl Identification {
             return Err(SdoAbort::LOCAL_CONTROL);
         }
         self.software = id;
-        self.station_alias = id;
+        self.station_alias = Some(id);
         Ok(())
     }
 
@@ -56,7 +57,7 @@ impl Identification {
         if self.switch == 0 || command != 0 {
             return Err(SdoAbort::LOCAL_CONTROL);
         }
-        self.station_alias = u16::from(self.switch);
+        self.station_alias = Some(u16::from(self.switch));
         Ok(())
     }
 }
@@ -68,9 +69,9 @@ mod tests {
     #[test]
     fn with_the_switch_at_0_software_sets_the_id() {
         let mut id = Identification::at_power_on(0x00, 300);
-        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(300), 300));
+        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(300), Some(300)));
         assert_eq!(id.set_software(500), Ok(()));
-        assert_eq!((id.alias_register_value(), id.station_alias()), (500, 500));
+        assert_eq!((id.alias_register_value(), id.station_alias()), (500, Some(500)));
         assert_eq!(id.explicit_device_id(), Some(300), "until the next power-on");
         assert_eq!(id.reload_switch(0), Err(SdoAbort::LOCAL_CONTROL));
         assert_eq!(id.switch_value(), 0);
@@ -79,7 +80,7 @@ mod tests {
     #[test]
     fn with_the_switch_set_it_is_in_force() {
         let mut id = Identification::at_power_on(0x21, 300);
-        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(0x21), 0x21));
+        assert_eq!((id.explicit_device_id(), id.station_alias()), (Some(0x21), Some(0x21)));
         assert_eq!(id.set_software(500), Err(SdoAbort::LOCAL_CONTROL));
         assert_eq!(id.reload_switch(1), Err(SdoAbort::LOCAL_CONTROL));
         assert_eq!(id.reload_switch(0), Ok(()));
@@ -88,6 +89,7 @@ mod tests {
 
     #[test]
     fn without_switch_and_software_setting_there_is_no_id() {
-        assert_eq!(Identification::at_power_on(0, 0).explicit_device_id(), None);
+        let id = Identification::at_power_on(0, 0);
+        assert_eq!((id.explicit_device_id(), id.station_alias()), (None, None));
     }
 }

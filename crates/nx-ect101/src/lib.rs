@@ -1,6 +1,7 @@
 //! The NX-ECT101 as a unit model: objects, allocation, refresh, files.
 
 mod allocation;
+mod config;
 mod data_sets;
 mod description;
 mod dictionary;
@@ -16,6 +17,7 @@ mod unit;
 pub mod unit_file;
 
 pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
+pub use config::device_config;
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
 pub use status::{NxUnitStatus, SlaveStatus};

@@ -13,6 +13,7 @@ use crate::identification::Identification;
 use crate::nx_bus::{self, CpuEnd, UnitEnd, UnitHeader};
 use crate::status::{NxUnitStatus, SlaveStatus};
 use crate::timing::Timing;
+use crate::unit_file::UnitFile;
 
 /// How one unit is set up, on its case and by its support software.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,10 +31,23 @@ pub struct UnitSettings {
 }
 
 impl UnitSettings {
+    /// The settings of a unit file; what it leaves out has the value of [`UnitSettings::default`].
+    #[must_use]
+    pub fn from_unit_file(file: &UnitFile) -> Self {
+        Self {
+            serial: file.serial.value,
+            id_switch: file.id_switch.value,
+            software_id: 0,
+            timing: file.timing.value,
+            io_allocation: file.io_allocation(),
+        }
+    }
+
     /// The Explicit Device ID at power-on: the ID switch, or the software ID while it is at 0x00; 0: none.
     #[must_use]
     pub fn explicit_device_id(&self) -> u16 {
-        Identification::at_power_on(self.id_switch, self.software_id).station_alias()
+        let id = Identification::at_power_on(self.id_switch, self.software_id);
+        id.explicit_device_id().unwrap_or(0)
     }
 }
 
@@ -61,7 +75,6 @@ pub struct NxEct101 {
     /// The data M to C as last received. What is not exchanged stays 0.
     m_to_c: Vec<u8>,
     period: Duration,
-    timing: Timing,
     status: SlaveStatus,
 }
 
@@ -82,22 +95,9 @@ impl NxEct101 {
             c_to_m_layout: settings.io_allocation.layout(Direction::CToM),
             plan: ExchangePlan::empty(),
             period,
-            timing: settings.timing,
             status: SlaveStatus::default(),
         };
         (unit, cpu_end)
-    }
-
-    /// What ESC register 0x0012 should hold: the ID at power-on, then what object 10E0 has set.
-    #[must_use]
-    pub fn station_alias(&self) -> u16 {
-        self.objects.identification.station_alias()
-    }
-
-    /// How long after its request an SDO response is complete.
-    #[must_use]
-    pub fn sdo_response_time(&self) -> Duration {
-        self.timing.sdo_response()
     }
 
     /// EtherCAT Slave Status as the CPU Unit was last told.
@@ -186,6 +186,11 @@ impl Unit for NxEct101 {
 
     fn explicit_device_id(&self) -> Option<u16> {
         self.objects.identification.explicit_device_id()
+    }
+
+    /// The ID at power-on, then what object 10E0 has set.
+    fn station_alias(&self) -> Option<u16> {
+        self.objects.identification.station_alias()
     }
 }
 

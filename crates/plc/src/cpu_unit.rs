@@ -3,6 +3,7 @@
 use core::fmt;
 
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
+use nx_ect101::unit_file::{CpuMode, UnitFile};
 use time::{Duration, Instant};
 
 use crate::io::{Io, Program};
@@ -26,6 +27,18 @@ pub struct CpuSettings {
     pub mode: OperatingMode,
     /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
     pub system_time_ns: Option<u64>,
+}
+
+impl CpuSettings {
+    /// The settings of a unit file, without system time.
+    #[must_use]
+    pub fn from_unit_file(file: &UnitFile) -> Self {
+        let mode = match file.cpu.mode.value {
+            CpuMode::Run => OperatingMode::Run,
+            CpuMode::Program => OperatingMode::Program,
+        };
+        Self { task_period: file.cpu.task_period.value, mode, system_time_ns: None }
+    }
 }
 
 impl Default for CpuSettings {

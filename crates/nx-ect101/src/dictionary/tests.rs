@@ -227,7 +227,7 @@ fn the_device_id_follows_switch_and_software() {
     assert_eq!(by_software.download(0x10E0, 1, &[0x2C, 0x01]), Ok(()));
     assert_eq!(by_software.upload(0x10E0, 1), Ok(vec![0x2C, 0x01]));
     assert_eq!(by_software.download(0x10E0, 3, &[0, 0]), Err(SdoAbort::LOCAL_CONTROL));
-    assert_eq!(by_software.objects.identification.station_alias(), 300);
+    assert_eq!(by_software.objects.identification.station_alias(), Some(300));
 
     let mut by_switch = Bench::with_switch(0x21);
     assert_eq!(by_switch.download(0x10E0, 1, &[0x2C, 0x01]), Err(SdoAbort::LOCAL_CONTROL));

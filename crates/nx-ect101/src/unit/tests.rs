@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::allocation::tests::symmetric;
+use crate::data_sets::DataSetKind;
 use crate::mapping::tests::set;
 use crate::nx_bus::CpuHeader;
 
@@ -24,7 +25,7 @@ impl Bench {
         Self::power_on(&UnitSettings::default())
     }
 
-    fn to_safe_op(&mut self) {
+    fn enter_safe_op(&mut self) {
         self.unit.check_mapping(NOW).expect("the mapping is right");
         self.unit.entered(NOW, AlState::SafeOp);
         self.inputs = vec![0xEE; usize::from(self.unit.process_data().inputs_bytes)];
@@ -38,7 +39,7 @@ impl Bench {
 #[test]
 fn data_goes_both_ways_in_op() {
     let mut bench = Bench::factory();
-    bench.to_safe_op();
+    bench.enter_safe_op();
     let outputs: Vec<u8> = (0..180).collect();
     bench.cpu.c_to_m.publish(REFRESHING, &[0xA5; 180]);
     bench.refresh(AlState::Op, Some(&outputs));
@@ -52,7 +53,7 @@ fn data_goes_both_ways_in_op() {
 #[test]
 fn the_valid_flags_follow_state_outputs_and_refreshing() {
     let mut bench = Bench::factory();
-    bench.to_safe_op();
+    bench.enter_safe_op();
     let mut status = |refreshing, state, outputs: Option<&[u8]>| {
         bench.cpu.c_to_m.publish(CpuHeader { refreshing, ..REFRESHING }, &[0; 180]);
         bench.refresh(state, outputs);
@@ -77,7 +78,7 @@ fn below_safe_op_only_sdo_communications_are_told() {
 #[test]
 fn the_last_outputs_stay_when_they_stop() {
     let mut bench = Bench::factory();
-    bench.to_safe_op();
+    bench.enter_safe_op();
     bench.refresh(AlState::Op, Some(&[7; 180]));
     bench.refresh(AlState::SafeOp, None);
     bench.refresh(AlState::SafeOp, None);
@@ -90,7 +91,7 @@ fn the_last_outputs_stay_when_they_stop() {
 fn what_only_one_side_has_stays_0() {
     let io_allocation = symmetric([2, 1, 0]);
     let mut bench = Bench::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
-    bench.to_safe_op();
+    bench.enter_safe_op();
     bench.cpu.c_to_m.publish(REFRESHING, &[9; 70]);
     bench.refresh(AlState::Op, Some(&[5; 180]));
     assert_eq!(
@@ -130,7 +131,20 @@ fn a_unit_starts_with_180_and_183_bytes_every_millisecond() {
     let (unit, _cpu) = NxEct101::power_on(&UnitSettings::default());
     assert_eq!(unit.process_data(), ProcessDataAreas { outputs_bytes: 180, inputs_bytes: 183 });
     assert_eq!(unit.refresh_period(), Duration::from_millis(1));
-    assert_eq!((unit.explicit_device_id(), unit.station_alias()), (Some(1), 1));
+    assert_eq!((unit.explicit_device_id(), unit.station_alias()), (Some(1), Some(1)));
+}
+
+#[test]
+fn a_unit_file_sets_up_a_unit() {
+    let text = "model = \"nx-ect101\"\nserial = 77\nid_switch = 0x21\ntiming = \"fast\"\n[io_allocation.m_to_c]\nudint = 3\n";
+    let file = UnitFile::parse(text).expect("a right file");
+    let mut io_allocation = IoAllocation::empty();
+    io_allocation.select(Direction::MToC, DataSetKind::Udint, 3);
+    let expected =
+        UnitSettings { serial: 77, id_switch: 0x21, software_id: 0, timing: Timing::Fast, io_allocation };
+    assert_eq!(UnitSettings::from_unit_file(&file), expected);
+    let least = UnitFile::parse("model = \"nx-ect101\"").expect("a right file");
+    assert_eq!(UnitSettings::from_unit_file(&least), UnitSettings::default());
 }
 
 #[test]

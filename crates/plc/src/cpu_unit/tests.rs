@@ -133,6 +133,13 @@ fn task_periods_keep_their_phase_and_leave_out_what_was_missed() {
 }
 
 #[test]
+fn a_unit_file_sets_up_a_cpu_unit() {
+    let text = "model = \"nx-ect101\"\n[cpu]\ntask_period = \"4ms\"\nmode = \"program\"";
+    let settings = CpuSettings::from_unit_file(&UnitFile::parse(text).expect("a right file"));
+    assert_eq!((settings.task_period, settings.mode), (Duration::from_millis(4), OperatingMode::Program));
+}
+
+#[test]
 fn the_system_time_goes_on_from_power_on() {
     let settings = CpuSettings { system_time_ns: Some(1_000), ..CpuSettings::default() };
     let mut bench = Bench::in_op(IoAllocation::factory(), settings, Echo);
