@@ -105,6 +105,11 @@ impl<U: Unit> Device<U> {
         self.next_refresh.min(mailbox).min(self.op_deadline.unwrap_or(Instant::NEVER))
     }
 
+    /// Whether the next outputs take the slave to OP.
+    pub(crate) const fn awaits_outputs(&self) -> bool {
+        self.op_deadline.is_some()
+    }
+
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
     pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
         esc.advance(now);

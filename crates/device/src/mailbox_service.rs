@@ -66,12 +66,18 @@ impl MailboxService {
         if pdi.repeat_requested(SmIndex::MAILBOX_SEND) {
             self.repeat(pdi);
         }
+        // What waits goes before an answer: a message that made room for a repeated one comes next.
+        self.send_unsolicited(pdi);
         let served = self.serve(now, state, pdi, objects);
+        self.send_unsolicited(pdi);
+        served
+    }
+
+    fn send_unsolicited(&mut self, pdi: &mut Pdi<'_>) {
         if !self.sent && self.mailbox.has_unsolicited() {
             let length_bytes = self.mailbox.next_unsolicited(&mut self.reply);
             self.send(length_bytes, pdi);
         }
-        served
     }
 
     /// The lost message goes into the mailbox again; one that lies there unread follows it later.

@@ -37,7 +37,8 @@ impl<U: Unit> Network<U> {
     pub fn poll(&mut self, now: Instant) {
         for (position, device) in self.devices.iter_mut().enumerate() {
             let Some(esc) = self.segment.esc_mut(position) else { continue };
-            if esc.interrupts_pdi() || device.deadline() <= now || esc.deadline() <= now {
+            let due = device.deadline().min(esc.deadline()) <= now;
+            if esc.interrupts_pdi() || due || device.awaits_outputs() {
                 device.poll(esc, now);
             }
         }

@@ -242,7 +242,7 @@ impl Esc {
     fn holder_of(&self, fmmu: &Fmmu) -> Option<u8> {
         let (start, end) = physical_range(fmmu);
         let touches =
-            |sm: &crate::SyncManager| sm.active && u32::from(sm.settings.start) < end && start < sm.end();
+            |sm: &crate::SyncManager| sm.rules && u32::from(sm.settings.start) < end && start < sm.end();
         let (n, sm) = (0u8..).zip(&self.sync_managers).find(|(_, sm)| touches(sm))?;
         let holds = u32::from(sm.settings.start) <= start && end <= sm.end();
         holds.then_some(n)

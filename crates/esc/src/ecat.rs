@@ -272,7 +272,7 @@ impl Esc {
         let mut length = length_bytes as u32;
         for (n, sm) in (0u8..).zip(&self.sync_managers) {
             let start = u32::from(sm.settings.start);
-            if !sm.active || offset >= sm.end() {
+            if !sm.rules || offset >= sm.end() {
                 continue;
             }
             if offset >= start {

@@ -130,7 +130,9 @@ pub struct SyncManager {
     pub(crate) deactivated_by_pdi: bool,
     /// PDI control bit 1: follows the repeat request.
     pub(crate) repeat_acknowledge: bool,
-    /// Enabled, not closed by the PDI, and not empty.
+    /// Enabled and not empty: its area is under its rule.
+    pub(crate) rules: bool,
+    /// Not closed by the PDI either: its area answers.
     pub(crate) active: bool,
     pub(crate) buffers: SmBuffers,
     /// Mailbox mode: full.
@@ -151,6 +153,7 @@ impl Default for SyncManager {
             settings: SyncManagerSettings::default(),
             deactivated_by_pdi: false,
             repeat_acknowledge: false,
+            rules: false,
             active: false,
             buffers: SmBuffers::START,
             full: false,
@@ -212,13 +215,14 @@ impl SyncManager {
     }
 
     fn update_active(&mut self) {
-        self.active = self.settings.enabled && !self.deactivated_by_pdi && self.settings.length_bytes > 0;
+        self.rules = self.settings.enabled && self.settings.length_bytes > 0;
+        self.active = self.rules && !self.deactivated_by_pdi;
     }
 
     /// The wire writes `reach`: the offset of the buffer to write to, or none if it is refused.
     #[inline]
     pub(crate) fn ecat_write(&mut self, reach: Reach) -> Option<u32> {
-        if !matches!(self.settings.direction, SmDirection::EcatWrites) {
+        if !self.active || !matches!(self.settings.direction, SmDirection::EcatWrites) {
             return None;
         }
         let whole = self.settings.length_bytes;
@@ -243,7 +247,7 @@ impl SyncManager {
     /// The wire reads `reach`: the offset of the buffer to read from, or none if it is refused.
     #[inline]
     pub(crate) fn ecat_read(&mut self, reach: Reach) -> Option<u32> {
-        if !matches!(self.settings.direction, SmDirection::EcatReads) {
+        if !self.active || !matches!(self.settings.direction, SmDirection::EcatReads) {
             return None;
         }
         match self.settings.mode {

@@ -131,6 +131,7 @@ fn a_sync_manager_that_the_pdi_closed_refuses() {
     let now = bench.now;
     bench.esc.pdi(now).set_deactivated(SmIndex(2), true);
     assert_eq!(bench.byte(0x0817) & 1, 1);
+    assert!(!bench.write(START, &[1, 2]));
     bench.esc.pdi(now).set_deactivated(SmIndex(2), false);
     assert!(bench.write(START, &[1, 2]));
 }

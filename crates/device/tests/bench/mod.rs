@@ -1,0 +1,153 @@
+//! A line with one digital unit: 8 inputs, 8 outputs, no mailbox. It proves that nothing from `device` down
+//! knows of NX, and it is small enough for every state to be tried.
+
+use device::{DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, Unit, WatchdogCheck};
+use esc::EscConfig;
+use time::{Duration, Instant};
+use wire::{AlState, Command, FrameBuilder, Returned, returned_datagrams};
+
+pub(crate) const OUTPUTS_START: u16 = 0x1000;
+pub(crate) const INPUTS_START: u16 = 0x1100;
+
+/// Eight inputs that the test sets, eight outputs that it looks at.
+#[derive(Debug, Default)]
+pub(crate) struct Digital8 {
+    pub(crate) inputs: u8,
+    pub(crate) outputs: Option<u8>,
+    pub(crate) states: Vec<AlState>,
+}
+
+impl Unit for Digital8 {
+    fn process_data(&self) -> ProcessDataAreas {
+        ProcessDataAreas { outputs_bytes: 1, inputs_bytes: 1 }
+    }
+
+    fn entered(&mut self, _now: Instant, state: AlState) {
+        self.states.push(state);
+    }
+
+    fn refresh_period(&self) -> Duration {
+        Duration::from_millis(1)
+    }
+
+    fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
+        self.outputs = exchange.outputs.and_then(|outputs| outputs.first().copied());
+        exchange.inputs.fill(self.inputs);
+    }
+
+    fn explicit_device_id(&self) -> Option<u16> {
+        Some(5)
+    }
+}
+
+/// A minimal EEPROM: the header with its checksum.
+pub(crate) fn sii_image() -> Vec<u8> {
+    let mut image = vec![0; 128];
+    image[14] = wire::sii_checksum(&[0; 14]);
+    image
+}
+
+pub(crate) fn config() -> DeviceConfig {
+    DeviceConfig {
+        esc: EscConfig::default(),
+        sii_image: sii_image(),
+        mailbox: None,
+        outputs_start: OUTPUTS_START,
+        inputs_start: INPUTS_START,
+        outputs_before_op: OutputsBeforeOp::NotRequired,
+        watchdog_check: WatchdogCheck::Off,
+    }
+}
+
+pub(crate) struct Bench {
+    pub(crate) network: Network<Digital8>,
+    pub(crate) now: Instant,
+}
+
+impl Bench {
+    pub(crate) fn new() -> Self {
+        Self::with(config())
+    }
+
+    pub(crate) fn with(config: DeviceConfig) -> Self {
+        let now = Instant::ZERO;
+        Self { network: Network::power_on([(config, Digital8::default())], now), now }
+    }
+
+    /// A bench whose unit has come to `state` the way a master takes it.
+    pub(crate) fn in_state(state: AlState) -> Self {
+        let mut bench = Self::new();
+        bench.bring_to(state);
+        bench
+    }
+
+    pub(crate) fn bring_to(&mut self, state: AlState) {
+        for step in [AlState::PreOp, AlState::SafeOp, AlState::Op] {
+            if state == AlState::Init {
+                return;
+            }
+            if step == AlState::SafeOp {
+                self.set_process_data();
+            }
+            self.request(step.bits());
+            assert_eq!(self.status(), (step.bits(), 0));
+            if step == state {
+                return;
+            }
+        }
+    }
+
+    pub(crate) fn set_process_data(&mut self) {
+        self.write(0x0810, &[0x00, 0x10, 1, 0, 0x64, 0, 1, 0]);
+        self.write(0x0818, &[0x00, 0x11, 1, 0, 0x20, 0, 1, 0]);
+        self.write(0x0600, &[0, 0, 0, 0, 1, 0, 0, 7, 0x00, 0x10, 0, 2, 1, 0, 0, 0]);
+        self.write(0x0610, &[0, 0, 0, 0, 1, 0, 0, 7, 0x00, 0x11, 0, 1, 1, 0, 0, 0]);
+    }
+
+    fn exchange(&mut self, frame: FrameBuilder) -> Returned {
+        let mut frame = frame.finish();
+        self.network.frame(self.now, &mut frame);
+        self.network.poll(self.now);
+        returned_datagrams(&frame).remove(0)
+    }
+
+    pub(crate) fn write(&mut self, offset: u16, data: &[u8]) -> u16 {
+        self.exchange(FrameBuilder::new().physical(Command::Bwr, 0, offset, data)).working_counter
+    }
+
+    pub(crate) fn read(&mut self, offset: u16, length_bytes: usize) -> Vec<u8> {
+        let data = vec![0; length_bytes];
+        self.exchange(FrameBuilder::new().physical(Command::Brd, 0, offset, &data)).data
+    }
+
+    pub(crate) fn word(&mut self, offset: u16) -> u16 {
+        let bytes = self.read(offset, 2);
+        u16::from_le_bytes([bytes[0], bytes[1]])
+    }
+
+    /// Writes AL control.
+    pub(crate) fn request(&mut self, al_control: u16) {
+        self.write(0x0120, &al_control.to_le_bytes());
+    }
+
+    /// AL status and AL status code.
+    pub(crate) fn status(&mut self) -> (u16, u16) {
+        (self.word(0x0130), self.word(0x0134))
+    }
+
+    /// One LRW of a byte: what came back, and the working counter.
+    pub(crate) fn cycle(&mut self, outputs: u8) -> (u8, u16) {
+        let returned = self.exchange(FrameBuilder::new().logical(Command::Lrw, 0, &[outputs]));
+        (returned.data[0], returned.working_counter)
+    }
+
+    /// Lets time pass, stopping at every deadline.
+    pub(crate) fn run_for(&mut self, duration: Duration) {
+        let end = self.now + duration;
+        while self.network.deadline() <= end {
+            self.now = self.network.deadline().max(self.now);
+            self.network.poll(self.now);
+        }
+        self.now = end;
+    }
+}

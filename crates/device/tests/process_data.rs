@@ -1,0 +1,64 @@
+//! Process data between the wire and a unit that is not NX.
+
+mod bench;
+
+use bench::{Bench, Digital8};
+use time::Duration;
+use wire::AlState::{Init, Op, PreOp, SafeOp};
+
+fn unit(bench: &mut Bench) -> &mut Digital8 {
+    bench.network.device_mut(0).expect("there is one unit").unit_mut()
+}
+
+#[test]
+fn outputs_and_inputs_pass_in_op() {
+    let mut bench = Bench::in_state(Op);
+    unit(&mut bench).inputs = 0xA5;
+    bench.cycle(0x3C);
+    bench.run_for(Duration::from_millis(1));
+    assert_eq!(unit(&mut bench).outputs, Some(0x3C));
+    assert_eq!(bench.cycle(0x3C), (0xA5, 3));
+}
+
+/// C082: SAFE-OP has inputs, and outputs are not applied.
+#[test]
+fn safe_op_has_inputs_only() {
+    let mut bench = Bench::in_state(PreOp);
+    unit(&mut bench).inputs = 0x5A;
+    bench.bring_to(SafeOp);
+    assert_eq!(bench.cycle(0xFF), (0x5A, 3), "inputs are there with the state");
+    bench.run_for(Duration::from_millis(2));
+    assert_eq!(unit(&mut bench).outputs, None);
+}
+
+#[test]
+fn outputs_are_not_valid_before_the_first_came() {
+    let mut bench = Bench::in_state(Op);
+    bench.run_for(Duration::from_millis(2));
+    assert_eq!(unit(&mut bench).outputs, None);
+}
+
+#[test]
+fn outputs_end_with_the_watchdog() {
+    let mut bench = Bench::in_state(Op);
+    bench.cycle(1);
+    bench.run_for(Duration::from_millis(50));
+    assert_eq!(unit(&mut bench).outputs, Some(1));
+    bench.run_for(Duration::from_millis(60));
+    assert_eq!(unit(&mut bench).outputs, None);
+}
+
+#[test]
+fn the_unit_is_told_each_state_once() {
+    let mut bench = Bench::in_state(Op);
+    bench.request(Init.bits());
+    assert_eq!(unit(&mut bench).states, [Init, PreOp, SafeOp, Op, Init]);
+}
+
+#[test]
+fn a_missed_refresh_is_not_made_up_for() {
+    let mut bench = Bench::in_state(Op);
+    bench.now += Duration::from_secs(1);
+    bench.network.poll(bench.now);
+    assert!(bench.network.deadline() > bench.now);
+}

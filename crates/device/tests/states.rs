@@ -1,0 +1,242 @@
+//! The state machine of reference 5: every transition, every refusal, the error and its acknowledge.
+
+mod bench;
+
+use bench::{Bench, config};
+use device::{DeviceConfig, OutputsBeforeOp, TRANSITIONS, WatchdogCheck};
+use proptest::prelude::*;
+use time::Duration;
+use wire::AlState::{self, Boot, Init, Op, PreOp, SafeOp};
+
+/// C038 to C062: all states times all requests, as one table. Rows are states, columns are requests INIT,
+/// PRE-OP, BOOT, SAFE-OP, OP, 0x5; each cell is AL status and AL status code.
+#[test]
+fn the_whole_machine_in_one_table() {
+    let requests = [Init, PreOp, Boot, SafeOp, Op, AlState::Other(5)];
+    let table: Vec<String> = [Init, PreOp, SafeOp, Op]
+        .into_iter()
+        .map(|from| {
+            let cells = requests.map(|request| {
+                let mut bench = Bench::in_state(from);
+                if request == SafeOp {
+                    bench.set_process_data();
+                }
+                bench.request(request.bits());
+                let (status, code) = bench.status();
+                format!("{status:02X}/{code:02X}")
+            });
+            format!("{from:<7} {}", cells.join(" "))
+        })
+        .collect();
+    assert_eq!(
+        table,
+        [
+            "INIT    01/00 02/00 11/13 11/11 11/11 11/12",
+            "PRE-OP  01/00 02/00 12/11 04/00 12/11 12/12",
+            "SAFE-OP 01/00 02/00 14/11 04/00 08/00 14/12",
+            "OP      01/00 02/00 14/11 04/00 08/00 14/12",
+        ]
+    );
+}
+
+#[test]
+fn the_letters_of_a_row_are_those_of_its_states() {
+    let letter = |state| match state {
+        Init => 'I',
+        PreOp => 'P',
+        SafeOp => 'S',
+        Op => 'O',
+        other => panic!("{other} has no letter here"),
+    };
+    for row in TRANSITIONS {
+        let letters: String = [letter(row.from), letter(row.to)].iter().collect();
+        assert_eq!(row.letters, letters);
+    }
+}
+
+/// C050: SyncManagers 2 and 3 have to fit the mapping exactly.
+#[test]
+fn wrong_process_data_sync_managers_are_refused() {
+    let wrong: [(u16, [u8; 8], u16); 6] = [
+        (0x0810, [0x00, 0x10, 2, 0, 0x64, 0, 1, 0], 0x1D),
+        (0x0810, [0x02, 0x10, 1, 0, 0x64, 0, 1, 0], 0x1D),
+        (0x0810, [0x00, 0x10, 1, 0, 0x60, 0, 1, 0], 0x1D),
+        (0x0810, [0x00, 0x10, 1, 0, 0x64, 0, 0, 0], 0x1D),
+        (0x0818, [0x00, 0x11, 2, 0, 0x20, 0, 1, 0], 0x1E),
+        (0x0810, [0x00, 0x10, 1, 0, 0x66, 0, 1, 0], 0x29),
+    ];
+    for (offset, record, code) in wrong {
+        let mut bench = Bench::in_state(PreOp);
+        bench.set_process_data();
+        bench.write(offset + 6, &[0]);
+        bench.write(offset, &record);
+        bench.request(SafeOp.bits());
+        assert_eq!(bench.status(), (0x12, code), "{record:02X?}");
+    }
+}
+
+/// C120: a unit that runs freely cannot follow DC.
+#[test]
+fn dc_activation_is_refused() {
+    let mut bench = Bench::in_state(PreOp);
+    bench.set_process_data();
+    bench.write(0x0981, &[3]);
+    bench.request(SafeOp.bits());
+    assert_eq!(bench.status(), (0x12, 0x30));
+}
+
+#[test]
+fn a_watchdog_time_without_trigger_is_refused_where_the_unit_checks_it() {
+    for (check, time, expected) in [
+        (WatchdogCheck::TriggerRequired, [0xE8, 0x03], (0x12, 0x1F)),
+        (WatchdogCheck::TriggerRequired, [0, 0], (0x04, 0)),
+        (WatchdogCheck::Off, [0xE8, 0x03], (0x04, 0)),
+    ] {
+        let mut bench = Bench::with(DeviceConfig { watchdog_check: check, ..config() });
+        bench.bring_to(PreOp);
+        bench.set_process_data();
+        bench.write(0x0816, &[0]);
+        bench.write(0x0810, &[0x00, 0x10, 1, 0, 0x24, 0, 1, 0]);
+        bench.write(0x0420, &time);
+        bench.request(SafeOp.bits());
+        assert_eq!(bench.status(), expected);
+    }
+}
+
+/// C045, C046, C047: an error stays until it is acknowledged; INIT needs no acknowledge.
+#[test]
+fn an_error_has_to_be_acknowledged() {
+    let mut bench = Bench::in_state(PreOp);
+    bench.request(Op.bits());
+    assert_eq!(bench.status(), (0x12, 0x11));
+    bench.request(PreOp.bits());
+    assert_eq!(bench.status(), (0x12, 0x11), "without acknowledge nothing changes");
+    bench.request(PreOp.bits() | 0x10);
+    assert_eq!(bench.status(), (0x02, 0));
+    bench.request(Op.bits());
+    bench.request(Init.bits());
+    assert_eq!(bench.status(), (0x01, 0));
+}
+
+#[test]
+fn acknowledge_and_another_state_in_one_request() {
+    let mut bench = Bench::in_state(SafeOp);
+    bench.request(Boot.bits());
+    bench.request(Op.bits() | 0x10);
+    assert_eq!(bench.status(), (0x08, 0));
+}
+
+/// C066, C067: outputs stop, the slave falls back and closes them until the master acknowledges.
+#[test]
+fn the_watchdog_takes_op_to_safe_op() {
+    let mut bench = Bench::in_state(Op);
+    assert_eq!(bench.cycle(1).1, 3);
+    bench.run_for(Duration::from_micros(99_999));
+    assert_eq!(bench.status(), (0x08, 0));
+    bench.run_for(Duration::from_micros(2));
+    assert_eq!(bench.status(), (0x14, 0x1B));
+    assert_eq!(bench.cycle(1).1, 1, "the working counter shows it");
+    bench.request(Op.bits() | 0x10);
+    assert_eq!(bench.status(), (0x08, 0));
+    assert_eq!(bench.cycle(1).1, 3);
+}
+
+/// C068: a watchdog time of 0 never expires.
+#[test]
+fn a_watchdog_that_is_off_never_expires() {
+    let mut bench = Bench::in_state(Op);
+    bench.write(0x0420, &[0, 0]);
+    bench.cycle(1);
+    bench.run_for(Duration::from_secs(10));
+    assert_eq!(bench.status(), (0x08, 0));
+}
+
+/// C063: an unknown request in OP drops to SAFE-OP, and the working counter shows it.
+#[test]
+fn an_unknown_request_in_op_closes_the_outputs() {
+    let mut bench = Bench::in_state(Op);
+    bench.cycle(1);
+    bench.request(5);
+    assert_eq!(bench.status(), (0x14, 0x12));
+    assert_eq!(bench.cycle(1).1, 1);
+}
+
+/// C053, C064: SyncManagers that become invalid take the slave to PRE-OP.
+#[test]
+fn a_sync_manager_that_is_taken_away_takes_the_slave_down() {
+    for (state, offset, code) in [(SafeOp, 0x0816, 0x1D), (Op, 0x0816, 0x1D), (Op, 0x081E, 0x1E)] {
+        let mut bench = Bench::in_state(state);
+        bench.write(offset, &[0]);
+        assert_eq!(bench.status(), (0x12, code));
+    }
+}
+
+/// C073, C074: the Explicit Device ID by AL control bit 5, and not over an error.
+#[test]
+fn the_explicit_device_id_is_told_and_taken_back() {
+    let mut bench = Bench::in_state(PreOp);
+    bench.request(0x22);
+    assert_eq!(bench.status(), (0x22, 5));
+    bench.request(0x02);
+    assert_eq!(bench.status(), (0x02, 0));
+    bench.request(0x28);
+    assert_eq!(bench.status(), (0x12, 0x11));
+    bench.request(0x22);
+    assert_eq!(bench.status(), (0x12, 0x11));
+}
+
+/// C055, C056: a unit that waits for outputs takes OP with the first ones, or refuses in time.
+#[test]
+fn op_may_wait_for_outputs() {
+    let waiting =
+        DeviceConfig { outputs_before_op: OutputsBeforeOp::Within(Duration::from_millis(200)), ..config() };
+    let mut bench = Bench::with(waiting);
+    bench.bring_to(SafeOp);
+    bench.request(Op.bits());
+    assert_eq!(bench.status(), (0x04, 0));
+    bench.cycle(1);
+    assert_eq!(bench.status(), (0x08, 0));
+    bench.request(PreOp.bits());
+    bench.write(0x0816, &[0]);
+    bench.set_process_data();
+    bench.request(SafeOp.bits());
+    bench.request(Op.bits());
+    bench.run_for(Duration::from_millis(201));
+    assert_eq!(bench.status(), (0x14, 0x1B));
+}
+
+#[test]
+fn res_restarts_the_slave() {
+    let mut bench = Bench::in_state(Op);
+    b"RES".iter().for_each(|byte| {
+        bench.write(0x0040, &[*byte]);
+    });
+    assert_eq!(bench.status(), (0x01, 0));
+    assert_eq!(bench.word(0x0810), 0);
+    bench.bring_to(Op);
+}
+
+/// An EEPROM that could not be loaded keeps the slave in INIT.
+#[test]
+fn without_sii_there_is_no_pre_op() {
+    let mut bench = Bench::with(DeviceConfig { sii_image: vec![0xFF; 128], ..config() });
+    bench.request(PreOp.bits());
+    assert_eq!(bench.status(), (0x11, 0x51));
+}
+
+proptest! {
+    /// Whatever a master asks and in whatever order: AL status is a state of the standard, an error has a
+    /// code, and no error has none.
+    #[test]
+    fn any_requests_leave_a_state_of_the_standard(requests in prop::collection::vec(any::<u8>(), 1..60)) {
+        let mut bench = Bench::new();
+        bench.set_process_data();
+        for request in requests {
+            bench.request(u16::from(request & !0x20));
+            bench.cycle(1);
+            let (status, code) = bench.status();
+            prop_assert!(matches!(status & 0x0F, 1 | 2 | 4 | 8), "{status:02X}");
+            prop_assert_eq!(status & 0x10 != 0, code != 0);
+        }
+    }
+}
