@@ -1,1 +1,41 @@
 //! ectwin, the EtherCAT twin: virtual slave units for tests of EtherCAT masters.
+//!
+//! A unit file makes a [`Twin`]. It takes frames in virtual time:
+//!
+//! ```
+//! use ectwin::{FrameFate, Twin};
+//!
+//! let mut twin = Twin::from_toml("model = \"nx-ect101\"")?;
+//! // BRD of two bytes at register 0x0130, AL status.
+//! let mut frame = [0u8; 60];
+//! frame[..6].fill(0xFF);
+//! frame[12..14].copy_from_slice(&[0x88, 0xA4]);
+//! frame[14..16].copy_from_slice(&[0x0E, 0x10]);
+//! frame[16..26].copy_from_slice(&[7, 0, 0, 0, 0x30, 0x01, 2, 0, 0, 0]);
+//! assert_eq!(twin.frame(&mut frame), FrameFate::Returned);
+//! assert_eq!(frame[26..28], [1, 0], "INIT");
+//! assert_eq!(frame[28..30], [1, 0], "one unit has answered");
+//! # Ok::<(), ectwin::SetupError>(())
+//! ```
+//!
+//! Or it answers a link in real time: [`Twin::serve`] for any [`link::FramePort`], such as one end of
+//! [`link::memory::pair`], and `Twin::serve_ethercrab` for an ethercrab master in the same process. The test
+//! looks at the other side of the unit by [`Twin::unit`] and [`Live::look`].
+
+#[cfg(feature = "ethercrab")]
+mod ethercrab_port;
+pub mod explain;
+mod live;
+mod setup;
+mod twin;
+
+#[cfg(feature = "ethercrab")]
+pub use ethercrab_port::EthercrabPort;
+pub use link::{self, FrameFate};
+pub use live::{Live, run};
+pub use nx_ect101::unit_file;
+pub use plc::{Echo, Io, OperatingMode, Program};
+pub use setup::{Setup, SetupError};
+pub use time::{Duration, Instant};
+pub use twin::{Twin, UnitSide};
+pub use wire::{AlState, AlStatus, AlStatusCode};

@@ -1,2 +1,20 @@
 //! The `ectwin` command.
-fn main() {}
+
+mod cli;
+mod commands;
+mod failure;
+mod output;
+mod unit_files;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let cli = cli::Cli::parse();
+    output::start_logging(cli.verbose);
+    match commands::run(cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}

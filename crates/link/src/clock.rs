@@ -2,12 +2,13 @@
 
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use time::Instant;
+use time::{Duration, Instant};
 
-/// A clock that never runs backwards, counting from the moment it was started.
+/// A clock that never runs backwards.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
-    origin: std::time::Instant,
+    started: std::time::Instant,
+    at_start: Instant,
     origin_unix_nanos: u64,
 }
 
@@ -15,17 +16,26 @@ impl Clock {
     /// Starts a clock: its origin is now.
     #[must_use]
     pub fn start() -> Self {
+        Self::start_at(Instant::ZERO)
+    }
+
+    /// Starts a clock that shows `at_start` now: real time goes on where virtual time stopped.
+    #[must_use]
+    pub fn start_at(at_start: Instant) -> Self {
         let since_epoch = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+        let unix_nanos = u64::try_from(since_epoch.as_nanos()).unwrap_or(u64::MAX);
         Self {
-            origin: std::time::Instant::now(),
-            origin_unix_nanos: u64::try_from(since_epoch.as_nanos()).unwrap_or(u64::MAX),
+            started: std::time::Instant::now(),
+            at_start,
+            origin_unix_nanos: unix_nanos.saturating_sub(at_start.as_nanos()),
         }
     }
 
     /// The time since the origin.
     #[must_use]
     pub fn now(&self) -> Instant {
-        Instant::from_nanos(u64::try_from(self.origin.elapsed().as_nanos()).unwrap_or(u64::MAX))
+        let running_nanos = u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.at_start + Duration::from_nanos(running_nanos)
     }
 
     /// The calendar time of the origin in nanoseconds since 1970-01-01 UTC, as captures count.

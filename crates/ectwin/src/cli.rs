@@ -1,0 +1,97 @@
+//! What can stand on the command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use link::LinkSpec;
+
+/// The EtherCAT twin: virtual slave units that real EtherCAT masters take for real ones.
+#[derive(Debug, Parser)]
+#[command(version, max_term_width = 100)]
+pub(crate) struct Cli {
+    /// Log more, to stderr (-v info, -vv debug, -vvv trace); RUST_LOG overrules it
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    pub(crate) verbose: u8,
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Show a unit and a real master (ethercrab) at work in this process; needs no root and no network
+    #[cfg(feature = "ethercrab")]
+    Demo,
+    /// Emulate units, in chain order, until SIGINT or SIGTERM
+    Run(RunArgs),
+    /// Write the ESI file (XML) of a unit, for the configuration tool of a master
+    Esi(ExportArgs),
+    /// Write the SII image (EEPROM) of a unit
+    Sii(ExportArgs),
+    /// Print a table of the model
+    #[command(subcommand)]
+    List(List),
+    /// Tell what a code means, where it comes from and what helps
+    Explain {
+        /// AL status code or SDO abort code in hexadecimal, such as 0x001B or 0x0602_0000
+        code: String,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RunArgs {
+    /// Unit files, in chain order from the master
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) units: Vec<PathBuf>,
+    /// raw:IFNAME, udp:ADDR[:PORT] or tap:NAME
+    #[arg(long)]
+    pub(crate) link: LinkSpec,
+    /// Write every frame to this file (pcapng)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) pcap: Option<PathBuf>,
+    /// Drop the waits of the unit, such as 2 ms before each SDO response
+    #[arg(long)]
+    pub(crate) fast: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExportArgs {
+    /// The unit file
+    #[arg(value_name = "FILE")]
+    pub(crate) unit: PathBuf,
+    /// Write to this file instead of stdout
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum List {
+    /// The CoE objects with their types, access rights and defaults
+    Objects {
+        /// One JSON document instead of text
+        #[arg(long)]
+        json: bool,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn run_takes_several_units_and_one_link() {
+        let cli =
+            Cli::try_parse_from(["ectwin", "run", "a.toml", "b.toml", "--link", "udp:127.0.0.1", "--fast"]);
+        let Command::Run(args) = cli.unwrap().command else { panic!("another command") };
+        assert_eq!(args.units.len(), 2);
+        assert_eq!(args.link.to_string(), "udp:127.0.0.1:34980");
+        assert!(args.fast && args.pcap.is_none());
+        assert!(Cli::try_parse_from(["ectwin", "run", "--link", "udp:127.0.0.1"]).is_err());
+    }
+}

@@ -1,0 +1,24 @@
+//! The commands, one file each.
+
+#[cfg(feature = "ethercrab")]
+mod demo;
+mod explain;
+mod export;
+mod list_objects;
+mod run;
+
+use crate::cli::{Command, List};
+use crate::failure::Failure;
+
+/// Does what the command line asks for.
+pub(crate) fn run(command: Command) -> Result<(), Failure> {
+    match command {
+        #[cfg(feature = "ethercrab")]
+        Command::Demo => demo::run(),
+        Command::Run(args) => run::run(&args),
+        Command::Esi(args) => export::esi(&args),
+        Command::Sii(args) => export::sii(&args),
+        Command::List(List::Objects { json }) => list_objects::run(json),
+        Command::Explain { code } => explain::run(&code),
+    }
+}

@@ -1,0 +1,70 @@
+//! A link to an ethercrab master in the same process: no socket, no root.
+
+use std::io;
+use std::sync::Arc;
+use std::task::{Wake, Waker};
+use std::thread::{self, Thread};
+
+use ethercrab::{PduRx, PduTx};
+use link::FramePort;
+use time::Duration;
+
+/// The network side of ethercrab's `PduStorage`, as a port that frames come from and go to. It belongs to the
+/// thread that receives from it first: ethercrab wakes that one when it has a frame to send.
+pub struct EthercrabPort<'s> {
+    tx: PduTx<'s>,
+    rx: PduRx<'s>,
+    receiver: Option<Waker>,
+}
+
+impl<'s> EthercrabPort<'s> {
+    /// Takes the two halves that `PduStorage::try_split` gives beside the `PduLoop`.
+    #[must_use]
+    pub fn new(tx: PduTx<'s>, rx: PduRx<'s>) -> Self {
+        Self { tx, rx, receiver: None }
+    }
+
+    fn take_frame(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
+        // Registered before looking: a frame that becomes ready after the look still wakes us.
+        let waker = self.receiver.get_or_insert_with(|| Waker::from(Arc::new(Unpark(thread::current()))));
+        self.tx.replace_waker(waker);
+        if self.tx.should_exit() {
+            return Err(io::ErrorKind::UnexpectedEof.into());
+        }
+        let Some(frame) = self.tx.next_sendable_frame() else { return Ok(None) };
+        let taken = frame.send_blocking(|bytes| {
+            let room = buffer.get_mut(..bytes.len()).ok_or(ethercrab::error::Error::SendFrame)?;
+            room.copy_from_slice(bytes);
+            Ok(bytes.len())
+        });
+        taken.map(Some).map_err(io::Error::other)
+    }
+}
+
+impl FramePort for EthercrabPort<'_> {
+    fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
+        let taken = self.take_frame(buffer)?;
+        if taken.is_some() || wait.is_zero() {
+            return Ok(taken);
+        }
+        thread::park_timeout(std::time::Duration::from_nanos(wait.as_nanos()));
+        self.take_frame(buffer)
+    }
+
+    fn send(&mut self, frame: &[u8]) -> io::Result<()> {
+        self.rx.receive_frame(frame).map(|_| ()).map_err(io::Error::other)
+    }
+}
+
+/// Wakes a parked thread.
+struct Unpark(Thread);
+
+impl Wake for Unpark {
+    fn wake(self: Arc<Self>) {
+        self.0.unpark();
+    }
+
+    fn wake_by_ref(self: &Arc<Self>) {
+        self.0.unpark();
+    }
+}

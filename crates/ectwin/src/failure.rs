@@ -1,0 +1,90 @@
+//! How a command ends that could not do what it was asked: a message, the way out, an exit code.
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use ectwin::explain::Unexplained;
+use link::OpenError;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+
+use crate::output::colour_on_stderr;
+use crate::unit_files::FileProblem;
+
+/// Why a command failed.
+pub(crate) enum Failure {
+    /// `explain` does not know the code.
+    Unexplained(Unexplained),
+    /// A file is not what it should be, with the places in it.
+    BadFile(Vec<FileProblem>),
+    /// A file cannot be read.
+    Unreadable { path: PathBuf, source: io::Error },
+    /// A file cannot be written.
+    Unwritable { path: PathBuf, source: io::Error },
+    /// The link cannot be opened.
+    Link(OpenError),
+    /// The link was lost while it was in use.
+    LinkLost(io::Error),
+    /// A step of the demo failed.
+    #[cfg(feature = "ethercrab")]
+    Demo(String),
+}
+
+impl Failure {
+    /// Tells the user on stderr, and gives the exit code of the command line's contract.
+    pub(crate) fn report(self) -> ExitCode {
+        let (message, help) = self.words();
+        let mut text = if matches!(self, Self::BadFile(_)) { message } else { format!("error: {message}\n") };
+        if let Some(help) = help {
+            text.push_str(&format!("help: {help}\n"));
+        }
+        // Nobody is left to tell if stderr is closed.
+        let _ = io::stderr().write_all(text.as_bytes());
+        ExitCode::from(self.exit_code())
+    }
+
+    const fn exit_code(&self) -> u8 {
+        match self {
+            Self::Unexplained(_) | Self::LinkLost(_) => 1,
+            #[cfg(feature = "ethercrab")]
+            Self::Demo(_) => 1,
+            Self::BadFile(_) | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
+            Self::Link(_) => 3,
+        }
+    }
+
+    fn words(&self) -> (String, Option<String>) {
+        match self {
+            Self::Unexplained(reason) => (reason.to_string(), None),
+            Self::BadFile(problems) => (problems.iter().map(|problem| picture(problem)).collect(), None),
+            Self::Unreadable { path, source } => {
+                (format!("cannot read {}: {source}", path.display()), Some(help_to_read(source)))
+            }
+            Self::Unwritable { path, source } => (format!("cannot write {}: {source}", path.display()), None),
+            Self::Link(error) => (error.to_string(), Some(error.help())),
+            Self::LinkLost(error) => (format!("the link is lost: {error}"), None),
+            #[cfg(feature = "ethercrab")]
+            Self::Demo(reason) => (reason.clone(), None),
+        }
+    }
+}
+
+fn help_to_read(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "give the path of a unit file, such as units/nx-ect101.toml".to_owned(),
+        io::ErrorKind::InvalidData => "a unit file is text in UTF-8".to_owned(),
+        _ => "check the path and its permissions".to_owned(),
+    }
+}
+
+/// The place in the file with what is wrong there, in plain letters unless someone looks at it in colour.
+fn picture(diagnostic: &dyn Diagnostic) -> String {
+    let theme = if colour_on_stderr() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
+    let mut text = String::new();
+    let drawn =
+        GraphicalReportHandler::new_themed(theme).with_links(false).render_report(&mut text, diagnostic);
+    if drawn.is_err() {
+        text = format!("{diagnostic}\n");
+    }
+    text
+}

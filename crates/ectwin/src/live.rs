@@ -1,0 +1,180 @@
+//! A line of units in real time.
+
+use std::io;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread::{self, JoinHandle};
+
+use link::{Clock, FrameFate, FramePort, Observer, Responder, Statistics, runner};
+use plc::CpuUnit;
+use time::{Duration, Instant};
+
+use crate::Twin;
+use crate::twin::{Line, UnitSide, cpu_deadline, cycle};
+
+/// Longest sleep of the CPU Units' thread, so that it sees the stop flag.
+const STOP_CHECK: Duration = Duration::from_millis(100);
+
+/// Answers `port` in real time until `stop` is set or the link is closed, and then sets `stop`. The units
+/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only.
+///
+/// # Errors
+/// The medium is gone, or there is no thread to be had.
+pub fn run<'o, P: FramePort>(
+    twin: Twin,
+    port: &mut P,
+    observer: Option<&'o mut (dyn Observer + 'o)>,
+    clock: &Clock,
+    stop: &AtomicBool,
+) -> io::Result<Statistics> {
+    let (mut line, mut cpus, _) = twin.into_parts();
+    thread::scope(|scope| {
+        let tasks = thread::Builder::new().name("cpu-unit".to_owned());
+        let tasks = tasks.spawn_scoped(scope, || keep_pace(clock, stop, |now| turn(&mut cpus, now)))?;
+        let result = runner::run(port, &mut line, observer, clock, stop);
+        stop.store(true, Ordering::Relaxed);
+        tasks.thread().unpark();
+        result
+    })
+}
+
+/// Calls `turn` at the moments that it returns.
+fn keep_pace(clock: &Clock, stop: &AtomicBool, mut turn: impl FnMut(Instant) -> Instant) {
+    while !stop.load(Ordering::Relaxed) {
+        let next = turn(clock.now());
+        let wait = next.saturating_since(clock.now()).min(STOP_CHECK);
+        thread::park_timeout(std::time::Duration::from_nanos(wait.as_nanos()));
+    }
+}
+
+fn turn(cpus: &mut [CpuUnit], now: Instant) -> Instant {
+    cycle(cpus, now);
+    cpu_deadline(cpus)
+}
+
+impl Twin {
+    /// Answers `port` in real time on threads of its own, from the present moment on.
+    ///
+    /// # Errors
+    /// There is no thread to be had.
+    pub fn serve(self, port: impl FramePort + 'static) -> io::Result<Live> {
+        let (line, cpus, now) = self.into_parts();
+        let shared =
+            Arc::new(Shared { line: Mutex::new(line), cpus: Mutex::new(cpus), stop: AtomicBool::new(false) });
+        let clock = Clock::start_at(now);
+        let frames = spawn("units", &shared, move |shared| serve_frames(shared, port, &clock))?;
+        let tasks = spawn("cpu-unit", &shared, move |shared| {
+            keep_pace(&clock, &shared.stop, |now| turn(&mut shared.cpus(), now));
+        });
+        let mut live = Live { shared, frames: Some(frames), tasks: None };
+        live.tasks = Some(tasks?);
+        Ok(live)
+    }
+
+    /// Answers an ethercrab master in this process: give it the halves of its `PduStorage`.
+    ///
+    /// # Errors
+    /// There is no thread to be had.
+    #[cfg(feature = "ethercrab")]
+    pub fn serve_ethercrab(
+        self,
+        tx: ethercrab::PduTx<'static>,
+        rx: ethercrab::PduRx<'static>,
+    ) -> io::Result<Live> {
+        self.serve(crate::EthercrabPort::new(tx, rx))
+    }
+}
+
+/// A line of units that answers a link. Dropping it switches the units off.
+#[derive(Debug)]
+pub struct Live {
+    shared: Arc<Shared>,
+    frames: Option<JoinHandle<io::Result<Statistics>>>,
+    tasks: Option<JoinHandle<()>>,
+}
+
+impl Live {
+    /// Looks at the side of the unit at `position` that no master sees. Frames wait until `look` returns.
+    ///
+    /// # Panics
+    /// If the line has no unit there.
+    pub fn look<T>(&self, position: usize, look: impl FnOnce(&mut UnitSide<'_>) -> T) -> T {
+        let (line, mut cpus) = (self.shared.line(), self.shared.cpus());
+        look(&mut UnitSide::of(&line, &mut cpus, position))
+    }
+
+    /// Switches the units off and tells what they did.
+    ///
+    /// # Errors
+    /// The medium was gone.
+    pub fn stop(mut self) -> io::Result<Statistics> {
+        self.end()
+    }
+
+    fn end(&mut self) -> io::Result<Statistics> {
+        self.shared.stop.store(true, Ordering::Relaxed);
+        if let Some(tasks) = self.tasks.take() {
+            tasks.thread().unpark();
+            // A user program that panicked has told so itself.
+            let _ = tasks.join();
+        }
+        let Some(frames) = self.frames.take() else { return Ok(Statistics::default()) };
+        frames.join().unwrap_or_else(|_| Err(io::Error::other("the thread of the units panicked")))
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        if let Err(error) = self.end() {
+            tracing::warn!("the link of the units was lost: {error}");
+        }
+    }
+}
+
+/// What the threads and the test share.
+#[derive(Debug)]
+struct Shared {
+    line: Mutex<Line>,
+    cpus: Mutex<Vec<CpuUnit>>,
+    stop: AtomicBool,
+}
+
+/// A thread that panicked has told so; what it left is looked at all the same.
+impl Shared {
+    fn line(&self) -> MutexGuard<'_, Line> {
+        self.line.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn cpus(&self) -> MutexGuard<'_, Vec<CpuUnit>> {
+        self.cpus.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Responder for &Shared {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.line().frame(now, frame)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        self.line().poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.line().deadline()
+    }
+}
+
+fn serve_frames(shared: &Shared, mut port: impl FramePort, clock: &Clock) -> io::Result<Statistics> {
+    let result = runner::run(&mut port, &mut &*shared, None, clock, &shared.stop);
+    shared.stop.store(true, Ordering::Relaxed);
+    result
+}
+
+fn spawn<T: Send + 'static>(
+    name: &str,
+    shared: &Arc<Shared>,
+    body: impl FnOnce(&Shared) -> T + Send + 'static,
+) -> io::Result<JoinHandle<T>> {
+    let shared = Arc::clone(shared);
+    thread::Builder::new().name(name.to_owned()).spawn(move || body(&shared))
+}

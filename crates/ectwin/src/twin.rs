@@ -1,0 +1,199 @@
+//! A line of units in virtual time: frame in, frame out, and a look at the units' side.
+
+use device::{Device, Network};
+use link::{FrameFate, Responder};
+use nx_ect101::NxEct101;
+use plc::{CpuUnit, Io};
+use time::{Duration, Instant};
+use wire::{AlState, AlStatus, AlStatusCode};
+
+use crate::{Setup, SetupError};
+
+/// Units under power, in the order of the chain, with their CPU Units.
+///
+/// Nothing happens by itself: time passes by [`Twin::run_for`], and only then. The same calls give the same
+/// bytes, on every machine. In real time [`Twin::serve`] answers a link.
+#[derive(Debug)]
+pub struct Twin {
+    line: Line,
+    cpus: Vec<CpuUnit>,
+    now: Instant,
+}
+
+impl Twin {
+    /// Gives power to one unit, as its unit file tells it.
+    ///
+    /// # Errors
+    /// What is wrong with the text, and where.
+    pub fn from_toml(unit_file: &str) -> Result<Self, SetupError> {
+        Ok(Self::power_on([Setup::from_toml(unit_file)?]))
+    }
+
+    /// Gives power to a line of units, the one next to the master first.
+    #[must_use]
+    pub fn power_on(setups: impl IntoIterator<Item = Setup>) -> Self {
+        let now = Instant::ZERO;
+        let (mut units, mut cpus) = (Vec::new(), Vec::new());
+        for setup in setups {
+            let (config, unit, cpu) = setup.power_on(now);
+            units.push((config, unit));
+            cpus.push(cpu);
+        }
+        let mut twin = Self { line: Line(Network::power_on(units, now)), cpus, now };
+        twin.poll(now);
+        twin
+    }
+
+    /// Sends one Ethernet frame, without FCS, into the line at the present moment; the answer is in its place.
+    pub fn frame(&mut self, frame: &mut [u8]) -> FrameFate {
+        let fate = self.line.frame(self.now, frame);
+        self.line.poll(self.now);
+        fate
+    }
+
+    /// Lets virtual time pass; what is due in it happens at its moment.
+    pub fn run_for(&mut self, duration: Duration) {
+        let end = self.now + duration;
+        while self.deadline() <= end {
+            self.now = self.now.max(self.deadline());
+            self.poll(self.now);
+        }
+        self.now = end;
+    }
+
+    /// The present moment, counted from power-on.
+    #[must_use]
+    pub const fn now(&self) -> Instant {
+        self.now
+    }
+
+    /// Number of units.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.cpus.len()
+    }
+
+    /// Whether there is no unit at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.cpus.is_empty()
+    }
+
+    /// The side of the unit at `position`, counted from the master, that no master sees.
+    ///
+    /// # Panics
+    /// If the line has no unit there.
+    pub fn unit(&mut self, position: usize) -> UnitSide<'_> {
+        UnitSide::of(&self.line, &mut self.cpus, position)
+    }
+
+    pub(crate) fn into_parts(self) -> (Line, Vec<CpuUnit>, Instant) {
+        (self.line, self.cpus, self.now)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        cycle(&mut self.cpus, now);
+        self.line.poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.line.deadline().min(cpu_deadline(&self.cpus))
+    }
+}
+
+/// Runs the task of each CPU Unit that is due.
+pub(crate) fn cycle(cpus: &mut [CpuUnit], now: Instant) {
+    for cpu in cpus.iter_mut().filter(|cpu| cpu.deadline() <= now) {
+        cpu.cycle(now);
+    }
+}
+
+/// When the next task begins.
+pub(crate) fn cpu_deadline(cpus: &[CpuUnit]) -> Instant {
+    cpus.iter().map(CpuUnit::deadline).min().unwrap_or(Instant::NEVER)
+}
+
+/// The units without their CPU Units, as a link sees them.
+#[derive(Debug)]
+pub(crate) struct Line(Network<NxEct101>);
+
+impl Responder for Line {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.0.frame(now, frame)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        self.0.poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.0.deadline()
+    }
+}
+
+/// What a unit is like inside, and what its CPU Unit has.
+#[derive(Debug)]
+pub struct UnitSide<'a> {
+    device: &'a Device<NxEct101>,
+    cpu: &'a mut CpuUnit,
+}
+
+impl<'a> UnitSide<'a> {
+    /// # Panics
+    /// If the line has no unit there.
+    pub(crate) fn of(line: &'a Line, cpus: &'a mut [CpuUnit], position: usize) -> Self {
+        let count = cpus.len();
+        let (Some(device), Some(cpu)) = (line.0.device(position), cpus.get_mut(position)) else {
+            panic!("there is no unit at position {position}: the line has {count}")
+        };
+        Self { device, cpu }
+    }
+
+    /// State of the EtherCAT state machine.
+    #[must_use]
+    pub fn state(&self) -> AlState {
+        self.device.al_status().state
+    }
+
+    /// State and error indication, as the master reads them.
+    #[must_use]
+    pub fn al_status(&self) -> AlStatus {
+        self.device.al_status()
+    }
+
+    /// AL status code, as the master reads it.
+    #[must_use]
+    pub fn al_status_code(&self) -> AlStatusCode {
+        self.device.al_status_code()
+    }
+
+    /// The data from the master as the CPU Unit has it, entry after entry of the I/O allocation.
+    #[must_use]
+    pub fn outputs(&self) -> &[u8] {
+        self.cpu.io().m_to_c()
+    }
+
+    /// Sets the data to the master, entry after entry; it goes out with the next task period, unless the user
+    /// program writes it too. What `bytes` has too many of is left out.
+    pub fn set_inputs(&mut self, bytes: &[u8]) {
+        for (input, byte) in self.cpu.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
+            *input = *byte;
+        }
+    }
+
+    /// The I/O by data set, as the user program sees it.
+    #[must_use]
+    pub fn io(&self) -> &Io {
+        self.cpu.io()
+    }
+
+    /// The I/O by data set, to be changed.
+    pub fn io_mut(&mut self) -> &mut Io {
+        self.cpu.io_mut()
+    }
+
+    /// The CPU Unit, such as for its operating mode.
+    pub fn cpu(&mut self) -> &mut CpuUnit {
+        self.cpu
+    }
+}

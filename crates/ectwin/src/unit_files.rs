@@ -1,0 +1,77 @@
+//! Reading unit files for the command line, with a picture of what is wrong in them.
+
+use std::fmt;
+use std::path::Path;
+
+use ectwin::unit_file::UnitFileError;
+use ectwin::{Setup, SetupError};
+use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+
+use crate::failure::Failure;
+
+/// Reads one unit file.
+pub(crate) fn read(path: &Path) -> Result<Setup, Failure> {
+    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    Setup::from_toml(&text).map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+}
+
+/// One place in a file where something is wrong.
+#[derive(Debug)]
+pub(crate) struct FileProblem {
+    message: String,
+    label: String,
+    help: Option<String>,
+    span: SourceSpan,
+    source: NamedSource<String>,
+}
+
+fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
+    let source = || NamedSource::new(path.display().to_string(), text.to_owned());
+    match error {
+        SetupError::UnitFile(errors) => errors.iter().map(|error| FileProblem::of(error, source())).collect(),
+        SetupError::Program { span, .. } => vec![FileProblem {
+            message: error.to_string(),
+            label: "leave this key out".to_owned(),
+            help: None,
+            span: span.clone().into(),
+            source: source(),
+        }],
+    }
+}
+
+impl FileProblem {
+    fn of(error: &UnitFileError, source: NamedSource<String>) -> Self {
+        let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
+        let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));
+        Self {
+            message: error.message.clone(),
+            label: nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned()),
+            help: nearest.and(expected),
+            span: error.span.clone().into(),
+            source,
+        }
+    }
+}
+
+impl fmt::Display for FileProblem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for FileProblem {}
+
+impl Diagnostic for FileProblem {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        Some(&self.source)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), self.span))))
+    }
+}
