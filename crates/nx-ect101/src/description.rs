@@ -66,46 +66,40 @@ fn mailbox() -> Mailbox {
 }
 
 fn sync_managers(mapping: &Mapping) -> Vec<SyncManager> {
-    let mailbox = |usage, start, control| SyncManager {
-        usage,
-        start,
-        default_bytes: layout::MAILBOX_BYTES,
-        min_bytes: None,
-        max_bytes: Some(layout::MAILBOX_BYTES),
-        control,
-        enable: 1,
-    };
-    let buffered = |usage, start, control, direction, min_bytes, max_bytes| SyncManager {
-        usage,
-        start,
-        default_bytes: u16::try_from(mapping.size_bytes(direction)).unwrap_or(max_bytes),
-        min_bytes: Some(min_bytes),
-        max_bytes: Some(max_bytes),
-        control,
-        enable: 1,
-    };
-    let (limits, [outputs, inputs]) = (Limits::of_model(), [layout::OUTPUTS_START, layout::INPUTS_START]);
-    let status_bytes = 2; // 1A00 is always assigned.
+    let limits = Limits::of_model();
+    // 1A00 is always assigned, so inputs are never shorter than its 2 bytes.
+    let (outputs_bytes, inputs_bytes) = ((0, limits.rxpdo_bytes), (2, limits.txpdo_bytes));
+    let default = |direction| u16::try_from(mapping.size_bytes(direction)).unwrap_or(u16::MAX);
     vec![
-        mailbox(SyncManagerType::MailboxOut, layout::MAILBOX_RECEIVE_START, layout::MAILBOX_RECEIVE_CONTROL),
-        mailbox(SyncManagerType::MailboxIn, layout::MAILBOX_SEND_START, layout::MAILBOX_SEND_CONTROL),
-        buffered(
-            SyncManagerType::Outputs,
-            outputs,
-            layout::OUTPUTS_CONTROL,
-            Direction::MToC,
-            0,
-            limits.rxpdo_bytes,
-        ),
-        buffered(
-            SyncManagerType::Inputs,
-            inputs,
-            layout::INPUTS_CONTROL,
-            Direction::CToM,
-            status_bytes,
-            limits.txpdo_bytes,
-        ),
+        SyncManager {
+            control: layout::MAILBOX_RECEIVE_CONTROL,
+            ..mailbox_sync_manager(SyncManagerType::MailboxOut, layout::MAILBOX_RECEIVE_START)
+        },
+        SyncManager {
+            control: layout::MAILBOX_SEND_CONTROL,
+            ..mailbox_sync_manager(SyncManagerType::MailboxIn, layout::MAILBOX_SEND_START)
+        },
+        SyncManager {
+            start: layout::OUTPUTS_START,
+            control: layout::OUTPUTS_CONTROL,
+            ..buffered_sync_manager(SyncManagerType::Outputs, default(Direction::MToC), outputs_bytes)
+        },
+        SyncManager {
+            start: layout::INPUTS_START,
+            control: layout::INPUTS_CONTROL,
+            ..buffered_sync_manager(SyncManagerType::Inputs, default(Direction::CToM), inputs_bytes)
+        },
     ]
+}
+
+fn mailbox_sync_manager(usage: SyncManagerType, start: u16) -> SyncManager {
+    let (default_bytes, max_bytes) = (layout::MAILBOX_BYTES, Some(layout::MAILBOX_BYTES));
+    SyncManager { usage, start, default_bytes, min_bytes: None, max_bytes, control: 0, enable: 1 }
+}
+
+fn buffered_sync_manager(usage: SyncManagerType, default_bytes: u16, (min, max): (u16, u16)) -> SyncManager {
+    let (min_bytes, max_bytes) = (Some(min), Some(max));
+    SyncManager { usage, start: 0, default_bytes, min_bytes, max_bytes, control: 0, enable: 1 }
 }
 
 /// All PDOs of one direction, ascending by index, those that are not assigned by default included.
