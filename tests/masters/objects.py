@@ -80,7 +80,7 @@ def read_in_pre_op(slave, index, sub, entry):
         if (index, sub) not in OF_THE_UNIT:
             bench.expect(value, default(entry, sub), f"default of {index:04X}:{sub:02X}")
     else:
-        refuse_read(slave, index, sub, INTERNAL_STATUS if sub in MAPPED.get(index, ()) else WRONG_STATE)
+        refuse_read(slave, index, sub, WRONG_STATE)
     return 1
 
 
@@ -91,7 +91,7 @@ def write_in_pre_op(slave, index, sub, entry):
         refuse_write(slave, index, sub, value, READ_ONLY)
         return 1
     if access not in WRITE_IN_PRE_OP:
-        refuse_write(slave, index, sub, value, INTERNAL_STATUS if sub in MAPPED.get(index, ()) else WRONG_STATE)
+        refuse_write(slave, index, sub, value, WRONG_STATE)
         return 1
     if access == "rw_pre_op" and sub > 0:
         refuse_write(slave, index, sub, value, SUBINDEX_0_IS_NOT_0)

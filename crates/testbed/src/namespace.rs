@@ -58,8 +58,10 @@ pub fn add_veth_pair(one: &str, other: &str) {
 }
 
 /// A second network namespace, for the master, with one interface of ours moved into it.
+///
+/// The namespace stays until this value goes: the cable would go with it, and be lost for the other side too.
 pub struct MasterSide {
-    process: Process,
+    shell: Process,
 }
 
 impl MasterSide {
@@ -69,8 +71,9 @@ impl MasterSide {
     /// When the kernel refuses, or the program cannot be started.
     #[must_use]
     pub fn start(interface: &str, program: &Command) -> Self {
-        // The shell waits until the interface has arrived, then becomes the program.
-        let script = "echo in && read -r _ && ip link set \"$0\" up && exec \"$@\"";
+        // The shell waits until the interface has arrived, and stays after the program.
+        let script =
+            "echo in && read -r _ && ip link set \"$0\" up && { \"$@\"; echo \"ended $?\"; read -r _; }";
         let mut command = Command::new("unshare");
         command
             .args(["--net", "sh", "-c", script, interface])
@@ -81,15 +84,21 @@ impl MasterSide {
                 command.env(name, value);
             }
         }
-        let mut process = Process::start(&mut command);
-        process.wait_for_line("in");
-        ip(&["link", "set", interface, "netns", &process.id().to_string()]);
-        process.say("go");
-        Self { process }
+        let mut shell = Process::start(&mut command);
+        shell.wait_for_line("in");
+        ip(&["link", "set", interface, "netns", &shell.id().to_string()]);
+        shell.say("go");
+        Self { shell }
     }
 
-    /// Waits until the program has ended.
-    pub fn wait(&mut self) -> ExitStatus {
-        self.process.wait()
+    /// Waits until the program has ended, and returns its exit code.
+    ///
+    /// # Panics
+    /// When the shell around it has gone.
+    #[must_use]
+    pub fn wait(&mut self) -> i32 {
+        let line = self.shell.wait_for_line("ended ");
+        let code = line.strip_prefix("ended ").and_then(|code| code.parse().ok());
+        code.unwrap_or_else(|| panic!("`{line}` tells no exit code"))
     }
 }

@@ -10,7 +10,8 @@ fn a_cable_has_its_other_end_in_the_namespace_of_the_master() {
         add_veth_pair("here", "there");
         let mut look = Command::new("ip");
         look.args(["link", "show", "dev", "there", "up"]);
-        assert!(MasterSide::start("there", &look).wait().success());
+        let mut there = MasterSide::start("there", &look);
+        assert_eq!(there.wait(), 0);
         let mut look = Process::start(Command::new("ip").args(["-brief", "link"]));
         assert!(look.wait_for_line("here").contains("here@"));
         assert!(look.wait().success());
@@ -19,7 +20,8 @@ fn a_cable_has_its_other_end_in_the_namespace_of_the_master() {
 
 #[test]
 fn a_child_is_read_line_by_line_and_interrupted() {
-    let script = "trap 'echo interrupted; exit 5' INT; echo ready one; read -r line; echo got $line; read -r never";
+    let script =
+        "trap 'echo interrupted; exit 5' INT; echo ready one; read -r line; echo got $line; read -r never";
     let mut child = Process::start(Command::new("sh").args(["-c", script]));
     assert_eq!(child.wait_for_line("ready"), "ready one");
     child.say("a word");
