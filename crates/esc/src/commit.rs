@@ -21,20 +21,20 @@ impl Esc {
     /// Closes a good frame: what it wrote takes effect.
     #[inline]
     pub fn end_of_frame(&mut self, passage: &Passage) {
-        if self.dirty {
-            self.dirty = false;
+        if self.awaits_end_of_frame() {
             self.commit(passage);
         }
     }
 
     fn commit(&mut self, passage: &Passage) {
-        let now = passage.arrival;
-        for n in 0..self.sync_managers.len() {
-            if self.sync_managers[n].complete {
-                self.hand_over(n, now);
-            }
+        let mut complete = core::mem::take(&mut self.hot.complete);
+        while complete != 0 {
+            self.hand_over(complete.trailing_zeros() as usize, passage.arrival);
+            complete &= complete - 1;
         }
-        if let Some(mut shadow) = self.shadow.take() {
+        if core::mem::take(&mut self.hot.registers_written)
+            && let Some(mut shadow) = self.shadow.take()
+        {
             self.commit_registers(&shadow, passage);
             shadow.clear();
             self.shadow = Some(shadow);
@@ -47,7 +47,7 @@ impl Esc {
         sm.end_of_frame();
         let settings = sm.settings;
         if settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
-            self.watchdog.trigger(&mut self.memory, now);
+            self.watchdog.trigger(now);
         }
     }
 
@@ -65,6 +65,8 @@ impl Esc {
             everything: self.memory.u8(at::ESC_WRITE_PROTECTION) & 1 != 0,
             ..Protection::default()
         };
+        self.hot.protected = self.protection != Protection::default();
+        self.hot.event_mask = self.memory.u16(at::ECAT_EVENT_MASK);
     }
 
     /// Stores what the table lets be stored, then runs each effect of the bytes touched, once.
@@ -103,7 +105,7 @@ impl Esc {
             self.ecat_events |= EcatEvents::DL_STATUS;
         }
         if has(Effect::Watchdog) {
-            self.watchdog.configure(&mut self.memory, now);
+            self.watchdog.configure(&self.memory, now);
         }
         if has(Effect::SiiOwner) {
             Sii::owner_written(&mut self.memory);
@@ -146,9 +148,9 @@ impl Esc {
     }
 
     pub(crate) fn update_addresses(&mut self) {
-        self.station_address = self.memory.u16(at::STATION_ADDRESS);
+        self.hot.station_address = self.memory.u16(at::STATION_ADDRESS);
         let uses_alias = self.memory.u8(at::DL_CONTROL + 3) & USE_ALIAS != 0;
-        self.answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
+        self.hot.answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
     }
 
     /// Address and data may come with the command or before it; the command runs when its byte is written.
@@ -209,7 +211,7 @@ impl Esc {
     pub(crate) fn stop_watchdog_without_trigger(&mut self) {
         let watched = |sm: &crate::SyncManager| sm.settings.enabled && sm.settings.watchdog_trigger;
         if !self.sync_managers.iter().any(watched) {
-            self.watchdog.stop(&mut self.memory);
+            self.watchdog.stop();
         }
     }
 
@@ -221,10 +223,18 @@ impl Esc {
             let mut bytes = [0; FMMU_BYTES];
             bytes.copy_from_slice(self.memory.slice(at::FMMU + n * FMMU_BYTES as u16, FMMU_BYTES));
             let fmmu = Fmmu::from_bytes(&bytes);
+            self.fmmus[usize::from(n & 0x0F)] = fmmu;
             if !fmmu.active {
                 continue;
             }
-            let mapping = Mapping { fmmu, bytewise: fmmu.is_bytewise(), sync_manager: self.holder_of(&fmmu) };
+            let mapping = Mapping {
+                logical_start: fmmu.logical_start,
+                length_bytes: fmmu.length_bytes,
+                physical_start: fmmu.physical_start,
+                fmmu: n as u8,
+                bytewise: fmmu.is_bytewise(),
+                sync_manager: self.holder_of(&fmmu),
+            };
             if fmmu.read {
                 self.read_mappings.push(mapping);
             }
@@ -232,15 +242,15 @@ impl Esc {
                 self.write_mappings.push(mapping);
             }
         }
-        self.read_span = cover(&self.read_mappings);
-        self.write_span = cover(&self.write_mappings);
+        self.hot.read_span = cover(&self.read_mappings);
+        self.hot.write_span = cover(&self.write_mappings);
         self.mappings_alias =
             self.read_mappings.iter().any(|read| self.write_mappings.iter().any(|write| alias(read, write)));
     }
 
     /// The SyncManager that holds the whole physical range of a mapping; the lowest one where two overlap.
     fn holder_of(&self, fmmu: &Fmmu) -> Option<u8> {
-        let (start, end) = physical_range(fmmu);
+        let (start, end) = physical_range(fmmu.physical_start, fmmu.length_bytes);
         let touches =
             |sm: &crate::SyncManager| sm.rules && u32::from(sm.settings.start) < end && start < sm.end();
         let (n, sm) = (0u8..).zip(&self.sync_managers).find(|(_, sm)| touches(sm))?;
@@ -278,16 +288,15 @@ const fn stores(effect: Effect) -> bool {
 }
 
 fn cover(mappings: &[Mapping]) -> Span {
-    mappings.iter().fold(Span::EMPTY, |span, mapping| span.cover(mapping.fmmu.logical_bytes()))
+    mappings.iter().fold(Span::EMPTY, |span, mapping| span.cover(mapping.logical_bytes()))
 }
 
-fn physical_range(fmmu: &Fmmu) -> (u32, u32) {
-    let start = u32::from(fmmu.physical_start);
-    (start, start + u32::from(fmmu.length_bytes))
+fn physical_range(start: u16, length_bytes: u16) -> (u32, u32) {
+    (u32::from(start), u32::from(start) + u32::from(length_bytes))
 }
 
 fn alias(read: &Mapping, write: &Mapping) -> bool {
-    let ((read_start, read_end), (write_start, write_end)) =
-        (physical_range(&read.fmmu), physical_range(&write.fmmu));
+    let (read_start, read_end) = physical_range(read.physical_start, read.length_bytes);
+    let (write_start, write_end) = physical_range(write.physical_start, write.length_bytes);
     read_start < write_end && write_start < read_end
 }

@@ -5,7 +5,7 @@ use time::Instant;
 use crate::config::SyncManagerWrites;
 use crate::esc::{Esc, Mapping};
 use crate::events::EcatEvents;
-use crate::fmmu::{FMMU_BYTES, Span};
+use crate::fmmu::{FMMU_BYTES, Fmmu, Span};
 use crate::registers::{BYTES, Effect, PROCESS_RAM_START, USER_RAM_START, at, is_live};
 use crate::sii::Sii;
 use crate::sync_manager::{Reach, SYNC_MANAGER_BYTES};
@@ -27,14 +27,21 @@ impl Esc {
     #[inline]
     #[must_use]
     pub fn answers_to(&self, station_address: u16) -> bool {
-        self.station_address == station_address || self.answering_alias == Some(station_address)
+        self.hot.station_address == station_address || self.hot.answering_alias == Some(station_address)
+    }
+
+    /// Whether something waits for the end of the frame.
+    #[inline]
+    #[must_use]
+    pub const fn awaits_end_of_frame(&self) -> bool {
+        self.hot.complete != 0 || self.hot.registers_written
     }
 
     /// The ECAT event request as its mask lets it into the IRQ field of datagrams.
     #[inline]
     #[must_use]
     pub const fn masked_events(&self) -> u16 {
-        self.masked_events
+        self.hot.masked_events
     }
 
     /// Reads memory into `data`. Tells whether at least one byte could be read; bytes that could not stay.
@@ -89,11 +96,14 @@ impl Esc {
         if (offset >> 4..=last >> 4).any(|page| is_live(page << 4)) {
             return self.read_live_registers(offset, length_bytes, now, sink);
         }
+        if !self.ecat_events.is_empty() {
+            self.clear_events_read(offset, length_bytes);
+        }
         sink(0, self.memory.slice(offset, length_bytes));
         true
     }
 
-    /// Registers whose value is worked out when it is read, or whose reading does something.
+    /// Registers whose value is worked out when it is read.
     fn read_live_registers(
         &mut self,
         offset: u16,
@@ -106,16 +116,21 @@ impl Esc {
         }
         self.show_live_registers(now);
         sink(0, self.memory.slice(offset, length_bytes));
-        let touched = |register: u16, bytes: u16| {
-            offset < register + bytes && register < offset.saturating_add(length_bytes as u16)
+        self.clear_events_read(offset, length_bytes);
+        true
+    }
+
+    /// Reading DL status or AL status takes back its event.
+    fn clear_events_read(&mut self, offset: u16, length_bytes: usize) {
+        let touched = |register: u16| {
+            offset < register + 2 && usize::from(register) < usize::from(offset) + length_bytes
         };
-        if touched(at::DL_STATUS, 2) {
+        if touched(at::DL_STATUS) {
             self.clear_ecat_event(EcatEvents::DL_STATUS);
         }
-        if touched(at::AL_STATUS, 2) {
+        if touched(at::AL_STATUS) {
             self.clear_ecat_event(EcatEvents::AL_STATUS);
         }
-        true
     }
 
     pub(crate) fn show_live_registers(&mut self, now: Instant) {
@@ -130,6 +145,7 @@ impl Esc {
             self.memory.set_u8(registers + 5, sm.status());
             self.memory.set_u8(registers + 7, sm.pdi_control());
         }
+        self.watchdog.show(&mut self.memory);
         self.dc.show(&mut self.memory, now);
     }
 
@@ -159,7 +175,7 @@ impl Esc {
     /// Writes memory. Tells whether at least one byte could be written.
     #[inline]
     pub fn write(&mut self, offset: u16, data: &[u8]) -> bool {
-        if self.protection != Default::default() && self.is_protected(offset) {
+        if self.hot.protected && self.is_protected(offset) {
             return false;
         }
         if offset >= PROCESS_RAM_START {
@@ -196,7 +212,7 @@ impl Esc {
         } else if offset == at::ESC_WRITE_ENABLE {
             self.protection.everything_enabled = data[0] & 1 != 0;
         }
-        self.dirty = true;
+        self.hot.registers_written = true;
         self.shadow.as_mut().is_some_and(|shadow| shadow.push(offset, data))
     }
 
@@ -294,7 +310,7 @@ impl Esc {
         let sm = self.sync_managers.get_mut(usize::from(n))?;
         let from = (piece.offset - u32::from(sm.settings.start)) as u16;
         let buffer = sm.ecat_read(Reach { from, to: from + piece.length_bytes as u16 })?;
-        self.dirty = true;
+        self.hot.complete |= u16::from(sm.complete) << n;
         Some(buffer + u32::from(from))
     }
 
@@ -305,7 +321,7 @@ impl Esc {
         let sm = self.sync_managers.get_mut(usize::from(n))?;
         let from = (piece.offset - u32::from(sm.settings.start)) as u16;
         let buffer = sm.ecat_write(Reach { from, to: from + piece.length_bytes as u16 })?;
-        self.dirty = true;
+        self.hot.complete |= u16::from(sm.complete) << n;
         Some(buffer + u32::from(from))
     }
 
@@ -313,21 +329,21 @@ impl Esc {
     #[inline]
     pub fn logical_read(&mut self, address: u32, data: &mut [u8], now: Instant) -> bool {
         let bytes = logical_bytes(address, data.len());
-        self.read_span.overlaps(bytes) && self.read_mapped(bytes, data, now)
+        self.hot.read_span.overlaps(bytes) && self.read_mapped(bytes, data, now)
     }
 
     /// LWR: stores the bits of `data` that an FMMU maps for writing.
     #[inline]
     pub fn logical_write(&mut self, address: u32, data: &[u8]) -> bool {
         let bytes = logical_bytes(address, data.len());
-        self.write_span.overlaps(bytes) && self.write_mapped(bytes, data)
+        self.hot.write_span.overlaps(bytes) && self.write_mapped(bytes, data)
     }
 
     /// LRW: both, each from what was there before.
     #[inline]
     pub fn logical_read_write(&mut self, address: u32, data: &mut [u8], now: Instant) -> Access {
         let bytes = logical_bytes(address, data.len());
-        let (reads, writes) = (self.read_span.overlaps(bytes), self.write_span.overlaps(bytes));
+        let (reads, writes) = (self.hot.read_span.overlaps(bytes), self.hot.write_span.overlaps(bytes));
         if !self.mappings_alias {
             let written = writes && self.write_mapped(bytes, data);
             return Access { written, read: reads && self.read_mapped(bytes, data, now) };
@@ -344,7 +360,7 @@ impl Esc {
         let mut any = false;
         for n in (0..self.read_mappings.len()).rev() {
             let mapping = self.read_mappings[n];
-            if !mapping.fmmu.logical_bytes().overlaps(datagram) {
+            if !mapping.logical_bytes().overlaps(datagram) {
                 continue;
             }
             any |= if mapping.bytewise {
@@ -382,8 +398,9 @@ impl Esc {
         data: &mut [u8],
         now: Instant,
     ) -> bool {
-        let bits = bit_overlap(mapping, datagram);
-        let Some(range) = PhysicalBits::of(mapping, bits) else { return false };
+        let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
+        let bits = bit_overlap(&fmmu, datagram);
+        let Some(range) = PhysicalBits::of(&fmmu, bits) else { return false };
         let mut bytes = [0; DATA_BYTES_MAX];
         let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
         if !self.read(range.offset, bytes, now) {
@@ -400,7 +417,7 @@ impl Esc {
         let mut any = false;
         for n in 0..self.write_mappings.len() {
             let mapping = self.write_mappings[n];
-            if !mapping.fmmu.logical_bytes().overlaps(datagram) {
+            if !mapping.logical_bytes().overlaps(datagram) {
                 continue;
             }
             any |= if mapping.bytewise {
@@ -415,7 +432,7 @@ impl Esc {
 
     #[inline]
     fn write_mapping_bytes(&mut self, mapping: &Mapping, physical: u16, data: &[u8]) -> bool {
-        if mapping.sync_manager.is_none() || self.protection != Default::default() {
+        if mapping.sync_manager.is_none() || self.hot.protected {
             return self.write(physical, data);
         }
         let piece =
@@ -429,8 +446,9 @@ impl Esc {
 
     /// A bit-wise write touches whole bytes; the bits that are not mapped keep what the buffer holds.
     fn write_mapping_bits(&mut self, mapping: &Mapping, datagram: Span, data: &[u8]) -> bool {
-        let bits = bit_overlap(mapping, datagram);
-        let Some(range) = PhysicalBits::of(mapping, bits) else { return false };
+        let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
+        let bits = bit_overlap(&fmmu, datagram);
+        let Some(range) = PhysicalBits::of(&fmmu, bits) else { return false };
         let mut bytes = [0; DATA_BYTES_MAX];
         let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
         self.peek_for_write(range.offset, bytes);
@@ -471,12 +489,12 @@ struct PhysicalBits {
 
 impl PhysicalBits {
     /// None if no bit is left, or if the bits leave the address space.
-    fn of(mapping: &Mapping, bits: Span) -> Option<Self> {
+    fn of(fmmu: &Fmmu, bits: Span) -> Option<Self> {
         if bits.start >= bits.end {
             return None;
         }
-        let first = mapping.fmmu.physical_bit(bits.start);
-        let last = mapping.fmmu.physical_bit(bits.end - 1);
+        let first = fmmu.physical_bit(bits.start);
+        let last = fmmu.physical_bit(bits.end - 1);
         let offset = u16::try_from(first / 8).ok()?;
         Some(Self {
             offset,
@@ -495,15 +513,15 @@ fn logical_bytes(address: u32, length_bytes: usize) -> Span {
 /// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start.
 #[inline]
 fn byte_overlap(mapping: &Mapping, datagram: Span) -> (core::ops::Range<usize>, u16) {
-    let bytes = mapping.fmmu.logical_bytes();
+    let bytes = mapping.logical_bytes();
     let both = bytes.intersection(datagram);
     let range = (both.start - datagram.start) as usize..(both.end - datagram.start) as usize;
-    (range, mapping.fmmu.physical_start.wrapping_add((both.start - bytes.start) as u16))
+    (range, mapping.physical_start.wrapping_add((both.start - bytes.start) as u16))
 }
 
-fn bit_overlap(mapping: &Mapping, datagram: Span) -> Span {
+fn bit_overlap(fmmu: &Fmmu, datagram: Span) -> Span {
     let bits = Span { start: datagram.start * 8, end: datagram.end * 8 };
-    mapping.fmmu.logical_bits().intersection(bits)
+    fmmu.logical_bits().intersection(bits)
 }
 
 fn bit(bytes: &[u8], at: usize) -> bool {

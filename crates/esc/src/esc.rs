@@ -35,21 +35,13 @@ pub struct Passage {
 /// One EtherCAT slave controller.
 #[derive(Clone, Debug)]
 pub struct Esc {
-    // What every datagram looks at comes first.
-    pub(crate) station_address: u16,
-    /// The alias, where DL control bit 24 lets it answer.
-    pub(crate) answering_alias: Option<u16>,
-    pub(crate) read_span: Span,
-    pub(crate) write_span: Span,
-    /// Something waits for the end of the frame.
-    pub(crate) dirty: bool,
-    pub(crate) protection: Protection,
+    pub(crate) hot: Hot,
     /// A loop has opened or closed since [`Esc::take_ports_changed`].
     pub(crate) ports_changed: bool,
-    /// The visible part of the ECAT event request, for the IRQ field of datagrams.
-    pub(crate) masked_events: u16,
 
+    pub(crate) protection: Protection,
     pub(crate) memory: Memory,
+    pub(crate) fmmus: [Fmmu; FMMUS_MAX],
     pub(crate) sync_managers: [SyncManager; SYNC_MANAGERS_MAX],
     pub(crate) read_mappings: ArrayVec<Mapping, FMMUS_MAX>,
     pub(crate) write_mappings: ArrayVec<Mapping, FMMUS_MAX>,
@@ -69,13 +61,61 @@ pub struct Esc {
     pub(crate) config: EscConfig,
 }
 
-/// An FMMU that is switched on, and the SyncManager that it lies in.
+/// What every datagram looks at, in one cache line, so that passing an ESC that is not meant costs little.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(crate) struct Hot {
+    pub(crate) read_span: Span,
+    pub(crate) write_span: Span,
+    pub(crate) station_address: u16,
+    /// The alias, where DL control bit 24 lets it answer.
+    pub(crate) answering_alias: Option<u16>,
+    /// The visible part of the ECAT event request, for the IRQ field of datagrams.
+    pub(crate) masked_events: u16,
+    /// The ECAT event mask, register 0x0200.
+    pub(crate) event_mask: u16,
+    /// SyncManagers that hand over at the end of the frame, a bit each.
+    pub(crate) complete: u16,
+    /// Register writes wait for the end of the frame.
+    pub(crate) registers_written: bool,
+    /// Some write protection is on.
+    pub(crate) protected: bool,
+}
+
+impl Hot {
+    const AT_POWER_ON: Self = Self {
+        read_span: Span::EMPTY,
+        write_span: Span::EMPTY,
+        station_address: 0,
+        answering_alias: None,
+        masked_events: 0,
+        event_mask: 0,
+        complete: 0,
+        registers_written: false,
+        protected: false,
+    };
+}
+
+/// An FMMU that is switched on, as the frame's path needs it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mapping {
-    pub(crate) fmmu: Fmmu,
+    pub(crate) logical_start: u32,
+    pub(crate) length_bytes: u16,
+    pub(crate) physical_start: u16,
+    /// Its number, for mappings that are not byte-wise.
+    pub(crate) fmmu: u8,
     pub(crate) bytewise: bool,
     /// The SyncManager whose buffer holds the whole physical range.
     pub(crate) sync_manager: Option<u8>,
+}
+
+impl Mapping {
+    /// The logical bytes, end excluded. No mapping wraps at the end of the address space.
+    #[inline]
+    pub(crate) const fn logical_bytes(&self) -> Span {
+        let start = self.logical_start as u64;
+        Span { start, end: start + self.length_bytes as u64 }
+    }
 }
 
 /// Write protection as it applies to the frame that is passing.
@@ -92,16 +132,12 @@ impl Esc {
     /// An ESC that gets power at `now`, with this EEPROM image.
     #[must_use]
     pub fn power_on(config: EscConfig, sii_image: Vec<u8>, now: Instant) -> Self {
+        let memory = Memory::at_power_on(config.ram_kib);
         let mut esc = Self {
-            station_address: 0,
-            answering_alias: None,
-            read_span: Span::EMPTY,
-            write_span: Span::EMPTY,
-            dirty: false,
+            hot: Hot::AT_POWER_ON,
             ports_changed: true,
             protection: Protection::default(),
-            masked_events: 0,
-            memory: Memory::at_power_on(config.ram_kib),
+            fmmus: [Fmmu::default(); FMMUS_MAX],
             sync_managers: [SyncManager::default(); SYNC_MANAGERS_MAX],
             read_mappings: ArrayVec::new(),
             write_mappings: ArrayVec::new(),
@@ -110,7 +146,8 @@ impl Esc {
             ports: Ports::new(),
             sii: Sii::new(sii_image, config.sii),
             dc: Dc::new(now),
-            watchdog: Watchdog::default(),
+            watchdog: Watchdog::at_power_on(&memory),
+            memory,
             ecat_events: EcatEvents::default(),
             al_events: AlEvents::default(),
             al_control_pending: false,
@@ -154,7 +191,7 @@ impl Esc {
     /// The configured station address, register 0x0010.
     #[must_use]
     pub const fn station_address(&self) -> u16 {
-        self.station_address
+        self.hot.station_address
     }
 
     /// Link and loop of a port.
@@ -249,7 +286,7 @@ impl Esc {
     }
 
     pub(crate) fn update_masked_events(&mut self) {
-        let mask = self.memory.u16(at::ECAT_EVENT_MASK);
-        self.masked_events = if mask == 0 { 0 } else { self.all_ecat_events().bits() & mask };
+        let mask = self.hot.event_mask;
+        self.hot.masked_events = if mask == 0 { 0 } else { self.all_ecat_events().bits() & mask };
     }
 }

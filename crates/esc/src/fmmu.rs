@@ -52,13 +52,6 @@ impl Fmmu {
         self.logical_start_bit == 0 && self.logical_stop_bit == 7 && self.physical_start_bit == 0
     }
 
-    /// The logical bytes, end excluded. No mapping wraps at the end of the address space.
-    #[inline]
-    pub(crate) const fn logical_bytes(&self) -> Span {
-        let start = self.logical_start as u64;
-        Span { start, end: start + self.length_bytes as u64 }
-    }
-
     /// The mapped bits as positions counted from logical byte 0, end excluded.
     pub(crate) const fn logical_bits(&self) -> Span {
         let start = self.logical_start as u64 * 8 + self.logical_start_bit as u64;

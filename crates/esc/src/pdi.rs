@@ -8,7 +8,6 @@ use crate::events::{AlEvents, EcatEvents};
 use crate::ports;
 use crate::registers::{PdiAccess, REGISTERS, at};
 use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
-use crate::watchdog::Watchdog;
 
 /// The ESC as its application sees it, at one moment.
 pub struct Pdi<'a> {
@@ -78,7 +77,7 @@ impl<'a> Pdi<'a> {
         self.sm_mut(index).deactivate_by_pdi(deactivated);
         self.esc.update_mappings();
         if deactivated {
-            self.esc.watchdog.stop(&mut self.esc.memory);
+            self.esc.watchdog.stop();
         }
     }
 
@@ -169,7 +168,7 @@ impl<'a> Pdi<'a> {
     /// Whether the process data watchdog has expired since the last complete write.
     #[must_use]
     pub fn watchdog_expired(&self) -> bool {
-        Watchdog::is_expired(&self.esc.memory)
+        self.esc.watchdog.is_expired()
     }
 
     /// Process data watchdog time register 0x0420; 0 is off.

@@ -340,9 +340,9 @@ impl ByteMap {
     }
 }
 
-/// Whether a read that touches the 16 bytes around `offset` needs values computed first, or has a side
-/// effect: DL status, AL status, event requests, SII, SyncManager status, DC.
+/// Whether a read that touches the 16 bytes around `offset` needs values worked out first: event requests,
+/// watchdog status, SII, SyncManager status, DC.
 #[inline]
 pub(crate) const fn is_live(offset: u16) -> bool {
-    matches!(offset >> 4, 0x11 | 0x13 | 0x20..=0x22 | 0x50 | 0x80..=0x8F | 0x90..=0x9F)
+    matches!(offset >> 4, 0x20..=0x22 | 0x44 | 0x50 | 0x80..=0x87 | 0x90..=0x9F)
 }

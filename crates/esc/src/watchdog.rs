@@ -9,36 +9,38 @@ use crate::registers::at;
 const TICK: Duration = Duration::from_nanos(40);
 
 /// Runs from the first complete write to a SyncManager with trigger; before, there is nothing to watch.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Watchdog {
+    /// None where the time register is 0.
+    period: Option<Duration>,
     deadline: Option<Instant>,
+    expired: bool,
 }
 
 impl Watchdog {
-    /// (divider + 2) × 40 ns × time register; none where the time is 0.
-    fn period(memory: &Memory) -> Option<Duration> {
-        let divider = u64::from(memory.u16(at::WATCHDOG_DIVIDER)) + 2;
-        let times = u64::from(memory.u16(at::WATCHDOG_TIME_PROCESS_DATA));
-        (times > 0).then(|| TICK * divider * times)
+    pub(crate) fn at_power_on(memory: &Memory) -> Self {
+        Self { period: period(memory), deadline: None, expired: false }
     }
 
     /// A complete write has come.
-    pub(crate) fn trigger(&mut self, memory: &mut Memory, now: Instant) {
-        self.deadline = Self::period(memory).map(|period| now + period);
-        memory.set_u16(at::WATCHDOG_STATUS, 1);
+    #[inline]
+    pub(crate) fn trigger(&mut self, now: Instant) {
+        self.deadline = self.period.map(|period| now + period);
+        self.expired = false;
     }
 
     /// Its registers have been written: a running one starts anew, one that is off is never expired.
-    pub(crate) fn configure(&mut self, memory: &mut Memory, now: Instant) {
-        if self.deadline.is_some() || Self::period(memory).is_none() {
-            self.trigger(memory, now);
+    pub(crate) fn configure(&mut self, memory: &Memory, now: Instant) {
+        self.period = period(memory);
+        if self.deadline.is_some() || self.period.is_none() {
+            self.trigger(now);
         }
     }
 
     /// No SyncManager with trigger is left: there is nothing to watch.
-    pub(crate) fn stop(&mut self, memory: &mut Memory) {
+    pub(crate) fn stop(&mut self) {
         self.deadline = None;
-        memory.set_u16(at::WATCHDOG_STATUS, 1);
+        self.expired = false;
     }
 
     pub(crate) const fn deadline(&self) -> Option<Instant> {
@@ -50,13 +52,25 @@ impl Watchdog {
         let expired = self.deadline.is_some_and(|deadline| now >= deadline);
         if expired {
             self.deadline = None;
-            memory.set_u16(at::WATCHDOG_STATUS, 0);
+            self.expired = true;
             memory.count_up(at::WATCHDOG_COUNTER);
         }
         expired
     }
 
-    pub(crate) fn is_expired(memory: &Memory) -> bool {
-        memory.u16(at::WATCHDOG_STATUS) & 1 == 0
+    pub(crate) const fn is_expired(&self) -> bool {
+        self.expired
     }
+
+    /// Puts its status into its register before a read.
+    pub(crate) fn show(&self, memory: &mut Memory) {
+        memory.set_u16(at::WATCHDOG_STATUS, u16::from(!self.expired));
+    }
+}
+
+/// (divider + 2) × 40 ns × time register; none where the time is 0.
+fn period(memory: &Memory) -> Option<Duration> {
+    let divider = u64::from(memory.u16(at::WATCHDOG_DIVIDER)) + 2;
+    let times = u64::from(memory.u16(at::WATCHDOG_TIME_PROCESS_DATA));
+    (times > 0).then(|| TICK * divider * times)
 }

@@ -191,7 +191,7 @@ fn banks_end_where_the_build_ends() {
 fn the_process_data_watchdog_expires_after_its_time() {
     let mut bench = Bench::new();
     bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS);
-    bench.now = bench.now + Duration::from_secs(1);
+    bench.now += Duration::from_secs(1);
     bench.esc.advance(bench.now);
     assert_eq!(bench.word(0x0440), 1, "nothing has been triggered yet");
     bench.write(0x1100, &[1, 2]);

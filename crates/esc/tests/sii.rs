@@ -105,7 +105,7 @@ fn a_slow_eeprom_is_busy_until_it_is_done() {
     bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
     assert_eq!(bench.word(0x0502) & BUSY, BUSY);
     bench.write(0x0502, &[0, 1, 8, 0, 0, 0]);
-    bench.now = bench.now + wait;
+    bench.now += wait;
     assert_eq!(bench.word(0x0502) & BUSY, 0);
     assert_eq!(bench.read(0x0508, 2), Some(vec![0x34, 0x12]), "a command in between is not taken");
 }

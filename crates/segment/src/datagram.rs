@@ -5,37 +5,53 @@ use time::{Duration, Instant};
 use wire::{Command, Datagram};
 
 /// Passes a datagram through the processing unit of each ESC, the first one at `now`, each next one a hop
-/// later (reference 1.4, 1.5).
+/// later (reference 1.4, 1.5). Tells whether an ESC waits for the end of the frame.
 #[inline]
-pub(crate) fn pass(escs: &mut [Esc], datagram: &mut Datagram<'_>, now: Instant, hop: Duration) {
-    let command = datagram.header.command;
-    if matches!(command, Command::Other(_)) {
-        return;
+pub(crate) fn pass(escs: &mut [Esc], datagram: &mut Datagram<'_>, now: Instant, hop: Duration) -> bool {
+    let passed = Passed { events: 0, count: 0, waits: false, arrival: now, hop };
+    let passed = match datagram.header.command {
+        Command::Other(_) => return false,
+        Command::Lrd | Command::Lwr | Command::Lrw => pass_logical(escs, datagram, passed),
+        command => pass_physical(escs, datagram, command, passed),
+    };
+    datagram.header.events |= passed.events;
+    datagram.working_counter = datagram.working_counter.wrapping_add(passed.count);
+    passed.waits
+}
+
+/// What adds up along the line.
+struct Passed {
+    events: u16,
+    count: u16,
+    waits: bool,
+    arrival: Instant,
+    hop: Duration,
+}
+
+impl Passed {
+    /// One ESC further.
+    #[inline]
+    fn by(&mut self, esc: &Esc, increment: u16) {
+        self.count = self.count.wrapping_add(increment);
+        self.events |= esc.masked_events();
+        self.waits |= esc.awaits_end_of_frame();
+        self.arrival += self.hop;
     }
-    if command.is_logical() {
-        pass_logical(escs, datagram, now, hop);
-    } else {
-        pass_physical(escs, datagram, command, now, hop);
-    }
-    datagram.header.events |= escs.iter().fold(0, |events, esc| events | esc.masked_events());
 }
 
 #[inline]
-fn pass_logical(escs: &mut [Esc], datagram: &mut Datagram<'_>, now: Instant, hop: Duration) {
+fn pass_logical(escs: &mut [Esc], datagram: &mut Datagram<'_>, mut passed: Passed) -> Passed {
     let address = datagram.header.logical_address();
     let data = &mut *datagram.data;
-    let mut count = 0u16;
-    let mut arrival = now;
     for esc in escs {
         let increment = match datagram.header.command {
-            Command::Lrd => u16::from(esc.logical_read(address, data, arrival)),
+            Command::Lrd => u16::from(esc.logical_read(address, data, passed.arrival)),
             Command::Lwr => u16::from(esc.logical_write(address, data)),
-            _ => read_write_increment(esc.logical_read_write(address, data, arrival)),
+            _ => read_write_increment(esc.logical_read_write(address, data, passed.arrival)),
         };
-        count = count.wrapping_add(increment);
-        arrival += hop;
+        passed.by(esc, increment);
     }
-    datagram.working_counter = datagram.working_counter.wrapping_add(count);
+    passed
 }
 
 #[inline]
@@ -43,17 +59,17 @@ fn pass_physical(
     escs: &mut [Esc],
     datagram: &mut Datagram<'_>,
     command: Command,
-    now: Instant,
-    hop: Duration,
-) {
+    mut passed: Passed,
+) -> Passed {
     let address = datagram.header.address;
     let offset = datagram.header.offset;
     let data = &mut *datagram.data;
-    let passed = escs.len() as u16;
-    let mut count = 0u16;
-    let mut arrival = now;
+    if command.increments_position() {
+        datagram.header.address = address.wrapping_add(escs.len() as u16);
+    }
     for (position, esc) in (0u16..).zip(escs) {
         let here = address.wrapping_add(position) == 0;
+        let arrival = passed.arrival;
         let increment = match command {
             Command::Brd => u16::from(esc.read_or(offset, data, arrival)),
             Command::Bwr => u16::from(esc.write(offset, data)),
@@ -71,13 +87,9 @@ fn pass_physical(
             Command::Armw | Command::Frmw => u16::from(esc.write(offset, data)),
             _ => 0,
         };
-        count = count.wrapping_add(increment);
-        arrival += hop;
+        passed.by(esc, increment);
     }
-    if command.increments_position() {
-        datagram.header.address = address.wrapping_add(passed);
-    }
-    datagram.working_counter = datagram.working_counter.wrapping_add(count);
+    passed
 }
 
 /// A successful read counts 1, a successful write 2, both 3.

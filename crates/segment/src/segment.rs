@@ -151,9 +151,13 @@ impl Segment {
         layout: &Layout,
     ) {
         let escs = self.escs.get_mut(positions).unwrap_or_default();
+        let mut waits = false;
         for mut datagram in layout.datagrams(frame) {
-            pass(escs, &mut datagram, now, HOP);
+            waits |= pass(escs, &mut datagram, now, HOP);
             datagram.close();
+        }
+        if !waits {
+            return;
         }
         let mut ports_changed = false;
         let turn = now + HOP * escs.len().saturating_sub(1) as u64 + TURN;

@@ -43,13 +43,20 @@ impl Bench {
         read.then_some(data)
     }
 
+    /// Registers, which can always be read.
+    fn registers<const N: usize>(&mut self, offset: u16) -> [u8; N] {
+        let mut bytes = [0; N];
+        assert!(self.esc.read(offset, &mut bytes, self.now), "register 0x{offset:04X} does not answer");
+        self.end();
+        bytes
+    }
+
     pub(crate) fn byte(&mut self, offset: u16) -> u8 {
-        self.read(offset, 1).expect("registers can be read")[0]
+        self.registers::<1>(offset)[0]
     }
 
     pub(crate) fn word(&mut self, offset: u16) -> u16 {
-        let bytes = self.read(offset, 2).expect("registers can be read");
-        u16::from_le_bytes([bytes[0], bytes[1]])
+        u16::from_le_bytes(self.registers(offset))
     }
 
     /// Sets a SyncManager as masters do, eight bytes at once.

@@ -1,0 +1,113 @@
+//! What a frame costs in process: `cargo bench -p ectwin-segment`. Targets and figures: docs/performance.md.
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use esc::{Esc, EscConfig, SmIndex};
+use segment::Segment;
+use std::hint::black_box;
+use time::Instant;
+use wire::{Command, FrameBuilder};
+
+const OUTPUTS: u8 = 0x64;
+const INPUTS: u8 = 0x20;
+
+/// A line of ESCs with so many bytes of outputs and inputs each, mapped one behind the other; outputs and
+/// inputs share their logical bytes, as SOEM and ethercrab map them for LRW.
+fn line(units: usize, outputs_bytes: u16, inputs_bytes: u16) -> Segment {
+    let escs = (0..units).map(|_| Esc::power_on(EscConfig::default(), Vec::new(), Instant::ZERO));
+    let mut segment = Segment::new(escs.collect());
+    for unit in 0..units {
+        let logical = unit as u32 * u32::from(outputs_bytes.max(inputs_bytes));
+        let position = (unit as u16).wrapping_neg();
+        let mut write = |offset: u16, data: &[u8]| {
+            let mut frame = FrameBuilder::new().physical(Command::Apwr, position, offset, data).finish();
+            segment.frame(Instant::ZERO, &mut frame);
+        };
+        write(0x0810, &sync_manager(0x13A0, outputs_bytes, OUTPUTS));
+        write(0x0818, &sync_manager(0x21B0, inputs_bytes, INPUTS));
+        write(0x0600, &fmmu(logical, outputs_bytes, 0x13A0, 2));
+        write(0x0610, &fmmu(logical, inputs_bytes, 0x21B0, 1));
+    }
+    segment
+}
+
+fn sync_manager(start: u16, length_bytes: u16, control: u8) -> [u8; 8] {
+    let ([s0, s1], [l0, l1]) = (start.to_le_bytes(), length_bytes.to_le_bytes());
+    [s0, s1, l0, l1, control, 0, 1, 0]
+}
+
+fn fmmu(logical: u32, length_bytes: u16, physical: u16, kind: u8) -> [u8; 16] {
+    let mut bytes = [0; 16];
+    bytes[..4].copy_from_slice(&logical.to_le_bytes());
+    bytes[4..6].copy_from_slice(&length_bytes.to_le_bytes());
+    bytes[7] = 7;
+    bytes[8..10].copy_from_slice(&physical.to_le_bytes());
+    bytes[11] = kind;
+    bytes[12] = 1;
+    bytes
+}
+
+/// Outputs and inputs of a full unit, two frames, and the application takes and gives whole images.
+fn full_unit(criterion: &mut Criterion) {
+    let mut segment = line(1, 1_200, 1_204);
+    let mut outputs = FrameBuilder::new().logical(Command::Lwr, 0, &[0x5A; 1_200]).finish();
+    let mut inputs = FrameBuilder::new().logical(Command::Lrd, 0, &[0; 1_204]).finish();
+    let mut group = criterion.benchmark_group("full unit");
+    group.throughput(Throughput::Bytes(2_404));
+    group.bench_function("LWR 1200 + LRD 1204", |bencher| {
+        bencher.iter(|| {
+            segment.frame(Instant::ZERO, black_box(&mut outputs));
+            segment.frame(Instant::ZERO, black_box(&mut inputs));
+        });
+    });
+    group.bench_function("LWR 1200 + LRD 1204 + refresh", |bencher| {
+        bencher.iter(|| {
+            segment.frame(Instant::ZERO, black_box(&mut outputs));
+            if let Some(esc) = segment.esc_mut(0) {
+                esc.pdi(Instant::ZERO).exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
+                    inputs[..outputs.len()].copy_from_slice(outputs);
+                });
+            }
+            segment.frame(Instant::ZERO, black_box(&mut inputs));
+        });
+    });
+    group.finish();
+}
+
+/// One LRW of 1,200 bytes through 100 units of 6 + 6 bytes.
+fn hundred_units(criterion: &mut Criterion) {
+    let mut segment = line(100, 6, 6);
+    let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0, &[0; 1_200]).finish();
+    criterion.bench_function("100 units of 6 + 6 bytes: LRW 1200", |bencher| {
+        bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
+    });
+}
+
+fn broadcast(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("BRD 2 bytes");
+    for units in [1, 100, 1_000, 10_000] {
+        let mut segment = line(units, 6, 6);
+        let mut brd = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish();
+        group.throughput(Throughput::Elements(units as u64));
+        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
+            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut brd)));
+        });
+    }
+    group.finish();
+}
+
+/// A logical datagram that no unit maps: the cost of a unit that is not touched.
+fn untouched(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("untouched units, LRW 6 bytes");
+    for units in [1, 100, 1_000, 10_000] {
+        let mut segment = line(units, 6, 6);
+        let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0x4000_0000, &[0; 6]).finish();
+        group.throughput(Throughput::Elements(units as u64));
+        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
+            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, full_unit, hundred_units, broadcast, untouched);
+criterion_main!(benches);
