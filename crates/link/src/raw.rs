@@ -41,10 +41,14 @@ const RETURN: u16 = 0x06;
 const PACKET_TYPE: u32 = 0xFFFF_F004;
 const PACKET_OUTGOING: u32 = 4;
 
+/// How often we look whether an interface that is gone has come back.
+const LOOK_AGAIN: std::time::Duration = std::time::Duration::from_millis(250);
+
 /// A raw socket that is bound to one interface, in promiscuous mode.
 pub(crate) struct RawPort {
     name: String,
-    socket: Socket,
+    /// Nothing while the interface is gone.
+    socket: Option<Socket>,
 }
 
 impl RawPort {
@@ -58,18 +62,33 @@ impl RawPort {
         if !interface.is_up() {
             tracing::warn!("{name} is down: `ip link set {name} up` before the master starts");
         }
-        Ok(Self { name: name.to_owned(), socket })
+        Ok(Self { name: name.to_owned(), socket: Some(socket) })
     }
 
-    /// The interface went down, or away. A cable that is pulled comes back.
-    fn went_down(&self, error: io::Error) -> io::Result<Option<usize>> {
-        if pnet_datalink::interfaces().iter().any(|interface| interface.name == self.name) {
+    /// The interface went down: a cable that was pulled, which comes back by itself. Or it went away with its
+    /// adapter or its network namespace: then its socket is of no use any more.
+    fn went_down(&mut self) {
+        if find(&self.name).is_some() {
             tracing::warn!("{} went down", self.name);
-            Ok(None)
         } else {
-            Err(error)
+            tracing::warn!("{} is gone; waiting for an interface of this name", self.name);
+            self.socket = None;
         }
     }
+
+    /// Looks for the interface, and rests if it is not there.
+    fn come_back(&mut self, wait: Duration) {
+        self.socket = find(&self.name).and_then(|interface| bind(&interface).ok());
+        if self.socket.is_some() {
+            tracing::warn!("{} is back", self.name);
+        } else {
+            std::thread::sleep(LOOK_AGAIN.min(std::time::Duration::from_nanos(wait.as_nanos())));
+        }
+    }
+}
+
+fn find(name: &str) -> Option<NetworkInterface> {
+    pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name)
 }
 
 /// pnet binds the socket and makes it promiscuous. Its own receiver has one time-out in whole milliseconds
@@ -87,13 +106,22 @@ fn bind(interface: &NetworkInterface) -> io::Result<Socket> {
 
 impl FramePort for RawPort {
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
-        match receive_from(&self.socket, wait, || (&self.socket).read(buffer)) {
-            Err(error) if error.kind() == io::ErrorKind::NetworkDown => self.went_down(error),
+        let Some(socket) = &self.socket else {
+            self.come_back(wait);
+            return Ok(None);
+        };
+        let mut reader = socket;
+        match receive_from(socket, wait, || reader.read(buffer)) {
+            Err(error) if error.kind() == io::ErrorKind::NetworkDown => {
+                self.went_down();
+                Ok(None)
+            }
             received => received,
         }
     }
 
     fn send(&mut self, frame: &[u8]) -> io::Result<()> {
-        (&self.socket).write(frame).map(|_| ())
+        let mut writer = self.socket.as_ref().ok_or(io::ErrorKind::NetworkDown)?;
+        writer.write(frame).map(|_| ())
     }
 }

@@ -90,12 +90,21 @@ fn a_cable_that_is_pulled_and_put_back_works_again() {
 }
 
 #[test]
-fn an_interface_that_is_gone_ends_the_link() {
-    in_network_namespace("an_interface_that_is_gone_ends_the_link", || {
+fn an_interface_that_is_gone_and_comes_back_works_again() {
+    in_network_namespace("an_interface_that_is_gone_and_comes_back_works_again", || {
         add_veth_pair("veth0", "veth1");
         let mut unit = open_link("raw:veth1");
         ip(&["link", "delete", "veth1"]);
-        assert!(unit.receive(&mut [0; FRAME_BUFFER_BYTES], SOON).is_err());
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        // Once to see that it is gone, once to look for it.
+        for _ in 0..2 {
+            assert_eq!(unit.receive(&mut buffer, Duration::from_millis(1)).unwrap(), None);
+        }
+        assert!(unit.send(&frame(0x88A4, 2, 60)).is_err());
+        add_veth_pair("veth0", "veth1");
+        assert_eq!(unit.receive(&mut buffer, SOON).unwrap(), None);
+        open_link("raw:veth0").send(&frame(0x88A4, 1, 60)).unwrap();
+        assert_eq!(next(&mut unit), frame(0x88A4, 1, 60));
     });
 }
 
