@@ -75,9 +75,9 @@ fn full_unit(criterion: &mut Criterion) {
 
 /// One LRW of 1,200 bytes through 100 units of 6 + 6 bytes.
 fn hundred_units(criterion: &mut Criterion) {
-    let mut segment = line(100, 6, 6);
     let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0, &[0; 1_200]).finish();
     criterion.bench_function("100 units of 6 + 6 bytes: LRW 1200", |bencher| {
+        let mut segment = line(100, 6, 6);
         bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
     });
 }
@@ -85,10 +85,10 @@ fn hundred_units(criterion: &mut Criterion) {
 fn broadcast(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("BRD 2 bytes");
     for units in [1, 100, 1_000, 10_000] {
-        let mut segment = line(units, 6, 6);
         let mut brd = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish();
         group.throughput(Throughput::Elements(units as u64));
         group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
+            let mut segment = line(units, 6, 6);
             bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut brd)));
         });
     }
@@ -99,10 +99,10 @@ fn broadcast(criterion: &mut Criterion) {
 fn untouched(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("untouched units, LRW 6 bytes");
     for units in [1, 100, 1_000, 10_000] {
-        let mut segment = line(units, 6, 6);
         let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0x4000_0000, &[0; 6]).finish();
         group.throughput(Throughput::Elements(units as u64));
         group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
+            let mut segment = line(units, 6, 6);
             bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
         });
     }
