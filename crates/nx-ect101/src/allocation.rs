@@ -77,6 +77,13 @@ impl IoAllocation {
         &sets[kind as usize]
     }
 
+    /// Length of all entries of `direction` in bytes.
+    #[must_use]
+    pub fn data_bytes(&self, direction: Direction) -> usize {
+        let entries = DataSetKind::ALL.into_iter().flat_map(|kind| self.entries(direction, kind));
+        entries.map(|entry| entry.size_bytes()).sum()
+    }
+
     /// Where each entry lies in the process image of `direction`.
     #[must_use]
     pub fn layout(&self, direction: Direction) -> ImageLayout {

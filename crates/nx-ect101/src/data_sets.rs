@@ -6,7 +6,7 @@
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Deserializer};
-use wire::ObjectIndex;
+use wire::{ObjectIndex, SubIndex};
 
 use crate::tables;
 
@@ -33,6 +33,20 @@ pub enum DataSetKind {
     Bytes,
     /// UDINT, 4 bytes.
     Udint,
+}
+
+impl Direction {
+    /// Both, in the order of their objects.
+    pub const ALL: [Self; 2] = [Self::MToC, Self::CToM];
+
+    /// Its name for programs.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::MToC => "m_to_c",
+            Self::CToM => "c_to_m",
+        }
+    }
 }
 
 impl DataSetKind {
@@ -86,6 +100,23 @@ impl DataSet {
             Some(set) => set,
             None => panic!("tables/allocation.toml: no data set {direction:?} {kind:?}"),
         }
+    }
+
+    /// Whether it has an entry with this subindex.
+    #[must_use]
+    pub const fn has(&self, sub: SubIndex) -> bool {
+        1 <= sub.0 && sub.0 <= self.max_count
+    }
+
+    /// The number of its I/O entry mapping in the attached information of events. The two sides count with
+    /// opposite directions: M to C is 1A01 to 1A03 there (manual, 8-3-4).
+    #[must_use]
+    pub fn io_mapping(&self) -> ObjectIndex {
+        let opposite = match self.direction {
+            Direction::MToC => Direction::CToM,
+            Direction::CToM => Direction::MToC,
+        };
+        Self::of(opposite, self.kind).pdo
     }
 
     /// The data set that the PDO mapping object `pdo` carries; none for the status PDOs.
@@ -179,7 +210,6 @@ fn object_indexes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Obje
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wire::SubIndex;
 
     #[test]
     fn every_data_set_agrees_with_the_object_table() {

@@ -10,15 +10,15 @@ use wire::ObjectIndex;
 
 use crate::allocation::ImageLayout;
 use crate::data_sets::{DataSet, Direction};
-use crate::mapping::{MappedEntry, Mapping};
+use crate::pdo_settings::{PdoEntry, PdoSettings};
 use crate::status::NxUnitStatus;
 
 /// Most entries of one direction: six assigned PDOs of 40 entries.
 const MAX_ENTRIES: usize = 240;
 
-/// Copies of one direction and the status fields among the inputs.
+/// The copies of both directions and the status fields among the inputs.
 #[derive(Debug)]
-pub(crate) struct ExchangePlan {
+pub struct ExchangePlan {
     /// Outputs to process image M to C.
     pub(crate) m_to_c: Vec<ByteCopy>,
     /// Process image C to M to inputs.
@@ -29,13 +29,13 @@ pub(crate) struct ExchangePlan {
 
 /// A run of bytes that goes from one image to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct ByteCopy {
+pub struct ByteCopy {
     /// Where it starts in the image that is read.
-    pub(crate) from: usize,
+    pub from: usize,
     /// Where it starts in the image that is written.
-    pub(crate) to: usize,
+    pub to: usize,
     /// How long it is.
-    pub(crate) length_bytes: usize,
+    pub length_bytes: usize,
 }
 
 /// Where a status lies among the inputs.
@@ -76,17 +76,31 @@ impl ExchangePlan {
         }
     }
 
-    /// Forgets what it held and follows this mapping.
-    pub(crate) fn rebuild(&mut self, mapping: &Mapping, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
+    /// The copies of `direction`: outputs to process image M to C, or process image C to M to inputs.
+    #[must_use]
+    pub fn copies(&self, direction: Direction) -> &[ByteCopy] {
+        match direction {
+            Direction::MToC => &self.m_to_c,
+            Direction::CToM => &self.c_to_m,
+        }
+    }
+
+    /// Does the copies of `direction`. One that lies outside either image is left out.
+    pub fn apply(&self, direction: Direction, from: &[u8], to: &mut [u8]) {
+        copy(self.copies(direction), from, to);
+    }
+
+    /// Forgets what it held and follows these settings.
+    pub(crate) fn rebuild(&mut self, pdo: &PdoSettings, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
         self.m_to_c.clear();
         self.c_to_m.clear();
         self.status.clear();
-        for (pdo, entry, bits) in mapped_entries(mapping, Direction::MToC) {
+        for (pdo, entry, bits) in mapped_entries(pdo, Direction::MToC) {
             if let Some((mapped, place)) = pair(pdo, entry, &bits, m_to_c) {
                 push(&mut self.m_to_c, mapped, place);
             }
         }
-        for (pdo, entry, bits) in mapped_entries(mapping, Direction::CToM) {
+        for (pdo, entry, bits) in mapped_entries(pdo, Direction::CToM) {
             if let Some(source) = StatusSource::of(entry) {
                 self.status.push(StatusField { source, bit_offset: bits.start });
             } else if let Some((mapped, place)) = pair(pdo, entry, &bits, c_to_m) {
@@ -97,8 +111,8 @@ impl ExchangePlan {
 }
 
 impl StatusSource {
-    fn of(entry: MappedEntry) -> Option<Self> {
-        match (entry.index().0, entry.sub().0) {
+    fn of(entry: PdoEntry) -> Option<Self> {
+        match (entry.index.0, entry.sub.0) {
             (0x6003, sub) => Some(Self::NxUnitStatus(sub)),
             (0x10F3, 0x04) => Some(Self::NewMessages),
             (0x2002, 0x01) => Some(Self::SysmacError),
@@ -117,14 +131,15 @@ impl StatusSource {
 
 /// Every mapped entry of `direction` with its PDO and the bits that it takes in the SyncManager.
 fn mapped_entries(
-    mapping: &Mapping,
+    settings: &PdoSettings,
     direction: Direction,
-) -> impl Iterator<Item = (ObjectIndex, MappedEntry, Range<usize>)> + '_ {
-    let entries =
-        mapping.assigned(direction).flat_map(|pdo| mapping.entries(pdo).map(move |entry| (pdo, entry)));
+) -> impl Iterator<Item = (ObjectIndex, PdoEntry, Range<usize>)> + '_ {
+    let entries = settings
+        .assigned(direction)
+        .flat_map(|pdo| settings.entries(pdo).iter().map(move |&entry| (pdo, entry)));
     entries.scan(0, |offset, (pdo, entry)| {
         let start = *offset;
-        *offset += entry.bit_length();
+        *offset += usize::from(entry.bit_length);
         Some((pdo, entry, start..*offset))
     })
 }
@@ -133,12 +148,12 @@ fn mapped_entries(
 /// the PDO is not the one of its data set, or if stray bits before it have moved it off a byte boundary.
 fn pair(
     pdo: ObjectIndex,
-    entry: MappedEntry,
+    entry: PdoEntry,
     bits: &Range<usize>,
     layout: &ImageLayout,
 ) -> Option<(Range<usize>, Range<usize>)> {
-    let set = DataSet::of_pdo(pdo).filter(|set| set.pdo_entry == entry.index())?;
-    let place = layout.place(set.direction, set.kind, entry.sub().0)?;
+    let set = DataSet::of_pdo(pdo).filter(|set| set.pdo_entry == entry.index)?;
+    let place = layout.place(set.direction, set.kind, entry.sub.0)?;
     let mapped = bits.start / 8..bits.end / 8;
     (bits.start.is_multiple_of(8) && mapped.len() == place.len()).then_some((mapped, place))
 }

@@ -1,26 +1,38 @@
 //! The NX-ECT101 as a unit model: objects, allocation, refresh, files.
 
 mod allocation;
+mod amounts;
 mod config;
 mod data_sets;
 mod description;
 mod dictionary;
+mod events;
 mod exchange;
+mod finding;
 mod identification;
 pub mod layout;
 mod mapping;
 pub mod nx_bus;
+mod pdo_settings;
+mod rules;
 mod status;
 mod tables;
 mod timing;
 mod unit;
 pub mod unit_file;
+mod verdict;
 
 pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use config::device_config;
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
+pub use events::{Event, EventCode};
+pub use exchange::{ByteCopy, ExchangePlan};
+pub use finding::{Amount, Fact, Finding, Side};
+pub use pdo_settings::{PdoEntry, PdoSettings};
+pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
 pub use status::{NxUnitStatus, SlaveStatus};
 pub use tables::object_table;
 pub use timing::Timing;
 pub use unit::{NxEct101, UnitSettings};
+pub use verdict::{Configuration, ExchangedDataSet, Verdict};

@@ -3,14 +3,17 @@
 use device::{Exchange, ProcessDataAreas, Unit};
 use objects::ObjectServer;
 use time::{Duration, Instant};
-use wire::{AlState, AlStatusCode, ObjectIndex};
+use wire::{AlState, AlStatusCode};
 
 use crate::allocation::{ImageLayout, IoAllocation};
-use crate::data_sets::{Direction, Limits, StatusPdo};
+use crate::data_sets::Direction;
 use crate::dictionary::UnitObjects;
 use crate::exchange::{self, ExchangePlan, StatusToMaster};
+use crate::finding::Finding;
 use crate::identification::Identification;
 use crate::nx_bus::{self, CpuEnd, UnitEnd, UnitHeader};
+use crate::pdo_settings::PdoSettings;
+use crate::rules;
 use crate::status::{NxUnitStatus, SlaveStatus};
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;
@@ -69,6 +72,14 @@ impl Default for UnitSettings {
 pub struct NxEct101 {
     objects: UnitObjects,
     bus: UnitEnd,
+    io: IoAllocation,
+    /// What the setting rules found in the I/O allocation at power-on; anything keeps I/O refreshing from
+    /// starting, EtherCAT goes on (manual, 8-3-4).
+    io_findings: Vec<Finding>,
+    /// The mapping as it was at the last PRE-OP to SAFE-OP.
+    pdo: PdoSettings,
+    /// What the setting rules found in it.
+    pdo_findings: Vec<Finding>,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
     plan: ExchangePlan,
@@ -87,9 +98,15 @@ impl NxEct101 {
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
         let identification = Identification::at_power_on(settings.id_switch, settings.software_id);
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
+        let mut io_findings = Vec::new();
+        rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
         let unit = Self {
             objects: UnitObjects::power_on(settings.serial, identification, period),
             bus,
+            io: settings.io_allocation.clone(),
+            io_findings,
+            pdo: PdoSettings::factory(),
+            pdo_findings: Vec::with_capacity(rules::MAX_FINDINGS),
             m_to_c: vec![0; m_to_c_layout.size_bytes()],
             m_to_c_layout,
             c_to_m_layout: settings.io_allocation.layout(Direction::CToM),
@@ -106,19 +123,33 @@ impl NxEct101 {
         self.status
     }
 
+    /// What the setting rules found: in the I/O allocation at power-on, then in the mapping when the master last
+    /// asked for SAFE-OP.
+    pub fn findings(&self) -> impl Iterator<Item = &Finding> {
+        self.io_findings.iter().chain(&self.pdo_findings)
+    }
+
+    /// Whether the I/O allocation lets I/O be refreshed.
+    fn io_is_refreshed(&self) -> bool {
+        self.io_findings.is_empty()
+    }
+
     /// Takes in outputs and tells the status to the CPU Unit.
     fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
-        if let Some(outputs) = outputs {
+        let io_data_active = self.io_is_refreshed();
+        if let Some(outputs) = outputs.filter(|_| io_data_active) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
         }
-        let header = UnitHeader { status: self.status, io_data_active: true, error: false };
+        let header = UnitHeader { status: self.status, io_data_active, error: !io_data_active };
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
     /// Fills the inputs from the newest data of the CPU Unit.
     fn refresh_c_to_m(&mut self, inputs: &mut [u8]) {
         inputs.fill(0);
-        exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
+        if self.io_is_refreshed() {
+            exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
+        }
         let nx_unit = NxUnitStatus {
             c_to_m_valid: self.status.c_to_m_valid,
             m_to_c_valid: self.status.m_to_c_valid,
@@ -143,20 +174,14 @@ impl Unit for NxEct101 {
     }
 
     fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
-        let mandatory = StatusPdo::all().iter().filter(|pdo| pdo.mandatory);
-        let assigned =
-            |pdo: ObjectIndex| self.objects.mapping.assigned(Direction::CToM).any(|other| other == pdo);
-        if !mandatory.map(|pdo| pdo.index).all(assigned) {
-            return Err(AlStatusCode::INVALID_INPUT_MAPPING);
+        self.pdo.follow(&self.objects.mapping);
+        self.pdo_findings.clear();
+        rules::check_at_safe_op(&self.io, &self.pdo, &self.io_findings, &mut self.pdo_findings);
+        // All are recorded, the first tells the master. A mismatch has no AL status code: it stops nothing.
+        if let Some(code) = self.pdo_findings.iter().find_map(Finding::al_status_code) {
+            return Err(code);
         }
-        let (areas, limits) = (self.process_data(), Limits::of_model());
-        if areas.outputs_bytes > limits.rxpdo_bytes {
-            return Err(AlStatusCode::INVALID_OUTPUT_MAPPING);
-        }
-        if areas.inputs_bytes > limits.txpdo_bytes {
-            return Err(AlStatusCode::INVALID_INPUT_MAPPING);
-        }
-        self.plan.rebuild(&self.objects.mapping, &self.m_to_c_layout, &self.c_to_m_layout);
+        self.plan.rebuild(&self.pdo, &self.m_to_c_layout, &self.c_to_m_layout);
         // What the new mapping does not exchange has its default value again.
         self.m_to_c.fill(0);
         Ok(())
@@ -174,10 +199,11 @@ impl Unit for NxEct101 {
         let cpu = self.bus.c_to_m.newest().header;
         self.objects.system_time_ns = cpu.system_time_ns;
         let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
+        let refreshing = cpu.refreshing && self.io_is_refreshed();
         self.status = SlaveStatus {
             sdo_enabled: process_data || exchange.state == AlState::PreOp,
-            m_to_c_valid: cpu.refreshing && exchange.outputs.is_some(),
-            c_to_m_valid: cpu.refreshing && process_data,
+            m_to_c_valid: refreshing && exchange.outputs.is_some(),
+            c_to_m_valid: refreshing && process_data,
             ..self.status
         };
         self.refresh_m_to_c(exchange.outputs);

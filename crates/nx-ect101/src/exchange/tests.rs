@@ -7,12 +7,17 @@ use super::*;
 use crate::allocation::tests::symmetric;
 use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::{Assignment, DataSetKind};
+use crate::mapping::Mapping;
 use crate::mapping::tests::set;
 use crate::tables::object_table;
 
 fn plan(mapping: &Mapping, allocation: &IoAllocation) -> ExchangePlan {
     let mut plan = ExchangePlan::empty();
-    plan.rebuild(mapping, &allocation.layout(Direction::MToC), &allocation.layout(Direction::CToM));
+    plan.rebuild(
+        &PdoSettings::of_mapping(mapping),
+        &allocation.layout(Direction::MToC),
+        &allocation.layout(Direction::CToM),
+    );
     plan
 }
 

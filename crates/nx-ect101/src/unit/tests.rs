@@ -1,6 +1,9 @@
 //! The unit between a master's SyncManagers and a CPU Unit's NX bus, without either.
 
+use wire::{ObjectIndex, SubIndex};
+
 use super::*;
+use crate::allocation::IoEntry;
 use crate::allocation::tests::symmetric;
 use crate::data_sets::DataSetKind;
 use crate::mapping::tests::set;
@@ -154,6 +157,42 @@ fn the_timestamp_is_the_system_time_of_the_cpu_unit() {
     bench.refresh(AlState::PreOp, None);
     let mut value = [0; 8];
     let objects = bench.unit.objects().expect("a unit with a mailbox");
-    objects.read(ObjectIndex(0x10F8), wire::SubIndex::ZERO, &mut value).expect("readable");
+    objects.read(ObjectIndex(0x10F8), SubIndex::ZERO, &mut value).expect("readable");
     assert_eq!(u64::from_le_bytes(value), REFRESHING.system_time_ns);
+}
+
+/// The AL status code and the event codes that a mapping leads to.
+fn asking_for_safe_op(bench: &mut Bench) -> (Option<AlStatusCode>, Vec<String>) {
+    let code = bench.unit.check_mapping(NOW).err();
+    (code, bench.unit.findings().map(|finding| finding.event.to_string()).collect())
+}
+
+#[test]
+fn every_finding_in_the_mapping_is_kept_and_the_first_tells_the_master() {
+    let mut bench = Bench::factory();
+    set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_02F0, 0x7001_0150]).expect("mappable");
+    set(&mut bench.unit.objects.mapping, 0x1C13, &[0x1A01, 0x1A00]).expect("assignable");
+    let events = ["392F0000", "391E0000", "39140000"].map(str::to_owned).to_vec();
+    assert_eq!(asking_for_safe_op(&mut bench), (Some(AlStatusCode::INVALID_INPUT_MAPPING), events));
+    set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_01F0]).expect("mappable");
+    set(&mut bench.unit.objects.mapping, 0x1C13, &[0x1A00, 0x1A01]).expect("assignable");
+    let mismatch = vec!["39170000".to_owned()];
+    assert_eq!(asking_for_safe_op(&mut bench), (None, mismatch), "a mismatch stops nothing");
+}
+
+#[test]
+fn a_wrong_io_allocation_keeps_io_from_being_refreshed_and_ethercat_goes_on() {
+    let mut io_allocation = IoAllocation::factory();
+    let second = IoEntry { index: ObjectIndex(0x6000), sub: SubIndex(2) };
+    io_allocation.allocate(Direction::MToC, DataSetKind::Uints, vec![second]);
+    let mut bench = Bench::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
+    assert_eq!(asking_for_safe_op(&mut bench), (None, vec!["39190000".to_owned()]));
+    bench.enter_safe_op();
+    bench.cpu.c_to_m.publish(REFRESHING, &[9; 180]);
+    bench.refresh(AlState::Op, Some(&[5; 180]));
+    let image = bench.cpu.m_to_c.newest();
+    assert_eq!(image.bytes(), [0; 30]);
+    assert_eq!((image.header.io_data_active, image.header.error), (false, true));
+    assert!(!image.header.status.m_to_c_valid && !image.header.status.c_to_m_valid);
+    assert!(bench.inputs[2..].iter().all(|&byte| byte == 0));
 }

@@ -1,0 +1,177 @@
+//! What a setting rule finds: the event that it raises, where, and the fact with its numbers.
+
+mod words;
+
+use wire::{AlStatusCode, ObjectIndex, SubIndex};
+
+use crate::data_sets::{DataSet, Direction};
+use crate::events::{Event, EventCode};
+use crate::rules::{RuleEvents, RuleId};
+use crate::unit_file::EntryAddress;
+
+/// Which settings a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Side {
+    /// I/O entries, which the CPU Unit allocates.
+    IoEntry,
+    /// PDO entries, which the master maps.
+    PdoEntry,
+    /// The PDOs that the master assigns to the SyncManagers.
+    Assignment,
+}
+
+impl Side {
+    /// Its name for programs.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::IoEntry => "io_entry",
+            Self::PdoEntry => "pdo_entry",
+            Self::Assignment => "assignment",
+        }
+    }
+}
+
+/// A rule that is not satisfied. Its message and its correction are made when someone asks for them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Finding {
+    /// The rule.
+    pub rule: RuleId,
+    /// The event that it raises.
+    pub event: EventCode,
+    /// Which settings it is about.
+    pub side: Side,
+    /// Which direction it is about.
+    pub direction: Direction,
+    /// The data set that it is about, by the index that the event tells as its attached information: on the
+    /// master's side the PDO mapping object, on the CPU Unit's side the I/O entry mapping (manual, 8-3-4).
+    /// None if it is about none, or about several at once.
+    pub data_set: Option<ObjectIndex>,
+    /// What is wrong.
+    pub fact: Fact,
+}
+
+/// What is wrong. A `place` counts elements of a list as the user has set it, from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fact {
+    /// 1A00 is not assigned.
+    UnitStatusNotAssigned,
+    /// An element of the PDO assignment is no PDO of this direction.
+    NotAssignable {
+        /// Where in the assignment.
+        place: usize,
+        /// What stands there.
+        pdo: ObjectIndex,
+    },
+    /// A PDO maps an entry of its data set that does not exist, or more entries than it has room for.
+    BeyondMaximum {
+        /// The first such entry in the list.
+        place: usize,
+        /// Entries that are mapped.
+        entries: usize,
+        /// Entries that the data set can have.
+        maximum: u8,
+    },
+    /// The TxPDOs are too long although their data is not: by the status.
+    TxPdosTooLong {
+        /// Their length.
+        size_bytes: usize,
+        /// The most that they may have.
+        limit_bytes: u16,
+    },
+    /// A PDO is assigned behind one with a higher index, or twice.
+    NotAscending {
+        /// Where in the assignment.
+        place: usize,
+        /// What stands there.
+        pdo: ObjectIndex,
+        /// What stands before it.
+        after: ObjectIndex,
+    },
+    /// An entry that does not belong to the data set.
+    IllegalEntry {
+        /// Where in the list.
+        place: usize,
+        /// What stands there.
+        entry: EntryAddress,
+        /// What can stand there.
+        wanted: ObjectIndex,
+    },
+    /// An entry whose subindex is not the next one.
+    NotNext {
+        /// Where in the list.
+        place: usize,
+        /// What stands there.
+        entry: EntryAddress,
+        /// The subindex that comes next.
+        wanted: SubIndex,
+    },
+    /// More data in one direction than the unit exchanges.
+    TooMuchData {
+        /// All of it.
+        size_bytes: usize,
+    },
+    /// A data set has entries on one side only.
+    OneSided {
+        /// Entries of the three data sets of the direction.
+        amounts: [Amount; 3],
+    },
+    /// A data set has more entries on one side than on the other.
+    Unequal {
+        /// Entries of the three data sets of the direction.
+        amounts: [Amount; 3],
+    },
+}
+
+/// What a finding is about.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum FindingPlace {
+    DataSet(&'static DataSet),
+    Direction(Direction),
+}
+
+/// How many entries a data set has on its two sides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Amount {
+    /// Entries that the CPU Unit has allocated.
+    pub io_entries: usize,
+    /// Entries that the assigned PDO maps.
+    pub pdo_entries: usize,
+}
+
+impl Finding {
+    /// What `rule` finds for a data set, or for a whole direction.
+    pub(crate) fn new(rule: RuleId, events: &RuleEvents, place: FindingPlace, fact: Fact) -> Self {
+        let (direction, data_set) = match place {
+            FindingPlace::DataSet(set) => match events.side {
+                Side::IoEntry => (set.direction, Some(set.io_mapping())),
+                Side::PdoEntry | Side::Assignment => (set.direction, Some(set.pdo)),
+            },
+            FindingPlace::Direction(direction) => (direction, None),
+        };
+        Self { rule, event: events.of(direction), side: events.side, direction, data_set, fact }
+    }
+
+    /// The event's name in the manual; empty for a code that is not in its table.
+    #[must_use]
+    pub fn event_name(&self) -> &'static str {
+        Event::find(self.event).map_or("", |event| event.name.as_str())
+    }
+
+    /// What the master reads as AL status code when it asks for SAFE-OP; none if the unit goes there.
+    #[must_use]
+    pub fn al_status_code(&self) -> Option<AlStatusCode> {
+        Event::find(self.event)?.al_status_code
+    }
+
+    /// The data set that it is about; none if it is about none, or about several at once.
+    #[must_use]
+    pub fn data_set(&self) -> Option<&'static DataSet> {
+        let index = self.data_set?;
+        let number = |set: &DataSet| match self.side {
+            Side::IoEntry => set.io_mapping(),
+            Side::PdoEntry | Side::Assignment => set.pdo,
+        };
+        DataSet::all().iter().find(|set| set.direction == self.direction && number(set) == index)
+    }
+}

@@ -1,0 +1,67 @@
+//! What every PDO setting needs: 1A00, PDOs of the right direction, sizes that exist (manual, 7-5-2, 7-5-4).
+//!
+//! Passes: 1C13 = 1A00, 1A01; 1602 with the entries 01 to 0A; TxPDOs of 1,204 bytes.
+//! Fails:  1C13 = 1A01; 1C12 = 1A00; 1602 with the entries 01 to 0B; TxPDOs of 1,205 bytes by status assigned
+//!         twice. More data than 1,200 bytes is the business of the rule `total`.
+
+use super::{Check, Rule, RuleEvents, RuleId};
+use crate::data_sets::{DataSet, Direction, Limits, StatusPdo};
+use crate::finding::{Fact, Finding, FindingPlace, Side};
+use crate::pdo_settings::{PdoSettings, is_assignable};
+
+/// RxPDO Mapping Error and TxPDO Mapping Error.
+const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x350A_0000, 0x3509_0000);
+const PDO: RuleEvents = RuleEvents { side: Side::PdoEntry, ..ASSIGNMENT };
+
+pub(super) const RULE: Rule = Rule {
+    id: RuleId::Mandatory,
+    section: "7-5-2, 7-5-4",
+    text: "0x1A00 is assigned; assigned PDOs exist and have no more entries than their maximum; the TxPDOs have \
+           1,204 bytes at most",
+    events: &[ASSIGNMENT, PDO],
+    checks: &[Check::Pdo(check)],
+};
+
+fn check(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
+    for direction in Direction::ALL {
+        let place = FindingPlace::Direction(direction);
+        let status = unit_status(pdo).filter(|_| direction == Direction::CToM);
+        let assignment = status.into_iter().chain(stray(pdo, direction));
+        findings.extend(assignment.map(|fact| Finding::new(RULE.id, &ASSIGNMENT, place, fact)));
+        for set in DataSet::all().iter().filter(|set| set.direction == direction) {
+            let fact = beyond_maximum(pdo, set);
+            findings.extend(fact.map(|fact| Finding::new(RULE.id, &PDO, FindingPlace::DataSet(set), fact)));
+        }
+        let fact = too_long(pdo).filter(|_| direction == Direction::CToM);
+        findings.extend(fact.map(|fact| Finding::new(RULE.id, &PDO, place, fact)));
+    }
+}
+
+fn unit_status(pdo: &PdoSettings) -> Option<Fact> {
+    let mut mandatory = StatusPdo::all().iter().filter(|status| status.mandatory);
+    let assigned = |status: &StatusPdo| pdo.assigned(Direction::CToM).any(|pdo| pdo == status.index);
+    (!mandatory.all(assigned)).then_some(Fact::UnitStatusNotAssigned)
+}
+
+fn stray(pdo: &PdoSettings, direction: Direction) -> Option<Fact> {
+    let mut elements = pdo.assignment(direction).iter().enumerate();
+    let (place, &pdo) = elements.find(|(_, pdo)| pdo.0 != 0 && !is_assignable(direction, **pdo))?;
+    Some(Fact::NotAssignable { place, pdo })
+}
+
+/// The first entry that the data set does not have, or for which its mapping object has no room.
+fn beyond_maximum(pdo: &PdoSettings, set: &DataSet) -> Option<Fact> {
+    let entries = pdo.assigned_entries(set);
+    let missing = entries.iter().position(|entry| entry.index == set.pdo_entry && !set.has(entry.sub));
+    let room = usize::from(set.max_count);
+    let place = missing.or((entries.len() > room).then_some(room))?;
+    Some(Fact::BeyondMaximum { place, entries: entries.len(), maximum: set.max_count })
+}
+
+fn too_long(pdo: &PdoSettings) -> Option<Fact> {
+    let Limits { exchange_bytes, txpdo_bytes: limit_bytes, .. } = Limits::of_model();
+    let size_bytes = pdo.size_bytes(Direction::CToM);
+    let by_status = pdo.data_bytes(Direction::CToM) <= usize::from(exchange_bytes);
+    let too_long = by_status && size_bytes > usize::from(limit_bytes);
+    too_long.then_some(Fact::TxPdosTooLong { size_bytes, limit_bytes })
+}

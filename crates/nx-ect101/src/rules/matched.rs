@@ -1,0 +1,36 @@
+//! Matched amount of data: a data set has as many entries on the one side as on the other (manual, 5-3-5).
+//!
+//! Passes: 6 PDO entries and 6 I/O entries.
+//! Fails:  6 PDO entries and 4 I/O entries; then the first four are exchanged.
+//!
+//! One finding tells all data sets of a direction. A data set with no entry on one side is the business of the
+//! rule `combination`, which raises the same event for the direction.
+
+use super::{Check, Rule, RuleEvents, RuleId};
+use crate::allocation::IoAllocation;
+use crate::amounts::{self, different};
+use crate::data_sets::Direction;
+use crate::finding::{Amount, Fact, Finding, Side};
+use crate::pdo_settings::PdoSettings;
+
+/// Data Size Mismatched between PDO Entry and I/O Entry.
+const PDO: RuleEvents = RuleEvents::at_safe_op(Side::PdoEntry, 0x3917_0000, 0x3916_0000);
+
+pub(super) const RULE: Rule = Rule {
+    id: RuleId::Matched,
+    section: "5-3-5",
+    text: "a data set has the same amount of data on both sides",
+    events: &[PDO],
+    checks: &[Check::Both(check)],
+};
+
+fn check(io: &IoAllocation, pdo: &PdoSettings, findings: &mut Vec<Finding>) {
+    for direction in Direction::ALL {
+        let amounts = amounts::of(io, pdo, direction);
+        let one_sided = amounts.iter().any(|amount| amount.is_one_sided());
+        if !one_sided && amounts.iter().any(Amount::is_unequal) {
+            let place = different(direction, &amounts);
+            findings.push(Finding::new(RULE.id, &PDO, place, Fact::Unequal { amounts }));
+        }
+    }
+}
