@@ -7,7 +7,7 @@
 //!
 //! // In a #[test] fn frames_cross_a_wire():
 //! testbed::in_network_namespace("frames_cross_a_wire", || {
-//!     testbed::add_veth_pair("master", "unit");
+//!     testbed::add_veth_pair("m0", "u0");
 //!     // … open both ends …
 //! });
 //! ```

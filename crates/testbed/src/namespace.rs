@@ -52,7 +52,7 @@ pub fn ip(arguments: &[&str]) {
 /// # Panics
 /// When the kernel refuses.
 pub fn add_veth_pair(one: &str, other: &str) {
-    ip(&["link", "add", one, "type", "veth", "peer", "name", other]);
+    ip(&["link", "add", "name", one, "type", "veth", "peer", "name", other]);
     ip(&["link", "set", one, "up"]);
     ip(&["link", "set", other, "up"]);
 }
