@@ -172,6 +172,16 @@ fn entries_beyond_the_maximum_on_both_sides() {
 }
 
 #[test]
+fn status_assigned_twice_makes_the_tx_pdos_too_long() {
+    let verdict = check(
+        "[io_allocation.c_to_m]\nuints = 40\n[pdo]\nassign.rx = []\nassign.tx = [0x1A00, 0x1A01, 0x1BFE, 0x1BFF, 0x1BFF]\nmapping.1A01 = 40\n",
+    );
+    assert_eq!(events(&verdict), ["35090000", "392F0000"]);
+    let message = verdict.findings[0].message();
+    assert_eq!(message, "the TxPDOs have 1205 bytes, the unit sends 1204 at most");
+}
+
+#[test]
 fn every_finding_says_what_is_wrong_and_what_helps() {
     let verdict = check(
         "[io_allocation]\nm_to_c.uints = [\"6000:02\", \"6001:01\"]\nc_to_m.uints = 7\n[pdo]\nassign.tx = [0x1A01, 0x1A00, 0x1601]\n",
