@@ -7,7 +7,8 @@ use time::Duration;
 use wire::AlState::{Init, Op, PreOp, SafeOp};
 
 fn unit(bench: &mut Bench) -> &mut Digital8 {
-    bench.network.device_mut(0).expect("there is one unit").unit_mut()
+    let Some(device) = bench.network.device_mut(0) else { panic!("there is one unit") };
+    device.unit_mut()
 }
 
 #[test]
