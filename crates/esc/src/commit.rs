@@ -9,7 +9,7 @@ use crate::fmmu::{FMMU_BYTES, Fmmu, Span};
 use crate::registers::{BYTES, Effect, USER_RAM_START, at};
 use crate::shadow::Shadow;
 use crate::sii::Sii;
-use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SyncManagerSettings};
+use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SmMode, SyncManagerSettings};
 
 const RESET_SEQUENCE: [u8; 3] = *b"RES";
 /// DL control bit 24: the station alias answers too.
@@ -233,7 +233,7 @@ impl Esc {
                 physical_start: fmmu.physical_start,
                 fmmu: n as u8,
                 bytewise: fmmu.is_bytewise(),
-                sync_manager: self.holder_of(&fmmu),
+                sync_manager: self.buffer_of(&fmmu),
             };
             if fmmu.read {
                 self.read_mappings.push(mapping);
@@ -248,14 +248,14 @@ impl Esc {
             self.read_mappings.iter().any(|read| self.write_mappings.iter().any(|write| alias(read, write)));
     }
 
-    /// The SyncManager that holds the whole physical range of a mapping; the lowest one where two overlap.
-    fn holder_of(&self, fmmu: &Fmmu) -> Option<u8> {
+    /// The buffered SyncManager whose buffer a byte-wise mapping covers exactly, where no lower one decides.
+    fn buffer_of(&self, fmmu: &Fmmu) -> Option<u8> {
         let (start, end) = physical_range(fmmu.physical_start, fmmu.length_bytes);
         let touches =
             |sm: &crate::SyncManager| sm.rules && u32::from(sm.settings.start) < end && start < sm.end();
         let (n, sm) = (0u8..).zip(&self.sync_managers).find(|(_, sm)| touches(sm))?;
-        let holds = u32::from(sm.settings.start) <= start && end <= sm.end();
-        holds.then_some(n)
+        let exact = u32::from(sm.settings.start) == start && sm.end() == end;
+        (exact && fmmu.is_bytewise() && sm.settings.mode == SmMode::Buffered).then_some(n)
     }
 
     /// "RES" in three frames asks for a reset, which whoever drives this ESC carries out.

@@ -3,15 +3,15 @@
 use time::Instant;
 
 use crate::config::SyncManagerWrites;
-use crate::esc::{Esc, Mapping};
+use crate::esc::Esc;
 use crate::events::EcatEvents;
-use crate::fmmu::{FMMU_BYTES, Fmmu, Span};
+use crate::fmmu::FMMU_BYTES;
 use crate::registers::{BYTES, Effect, PROCESS_RAM_START, USER_RAM_START, at, is_live};
 use crate::sii::Sii;
 use crate::sync_manager::{Reach, SYNC_MANAGER_BYTES};
 
 /// Longest data of one datagram in an Ethernet frame.
-const DATA_BYTES_MAX: usize = 1_500;
+pub(crate) const DATA_BYTES_MAX: usize = 1_500;
 
 /// What an access reached, for the working counter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -325,142 +325,8 @@ impl Esc {
         Some(buffer + u32::from(from))
     }
 
-    /// LRD: replaces the bits of `data` that an FMMU maps for reading.
-    #[inline]
-    pub fn logical_read(&mut self, address: u32, data: &mut [u8], now: Instant) -> bool {
-        let bytes = logical_bytes(address, data.len());
-        self.hot.read_span.overlaps(bytes) && self.read_mapped(bytes, data, now)
-    }
-
-    /// LWR: stores the bits of `data` that an FMMU maps for writing.
-    #[inline]
-    pub fn logical_write(&mut self, address: u32, data: &[u8]) -> bool {
-        let bytes = logical_bytes(address, data.len());
-        self.hot.write_span.overlaps(bytes) && self.write_mapped(bytes, data)
-    }
-
-    /// LRW: both, each from what was there before.
-    #[inline]
-    pub fn logical_read_write(&mut self, address: u32, data: &mut [u8], now: Instant) -> Access {
-        let bytes = logical_bytes(address, data.len());
-        let (reads, writes) = (self.hot.read_span.overlaps(bytes), self.hot.write_span.overlaps(bytes));
-        if !self.mappings_alias {
-            let written = writes && self.write_mapped(bytes, data);
-            return Access { written, read: reads && self.read_mapped(bytes, data, now) };
-        }
-        let mut incoming = [0; DATA_BYTES_MAX];
-        let Some(incoming) = incoming.get_mut(..data.len()) else { return Access::default() };
-        incoming.copy_from_slice(data);
-        let read = reads && self.read_mapped(bytes, data, now);
-        Access { read, written: writes && self.write_mapped(bytes, incoming) }
-    }
-
-    /// The lowest-numbered FMMU wins where several map the same bit, so it comes last.
-    fn read_mapped(&mut self, datagram: Span, data: &mut [u8], now: Instant) -> bool {
-        let mut any = false;
-        for n in (0..self.read_mappings.len()).rev() {
-            let mapping = self.read_mappings[n];
-            if !mapping.logical_bytes().overlaps(datagram) {
-                continue;
-            }
-            any |= if mapping.bytewise {
-                let (range, physical) = byte_overlap(&mapping, datagram);
-                self.read_mapping_bytes(&mapping, physical, &mut data[range], now)
-            } else {
-                self.read_mapping_bits(&mapping, datagram, data, now)
-            };
-        }
-        any
-    }
-
-    #[inline]
-    fn read_mapping_bytes(
-        &mut self,
-        mapping: &Mapping,
-        physical: u16,
-        data: &mut [u8],
-        now: Instant,
-    ) -> bool {
-        let Some(_) = mapping.sync_manager else { return self.read(physical, data, now) };
-        let piece =
-            Piece { offset: physical.into(), length_bytes: data.len(), sync_manager: mapping.sync_manager };
-        let source = self.readable(&piece).and_then(|at| self.memory.get(at, data.len()));
-        source.is_some_and(|bytes| {
-            data.copy_from_slice(bytes);
-            true
-        })
-    }
-
-    fn read_mapping_bits(
-        &mut self,
-        mapping: &Mapping,
-        datagram: Span,
-        data: &mut [u8],
-        now: Instant,
-    ) -> bool {
-        let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
-        let bits = bit_overlap(&fmmu, datagram);
-        let Some(range) = PhysicalBits::of(&fmmu, bits) else { return false };
-        let mut bytes = [0; DATA_BYTES_MAX];
-        let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
-        if !self.read(range.offset, bytes, now) {
-            return false;
-        }
-        for (n, logical) in (bits.start..bits.end).enumerate() {
-            let value = bit(bytes, range.first_bit + n);
-            set_bit(data, (logical - datagram.start * 8) as usize, value);
-        }
-        true
-    }
-
-    fn write_mapped(&mut self, datagram: Span, data: &[u8]) -> bool {
-        let mut any = false;
-        for n in 0..self.write_mappings.len() {
-            let mapping = self.write_mappings[n];
-            if !mapping.logical_bytes().overlaps(datagram) {
-                continue;
-            }
-            any |= if mapping.bytewise {
-                let (range, physical) = byte_overlap(&mapping, datagram);
-                self.write_mapping_bytes(&mapping, physical, &data[range])
-            } else {
-                self.write_mapping_bits(&mapping, datagram, data)
-            };
-        }
-        any
-    }
-
-    #[inline]
-    fn write_mapping_bytes(&mut self, mapping: &Mapping, physical: u16, data: &[u8]) -> bool {
-        if mapping.sync_manager.is_none() || self.hot.protected {
-            return self.write(physical, data);
-        }
-        let piece =
-            Piece { offset: physical.into(), length_bytes: data.len(), sync_manager: mapping.sync_manager };
-        let target = self.writable(&piece).and_then(|at| self.memory.get_mut(at, data.len()));
-        target.is_some_and(|bytes| {
-            bytes.copy_from_slice(data);
-            true
-        })
-    }
-
-    /// A bit-wise write touches whole bytes; the bits that are not mapped keep what the buffer holds.
-    fn write_mapping_bits(&mut self, mapping: &Mapping, datagram: Span, data: &[u8]) -> bool {
-        let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
-        let bits = bit_overlap(&fmmu, datagram);
-        let Some(range) = PhysicalBits::of(&fmmu, bits) else { return false };
-        let mut bytes = [0; DATA_BYTES_MAX];
-        let Some(bytes) = bytes.get_mut(..range.length_bytes) else { return false };
-        self.peek_for_write(range.offset, bytes);
-        for (n, logical) in (bits.start..bits.end).enumerate() {
-            let value = bit(data, (logical - datagram.start * 8) as usize);
-            set_bit(bytes, range.first_bit + n, value);
-        }
-        self.write(range.offset, bytes)
-    }
-
     /// What a write at `offset` would replace, without any side effect.
-    fn peek_for_write(&self, offset: u16, bytes: &mut [u8]) {
+    pub(crate) fn peek_for_write(&self, offset: u16, bytes: &mut [u8]) {
         let piece = self.piece(u32::from(offset), bytes.len());
         let sm = piece.sync_manager.and_then(|n| self.sync_managers.get(usize::from(n)));
         let base = sm.map_or(u32::from(offset), |sm| {
@@ -477,61 +343,6 @@ struct Piece {
     offset: u32,
     length_bytes: usize,
     sync_manager: Option<u8>,
-}
-
-/// The physical bytes around a run of mapped bits.
-struct PhysicalBits {
-    offset: u16,
-    length_bytes: usize,
-    /// The first mapped bit, counted from the first of these bytes.
-    first_bit: usize,
-}
-
-impl PhysicalBits {
-    /// None if no bit is left, or if the bits leave the address space.
-    fn of(fmmu: &Fmmu, bits: Span) -> Option<Self> {
-        if bits.start >= bits.end {
-            return None;
-        }
-        let first = fmmu.physical_bit(bits.start);
-        let last = fmmu.physical_bit(bits.end - 1);
-        let offset = u16::try_from(first / 8).ok()?;
-        Some(Self {
-            offset,
-            length_bytes: (last / 8 - first / 8 + 1) as usize,
-            first_bit: (first % 8) as usize,
-        })
-    }
-}
-
-#[inline]
-fn logical_bytes(address: u32, length_bytes: usize) -> Span {
-    let start = u64::from(address);
-    Span { start, end: start + length_bytes as u64 }
-}
-
-/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start.
-#[inline]
-fn byte_overlap(mapping: &Mapping, datagram: Span) -> (core::ops::Range<usize>, u16) {
-    let bytes = mapping.logical_bytes();
-    let both = bytes.intersection(datagram);
-    let range = (both.start - datagram.start) as usize..(both.end - datagram.start) as usize;
-    (range, mapping.physical_start.wrapping_add((both.start - bytes.start) as u16))
-}
-
-fn bit_overlap(fmmu: &Fmmu, datagram: Span) -> Span {
-    let bits = Span { start: datagram.start * 8, end: datagram.end * 8 };
-    fmmu.logical_bits().intersection(bits)
-}
-
-fn bit(bytes: &[u8], at: usize) -> bool {
-    bytes.get(at / 8).is_some_and(|byte| byte >> (at % 8) & 1 != 0)
-}
-
-fn set_bit(bytes: &mut [u8], at: usize, value: bool) {
-    if let Some(byte) = bytes.get_mut(at / 8) {
-        *byte = *byte & !(1 << (at % 8)) | u8::from(value) << (at % 8);
-    }
 }
 
 /// Which one of a bank of registers, and which byte of it.

@@ -105,7 +105,7 @@ pub(crate) struct Mapping {
     /// Its number, for mappings that are not byte-wise.
     pub(crate) fmmu: u8,
     pub(crate) bytewise: bool,
-    /// The SyncManager whose buffer holds the whole physical range.
+    /// The buffered SyncManager whose buffer it maps whole, byte by byte.
     pub(crate) sync_manager: Option<u8>,
 }
 
@@ -115,6 +115,13 @@ impl Mapping {
     pub(crate) const fn logical_bytes(&self) -> Span {
         let start = self.logical_start as u64;
         Span { start, end: start + self.length_bytes as u64 }
+    }
+
+    /// Whether it maps one whole buffer, and a datagram covers it all.
+    #[inline]
+    pub(crate) const fn is_whole_buffer_in(&self, datagram: Span) -> bool {
+        let bytes = self.logical_bytes();
+        self.sync_manager.is_some() && datagram.start <= bytes.start && bytes.end <= datagram.end
     }
 }
 

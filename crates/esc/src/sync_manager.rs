@@ -272,6 +272,18 @@ impl SyncManager {
         Some(self.ecat_buffer())
     }
 
+    /// The wire writes a whole buffer at once.
+    #[inline]
+    pub(crate) fn ecat_write_whole(&mut self) -> Option<u32> {
+        self.ecat_write(Reach { from: 0, to: self.settings.length_bytes })
+    }
+
+    /// The wire reads a whole buffer at once.
+    #[inline]
+    pub(crate) fn ecat_read_whole(&mut self) -> Option<u32> {
+        self.ecat_read(Reach { from: 0, to: self.settings.length_bytes })
+    }
+
     #[inline]
     pub(crate) fn ecat_buffer(&self) -> u32 {
         self.buffer(self.buffers.ecat)
