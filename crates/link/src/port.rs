@@ -36,21 +36,15 @@ impl<P: FramePort + ?Sized> FramePort for Box<P> {
     }
 }
 
-/// Receives from a descriptor that does not block: looks first, then sleeps in the kernel until bytes are
-/// there. The first look is made while the master is busy with the last answer, so it costs no round trip.
-/// `ppoll` rather than a receive time-out, which counts in ticks of up to 10 ms.
+/// Sleeps in the kernel until a descriptor that does not block has bytes, and receives them. `ppoll` rather than
+/// a receive time-out, which counts in ticks of up to 10 ms; and no look before it: on one core that call
+/// would keep the master from running.
 pub(crate) fn receive_from(
     descriptor: &impl AsFd,
     wait: Duration,
     mut receive: impl FnMut() -> io::Result<usize>,
 ) -> io::Result<Option<usize>> {
-    if let Some(length_bytes) = unless_none_there(receive())? {
-        return Ok(Some(length_bytes));
-    }
-    if wait.is_zero() || !readable(descriptor, wait)? {
-        return Ok(None);
-    }
-    unless_none_there(receive())
+    if wait.is_zero() || readable(descriptor, wait)? { unless_none_there(receive()) } else { Ok(None) }
 }
 
 fn unless_none_there(received: io::Result<usize>) -> io::Result<Option<usize>> {
