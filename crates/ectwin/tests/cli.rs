@@ -17,8 +17,13 @@ fn factory() -> PathBuf {
 /// `ectwin run` with a unit file of this text, on a link that is not reached.
 fn run_unit_file(name: &str, text: &str) -> Output {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::write(&file, text).expect("the temporary folder takes files");
-    ectwin().arg("run").arg(&file).args(["--link", "raw:no-such-link"]).output().expect("ectwin starts")
+    let written = std::fs::write(&file, text);
+    assert!(written.is_ok(), "{}: {written:?}", file.display());
+    output_of(ectwin().arg("run").arg(&file).args(["--link", "raw:no-such-link"]))
+}
+
+fn output_of(command: &mut Command) -> Output {
+    command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"))
 }
 
 /// The exit code, and every fragment on standard error; standard output stays empty.
@@ -64,20 +69,19 @@ fn a_file_that_is_no_toml_is_refused_with_its_place() {
 
 #[test]
 fn a_file_that_is_not_there_is_refused_by_name() {
-    let output = ectwin().args(["run", "no-such-unit.toml", "--link", "raw:lo"]).output();
-    expect(&output.expect("ectwin starts"), BAD_FILE, &["no-such-unit.toml"]);
+    let output = output_of(ectwin().args(["run", "no-such-unit.toml", "--link", "raw:lo"]));
+    expect(&output, BAD_FILE, &["no-such-unit.toml"]);
 }
 
 #[test]
 fn an_interface_that_is_not_there_is_refused_by_name() {
-    let output = ectwin().arg("run").arg(factory()).args(["--link", "raw:no-such-link"]).output();
-    expect(&output.expect("ectwin starts"), NO_LINK, &["no-such-link"]);
+    let output = output_of(ectwin().arg("run").arg(factory()).args(["--link", "raw:no-such-link"]));
+    expect(&output, NO_LINK, &["no-such-link"]);
 }
 
 #[test]
 fn a_link_of_no_known_kind_is_refused_with_the_kinds_that_there_are() {
-    let output = ectwin().arg("run").arg(factory()).args(["--link", "usb:eth0"]).output();
-    let output = output.expect("ectwin starts");
+    let output = output_of(ectwin().arg("run").arg(factory()).args(["--link", "usb:eth0"]));
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(!output.status.success(), "{told}");
     assert!(["raw:", "udp:", "tap:"].iter().all(|kind| told.contains(kind)), "{told}");
@@ -85,13 +89,13 @@ fn a_link_of_no_known_kind_is_refused_with_the_kinds_that_there_are() {
 
 #[test]
 fn a_user_without_permission_is_told_which_one_is_missing() {
-    let output = without_raw_sockets().arg("run").arg(factory()).args(["--link", "raw:lo"]).output();
-    expect(&output.expect("ectwin starts"), NO_LINK, &["lo", "CAP_NET_RAW"]);
+    let output = output_of(without_raw_sockets().arg("run").arg(factory()).args(["--link", "raw:lo"]));
+    expect(&output, NO_LINK, &["lo", "CAP_NET_RAW"]);
 }
 
 /// ectwin as an ordinary user starts it, whoever runs the tests.
 fn without_raw_sockets() -> Command {
-    let id = Command::new("id").arg("--user").output().expect("id runs");
+    let id = output_of(Command::new("id").arg("--user"));
     if id.stdout.trim_ascii() != b"0" {
         return ectwin();
     }

@@ -79,7 +79,7 @@ fn top_folder() -> PathBuf {
 fn count(capture: &Path, filter: &str) -> usize {
     let mut tshark = Command::new("tshark");
     tshark.arg("-r").arg(capture).args(["-Y", filter]).args(["-T", "fields", "-e", "frame.number"]);
-    let output = tshark.output().expect("tshark runs");
+    let output = tshark.output().unwrap_or_else(|error| panic!("tshark: {error}"));
     assert!(output.status.success(), "tshark: {}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8_lossy(&output.stdout).lines().count()
 }
