@@ -55,6 +55,17 @@ pub fn add_veth_pair(one: &str, other: &str) {
     ip(&["link", "add", "name", one, "type", "veth", "peer", "name", other]);
     ip(&["link", "set", one, "up"]);
     ip(&["link", "set", other, "up"]);
+    // The kernel finishes this later, and drops what is sent before: one frame in a hundred on a busy machine.
+    [one, other].into_iter().for_each(wait_until_up);
+}
+
+fn wait_until_up(interface: &str) {
+    const LOOKS: usize = 1000;
+    let is_up = || {
+        let shown = Command::new("ip").args(["-oneline", "link", "show", interface]).output();
+        shown.is_ok_and(|shown| String::from_utf8_lossy(&shown.stdout).contains("state UP"))
+    };
+    assert!((0..LOOKS).any(|_| is_up()), "{interface} does not come up");
 }
 
 /// A second network namespace, for the master, with one interface of ours moved into it.
