@@ -23,6 +23,8 @@ pub(crate) enum Command {
     Demo,
     /// Emulate units, in chain order, until SIGINT or SIGTERM
     Run(RunArgs),
+    /// Check I/O allocation and PDO setting of a unit file against the setting rules
+    Check(CheckArgs),
     /// Write the ESI file (XML) of a unit, for the configuration tool of a master
     Esi(ExportArgs),
     /// Write the SII image (EEPROM) of a unit
@@ -54,6 +56,16 @@ pub(crate) struct RunArgs {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    /// The unit file
+    #[arg(value_name = "FILE")]
+    pub(crate) unit: PathBuf,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct ExportArgs {
     /// The unit file
     #[arg(value_name = "FILE")]
@@ -67,6 +79,12 @@ pub(crate) struct ExportArgs {
 pub(crate) enum List {
     /// The CoE objects with their types, access rights and defaults
     Objects {
+        /// One JSON document instead of text
+        #[arg(long)]
+        json: bool,
+    },
+    /// The setting rules with their events, in the order in which they are checked
+    Rules {
         /// One JSON document instead of text
         #[arg(long)]
         json: bool,

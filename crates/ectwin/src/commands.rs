@@ -1,10 +1,12 @@
 //! The commands, one file each.
 
+mod check;
 #[cfg(feature = "ethercrab")]
 mod demo;
 mod explain;
 mod export;
 mod list_objects;
+mod list_rules;
 mod run;
 
 use crate::cli::{Command, List};
@@ -16,9 +18,11 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         #[cfg(feature = "ethercrab")]
         Command::Demo => demo::run(),
         Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),
         Command::List(List::Objects { json }) => list_objects::run(json),
+        Command::List(List::Rules { json }) => list_rules::run(json),
         Command::Explain { code } => explain::run(&code),
     }
 }

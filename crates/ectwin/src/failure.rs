@@ -17,6 +17,8 @@ pub(crate) enum Failure {
     Unexplained(Unexplained),
     /// A file is not what it should be, with the places in it.
     BadFile(Vec<FileProblem>),
+    /// The setting rules are not satisfied. The findings are the command's result, told already.
+    RulesBroken,
     /// A file cannot be read.
     Unreadable { path: PathBuf, source: io::Error },
     /// A file cannot be written.
@@ -34,7 +36,10 @@ impl Failure {
     /// Tells the user on stderr, and gives the exit code of the command line's contract.
     pub(crate) fn report(self) -> ExitCode {
         let (message, help) = self.words();
-        let mut text = if matches!(self, Self::BadFile(_)) { message } else { format!("error: {message}\n") };
+        let mut text = match self {
+            Self::BadFile(_) | Self::RulesBroken => message,
+            _ => format!("error: {message}\n"),
+        };
         if let Some(help) = help {
             text.push_str(&format!("help: {help}\n"));
         }
@@ -45,7 +50,7 @@ impl Failure {
 
     const fn exit_code(&self) -> u8 {
         match self {
-            Self::Unexplained(_) | Self::LinkLost(_) => 1,
+            Self::Unexplained(_) | Self::RulesBroken | Self::LinkLost(_) => 1,
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
             Self::BadFile(_) | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
@@ -57,6 +62,7 @@ impl Failure {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), None),
             Self::BadFile(problems) => (problems.iter().map(|problem| picture(problem)).collect(), None),
+            Self::RulesBroken => (String::new(), None),
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(help_to_read(source)))
             }

@@ -28,6 +28,19 @@ pub(crate) fn colour_on_stderr() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
+/// Whether results may have colour: someone looks at them, and has not asked for none.
+pub(crate) fn colour_on_stdout() -> bool {
+    io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// A JSON document with its last line ended.
+pub(crate) fn json(document: &impl serde::Serialize) -> Result<String, Failure> {
+    let text = serde_json::to_string_pretty(document);
+    let source =
+        |error| Failure::Unwritable { path: PathBuf::from("stdout"), source: io::Error::from(error) };
+    text.map(|text| text + "\n").map_err(source)
+}
+
 /// Prints a result at once. A reader who has seen enough (`| head`) is no error.
 pub(crate) fn print(result: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();

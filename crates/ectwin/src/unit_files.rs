@@ -3,7 +3,7 @@
 use std::fmt;
 use std::path::Path;
 
-use ectwin::unit_file::UnitFileError;
+use ectwin::unit_file::{UnitFile, UnitFileError};
 use ectwin::{Setup, SetupError};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
 
@@ -14,6 +14,16 @@ pub(crate) fn read(path: &Path) -> Result<Setup, Failure> {
     let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
     Setup::from_toml(&text).map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+}
+
+/// Reads one unit file with its text, and nothing that it names.
+pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
+    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    match UnitFile::parse(&text) {
+        Ok(file) => Ok((file, text)),
+        Err(errors) => Err(Failure::BadFile(problems(path, &text, &SetupError::UnitFile(errors)))),
+    }
 }
 
 /// One place in a file where something is wrong.

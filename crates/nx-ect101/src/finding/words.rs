@@ -88,7 +88,7 @@ impl Finding {
         let sets = DataSetKind::ALL.into_iter().zip(amounts);
         let different = sets.filter(|(_, amount)| amount.io_entries != amount.pdo_entries);
         let told = different.map(|(kind, amount)| difference(DataSet::of(self.direction, kind), *amount));
-        format!("{} {}", way(self.direction), told.collect::<Vec<_>>().join(", "))
+        told.collect::<Vec<_>>().join("; ")
     }
 }
 
@@ -100,7 +100,7 @@ fn difference(set: &DataSet, amount: Amount) -> String {
         format!("{entries} {name} {plural} ({} bytes)", entries * usize::from(set.entry_bytes))
     };
     let (pdo, io) = (side("PDO", amount.pdo_entries), side("I/O", amount.io_entries));
-    format!("{} of {} has {pdo} and {io}", set.entry_name, set.pdo)
+    format!("{}: {pdo} in {}, {io}", set.entry_name, set.pdo)
 }
 
 const fn way(direction: Direction) -> &'static str {

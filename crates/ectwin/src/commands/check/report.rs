@@ -1,0 +1,70 @@
+//! One finding as a picture of its place in the file.
+
+use std::fmt;
+use std::path::Path;
+
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity, SourceCode,
+};
+use nx_ect101::Finding;
+
+use super::places::Place;
+use crate::output::colour_on_stdout;
+
+/// The finding with its places, its event and its correction.
+pub(super) fn picture(path: &Path, text: &str, finding: &Finding, places: Vec<Place>) -> String {
+    let source = NamedSource::new(path.display().to_string(), text.to_owned());
+    let diagnostic = RuleDiagnostic { finding, places, source };
+    let theme = if colour_on_stdout() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
+    let mut picture = String::new();
+    let handler = GraphicalReportHandler::new_themed(theme).with_links(false);
+    match handler.render_report(&mut picture, &diagnostic) {
+        Ok(()) => picture + "\n",
+        Err(_) => format!("{diagnostic}\n"),
+    }
+}
+
+#[derive(Debug)]
+struct RuleDiagnostic<'f> {
+    finding: &'f Finding,
+    places: Vec<Place>,
+    source: NamedSource<String>,
+}
+
+impl fmt::Display for RuleDiagnostic<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.finding.message())?;
+        match self.places.is_empty() {
+            true => formatter.write_str(" (the file leaves this to the factory setting)"),
+            false => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for RuleDiagnostic<'_> {}
+
+impl Diagnostic for RuleDiagnostic<'_> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        let Finding { event, rule, .. } = self.finding;
+        Some(Box::new(format!("{event} {} (rule {})", self.finding.event_name(), rule.id())))
+    }
+
+    fn severity(&self) -> Option<Severity> {
+        // A mismatch stops nothing; it may be made on purpose.
+        let stops = !nx_ect101::Event::find(self.finding.event).is_some_and(|event| event.changeable_level);
+        Some(if stops { Severity::Error } else { Severity::Warning })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.finding.correction()))
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        (!self.places.is_empty()).then_some(&self.source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = |place: &Place| LabeledSpan::new_with_span(Some(place.label.clone()), place.span.clone());
+        Some(Box::new(self.places.iter().map(label)))
+    }
+}

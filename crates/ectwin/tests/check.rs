@@ -1,0 +1,116 @@
+//! `ectwin check` and `ectwin list rules`: what they print and how they end.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn ectwin(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_ectwin")).args(arguments).env("NO_COLOR", "1").output().unwrap()
+}
+
+/// A unit file with these sections.
+fn unit_file(name: &str, sections: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, format!("model = \"nx-ect101\"\n{sections}")).unwrap();
+    path
+}
+
+fn check(name: &str, sections: &str, options: &[&str]) -> (Option<i32>, String) {
+    let path = unit_file(name, sections);
+    let output = ectwin(&[&["check", path.to_str().unwrap()], options].concat());
+    (output.status.code(), String::from_utf8(output.stdout).unwrap())
+}
+
+const BROKEN: &str =
+    "[io_allocation]\nm_to_c.uints = [\"6001:01\"]\nc_to_m.uints = 4\n[pdo]\nassign.rx = [0x1602, 0x1601]\n";
+
+#[test]
+fn every_unit_file_of_ours_satisfies_the_rules() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../units");
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let output = ectwin(&["check", path.to_str().unwrap()]);
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        assert!(told.contains("the setting rules are satisfied"), "{told}");
+    }
+}
+
+#[test]
+fn a_program_reads_all_findings() {
+    let (code, told) = check("check-json.toml", BROKEN, &["--json"]);
+    assert_eq!(code, Some(1));
+    let document: Value = serde_json::from_str(&told).unwrap();
+    let findings = document["findings"].as_array().unwrap();
+    let told = |finding: &Value| {
+        ["event_code", "rule", "side", "direction", "data_set"].map(|key| finding[key].to_string()).join(" ")
+    };
+    let expected = [
+        r#""392E0000" "sm_order" "assignment" "m_to_c" null"#,
+        r#""391B0000" "type" "io_entry" "m_to_c" "1A01""#,
+        r#""39160000" "matched" "pdo_entry" "c_to_m" "1A01""#,
+    ];
+    assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), expected);
+    assert_eq!(findings[0]["event_name"], "Incorrect RxPDO Mapping Order");
+    for finding in findings {
+        assert_eq!(finding.as_object().unwrap().len(), 8);
+        assert!(finding["message"].is_string() && finding["correction"].is_string());
+    }
+}
+
+#[test]
+fn satisfied_rules_are_an_empty_list() {
+    let (code, told) = check("check-satisfied.toml", "", &["--json"]);
+    assert_eq!((code, told.as_str()), (Some(0), "{\n  \"findings\": []\n}\n"));
+}
+
+#[test]
+fn people_see_the_place_the_event_the_correction_and_the_exchange() {
+    let (code, told) = check("check-people.toml", BROKEN, &[]);
+    assert_eq!(code, Some(1));
+    let fragments = [
+        "392E0000 Incorrect RxPDO Mapping Order (rule sm_order)",
+        "check-people.toml:6:22]",
+        "comes before 0x1602",
+        "Assign the PDOs in ascending order",
+        "not an entry of 0x6000 that exists",
+        "4 I/O entries",
+        "I/O refreshing does not start, the unit stays in PRE-OP with AL status code 0x0025 (invalid output mapping); nothing",
+    ];
+    for fragment in fragments {
+        assert!(told.contains(fragment), "`{fragment}` is not in:\n{told}");
+    }
+}
+
+#[test]
+fn a_mismatch_says_what_is_exchanged() {
+    let (code, told) =
+        check("check-mismatch.toml", "[io_allocation]\nm_to_c.uints = 6\nc_to_m.uints = 4\n", &[]);
+    assert_eq!(code, Some(1));
+    assert!(told.contains("only what both sides have is exchanged"), "{told}");
+    assert!(told.contains("4 entries, 120 bytes"), "{told}");
+}
+
+#[test]
+fn a_bad_file_and_no_file_end_with_2() {
+    let (code, told) = check("check-bad.toml", "serail = 1\n", &["--json"]);
+    assert_eq!((code, told.as_str()), (Some(2), ""));
+    assert_eq!(ectwin(&["check", "/no-such-folder/unit.toml"]).status.code(), Some(2));
+}
+
+#[test]
+fn list_rules_has_the_seven_rules_and_their_events() {
+    let output = ectwin(&["list", "rules", "--json"]);
+    assert!(output.status.success());
+    let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rules = document["rules"].as_array().unwrap();
+    let ids: Vec<&str> = rules.iter().filter_map(|rule| rule["id"].as_str()).collect();
+    assert_eq!(ids, ["mandatory", "sm_order", "type", "order", "total", "combination", "matched"]);
+    let text = String::from_utf8(ectwin(&["list", "rules"]).stdout).unwrap();
+    for event in rules.iter().flat_map(|rule| rule["events"].as_array().unwrap()) {
+        assert!(text.contains(event["code"].as_str().unwrap()), "{event}");
+    }
+}
