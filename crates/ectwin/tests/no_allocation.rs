@@ -1,0 +1,110 @@
+//! After power-on nothing is allocated: not for frames, not for refresh and CPU Unit, not for SDOs.
+
+use allocation_counter::measure;
+use ectwin::{AlState, Duration, FrameFate, Twin};
+use wire::{Command, FrameBuilder};
+
+const RECEIVE: u16 = 0x1000;
+const SEND: u16 = 0x1200;
+const MAILBOX_BYTES: usize = 400;
+
+fn apwr(offset: u16, data: &[u8]) -> Vec<u8> {
+    FrameBuilder::new().physical(Command::Apwr, 0, offset, data).finish()
+}
+
+/// Sends a copy of a frame, as a master that uses its buffer again.
+fn send(twin: &mut Twin, frame: &[u8], buffer: &mut [u8; 1518]) {
+    let buffer = &mut buffer[..frame.len()];
+    buffer.copy_from_slice(frame);
+    assert_eq!(twin.frame(buffer), FrameFate::Returned);
+}
+
+/// Takes the unit to OP with its factory setting: mailboxes, process data, FMMUs.
+fn to_op(twin: &mut Twin) {
+    let mut buffer = [0; 1518];
+    let steps: [(u16, &[u8]); 9] = [
+        (0x0800, &[0x00, 0x10, 0x90, 0x01, 0x26, 0, 1, 0, 0x00, 0x12, 0x90, 0x01, 0x22, 0, 1, 0]),
+        (0x0120, &[2, 0]),
+        (0x0810, &[0xA0, 0x13, 180, 0, 0x64, 0, 1, 0]),
+        (0x0818, &[0xB0, 0x21, 183, 0, 0x20, 0, 1, 0]),
+        (0x0600, &[0, 0, 0, 0, 180, 0, 0, 7, 0xA0, 0x13, 0, 2, 1, 0, 0, 0]),
+        (0x0610, &[0, 0, 0, 0, 183, 0, 0, 7, 0xB0, 0x21, 0, 1, 1, 0, 0, 0]),
+        (0x0120, &[4, 0]),
+        (0x0120, &[8, 0]),
+        (0x0200, &[0xFF, 0x0F]),
+    ];
+    for (offset, data) in steps {
+        send(twin, &apwr(offset, data), &mut buffer);
+        twin.run_for(Duration::from_millis(1));
+    }
+    assert_eq!(twin.unit(0).state(), AlState::Op);
+}
+
+/// A mailbox message: an SDO request with mailbox header, counter 0.
+fn sdo(request: &[u8]) -> Vec<u8> {
+    let mut message = vec![0; MAILBOX_BYTES];
+    message[0] = (2 + request.len()) as u8;
+    message[5] = 3;
+    message[7] = 0x20;
+    message[8..8 + request.len()].copy_from_slice(request);
+    apwr(RECEIVE, &message)
+}
+
+#[test]
+fn frames_refresh_and_cpu_unit_allocate_nothing() {
+    let mut twin = Twin::from_toml("model = \"nx-ect101\"").expect("the unit file is good");
+    to_op(&mut twin);
+    let frames = [
+        FrameBuilder::new()
+            .logical(Command::Lrw, 0, &[1; 183])
+            .physical(Command::Frmw, 0, 0x0910, &[0; 8])
+            .finish(),
+        FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish(),
+        FrameBuilder::new().physical(Command::Aprd, 0, 0x0800, &[0; 64]).finish(),
+        FrameBuilder::new().physical(Command::Apwr, 0, 0x0300, &[0; 8]).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0900, &[0; 4]).finish(),
+        vec![0xFF; 20],
+    ];
+    let mut buffer = [0; 1518];
+    let counted = measure(|| {
+        for _ in 0..2_000 {
+            for frame in &frames {
+                let buffer = &mut buffer[..frame.len()];
+                buffer.copy_from_slice(frame);
+                let _ = twin.frame(buffer);
+            }
+            twin.run_for(Duration::from_millis(1));
+        }
+    });
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+    assert_eq!(twin.unit(0).state(), AlState::Op);
+}
+
+#[test]
+fn sdos_allocate_nothing() {
+    let mut twin = Twin::from_toml("model = \"nx-ect101\"").expect("the unit file is good");
+    to_op(&mut twin);
+    let read_reply = FrameBuilder::new().physical(Command::Aprd, 0, SEND, &[0; MAILBOX_BYTES]).finish();
+    let requests = [
+        sdo(&[0x40, 0x18, 0x10, 1, 0, 0, 0, 0]),
+        sdo(&[0x50, 0x00, 0x1C, 0, 0, 0, 0, 0]),
+        sdo(&[0x40, 0x08, 0x10, 0, 0, 0, 0, 0]),
+        sdo(&[0x40, 0xFF, 0xFF, 0, 0, 0, 0, 0]),
+        sdo(&[0x2B, 0xF3, 0x10, 5, 1, 0, 0, 0]),
+    ];
+    let mut buffer = [0; 1518];
+    let mut replies = 0;
+    let counted = measure(|| {
+        for _ in 0..200 {
+            for request in &requests {
+                send(&mut twin, request, &mut buffer);
+                twin.run_for(Duration::from_millis(3));
+                send(&mut twin, &read_reply, &mut buffer);
+                let working_counter_at = read_reply.len() - 2;
+                replies += u32::from(buffer[working_counter_at]);
+            }
+        }
+    });
+    assert_eq!(replies, 1_000);
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+}
