@@ -5,11 +5,14 @@ use std::ops::Range;
 
 use nx_ect101::unit_file::{UnitFile, UnitFileErrors};
 use nx_ect101::{NxEct101, Timing, UnitSettings, device_config};
-use plc::{CpuSettings, CpuUnit, Echo, Program};
+use plc::{CpuSettings, CpuUnit, Echo, Io, Program};
 use time::Instant;
 
-/// A unit and its CPU Unit, ready for power. Without another program the CPU Unit copies what comes from the
-/// master back to it ([`Echo`], the manual's example A-3).
+/// Name of the built-in user program that copies what comes from the master back to it, in place of a path.
+const COPY_PROGRAM: &str = "builtin:copy";
+
+/// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none, or
+/// `builtin:copy`, which copies what comes from the master back to it ([`Echo`], the manual's example A-3).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
@@ -23,14 +26,11 @@ impl Setup {
     /// What is wrong with it, and where.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
-        if let Some(program) = &file.cpu.program {
-            let path = program.value.display().to_string();
-            return Err(SetupError::Program { path, span: program.span.clone().unwrap_or_default() });
-        }
+        let program = named_program(&file)?;
         if let Some(storage) = &file.storage {
             tracing::warn!("{}: non-volatile memory is not kept in a file yet", storage.value.display());
         }
-        Ok(Self { file, program: Box::new(Echo), system_time_ns: None })
+        Ok(Self { file, program, system_time_ns: None })
     }
 
     /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
@@ -75,6 +75,17 @@ impl Setup {
     }
 }
 
+fn named_program(file: &UnitFile) -> Result<Box<dyn Program + Send>, SetupError> {
+    match &file.cpu.program {
+        None => Ok(Box::new(|_: &mut Io| {})),
+        Some(name) if name.value.as_os_str() == COPY_PROGRAM => Ok(Box::new(Echo)),
+        Some(name) => Err(SetupError::Program {
+            path: name.value.display().to_string(),
+            span: name.span.clone().unwrap_or_default(),
+        }),
+    }
+}
+
 /// Why a unit file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SetupError {
@@ -95,8 +106,8 @@ impl fmt::Display for SetupError {
             Self::UnitFile(errors) => errors.fmt(formatter),
             Self::Program { path, .. } => write!(
                 formatter,
-                "the user program {path} cannot be read: programs in files are not supported yet; without \
-                 `program` the CPU Unit copies the data from the master back to it"
+                "the user program {path} cannot be read: programs in files are not supported yet; \
+                 `{COPY_PROGRAM}` copies the data from the master back to it, and without `program` there is none"
             ),
         }
     }

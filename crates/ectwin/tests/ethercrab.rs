@@ -13,7 +13,7 @@ use ethercrab::{MainDevice, MainDeviceConfig, PduLoop, PduStorage, Timeouts};
 use link::{FRAME_BUFFER_BYTES, FramePort};
 use testbed::{add_veth_pair, in_network_namespace};
 
-const UNIT: &str = "model = \"nx-ect101\"";
+const UNIT: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
 const OUTPUTS_BYTES: usize = 180;
 const INPUTS_BYTES: usize = 183;
 /// Where the data of 0x1A01 begins in the inputs: behind the status in 0x1A00.

@@ -4,6 +4,7 @@ use allocation_counter::measure;
 use ectwin::{AlState, Duration, FrameFate, Twin};
 use wire::{Command, FrameBuilder};
 
+const UNIT: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
 const RECEIVE: u16 = 0x1000;
 const SEND: u16 = 0x1200;
 const MAILBOX_BYTES: usize = 400;
@@ -52,7 +53,7 @@ fn sdo(request: &[u8]) -> Vec<u8> {
 
 #[test]
 fn frames_refresh_and_cpu_unit_allocate_nothing() {
-    let mut twin = Twin::from_toml("model = \"nx-ect101\"").expect("the unit file is good");
+    let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
     to_op(&mut twin);
     let frames = [
         FrameBuilder::new()
@@ -82,7 +83,7 @@ fn frames_refresh_and_cpu_unit_allocate_nothing() {
 
 #[test]
 fn sdos_allocate_nothing() {
-    let mut twin = Twin::from_toml("model = \"nx-ect101\"").expect("the unit file is good");
+    let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
     to_op(&mut twin);
     let read_reply = FrameBuilder::new().physical(Command::Aprd, 0, SEND, &[0; MAILBOX_BYTES]).finish();
     let requests = [

@@ -26,7 +26,7 @@ type Group<S> = SubDeviceGroup<MAX_UNITS, MAX_PROCESS_DATA_BYTES, ethercrab::Def
 static STORAGE: PduStorage<MAX_FRAMES, FRAME_BYTES> = PduStorage::new();
 
 /// The factory setting: what a unit file that names only its model has.
-const UNIT_FILE: &str = "model = \"nx-ect101\"";
+const UNIT_FILE: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
 
 /// Runs the demo for a few seconds.
 pub(crate) fn run() -> Result<(), Failure> {
