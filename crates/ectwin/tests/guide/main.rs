@@ -1,0 +1,10 @@
+//! The Rust examples of docs/user, each a file that a reader can copy; crates/ectwin/tests/docs.rs holds them to
+//! the pages.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+mod cpu_unit;
+#[cfg(feature = "ethercrab")]
+mod ethercrab_in_memory;
+mod frames_in_virtual_time;
+mod link_in_memory;
