@@ -1,6 +1,6 @@
 //! One slave: the stack around a unit, on one ESC.
 
-use esc::{AlEvents, Esc, Pdi, SmIndex};
+use esc::{AlEvents, Esc, Pdi, Port, SmIndex};
 use time::{Duration, Instant};
 use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 
@@ -8,7 +8,7 @@ use crate::checks;
 use crate::config::{DeviceConfig, OutputsBeforeOp};
 use crate::mailbox_service::MailboxService;
 use crate::state_machine::{Check, refusal, transition};
-use crate::unit::{Exchange, Unit};
+use crate::unit::{Exchange, PortLinks, Unit};
 
 /// What the stack listens to. Process data are not among it: the refresh runs freely.
 const EVENTS: AlEvents = AlEvents::AL_CONTROL
@@ -55,6 +55,7 @@ impl<U: Unit> Device<U> {
 
     /// Starts again from INIT, as after power-on; the EEPROM keeps what was written to it.
     pub fn restart(&mut self, esc: &mut Esc, now: Instant) {
+        self.unit.restart(now, esc.sii_image_mut());
         esc.reset(now);
         self.status = AlStatus::default();
         self.code = AlStatusCode::NO_ERROR;
@@ -73,6 +74,9 @@ impl<U: Unit> Device<U> {
         self.next_refresh = now;
         self.follow_alias(&mut pdi);
         self.unit.entered(now, AlState::Init);
+        if let Some(code) = self.unit.fault() {
+            self.refuse(AlState::Init, code, &mut pdi, now);
+        }
     }
 
     /// The unit model.
@@ -147,13 +151,14 @@ impl<U: Unit> Device<U> {
     fn exchange(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         let state = self.status.state;
         let valid = state == AlState::Op && pdi.outputs_received(SmIndex::OUTPUTS) && !pdi.watchdog_expired();
+        let links = PortLinks { in_port: pdi.link(Port::In), out_port: pdi.link(Port::Out) };
         let unit = &mut self.unit;
         if matches!(state, AlState::SafeOp | AlState::Op) {
             pdi.exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
-                unit.refresh(now, Exchange { state, outputs: valid.then_some(outputs), inputs });
+                unit.refresh(now, Exchange { state, links, outputs: valid.then_some(outputs), inputs });
             });
         } else {
-            unit.refresh(now, Exchange { state, outputs: None, inputs: &mut [] });
+            unit.refresh(now, Exchange { state, links, outputs: None, inputs: &mut [] });
         }
     }
 
@@ -165,6 +170,9 @@ impl<U: Unit> Device<U> {
         let (Some(mailbox), Some(objects)) = (&mut self.mailbox, self.unit.objects()) else { return };
         if mailbox.poll(now, state, pdi, objects) {
             self.follow_alias(pdi);
+            if self.unit.take_status_change() {
+                self.exchange(pdi, now);
+            }
         }
     }
 
@@ -182,6 +190,9 @@ impl<U: Unit> Device<U> {
 
     /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
     fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
+        if let Some(code) = self.unit.fault() {
+            return self.refuse(AlState::Init, code, pdi, now);
+        }
         if self.status.error && !control.acknowledge && control.state != AlState::Init {
             return;
         }

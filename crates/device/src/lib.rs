@@ -18,4 +18,4 @@ pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;
 pub use state_machine::{Check, TRANSITIONS, Transition, refusal, transition};
-pub use unit::{Exchange, ProcessDataAreas, Unit};
+pub use unit::{Exchange, PortLinks, ProcessDataAreas, Unit};

@@ -13,10 +13,21 @@ pub struct ProcessDataAreas {
     pub inputs_bytes: u16,
 }
 
+/// The ports of the slave: whether the cable there has a partner at its other end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PortLinks {
+    /// Port IN, towards the master.
+    pub in_port: bool,
+    /// Port OUT, towards the slaves behind.
+    pub out_port: bool,
+}
+
 /// One refresh: what the SyncManagers hold, for the unit to take and to fill.
 pub struct Exchange<'a> {
     /// State of the EtherCAT state machine at this refresh.
     pub state: AlState,
+    /// The links at the ports.
+    pub links: PortLinks,
     /// The newest whole outputs; none unless the slave is in OP, the master has sent outputs since it
     /// entered OP, and the process data watchdog is alive.
     pub outputs: Option<&'a [u8]>,
@@ -43,6 +54,15 @@ pub trait Unit {
         Ok(())
     }
 
+    /// A fault that keeps the slave in INIT: every request for another state is refused with this AL status
+    /// code, which is shown from power-on.
+    fn fault(&self) -> Option<AlStatusCode> {
+        None
+    }
+
+    /// The slave starts again, as after power-on. `sii_image` is the EEPROM, which is loaded right after.
+    fn restart(&mut self, _now: Instant, _sii_image: &mut [u8]) {}
+
     /// The state machine has arrived in `state`.
     fn entered(&mut self, _now: Instant, _state: AlState) {}
 
@@ -51,6 +71,12 @@ pub trait Unit {
 
     /// Moves data between the SyncManagers and the application.
     fn refresh(&mut self, now: Instant, exchange: Exchange<'_>);
+
+    /// Whether a mailbox request has changed what a refresh tells, since the last call. The stack then
+    /// refreshes at once, so that no status that the master reads is older than the response it has got.
+    fn take_status_change(&mut self) -> bool {
+        false
+    }
 
     /// Explicit Device ID that the slave tells when AL control bit 5 asks; none when it has none.
     fn explicit_device_id(&self) -> Option<u16> {

@@ -169,8 +169,9 @@ impl Esc {
     /// Back to the state after power-on; cables and EEPROM stay as they are.
     pub fn reset(&mut self, now: Instant) {
         let ports = self.ports;
-        let image = core::mem::take(self.sii.image_mut());
+        let (image, words_written) = (core::mem::take(self.sii.image_mut()), self.sii.words_written());
         *self = Self::power_on(self.config.clone(), image, now);
+        self.sii.go_on_counting(words_written);
         for port in [Port::In, Port::Out] {
             self.ports.set_link(port, ports.status(port).link, &mut self.memory);
         }
@@ -193,6 +194,25 @@ impl Esc {
     /// The face of the application.
     pub fn pdi(&mut self, now: Instant) -> Pdi<'_> {
         Pdi::new(self, now)
+    }
+
+    /// The EEPROM image.
+    #[must_use]
+    pub fn sii_image(&self) -> &[u8] {
+        self.sii.image()
+    }
+
+    /// The EEPROM image for the start-up of the unit, before the controller loads it. In operation the PDI
+    /// takes the EEPROM first: [`Pdi::take_sii`].
+    pub fn sii_image_mut(&mut self) -> &mut [u8] {
+        self.sii.image_mut()
+    }
+
+    /// How many words the wire has written to the EEPROM since power-on, modulo 2^32: whoever keeps the image
+    /// sees by it that it may have changed.
+    #[must_use]
+    pub const fn sii_words_written(&self) -> u32 {
+        self.sii.words_written()
     }
 
     /// The configured station address, register 0x0010.

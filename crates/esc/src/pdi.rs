@@ -5,7 +5,7 @@ use wire::{AlControl, AlStatus, AlStatusCode};
 
 use crate::esc::Esc;
 use crate::events::{AlEvents, EcatEvents};
-use crate::ports;
+use crate::ports::{self, Port};
 use crate::registers::{PdiAccess, REGISTERS, at};
 use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
 
@@ -64,6 +64,12 @@ impl<'a> Pdi<'a> {
     #[must_use]
     pub fn al_status_code(&self) -> AlStatusCode {
         AlStatusCode(self.esc.memory.u16(at::AL_STATUS_CODE))
+    }
+
+    /// Whether the cable at a port has a partner at its other end, as DL status shows it.
+    #[must_use]
+    pub fn link(&self, port: Port) -> bool {
+        self.esc.port(port).link
     }
 
     /// Settings of a SyncManager.

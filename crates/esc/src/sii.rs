@@ -36,11 +36,12 @@ pub(crate) struct Sii {
     loading: Loading,
     errors: u16,
     busy_until: Option<Instant>,
+    words_written: u32,
 }
 
 impl Sii {
     pub(crate) fn new(image: Vec<u8>, timing: SiiTiming) -> Self {
-        Self { image, timing, loading: Loading::Missing, errors: 0, busy_until: None }
+        Self { image, timing, loading: Loading::Missing, errors: 0, busy_until: None, words_written: 0 }
     }
 
     pub(crate) fn image(&self) -> &[u8] {
@@ -49,6 +50,15 @@ impl Sii {
 
     pub(crate) fn image_mut(&mut self) -> &mut Vec<u8> {
         &mut self.image
+    }
+
+    pub(crate) const fn words_written(&self) -> u32 {
+        self.words_written
+    }
+
+    /// A reset is no power-on for who watches the EEPROM.
+    pub(crate) const fn go_on_counting(&mut self, words_written: u32) {
+        self.words_written = words_written;
     }
 
     pub(crate) const fn is_loaded(&self) -> bool {
@@ -144,6 +154,7 @@ impl Sii {
         let at = address as usize * 2;
         if let Some(bytes) = self.image.get_mut(at..at + 2) {
             bytes.copy_from_slice(&word.to_le_bytes());
+            self.words_written = self.words_written.wrapping_add(1);
         }
     }
 

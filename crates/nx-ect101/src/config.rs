@@ -7,12 +7,18 @@ use device::{
 
 use crate::description::description;
 use crate::layout;
-use crate::unit::UnitSettings;
+use crate::settings::UnitSettings;
 
 /// The stack of a unit with these settings: an ESC with 8 FMMUs, 8 SyncManagers, 8 KiB and 64-bit distributed
 /// clocks, its EEPROM, its mailboxes, and the abort codes of the manual (7-6-2).
 #[must_use]
 pub fn device_config(settings: &UnitSettings) -> DeviceConfig {
+    device_config_with(settings, esi::sii::image(&description(settings)))
+}
+
+/// The same, with the EEPROM of a unit that has been in use: [`crate::NonVolatileMemory::sii_image`].
+#[must_use]
+pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> DeviceConfig {
     let area = |start| Area { start, length_bytes: layout::MAILBOX_BYTES };
     DeviceConfig {
         esc: EscConfig {
@@ -23,7 +29,7 @@ pub fn device_config(settings: &UnitSettings) -> DeviceConfig {
             sii: SiiTiming::Immediate,
             sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
         },
-        sii_image: esi::sii::image(&description(settings)),
+        sii_image,
         mailbox: Some(MailboxConfig {
             receive: area(layout::MAILBOX_RECEIVE_START),
             send: area(layout::MAILBOX_SEND_START),

@@ -11,8 +11,8 @@ use wire::{ObjectIndex, SubIndex};
 use crate::data_sets::{Assignment, DataSet, Direction, Limits, StatusPdo};
 use crate::layout;
 use crate::mapping::{MappedEntry, Mapping};
+use crate::settings::UnitSettings;
 use crate::tables::object_table;
-use crate::unit::UnitSettings;
 
 /// SII word 0: PDI control 0x08 (a microcontroller runs the unit), no device emulation.
 const ESC_CONFIGURATION: [u16; 4] = [0x0008, 0, 0, 0];

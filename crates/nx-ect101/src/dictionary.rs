@@ -6,6 +6,7 @@ use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 
 use crate::identification::Identification;
 use crate::mapping::Mapping;
+use crate::messages::{Message, Messages};
 use crate::tables::object_table;
 
 /// Answers for the object dictionary of one unit.
@@ -14,6 +15,9 @@ pub(crate) struct UnitObjects {
     values: Dictionary,
     pub(crate) mapping: Mapping,
     pub(crate) identification: Identification,
+    pub(crate) messages: Messages,
+    /// A message was read or written since [`UnitObjects::take_message_change`].
+    message_changed: bool,
     pub(crate) state: AlState,
     /// Time between two refreshes.
     period: Duration,
@@ -29,7 +33,42 @@ impl UnitObjects {
         let mut values = Dictionary::new(table);
         let known = values.set_unsigned(ObjectIndex(0x1018), SubIndex(4), u64::from(serial));
         assert!(known, "tables/coe_objects.toml: 1018:04 holds a serial number");
-        Self { values, mapping, identification, state: AlState::Init, period, system_time_ns: 0 }
+        Self {
+            values,
+            mapping,
+            identification,
+            messages: Messages::default(),
+            message_changed: false,
+            state: AlState::Init,
+            period,
+            system_time_ns: 0,
+        }
+    }
+
+    /// Whether a master has read or written a message since the last call.
+    pub(crate) const fn take_message_change(&mut self) -> bool {
+        core::mem::replace(&mut self.message_changed, false)
+    }
+
+    /// Reads 3000:01 or 3001:01.
+    fn read_message(&mut self, index: ObjectIndex, value: &mut [u8]) {
+        let message = if index.0 == 0x3000 {
+            self.message_changed |= self.messages.c_to_m.has_new();
+            self.messages.c_to_m.read()
+        } else {
+            self.messages.m_to_c.written()
+        };
+        for (to, from) in value.iter_mut().zip(message) {
+            *to = *from;
+        }
+    }
+
+    /// Writes 3001:01.
+    fn write_message(&mut self, value: &[u8]) -> Result<(), SdoAbort> {
+        let message: &Message = value.try_into().map_err(|_| SdoAbort::LENGTH_MISMATCH)?;
+        self.messages.m_to_c.write(message)?;
+        self.message_changed = true;
+        Ok(())
     }
 
     /// 1C32:02 and 1C33:02: in Free-Run the time between two local timer events (manual, A-6-6). The timer
@@ -58,6 +97,10 @@ impl ObjectServer for UnitObjects {
             return self.mapping.read(index, sub, value);
         }
         self.refuse_mapped(index, sub)?;
+        if matches!((index.0, sub.0), (0x3000 | 0x3001, 1)) {
+            self.read_message(index, value);
+            return Ok(());
+        }
         let number = match (index.0, sub.0) {
             (0x10E0, 1) => u64::from(self.identification.alias_register_value()),
             (0x10E0, 3) => u64::from(self.identification.switch_value()),
@@ -79,6 +122,7 @@ impl ObjectServer for UnitObjects {
         match (index.0, sub.0) {
             (0x10E0, 1) => self.identification.set_software(word(value)?),
             (0x10E0, 3) => self.identification.reload_switch(word(value)?),
+            (0x3001, 1) => self.write_message(value),
             // The diagnosis history is empty: there is no record to acknowledge, and nothing to clear.
             (0x10F3, 3) if value != [0] => Err(SdoAbort::VALUE_OUT_OF_RANGE),
             // Commands that clear error status and logs; they read 0 ever after (manual, A-6-7).

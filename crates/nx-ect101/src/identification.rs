@@ -21,6 +21,19 @@ impl Identification {
         Self { switch, at_power_on: id, software, station_alias: (id != 0).then_some(id) }
     }
 
+    /// The software setting.
+    pub(crate) const fn software(self) -> u16 {
+        self.software
+    }
+
+    /// A master has set the station alias in the SII. With the switch at 0x00 that is the software setting, in
+    /// force from the next power-on or restart on, as the register is loaded from the SII then.
+    pub(crate) const fn take_alias_of_sii(&mut self, alias: u16) {
+        if self.switch == 0 {
+            self.software = alias;
+        }
+    }
+
     /// The Explicit Device ID; none while it is 0, which the manual's setting ranges leave out.
     pub(crate) fn explicit_device_id(self) -> Option<u16> {
         (self.at_power_on != 0).then_some(self.at_power_on)

@@ -12,9 +12,14 @@ mod finding;
 mod identification;
 pub mod layout;
 mod mapping;
+mod memory;
+mod messages;
 pub mod nx_bus;
+mod nx_objects;
+mod nx_server;
 mod pdo_settings;
 mod rules;
+mod settings;
 mod status;
 mod tables;
 mod timing;
@@ -23,16 +28,24 @@ pub mod unit_file;
 mod verdict;
 
 pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
-pub use config::device_config;
+pub use config::{device_config, device_config_with};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
 pub use events::{Event, EventCode};
 pub use exchange::{ByteCopy, ExchangePlan};
 pub use finding::{Amount, Fact, Finding, Side};
+pub use memory::{
+    ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogLevel, LogRecord, MemoryAtPowerOn,
+    NonVolatileMemory, SYSTEM_RECORDS_MAX,
+};
+pub use messages::MESSAGE_BYTES;
+pub use nx_objects::{NxAccess, NxEntry, NxObject};
 pub use pdo_settings::{PdoEntry, PdoSettings};
 pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
+pub use settings::UnitSettings;
 pub use status::{NxUnitStatus, SlaveStatus};
 pub use tables::object_table;
 pub use timing::Timing;
-pub use unit::{NxEct101, UnitSettings};
+pub use unit::NxEct101;
 pub use verdict::{Configuration, ExchangedDataSet, Verdict};
+pub use wire::{ObjectIndex, SubIndex};

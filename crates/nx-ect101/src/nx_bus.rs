@@ -1,11 +1,18 @@
 //! The NX bus between the unit and the CPU Unit: where two threads meet.
 //!
 //! Each direction is a [`ProcessImage`] in a triple buffer: wait-free on both sides, never torn, and the reader
-//! gets the newest whole image. Who writes and who reads are two types, and each exists once.
+//! gets the newest whole image. Who writes and who reads are two types, and each exists once. Beside them go
+//! the NX messages, by two queues that neither end waits for.
+
+mod messages;
 
 use crate::allocation::{ImageLayout, IoAllocation};
 use crate::data_sets::Direction;
 use crate::status::SlaveStatus;
+
+pub use messages::{
+    CpuMessages, NotSent, NxMessageError, NxRequest, NxResponse, NxValue, REQUESTS_MAX, UnitMessages,
+};
 
 /// A process image and what is told along with it.
 #[derive(Clone, Debug)]
@@ -73,6 +80,8 @@ pub struct UnitHeader {
 pub struct CpuHeader {
     /// The CPU Unit does I/O refreshing.
     pub refreshing: bool,
+    /// The CPU Unit does NX message communications with the unit.
+    pub messages_enabled: bool,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has none.
     pub system_time_ns: u64,
 }
@@ -84,6 +93,8 @@ pub struct UnitEnd {
     pub m_to_c: ProcessImageWriter<UnitHeader>,
     /// Data from the CPU Unit to the master.
     pub c_to_m: ProcessImageReader<CpuHeader>,
+    /// NX messages.
+    pub messages: UnitMessages,
 }
 
 /// The CPU Unit's end of the NX bus.
@@ -97,6 +108,8 @@ pub struct CpuEnd {
     pub c_to_m: ProcessImageWriter<CpuHeader>,
     /// Where the entries lie in it.
     pub c_to_m_layout: ImageLayout,
+    /// NX messages.
+    pub messages: CpuMessages,
 }
 
 /// The NX bus of one unit with this I/O allocation.
@@ -106,8 +119,9 @@ pub fn connect(allocation: &IoAllocation) -> (UnitEnd, CpuEnd) {
     let c_to_m_layout = allocation.layout(Direction::CToM);
     let (unit_writes, cpu_reads) = ProcessImage::split(UnitHeader::default(), m_to_c_layout.size_bytes());
     let (cpu_writes, unit_reads) = ProcessImage::split(CpuHeader::default(), c_to_m_layout.size_bytes());
-    let unit = UnitEnd { m_to_c: unit_writes, c_to_m: unit_reads };
-    (unit, CpuEnd { m_to_c: cpu_reads, m_to_c_layout, c_to_m: cpu_writes, c_to_m_layout })
+    let (unit_answers, messages) = messages::connect();
+    let unit = UnitEnd { m_to_c: unit_writes, c_to_m: unit_reads, messages: unit_answers };
+    (unit, CpuEnd { m_to_c: cpu_reads, m_to_c_layout, c_to_m: cpu_writes, c_to_m_layout, messages })
 }
 
 #[cfg(test)]

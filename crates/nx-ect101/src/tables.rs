@@ -209,7 +209,7 @@ impl PdoRow {
 }
 
 /// A name of the manual for the entry at `place` of a run, counted from 1.
-fn expand(pattern: &str, place: u8) -> String {
+pub(crate) fn expand(pattern: &str, place: u8) -> String {
     pattern
         .replace("{n:02d}", &format!("{place:02}"))
         .replace("{n}", &place.to_string())

@@ -1,78 +1,35 @@
 //! The unit itself: objects, mapping and refresh behind the slave stack.
 
+mod memory;
+
 use device::{Exchange, ProcessDataAreas, Unit};
 use objects::ObjectServer;
 use time::{Duration, Instant};
 use wire::{AlState, AlStatusCode};
 
-use crate::allocation::{ImageLayout, IoAllocation};
+use crate::allocation::ImageLayout;
 use crate::data_sets::Direction;
 use crate::dictionary::UnitObjects;
 use crate::exchange::{self, ExchangePlan, StatusToMaster};
 use crate::finding::Finding;
-use crate::identification::Identification;
-use crate::nx_bus::{self, CpuEnd, UnitEnd, UnitHeader};
+use crate::memory::MemoryAtPowerOn;
+use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd, UnitHeader};
+use crate::nx_server;
 use crate::pdo_settings::PdoSettings;
 use crate::rules;
+use crate::settings::UnitSettings;
 use crate::status::{NxUnitStatus, SlaveStatus};
-use crate::timing::Timing;
-use crate::unit_file::UnitFile;
 
-/// How one unit is set up, on its case and by its support software.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitSettings {
-    /// Serial number, object 1018:04.
-    pub serial: u32,
-    /// ID switch, 0x00 to 0xFF. 0x00: the ID is set by software.
-    pub id_switch: u8,
-    /// ID set by software, in force while the ID switch is at 0x00; 0: none.
-    pub software_id: u16,
-    /// Whether the unit takes the times that the manual gives.
-    pub timing: Timing,
-    /// I/O allocation of the CPU Unit.
-    pub io_allocation: IoAllocation,
-}
-
-impl UnitSettings {
-    /// The settings of a unit file; what it leaves out has the value of [`UnitSettings::default`].
-    #[must_use]
-    pub fn from_unit_file(file: &UnitFile) -> Self {
-        Self {
-            serial: file.serial.value,
-            id_switch: file.id_switch.value,
-            software_id: 0,
-            timing: file.timing.value,
-            io_allocation: file.io_allocation(),
-        }
-    }
-
-    /// The Explicit Device ID at power-on: the ID switch, or the software ID while it is at 0x00; 0: none.
-    #[must_use]
-    pub fn explicit_device_id(&self) -> u16 {
-        let id = Identification::at_power_on(self.id_switch, self.software_id);
-        id.explicit_device_id().unwrap_or(0)
-    }
-}
-
-impl Default for UnitSettings {
-    /// The factory setting with the ID switch at 0x01, as in the manual's example (A-1-2).
-    fn default() -> Self {
-        Self {
-            serial: 1,
-            id_switch: 0x01,
-            software_id: 0,
-            timing: Timing::Exact,
-            io_allocation: IoAllocation::factory(),
-        }
-    }
-}
+use memory::KeptMemory;
 
 /// An NX-ECT101 in operation.
 #[derive(Debug)]
 pub struct NxEct101 {
+    /// As set now; the ID switch is looked at when the unit starts.
+    settings: UnitSettings,
+    memory: KeptMemory,
     objects: UnitObjects,
     bus: UnitEnd,
-    io: IoAllocation,
     /// What the setting rules found in the I/O allocation at power-on; anything keeps I/O refreshing from
     /// starting, EtherCAT goes on (manual, 8-3-4).
     io_findings: Vec<Finding>,
@@ -87,23 +44,30 @@ pub struct NxEct101 {
     m_to_c: Vec<u8>,
     period: Duration,
     status: SlaveStatus,
+    nx_unit_status: NxUnitStatus,
 }
 
 impl NxEct101 {
-    /// Turns a unit on; the other value is the CPU Unit's end of its NX bus. All memory that the unit ever
-    /// uses is allocated here.
+    /// Turns a unit on for the first time; the other value is the CPU Unit's end of its NX bus.
     #[must_use]
     pub fn power_on(settings: &UnitSettings) -> (Self, CpuEnd) {
+        Self::power_on_with(settings, MemoryAtPowerOn::Factory)
+    }
+
+    /// Turns a unit on that finds this in its non-volatile memory. The slave stack around it gets its EEPROM
+    /// from [`NxEct101::memory`]. All memory that the unit ever uses is allocated here.
+    #[must_use]
+    pub fn power_on_with(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, CpuEnd) {
         let (bus, cpu_end) = nx_bus::connect(&settings.io_allocation);
+        let (memory, identification) = KeptMemory::power_on(settings, memory);
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
-        let identification = Identification::at_power_on(settings.id_switch, settings.software_id);
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let mut io_findings = Vec::new();
         rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
         let unit = Self {
-            objects: UnitObjects::power_on(settings.serial, identification, period),
+            objects: UnitObjects::power_on(memory.contents().serial(), identification, period),
+            memory,
             bus,
-            io: settings.io_allocation.clone(),
             io_findings,
             pdo: PdoSettings::factory(),
             pdo_findings: Vec::with_capacity(rules::MAX_FINDINGS),
@@ -113,6 +77,8 @@ impl NxEct101 {
             plan: ExchangePlan::empty(),
             period,
             status: SlaveStatus::default(),
+            nx_unit_status: NxUnitStatus::default(),
+            settings: settings.clone(),
         };
         (unit, cpu_end)
     }
@@ -123,15 +89,55 @@ impl NxEct101 {
         self.status
     }
 
+    /// NX Unit Status as the master was last told.
+    #[must_use]
+    pub fn nx_unit_status(&self) -> NxUnitStatus {
+        self.nx_unit_status
+    }
+
     /// What the setting rules found: in the I/O allocation at power-on, then in the mapping when the master last
     /// asked for SAFE-OP.
     pub fn findings(&self) -> impl Iterator<Item = &Finding> {
         self.io_findings.iter().chain(&self.pdo_findings)
     }
 
-    /// Whether the I/O allocation lets I/O be refreshed.
+    /// Turns the ID switch. The unit looks at it when it starts again (manual, 3-3).
+    pub const fn set_id_switch(&mut self, id_switch: u8) {
+        self.settings.id_switch = id_switch;
+    }
+
+    /// Whether the I/O allocation and the unit's own health let I/O be refreshed.
     fn io_is_refreshed(&self) -> bool {
-        self.io_findings.is_empty()
+        self.io_findings.is_empty() && !self.memory.is_damaged()
+    }
+
+    /// Answers the NX messages that have come. What they change shows in the same refresh.
+    fn answer_messages(&mut self) {
+        let (objects, serial) = (&mut self.objects, self.memory.contents().serial());
+        self.bus.messages.answer(|request| nx_server::answer(request, serial, &mut objects.messages));
+    }
+
+    /// Works out the status words of both sides (manual, 6-3-2 and 7-5-5).
+    fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader) {
+        let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
+        let refreshing = cpu.refreshing && self.io_is_refreshed();
+        let messages = &self.objects.messages;
+        self.status = SlaveStatus {
+            sdo_enabled: process_data || exchange.state == AlState::PreOp,
+            m_to_c_valid: refreshing && exchange.outputs.is_some(),
+            c_to_m_valid: refreshing && process_data,
+            in_port_link: exchange.links.in_port,
+            out_port_link: exchange.links.out_port,
+            new_message: messages.m_to_c.has_new(),
+            ready_to_write_message: messages.c_to_m.is_ready(),
+        };
+        self.nx_unit_status = NxUnitStatus {
+            nx_messages_enabled: cpu.messages_enabled,
+            c_to_m_valid: self.status.c_to_m_valid,
+            m_to_c_valid: self.status.m_to_c_valid,
+            new_message: messages.c_to_m.has_new(),
+            ready_to_write_message: messages.m_to_c.is_ready(),
+        };
     }
 
     /// Takes in outputs and tells the status to the CPU Unit.
@@ -150,12 +156,7 @@ impl NxEct101 {
         if self.io_is_refreshed() {
             exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
         }
-        let nx_unit = NxUnitStatus {
-            c_to_m_valid: self.status.c_to_m_valid,
-            m_to_c_valid: self.status.m_to_c_valid,
-            ..NxUnitStatus::default()
-        };
-        let status = StatusToMaster { nx_unit, ..StatusToMaster::default() };
+        let status = StatusToMaster { nx_unit: self.nx_unit_status, ..StatusToMaster::default() };
         exchange::put_status(&self.plan.status, status, inputs);
     }
 }
@@ -176,7 +177,12 @@ impl Unit for NxEct101 {
     fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
         self.pdo.follow(&self.objects.mapping);
         self.pdo_findings.clear();
-        rules::check_at_safe_op(&self.io, &self.pdo, &self.io_findings, &mut self.pdo_findings);
+        rules::check_at_safe_op(
+            &self.settings.io_allocation,
+            &self.pdo,
+            &self.io_findings,
+            &mut self.pdo_findings,
+        );
         // All are recorded, the first tells the master. A mismatch has no AL status code: it stops nothing.
         if let Some(code) = self.pdo_findings.iter().find_map(Finding::al_status_code) {
             return Err(code);
@@ -185,6 +191,18 @@ impl Unit for NxEct101 {
         // What the new mapping does not exchange has its default value again.
         self.m_to_c.fill(0);
         Ok(())
+    }
+
+    fn fault(&self) -> Option<AlStatusCode> {
+        self.memory.al_status_code()
+    }
+
+    fn restart(&mut self, _now: Instant, sii_image: &mut [u8]) {
+        let identification = self.memory.restart(&self.settings, self.objects.identification, sii_image);
+        let serial = self.memory.contents().serial();
+        self.objects = UnitObjects::power_on(serial, identification, self.period);
+        self.pdo_findings.clear();
+        self.m_to_c.fill(0);
     }
 
     fn entered(&mut self, _now: Instant, state: AlState) {
@@ -198,16 +216,16 @@ impl Unit for NxEct101 {
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
         let cpu = self.bus.c_to_m.newest().header;
         self.objects.system_time_ns = cpu.system_time_ns;
-        let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
-        let refreshing = cpu.refreshing && self.io_is_refreshed();
-        self.status = SlaveStatus {
-            sdo_enabled: process_data || exchange.state == AlState::PreOp,
-            m_to_c_valid: refreshing && exchange.outputs.is_some(),
-            c_to_m_valid: refreshing && process_data,
-            ..self.status
-        };
+        self.answer_messages();
+        self.update_status(&exchange, cpu);
         self.refresh_m_to_c(exchange.outputs);
         self.refresh_c_to_m(exchange.inputs);
+        // Only now, so that no flag is older than a response that the CPU Unit has got.
+        self.bus.messages.send();
+    }
+
+    fn take_status_change(&mut self) -> bool {
+        self.objects.take_message_change()
     }
 
     fn explicit_device_id(&self) -> Option<u16> {

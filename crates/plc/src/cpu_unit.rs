@@ -92,14 +92,18 @@ impl CpuUnit {
         self.deadline
     }
 
-    /// One task period: takes in the newest data M to C, runs the user program in RUN mode, hands over the
-    /// data C to M. Periods keep their phase; those that were missed by `now` are left out.
+    /// One task period: first the I/O refresh, which hands over the data C to M that the last scan left and
+    /// takes in the newest data M to C, then the user program in RUN mode. So what a program makes of its
+    /// inputs goes out one task period later: the 2 T_cpu of the I/O response time (manual, 7-9-1).
+    ///
+    /// Periods keep their phase; those that were missed by `now` are left out.
     pub fn cycle(&mut self, now: Instant) {
+        self.refresh_outputs(now);
         self.refresh_inputs();
         if self.mode == OperatingMode::Run {
             self.program.scan(&mut self.io);
         }
-        self.refresh_outputs(now);
+        self.io.nx_objects.send(&mut self.bus.messages);
         let late = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
         self.deadline += self.task_period * (late + 1);
     }
@@ -128,6 +132,8 @@ impl CpuUnit {
     }
 
     fn refresh_inputs(&mut self) {
+        // Responses first: then no flag is older than a response.
+        self.io.nx_objects.receive(&mut self.bus.messages);
         let image = self.bus.m_to_c.newest();
         self.io.header = image.header;
         self.io.m_to_c.copy_from_slice(image.bytes());
@@ -136,7 +142,8 @@ impl CpuUnit {
     fn refresh_outputs(&mut self, now: Instant) {
         let running_ns = now.saturating_since(self.powered_on).as_nanos();
         let system_time_ns = self.system_time_ns.map_or(0, |start_ns| start_ns.saturating_add(running_ns));
-        self.bus.c_to_m.publish(CpuHeader { refreshing: true, system_time_ns }, &self.io.c_to_m);
+        let header = CpuHeader { refreshing: true, messages_enabled: true, system_time_ns };
+        self.bus.c_to_m.publish(header, &self.io.c_to_m);
     }
 }
 

@@ -5,6 +5,8 @@ use core::ops::Range;
 use nx_ect101::nx_bus::UnitHeader;
 use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
 
+use crate::nx_object_client::NxObjectClient;
+
 /// A user program.
 pub trait Program {
     /// Runs once in a task period.
@@ -23,6 +25,7 @@ pub struct Io {
     pub(crate) m_to_c: Vec<u8>,
     pub(crate) c_to_m: Vec<u8>,
     pub(crate) header: UnitHeader,
+    pub(crate) nx_objects: NxObjectClient,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
 }
@@ -33,6 +36,7 @@ impl Io {
             m_to_c: vec![0; m_to_c_layout.size_bytes()],
             c_to_m: vec![0; c_to_m_layout.size_bytes()],
             header: UnitHeader::default(),
+            nx_objects: NxObjectClient::default(),
             m_to_c_layout,
             c_to_m_layout,
         }
@@ -110,6 +114,12 @@ impl Io {
     #[must_use]
     pub fn c_to_m_mut(&mut self) -> &mut [u8] {
         &mut self.c_to_m
+    }
+
+    /// Reads and writes NX objects of the unit.
+    #[must_use]
+    pub const fn nx_objects(&mut self) -> &mut NxObjectClient {
+        &mut self.nx_objects
     }
 
     /// EtherCAT Slave Status of the unit.

@@ -6,7 +6,13 @@
 mod cpu_unit;
 mod echo;
 mod io;
+mod message_echo;
+mod nx_object_client;
 
 pub use cpu_unit::{CpuSettings, CpuUnit, OperatingMode};
 pub use echo::Echo;
 pub use io::{Io, Program};
+pub use message_echo::MessageEcho;
+pub use nx_ect101::nx_bus::{NxMessageError, NxValue};
+pub use nx_ect101::{ObjectIndex, SubIndex};
+pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};

@@ -144,7 +144,7 @@ fn counting(length_bytes: usize) -> Vec<u8> {
 fn the_factory_setting_goes_to_op_and_echoes() {
     let mut bench = Bench::power_on(IoAllocation::factory()).into_pre_op().into_op(180, 183);
     let inputs = bench.exchange(&counting(180), 183);
-    assert_eq!(inputs, [&[0x16, 0x00][..], &counting(180), &[0]].concat());
+    assert_eq!(inputs, [&[0x17, 0x00][..], &counting(180), &[0]].concat());
 }
 
 #[test]
@@ -158,7 +158,7 @@ fn the_largest_mapping_goes_to_op_and_echoes() {
     bench.download_complete(0x1C13, &[4, 0, 0x00, 0x1A, 0x01, 0x1A, 0xFE, 0x1B, 0xFF, 0x1B]);
     let mut bench = bench.into_op(1200, 1204);
     let inputs = bench.exchange(&counting(1200), 1204);
-    assert_eq!(inputs, [&[0x16, 0x00][..], &counting(1200), &[0, 0]].concat());
+    assert_eq!(inputs, [&[0x17, 0x00][..], &counting(1200), &[0, 0]].concat());
 }
 
 #[test]

@@ -1,27 +1,31 @@
 //! The unit between a master's SyncManagers and a CPU Unit's NX bus, without either.
 
+use device::PortLinks;
 use wire::{ObjectIndex, SubIndex};
 
 use super::*;
-use crate::allocation::IoEntry;
 use crate::allocation::tests::symmetric;
+use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::DataSetKind;
 use crate::mapping::tests::set;
-use crate::nx_bus::CpuHeader;
+use crate::timing::Timing;
+use crate::unit_file::UnitFile;
 
 const NOW: Instant = Instant::ZERO;
-const REFRESHING: CpuHeader = CpuHeader { refreshing: true, system_time_ns: 1_700_000_000_000_000_000 };
+const REFRESHING: CpuHeader =
+    CpuHeader { refreshing: true, messages_enabled: true, system_time_ns: 1_700_000_000_000_000_000 };
 
 struct Bench {
     unit: NxEct101,
     cpu: CpuEnd,
     inputs: Vec<u8>,
+    links: PortLinks,
 }
 
 impl Bench {
     fn power_on(settings: &UnitSettings) -> Self {
         let (unit, cpu) = NxEct101::power_on(settings);
-        Self { unit, cpu, inputs: Vec::new() }
+        Self { unit, cpu, inputs: Vec::new(), links: PortLinks::default() }
     }
 
     fn factory() -> Self {
@@ -35,7 +39,7 @@ impl Bench {
     }
 
     fn refresh(&mut self, state: AlState, outputs: Option<&[u8]>) {
-        self.unit.refresh(NOW, Exchange { state, outputs, inputs: &mut self.inputs });
+        self.unit.refresh(NOW, Exchange { state, links: self.links, outputs, inputs: &mut self.inputs });
     }
 }
 
@@ -49,7 +53,7 @@ fn data_goes_both_ways_in_op() {
     let image = bench.cpu.m_to_c.newest();
     assert_eq!(image.bytes(), outputs);
     assert_eq!((image.header.status.bits(), image.header.io_data_active), (0x0207, true));
-    let expected = [&[0x16, 0x00][..], &[0xA5; 180], &[0x00]].concat();
+    let expected = [&[0x17, 0x00][..], &[0xA5; 180], &[0x00]].concat();
     assert_eq!(bench.inputs, expected);
 }
 
@@ -62,10 +66,10 @@ fn the_valid_flags_follow_state_outputs_and_refreshing() {
         bench.refresh(state, outputs);
         (bench.unit.slave_status().bits(), bench.inputs[0])
     };
-    assert_eq!(status(true, AlState::SafeOp, None), (0x0205, 0x12));
-    assert_eq!(status(true, AlState::Op, None), (0x0205, 0x12));
-    assert_eq!(status(true, AlState::Op, Some(&[0; 180])), (0x0207, 0x16));
-    assert_eq!(status(false, AlState::Op, Some(&[0; 180])), (0x0201, 0x10));
+    assert_eq!(status(true, AlState::SafeOp, None), (0x0205, 0x13));
+    assert_eq!(status(true, AlState::Op, None), (0x0205, 0x13));
+    assert_eq!(status(true, AlState::Op, Some(&[0; 180])), (0x0207, 0x17));
+    assert_eq!(status(false, AlState::Op, Some(&[0; 180])), (0x0201, 0x11));
 }
 
 #[test]
@@ -196,3 +200,5 @@ fn a_wrong_io_allocation_keeps_io_from_being_refreshed_and_ethercat_goes_on() {
     assert!(!image.header.status.m_to_c_valid && !image.header.status.c_to_m_valid);
     assert!(bench.inputs[2..].iter().all(|&byte| byte == 0));
 }
+
+mod data;

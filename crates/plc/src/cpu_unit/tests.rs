@@ -1,6 +1,6 @@
 //! A CPU Unit and a unit in virtual time, each with its own period and phase.
 
-use device::{Exchange, Unit};
+use device::{Exchange, PortLinks, Unit};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
 use wire::AlState;
@@ -50,7 +50,15 @@ impl Bench {
                 self.cpu.cycle(now);
             } else {
                 let outputs = self.outputs.as_deref();
-                self.unit.refresh(now, Exchange { state: self.state, outputs, inputs: &mut self.inputs });
+                self.unit.refresh(
+                    now,
+                    Exchange {
+                        state: self.state,
+                        links: PortLinks::default(),
+                        outputs,
+                        inputs: &mut self.inputs,
+                    },
+                );
                 self.refresh_at = now + self.unit.refresh_period();
             }
         }
@@ -68,7 +76,7 @@ fn what_the_master_sends_comes_back() {
     bench.outputs = Some(sent.clone());
     bench.run_to_ms(5);
     assert_eq!(bench.inputs[2..182], sent);
-    assert_eq!(bench.inputs[..2], [0x16, 0x00], "both data valid, ready for a message");
+    assert_eq!(bench.inputs[..2], [0x17, 0x00], "both data valid, ready for a message");
 }
 
 #[test]
@@ -94,7 +102,7 @@ fn in_program_mode_the_exchange_goes_on_and_the_values_stay() {
     bench.outputs = Some(vec![2; 180]);
     bench.run_to_ms(10);
     assert_eq!(bench.inputs[2..182], [1; 180]);
-    assert_eq!(bench.inputs[0], 0x16, "the flags do not tell the mode");
+    assert_eq!(bench.inputs[0], 0x17, "the flags do not tell the mode");
     assert_eq!(bench.cpu.io().m_to_c(), [2; 180], "the inputs of the CPU Unit go on");
 }
 

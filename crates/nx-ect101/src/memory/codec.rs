@@ -1,0 +1,192 @@
+//! The bytes of a non-volatile memory, little endian: magic, version, length, contents, CRC-32 of all before it.
+
+use core::fmt;
+
+use arrayvec::ArrayVec;
+use crc::{CRC_32_ISO_HDLC, Crc};
+
+use super::{ErrorLog, LogLevel, LogRecord, NonVolatileMemory};
+use crate::events::EventCode;
+
+const MAGIC: &[u8; 8] = b"ectwnvm\0";
+const VERSION: u16 = 1;
+const CHECKSUM_BYTES: usize = 4;
+/// Largest EEPROM that an SII size word can tell.
+const SII_BYTES_MAX: usize = 8 << 20;
+/// First subindex of object 10F3 that is a record.
+const FIRST_RECORD: u8 = 0x06;
+
+static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+/// Why bytes are no memory of a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damage {
+    /// They do not begin as a memory does.
+    NoMemory,
+    /// A version that this program does not know.
+    Version {
+        /// The version found.
+        version: u16,
+    },
+    /// They end too early, or go on too long.
+    Length {
+        /// The length found, in bytes.
+        length_bytes: usize,
+    },
+    /// The checksum is wrong.
+    Checksum,
+    /// The checksum is right and the contents make no sense.
+    Contents,
+}
+
+impl fmt::Display for Damage {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoMemory => formatter.write_str("not the memory of a unit"),
+            Self::Version { version } => write!(formatter, "version {version}, expected {VERSION}"),
+            Self::Length { length_bytes } => {
+                write!(formatter, "{length_bytes} bytes are not its whole length")
+            }
+            Self::Checksum => formatter.write_str("wrong checksum"),
+            Self::Contents => formatter.write_str("contents that no unit has stored"),
+        }
+    }
+}
+
+impl core::error::Error for Damage {}
+
+impl NonVolatileMemory {
+    /// Writes the memory into `bytes`, in place of what was there.
+    pub fn encode_into(&self, bytes: &mut Vec<u8>) {
+        bytes.clear();
+        bytes.extend_from_slice(MAGIC);
+        bytes.extend_from_slice(&VERSION.to_le_bytes());
+        let length_at = bytes.len();
+        bytes.extend_from_slice(&[0; 4]);
+        bytes.extend_from_slice(&self.file_serial.to_le_bytes());
+        bytes.extend_from_slice(&self.software_id.to_le_bytes());
+        bytes.extend_from_slice(&(self.sii_image.len() as u32).to_le_bytes());
+        bytes.extend_from_slice(&self.sii_image);
+        put_log(&self.error_log, bytes);
+        let length_bytes = (bytes.len() + CHECKSUM_BYTES) as u32;
+        bytes[length_at..length_at + 4].copy_from_slice(&length_bytes.to_le_bytes());
+        bytes.extend_from_slice(&CHECKSUM.checksum(bytes).to_le_bytes());
+    }
+
+    /// Reads what [`NonVolatileMemory::encode_into`] has written.
+    ///
+    /// # Errors
+    /// What is wrong with the bytes.
+    pub fn decode(bytes: &[u8]) -> Result<Self, Damage> {
+        let length_bytes = bytes.len();
+        let too_short = Damage::Length { length_bytes };
+        let (body, checksum) = bytes.split_last_chunk::<CHECKSUM_BYTES>().ok_or(too_short)?;
+        let mut reader = Reader(body);
+        if reader.take::<8>().ok_or(too_short)? != *MAGIC {
+            return Err(Damage::NoMemory);
+        }
+        let version = reader.u16().ok_or(too_short)?;
+        if version != VERSION {
+            return Err(Damage::Version { version });
+        }
+        if reader.u32().ok_or(too_short)? as usize != length_bytes {
+            return Err(too_short);
+        }
+        if CHECKSUM.checksum(body) != u32::from_le_bytes(*checksum) {
+            return Err(Damage::Checksum);
+        }
+        reader.memory().filter(|_| reader.0.is_empty()).ok_or(Damage::Contents)
+    }
+}
+
+fn put_log(log: &ErrorLog, bytes: &mut Vec<u8>) {
+    bytes.extend_from_slice(&[log.newest, u8::from(log.acknowledged), log.system.len() as u8]);
+    log.system.iter().for_each(|record| put_record(record, bytes));
+    bytes.push(log.access.len() as u8);
+    log.access.iter().for_each(|record| put_record(record, bytes));
+}
+
+fn put_record(record: &LogRecord, bytes: &mut Vec<u8>) {
+    bytes.extend_from_slice(&record.event.0.to_le_bytes());
+    bytes.extend_from_slice(&record.time_ns.to_le_bytes());
+    let level = match record.level {
+        LogLevel::MinorFault => 0,
+        LogLevel::Observation => 1,
+        LogLevel::Information => 2,
+    };
+    bytes.extend_from_slice(&[level, record.details.len() as u8]);
+    record.details.iter().for_each(|detail| bytes.extend_from_slice(&detail.to_le_bytes()));
+}
+
+/// What has not been read yet. Everything is none where it ends too early or makes no sense.
+struct Reader<'a>(&'a [u8]);
+
+impl Reader<'_> {
+    fn memory(&mut self) -> Option<NonVolatileMemory> {
+        let (file_serial, software_id) = (self.u32()?, self.u16()?);
+        let sii_bytes = usize::try_from(self.u32()?).ok().filter(|&bytes| bytes <= SII_BYTES_MAX)?;
+        let (sii_image, rest) = self.0.split_at_checked(sii_bytes)?;
+        let sii_image = sii_image.to_vec();
+        self.0 = rest;
+        Some(NonVolatileMemory { file_serial, software_id, sii_image, error_log: self.log()? })
+    }
+
+    fn log(&mut self) -> Option<ErrorLog> {
+        let newest = self.u8()?;
+        let acknowledged = self.bool()?;
+        let log = ErrorLog { newest, acknowledged, system: self.records()?, access: self.records()? };
+        let is_record =
+            newest.checked_sub(FIRST_RECORD).is_some_and(|place| usize::from(place) < log.system.len());
+        (newest == 0 && log.system.is_empty() || is_record).then_some(log)
+    }
+
+    fn records<const MAX: usize>(&mut self) -> Option<ArrayVec<LogRecord, MAX>> {
+        let count = usize::from(self.u8()?);
+        let mut records = ArrayVec::new();
+        for _ in 0..count {
+            records.try_push(self.record()?).ok()?;
+        }
+        Some(records)
+    }
+
+    fn record(&mut self) -> Option<LogRecord> {
+        let (event, time_ns) = (EventCode(self.u32()?), u64::from_le_bytes(self.take()?));
+        let level = match self.u8()? {
+            0 => LogLevel::MinorFault,
+            1 => LogLevel::Observation,
+            2 => LogLevel::Information,
+            _ => return None,
+        };
+        let mut details = ArrayVec::new();
+        for _ in 0..self.u8()? {
+            details.try_push(self.u32()?).ok()?;
+        }
+        Some(LogRecord { event, level, time_ns, details })
+    }
+
+    fn bool(&mut self) -> Option<bool> {
+        match self.u8()? {
+            0 => Some(false),
+            1 => Some(true),
+            _ => None,
+        }
+    }
+
+    fn u8(&mut self) -> Option<u8> {
+        self.take().map(u8::from_le_bytes)
+    }
+
+    fn u16(&mut self) -> Option<u16> {
+        self.take().map(u16::from_le_bytes)
+    }
+
+    fn u32(&mut self) -> Option<u32> {
+        self.take().map(u32::from_le_bytes)
+    }
+
+    fn take<const BYTES: usize>(&mut self) -> Option<[u8; BYTES]> {
+        let (bytes, rest) = self.0.split_first_chunk()?;
+        self.0 = rest;
+        Some(*bytes)
+    }
+}

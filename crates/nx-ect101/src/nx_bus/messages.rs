@@ -1,0 +1,220 @@
+//! NX messages: the requests by which the CPU Unit reads and writes objects of the unit, and their responses.
+//!
+//! Two bounded queues between two threads; neither end ever waits. The unit answers when it refreshes. It
+//! publishes its image before it sends the responses, and the CPU Unit takes responses before it takes the
+//! image: so no flag that a user program sees is older than a response that it has got.
+
+use core::fmt;
+use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
+
+use arrayvec::ArrayVec;
+use wire::{ObjectIndex, SubIndex};
+
+use crate::messages::MESSAGE_BYTES;
+
+/// Most requests that wait for their responses.
+pub const REQUESTS_MAX: usize = 8;
+
+/// The value of an NX object, little endian, at most 200 bytes.
+pub type NxValue = ArrayVec<u8, MESSAGE_BYTES>;
+
+/// What the CPU Unit asks of an object.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NxRequest {
+    /// Comes back with the response.
+    pub number: u32,
+    /// Index of the NX object.
+    pub index: ObjectIndex,
+    /// Its subindex.
+    pub sub: SubIndex,
+    /// What is written; none: the object is read.
+    pub value: Option<NxValue>,
+}
+
+/// What the unit answers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NxResponse {
+    /// The number of the request.
+    pub number: u32,
+    /// The value that was read, empty after a write; or why not.
+    pub result: Result<NxValue, NxMessageError>,
+}
+
+/// Why a request is refused. The manual gives no numbers for it, so there are none here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NxMessageError {
+    /// The unit has no such object.
+    ObjectDoesNotExist,
+    /// The object has no such subindex.
+    SubindexDoesNotExist,
+    /// Objects that accept I/O allocations are not accessible by message (manual, A-7-3).
+    NotAccessibleByMessage,
+    /// The object cannot be written.
+    ReadOnly,
+    /// The value has another length than the object.
+    LengthMismatch {
+        /// Length of the object in bytes.
+        expected_bytes: usize,
+    },
+    /// The master has not read the last message; it stays as it is (manual, A-5-3).
+    NotReady,
+    /// The unit has no power.
+    NotReachable,
+}
+
+impl fmt::Display for NxMessageError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::ObjectDoesNotExist => "the object does not exist",
+            Self::SubindexDoesNotExist => "the subindex does not exist",
+            Self::NotAccessibleByMessage => "the object is accessible by I/O allocation only",
+            Self::ReadOnly => "the object is read-only",
+            Self::LengthMismatch { expected_bytes } => {
+                return write!(formatter, "the object has {expected_bytes} bytes");
+            }
+            Self::NotReady => "the last message has not been read yet",
+            Self::NotReachable => "the unit does not answer",
+        })
+    }
+}
+
+impl core::error::Error for NxMessageError {}
+
+/// Why a request was not sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotSent {
+    /// Too many wait already; later it can be sent.
+    Full,
+    /// The unit has no power.
+    NotReachable,
+}
+
+/// The CPU Unit's end: it asks.
+#[derive(Debug)]
+pub struct CpuMessages {
+    requests: SyncSender<NxRequest>,
+    responses: Receiver<NxResponse>,
+}
+
+impl CpuMessages {
+    /// Sends a request, without waiting.
+    ///
+    /// # Errors
+    /// [`REQUESTS_MAX`] requests wait, or the unit has no power.
+    pub fn send(&mut self, request: NxRequest) -> Result<(), NotSent> {
+        self.requests.try_send(request).map_err(|error| match error {
+            TrySendError::Full(_) => NotSent::Full,
+            TrySendError::Disconnected(_) => NotSent::NotReachable,
+        })
+    }
+
+    /// The next response that has come; none if there is none yet.
+    ///
+    /// # Errors
+    /// [`NxMessageError::NotReachable`] when the unit has no power and none comes any more.
+    pub fn receive(&mut self) -> Result<Option<NxResponse>, NxMessageError> {
+        match self.responses.try_recv() {
+            Ok(response) => Ok(Some(response)),
+            Err(TryRecvError::Empty) => Ok(None),
+            Err(TryRecvError::Disconnected) => Err(NxMessageError::NotReachable),
+        }
+    }
+}
+
+/// The unit's end: it answers.
+#[derive(Debug)]
+pub struct UnitMessages {
+    requests: Receiver<NxRequest>,
+    responses: SyncSender<NxResponse>,
+    /// Responses that are not to be seen before the image that goes with them.
+    held: ArrayVec<NxResponse, REQUESTS_MAX>,
+}
+
+impl UnitMessages {
+    /// Answers what has come in, oldest first, and holds the responses back. Tells whether there was anything.
+    pub(crate) fn answer(
+        &mut self,
+        mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>,
+    ) -> bool {
+        while !self.held.is_full() {
+            let Ok(request) = self.requests.try_recv() else { break };
+            self.held.push(NxResponse { number: request.number, result: answer(&request) });
+        }
+        !self.held.is_empty()
+    }
+
+    /// Sends the responses. What the CPU Unit has no room for yet stays and keeps its order.
+    pub(crate) fn send(&mut self) {
+        while !self.held.is_empty() {
+            match self.responses.try_send(self.held.remove(0)) {
+                Ok(()) => {}
+                Err(TrySendError::Full(response)) => return self.held.insert(0, response),
+                Err(TrySendError::Disconnected(_)) => return self.held.clear(),
+            }
+        }
+    }
+}
+
+/// Both ends. All memory that they ever use is allocated here.
+pub(super) fn connect() -> (UnitMessages, CpuMessages) {
+    let (ask, requests) = sync_channel(REQUESTS_MAX);
+    let (responses, hear) = sync_channel(REQUESTS_MAX);
+    let unit = UnitMessages { requests, responses, held: ArrayVec::new() };
+    (unit, CpuMessages { requests: ask, responses: hear })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(number: u32) -> NxRequest {
+        NxRequest { number, index: ObjectIndex(0x5000), sub: SubIndex(1), value: None }
+    }
+
+    fn echo(request: &NxRequest) -> Result<NxValue, NxMessageError> {
+        Ok(request.number.to_le_bytes().into_iter().collect())
+    }
+
+    fn received(cpu: &mut CpuMessages) -> Vec<u32> {
+        std::iter::from_fn(|| cpu.receive().expect("under power")).map(|response| response.number).collect()
+    }
+
+    #[test]
+    fn a_response_is_not_seen_before_it_is_sent() {
+        let (mut unit, mut cpu) = connect();
+        cpu.send(request(1)).expect("room");
+        assert!(unit.answer(echo));
+        assert_eq!(cpu.receive(), Ok(None));
+        unit.send();
+        assert_eq!(received(&mut cpu), [1]);
+        assert!(!unit.answer(echo));
+    }
+
+    #[test]
+    fn full_queues_lose_nothing_and_keep_the_order() {
+        let (mut unit, mut cpu) = connect();
+        let limit = REQUESTS_MAX as u32;
+        for round in 0..3 {
+            for number in 0..limit {
+                assert_eq!(cpu.send(request(round * limit + number)), Ok(()));
+            }
+            assert_eq!(cpu.send(request(99)), Err(NotSent::Full));
+            assert!(unit.answer(echo));
+            unit.send();
+        }
+        assert_eq!(received(&mut cpu), (0..limit).collect::<Vec<_>>());
+        unit.send();
+        assert_eq!(received(&mut cpu), (limit..2 * limit).collect::<Vec<_>>());
+        unit.answer(echo);
+        unit.send();
+        assert_eq!(received(&mut cpu), (2 * limit..3 * limit).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_unit_without_power_is_not_reachable() {
+        let (unit, mut cpu) = connect();
+        drop(unit);
+        assert_eq!(cpu.send(request(1)), Err(NotSent::NotReachable));
+        assert_eq!(cpu.receive(), Err(NxMessageError::NotReachable));
+    }
+}

@@ -1,0 +1,114 @@
+//! What of the unit outlives power-off, and when it has to be stored.
+
+use wire::AlStatusCode;
+
+use crate::events::{Event, EventCode};
+use crate::identification::Identification;
+use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
+use crate::settings::UnitSettings;
+use crate::unit::NxEct101;
+
+/// Non-volatile Memory Hardware Error.
+const DAMAGED: EventCode = EventCode(0x0020_0000);
+
+/// The memory of a unit under power.
+#[derive(Debug)]
+pub(super) struct KeptMemory {
+    contents: NonVolatileMemory,
+    is_damaged: bool,
+    /// It differs from what is stored.
+    is_unsaved: bool,
+    /// The EEPROM writes of the wire that `contents` knows of.
+    sii_words_seen: u32,
+}
+
+impl KeptMemory {
+    /// Reads the memory and samples the ID.
+    pub(super) fn power_on(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, Identification) {
+        let (is_damaged, is_unsaved) =
+            (memory == MemoryAtPowerOn::Damaged, memory == MemoryAtPowerOn::Factory);
+        let contents = match memory {
+            MemoryAtPowerOn::Stored(contents) => *contents,
+            MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => NonVolatileMemory::factory(settings),
+        };
+        let mut kept = Self { contents, is_damaged, is_unsaved, sii_words_seen: 0 };
+        let identification = kept.start(settings);
+        (kept, identification)
+    }
+
+    /// Starts again: what a master has set in the EEPROM counts now, and goes back into it as the unit leaves it.
+    pub(super) fn restart(
+        &mut self,
+        settings: &UnitSettings,
+        mut identification: Identification,
+        sii_image: &mut [u8],
+    ) -> Identification {
+        self.take_over(&mut identification, Some(sii_image));
+        let identification = self.start(settings);
+        if sii_image.len() == self.contents.sii_image().len() {
+            sii_image.copy_from_slice(self.contents.sii_image());
+        }
+        identification
+    }
+
+    fn start(&mut self, settings: &UnitSettings) -> Identification {
+        let identification = Identification::at_power_on(settings.id_switch, self.contents.software_id());
+        // Comparing is for the start only: it costs an image.
+        let before = self.contents.clone();
+        self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
+        self.is_unsaved |= before != self.contents;
+        identification
+    }
+
+    /// Takes over the software ID, and the EEPROM where the wire has written it.
+    fn take_over(&mut self, identification: &mut Identification, sii_image: Option<&[u8]>) {
+        if let Some(image) = sii_image {
+            self.is_unsaved |= image != self.contents.sii_image();
+            if let Some(alias) = self.contents.follow_sii(image) {
+                identification.take_alias_of_sii(alias);
+            }
+        }
+        if identification.software() != self.contents.software_id() {
+            self.contents.set_software_id(identification.software());
+            self.is_unsaved = true;
+        }
+    }
+
+    pub(super) const fn contents(&self) -> &NonVolatileMemory {
+        &self.contents
+    }
+
+    pub(super) const fn is_damaged(&self) -> bool {
+        self.is_damaged
+    }
+
+    /// What the master reads of a damaged memory.
+    pub(super) fn al_status_code(&self) -> Option<AlStatusCode> {
+        self.is_damaged.then(|| Event::find(DAMAGED))?.and_then(|event| event.al_status_code)
+    }
+}
+
+impl NxEct101 {
+    /// The non-volatile memory.
+    #[must_use]
+    pub const fn memory(&self) -> &NonVolatileMemory {
+        self.memory.contents()
+    }
+
+    /// The event of a fault that was found at power-on, such as a damaged memory.
+    #[must_use]
+    pub fn fault_event(&self) -> Option<EventCode> {
+        self.memory.is_damaged().then_some(DAMAGED)
+    }
+
+    /// Takes over what has changed since the last call: the EEPROM of the controller, of which the wire has
+    /// written `sii_words_written` words so far, and the ID that was set by software. Tells whether
+    /// [`NxEct101::memory`] is to be stored now: never while it is damaged.
+    pub fn take_memory_change(&mut self, sii_image: &[u8], sii_words_written: u32) -> bool {
+        let memory = &mut self.memory;
+        let written = sii_words_written != memory.sii_words_seen;
+        memory.sii_words_seen = sii_words_written;
+        memory.take_over(&mut self.objects.identification, written.then_some(sii_image));
+        core::mem::replace(&mut memory.is_unsaved, false) && !memory.is_damaged
+    }
+}

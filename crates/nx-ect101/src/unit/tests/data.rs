@@ -1,0 +1,240 @@
+//! Status bits, messages, ID and memory of the unit.
+
+use wire::SdoAbort;
+
+use super::*;
+use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
+use crate::nx_bus::{NxMessageError, NxRequest, NxValue};
+
+impl Bench {
+    fn sdo_read(&mut self, index: u16, sub: u8) -> Vec<u8> {
+        let size_bytes = match index {
+            0x3000 | 0x3001 => 200,
+            0x1018 => 4,
+            _ => 2,
+        };
+        let mut value = vec![0; size_bytes];
+        let objects = self.unit.objects().expect("a unit with a mailbox");
+        objects.read(ObjectIndex(index), SubIndex(sub), &mut value).expect("readable");
+        value
+    }
+
+    fn sdo_write(&mut self, index: u16, sub: u8, value: &[u8]) -> Result<(), SdoAbort> {
+        let objects = self.unit.objects().expect("a unit with a mailbox");
+        objects.write(ObjectIndex(index), SubIndex(sub), value)
+    }
+
+    /// Lets the CPU Unit ask for one object; the answer comes with a refresh.
+    fn nx(&mut self, index: u16, value: Option<&[u8]>) -> Result<Vec<u8>, NxMessageError> {
+        let value = value.map(|value| value.iter().copied().collect::<NxValue>());
+        let request = NxRequest { number: 1, index: ObjectIndex(index), sub: SubIndex(1), value };
+        self.cpu.messages.send(request).expect("room");
+        assert_eq!(self.cpu.messages.receive(), Ok(None), "not before the refresh");
+        self.refresh(AlState::SafeOp, None);
+        let response = self.cpu.messages.receive().expect("under power").expect("answered");
+        response.result.map(|value| value.to_vec())
+    }
+
+    /// The message flags: NX 6003:01 bits 8 and 9, CoE 6003:04 and :05.
+    fn message_flags(&mut self) -> [bool; 4] {
+        self.refresh(AlState::SafeOp, None);
+        let status = self.cpu.m_to_c.newest().header.status.bits();
+        let inputs = self.inputs[0];
+        [status & 0x0100 != 0, status & 0x0200 != 0, inputs & 0x08 != 0, inputs & 0x10 != 0]
+    }
+}
+
+const IDLE: [bool; 4] = [false, true, false, true];
+
+#[test]
+fn the_links_are_told_to_the_cpu_unit() {
+    let mut bench = Bench::factory();
+    let mut status = |in_port, out_port| {
+        bench.links = PortLinks { in_port, out_port };
+        bench.refresh(AlState::Init, None);
+        bench.cpu.m_to_c.newest().header.status.bits()
+    };
+    assert_eq!(status(true, false), 0x0240);
+    assert_eq!(status(false, true), 0x0280);
+    assert_eq!(status(true, true), 0x02C0);
+    assert_eq!(status(false, false), 0x0200);
+}
+
+#[test]
+fn the_master_is_told_whether_the_cpu_unit_does_messages() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    for (messages_enabled, bit) in [(false, 0), (true, 1)] {
+        bench.cpu.c_to_m.publish(CpuHeader { messages_enabled, ..REFRESHING }, &[0; 180]);
+        bench.refresh(AlState::SafeOp, None);
+        assert_eq!(bench.inputs[0] & 1, bit);
+    }
+}
+
+#[test]
+fn a_message_goes_from_master_to_cpu_unit_by_its_handshake() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    assert_eq!(bench.message_flags(), IDLE);
+    assert_eq!(bench.sdo_write(0x3001, 1, &[1; 200]), Ok(()));
+    assert!(bench.unit.take_status_change() && !bench.unit.take_status_change());
+    assert_eq!(bench.message_flags(), [true, true, false, false]);
+    assert_eq!(bench.sdo_write(0x3001, 1, &[2; 200]), Err(SdoAbort::LOCAL_CONTROL));
+    assert!(!bench.unit.take_status_change());
+    assert_eq!(bench.sdo_read(0x3001, 1), [1; 200], "the master sees what it wrote");
+    assert_eq!(bench.nx(0x5000, None), Ok(vec![1; 200]));
+    assert_eq!(bench.message_flags(), IDLE);
+}
+
+#[test]
+fn a_message_goes_from_cpu_unit_to_master_by_its_handshake() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    assert_eq!(bench.nx(0x5001, Some(&[3; 200])), Ok(vec![]));
+    assert_eq!(bench.message_flags(), [false, false, true, true]);
+    assert_eq!(bench.nx(0x5001, Some(&[4; 200])), Err(NxMessageError::NotReady));
+    assert_eq!(bench.nx(0x5001, None), Ok(vec![3; 200]), "the CPU Unit sees what it wrote");
+    assert_eq!(bench.sdo_read(0x3000, 1), [3; 200]);
+    assert!(bench.unit.take_status_change());
+    assert_eq!(bench.message_flags(), IDLE);
+    assert_eq!(bench.sdo_read(0x3000, 1), [3; 200], "the last message stays to be read");
+    assert!(!bench.unit.take_status_change());
+}
+
+#[test]
+fn both_directions_are_apart() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    bench.sdo_write(0x3001, 1, &[5; 200]).expect("ready");
+    bench.nx(0x5001, Some(&[6; 200])).expect("ready");
+    assert_eq!(bench.message_flags(), [true, false, true, false]);
+    assert_eq!(bench.sdo_read(0x3000, 1), [6; 200]);
+    assert_eq!(bench.message_flags(), [true, true, false, false]);
+    assert_eq!(bench.nx(0x5000, None), Ok(vec![5; 200]));
+    assert_eq!(bench.message_flags(), IDLE);
+}
+
+#[test]
+fn no_flag_is_older_than_the_response_that_goes_with_it() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    bench.sdo_write(0x3001, 1, &[1; 200]).expect("ready");
+    bench.nx(0x5000, None).expect("a message");
+    let status = bench.cpu.m_to_c.newest().header.status;
+    assert!(!status.new_message, "in the refresh that has answered");
+    assert_eq!(bench.inputs[0] & 0x10, 0x10, "and so for the master");
+}
+
+#[test]
+fn what_is_set_in_pre_op_counts_from_the_next_safe_op_on() {
+    let mut bench = Bench::factory();
+    bench.enter_safe_op();
+    bench.refresh(AlState::Op, Some(&[7; 180]));
+    bench.unit.entered(NOW, AlState::PreOp);
+    set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_01F0, 0x7000_02F0]).expect("mappable");
+    bench
+        .unit
+        .refresh(NOW, Exchange { state: AlState::PreOp, links: bench.links, outputs: None, inputs: &mut [] });
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), [7; 180], "not before");
+    bench.enter_safe_op();
+    bench.refresh(AlState::SafeOp, None);
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), [0; 180]);
+    bench.refresh(AlState::Op, Some(&[8; 60]));
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), [[8; 60].as_slice(), &[0; 120]].concat());
+}
+
+/// A unit whose ID is set by software, with its EEPROM.
+fn without_switch() -> (Bench, Vec<u8>) {
+    let bench = Bench::power_on(&UnitSettings { id_switch: 0, ..UnitSettings::default() });
+    let image = bench.unit.memory().sii_image().to_vec();
+    (bench, image)
+}
+
+#[test]
+fn a_software_id_is_in_force_at_once_in_the_register_and_after_a_restart_as_the_id() {
+    let (mut bench, mut image) = without_switch();
+    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (None, None));
+    bench.sdo_write(0x10E0, 1, &500_u16.to_le_bytes()).expect("the switch is at 0x00");
+    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (None, Some(500)));
+    assert_eq!(image[8..10], [0, 0]);
+    bench.unit.restart(NOW, &mut image);
+    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (Some(500), Some(500)));
+    assert_eq!(image[8..10], 500_u16.to_le_bytes());
+    assert!(esi::sii::lint(&image).is_empty());
+}
+
+#[test]
+fn a_station_alias_in_the_sii_is_a_software_id_from_the_next_restart_on() {
+    let (mut bench, mut image) = without_switch();
+    let foreign = UnitSettings { id_switch: 0, software_id: 0x0777, ..UnitSettings::default() };
+    image.copy_from_slice(NonVolatileMemory::factory(&foreign).sii_image());
+    bench.unit.restart(NOW, &mut image);
+    assert_eq!(bench.unit.explicit_device_id(), Some(0x0777));
+    assert_eq!(bench.sdo_read(0x10E0, 1), 0x0777_u16.to_le_bytes());
+}
+
+#[test]
+fn the_switch_is_looked_at_when_the_unit_starts() {
+    let mut bench = Bench::factory();
+    let mut image = bench.unit.memory().sii_image().to_vec();
+    bench.unit.set_id_switch(0x2A);
+    assert_eq!((bench.unit.explicit_device_id(), bench.sdo_read(0x10E0, 3)), (Some(1), vec![1, 0]));
+    bench.unit.restart(NOW, &mut image);
+    assert_eq!((bench.unit.explicit_device_id(), bench.sdo_read(0x10E0, 3)), (Some(0x2A), vec![0x2A, 0]));
+    assert_eq!(image[8..10], [0x2A, 0]);
+}
+
+#[test]
+fn a_restart_forgets_messages_and_the_mapping() {
+    let mut bench = Bench::factory();
+    bench.sdo_write(0x3001, 1, &[1; 200]).expect("ready");
+    set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_01F0]).expect("mappable");
+    let mut image = bench.unit.memory().sii_image().to_vec();
+    bench.unit.restart(NOW, &mut image);
+    assert_eq!(bench.unit.process_data().outputs_bytes, 180);
+    bench.enter_safe_op();
+    assert_eq!(bench.message_flags(), IDLE);
+}
+
+#[test]
+fn what_a_unit_stores_it_finds_again() {
+    let (mut bench, image) = without_switch();
+    assert!(bench.unit.take_memory_change(&image, 0), "the first time");
+    assert!(!bench.unit.take_memory_change(&image, 0));
+    bench.sdo_write(0x10E0, 1, &500_u16.to_le_bytes()).expect("the switch is at 0x00");
+    assert!(bench.unit.take_memory_change(&image, 0));
+    let mut written = image.clone();
+    written[1000] ^= 0xFF;
+    assert!(bench.unit.take_memory_change(&written, 1));
+    assert!(!bench.unit.take_memory_change(&written, 1));
+
+    let mut bytes = Vec::new();
+    bench.unit.memory().encode_into(&mut bytes);
+    let stored = Box::new(NonVolatileMemory::decode(&bytes).expect("whole"));
+    let settings = UnitSettings { id_switch: 0, ..UnitSettings::default() };
+    let (unit, _cpu) = NxEct101::power_on_with(&settings, MemoryAtPowerOn::Stored(stored));
+    assert_eq!(unit.explicit_device_id(), Some(500));
+    assert_eq!(unit.memory().sii_image()[8..10], 500_u16.to_le_bytes());
+    assert_eq!(unit.memory().sii_image()[1000], written[1000]);
+}
+
+#[test]
+fn the_serial_number_of_the_object_is_that_of_the_memory() {
+    let mut bench = Bench::power_on(&UnitSettings { serial: 0xA1B2, ..UnitSettings::default() });
+    assert_eq!(bench.sdo_read(0x1018, 4), 0xA1B2_u32.to_le_bytes());
+    assert_eq!(bench.unit.memory().serial(), 0xA1B2);
+}
+
+#[test]
+fn a_damaged_memory_is_a_fault_that_stores_nothing() {
+    let (unit, cpu) = NxEct101::power_on_with(&UnitSettings::default(), MemoryAtPowerOn::Damaged);
+    let mut bench = Bench { unit, cpu, inputs: Vec::new(), links: PortLinks::default() };
+    assert_eq!(bench.unit.fault().map(|code| code.0), Some(0x0002));
+    assert_eq!(bench.unit.fault_event().map(|event| event.to_string()), Some("00200000".to_owned()));
+    bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
+    bench.refresh(AlState::Init, None);
+    let header = bench.cpu.m_to_c.newest().header;
+    assert_eq!((header.io_data_active, header.error), (false, true));
+    let image = bench.unit.memory().sii_image().to_vec();
+    assert!(!bench.unit.take_memory_change(&image, 7));
+}

@@ -1,0 +1,243 @@
+//! Reading and writing NX objects from a user program, as NX_ReadObj and NX_WriteObj do.
+//!
+//! A call goes out at the end of a task period, and its result comes at the beginning of a later one. Until then
+//! it is pending. Nothing waits: a program looks again in its next scan.
+
+use core::task::Poll;
+
+use nx_ect101::nx_bus::{CpuMessages, NotSent, NxMessageError, NxRequest, NxValue, REQUESTS_MAX};
+use nx_ect101::{ObjectIndex, SubIndex};
+
+/// Reads and writes NX objects of one unit.
+#[derive(Clone, Debug, Default)]
+pub struct NxObjectClient {
+    calls: [Call; REQUESTS_MAX],
+    last_number: u32,
+}
+
+/// A call that has been made: the way to its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NxCall {
+    place: usize,
+    number: u32,
+}
+
+/// Why no call is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NxCallRefused {
+    /// [`REQUESTS_MAX`] calls are under way, or their results have not been taken.
+    TooManyCalls,
+    /// No NX object is as long as the value.
+    ValueTooLong,
+}
+
+/// What became of one call.
+#[derive(Clone, Debug, Default)]
+enum Call {
+    /// There is none.
+    #[default]
+    Free,
+    /// It goes out with the end of this task period.
+    Made(NxRequest),
+    /// The unit has it.
+    Sent { number: u32 },
+    /// The result has come.
+    Done { number: u32, result: Result<NxValue, NxMessageError> },
+}
+
+impl NxObjectClient {
+    /// Reads an NX object, as NX_ReadObj.
+    ///
+    /// # Errors
+    /// [`NxCallRefused::TooManyCalls`].
+    pub fn read(&mut self, index: ObjectIndex, sub: SubIndex) -> Result<NxCall, NxCallRefused> {
+        self.call(index, sub, None)
+    }
+
+    /// Writes an NX object, as NX_WriteObj; `value` is little endian.
+    ///
+    /// # Errors
+    /// [`NxCallRefused::TooManyCalls`]; [`NxCallRefused::ValueTooLong`] beyond 200 bytes.
+    pub fn write(
+        &mut self,
+        index: ObjectIndex,
+        sub: SubIndex,
+        value: &[u8],
+    ) -> Result<NxCall, NxCallRefused> {
+        let value = NxValue::try_from(value).map_err(|_| NxCallRefused::ValueTooLong)?;
+        self.call(index, sub, Some(value))
+    }
+
+    /// The result of a call, once: the value that was read, empty after a write, or why the unit refused it.
+    /// Pending until it has come; pending for ever if it has been taken.
+    pub fn take(&mut self, call: NxCall) -> Poll<Result<NxValue, NxMessageError>> {
+        match self.calls.get_mut(call.place) {
+            Some(place @ Call::Done { .. }) if place.number() == Some(call.number) => {
+                match core::mem::take(place) {
+                    Call::Done { result, .. } => Poll::Ready(result),
+                    _ => Poll::Pending,
+                }
+            }
+            _ => Poll::Pending,
+        }
+    }
+
+    fn call(
+        &mut self,
+        index: ObjectIndex,
+        sub: SubIndex,
+        value: Option<NxValue>,
+    ) -> Result<NxCall, NxCallRefused> {
+        let place = self.calls.iter().position(|call| matches!(call, Call::Free));
+        let place = place.ok_or(NxCallRefused::TooManyCalls)?;
+        self.last_number = self.last_number.wrapping_add(1);
+        let number = self.last_number;
+        self.calls[place] = Call::Made(NxRequest { number, index, sub, value });
+        Ok(NxCall { place, number })
+    }
+
+    /// Takes the responses that have come. An image that is taken after them is at least as new.
+    pub(crate) fn receive(&mut self, bus: &mut CpuMessages) {
+        loop {
+            match bus.receive() {
+                Ok(None) => return,
+                Ok(Some(response)) => self.finish(response.number, response.result),
+                Err(error) => return self.fail_sent(error),
+            }
+        }
+    }
+
+    /// Sends the calls that were made, the oldest first.
+    pub(crate) fn send(&mut self, bus: &mut CpuMessages) {
+        while let Some(place) = self.oldest_made() {
+            let Call::Made(request) = core::mem::take(&mut self.calls[place]) else { return };
+            let number = request.number;
+            self.calls[place] = match bus.send(request.clone()) {
+                Ok(()) => Call::Sent { number },
+                Err(NotSent::NotReachable) => {
+                    Call::Done { number, result: Err(NxMessageError::NotReachable) }
+                }
+                Err(NotSent::Full) => {
+                    self.calls[place] = Call::Made(request);
+                    return;
+                }
+            };
+        }
+    }
+
+    fn oldest_made(&self) -> Option<usize> {
+        let made = self.calls.iter().enumerate().filter_map(|(place, call)| match call {
+            // Numbers wrap, so the oldest is the one furthest behind the last.
+            Call::Made(request) => Some((self.last_number.wrapping_sub(request.number), place)),
+            _ => None,
+        });
+        made.max().map(|(_, place)| place)
+    }
+
+    fn finish(&mut self, number: u32, result: Result<NxValue, NxMessageError>) {
+        let sent =
+            self.calls.iter_mut().find(|call| matches!(call, Call::Sent { number: n } if *n == number));
+        if let Some(call) = sent {
+            *call = Call::Done { number, result };
+        }
+    }
+
+    fn fail_sent(&mut self, error: NxMessageError) {
+        for call in &mut self.calls {
+            if let Call::Sent { number } = *call {
+                *call = Call::Done { number, result: Err(error) };
+            }
+        }
+    }
+}
+
+impl Call {
+    const fn number(&self) -> Option<u32> {
+        match self {
+            Self::Free => None,
+            Self::Made(request) => Some(request.number),
+            Self::Sent { number } | Self::Done { number, .. } => Some(*number),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use device::{Exchange, PortLinks, Unit};
+    use nx_ect101::{IoAllocation, NxEct101, UnitSettings, nx_bus};
+    use time::Instant;
+    use wire::AlState;
+
+    use super::*;
+
+    const SERIAL: (ObjectIndex, SubIndex) = (ObjectIndex(0x1000), SubIndex(7));
+
+    fn refresh(unit: &mut NxEct101) {
+        let exchange =
+            Exchange { state: AlState::Init, links: PortLinks::default(), outputs: None, inputs: &mut [] };
+        unit.refresh(Instant::ZERO, exchange);
+    }
+
+    #[test]
+    fn a_result_comes_once() {
+        let (mut unit, mut bus) = NxEct101::power_on(&UnitSettings::default());
+        let mut client = NxObjectClient::default();
+        let call = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.send(&mut bus.messages);
+        client.receive(&mut bus.messages);
+        assert_eq!(client.take(call), Poll::Pending);
+        refresh(&mut unit);
+        client.receive(&mut bus.messages);
+        let value = [1, 0, 0, 0].into_iter().collect();
+        assert_eq!(client.take(call), Poll::Ready(Ok(value)));
+        assert_eq!(client.take(call), Poll::Pending);
+    }
+
+    #[test]
+    fn calls_reach_the_unit_in_the_order_in_which_they_were_made() {
+        let (mut unit, mut bus) = NxEct101::power_on(&UnitSettings::default());
+        let mut client = NxObjectClient::default();
+        let message = |fill: u8| [fill; 200];
+        let (index, sub) = (ObjectIndex(0x5001), SubIndex(1));
+        let first = client.write(index, sub, &message(1)).expect("room");
+        client.send(&mut bus.messages);
+        refresh(&mut unit);
+        client.receive(&mut bus.messages);
+        // The place of the first call is free again: a later call takes it.
+        let second = client.write(index, sub, &message(2)).expect("room");
+        assert_eq!(client.take(first), Poll::Ready(Ok(NxValue::new())));
+        let third = client.read(index, sub).expect("room");
+        assert_ne!(second.place, third.place);
+        client.send(&mut bus.messages);
+        refresh(&mut unit);
+        client.receive(&mut bus.messages);
+        assert_eq!(client.take(second), Poll::Ready(Err(NxMessageError::NotReady)));
+        assert_eq!(client.take(third), Poll::Ready(Ok(message(1).into_iter().collect())));
+    }
+
+    #[test]
+    fn too_much_at_once_is_refused() {
+        let mut client = NxObjectClient::default();
+        let (index, sub) = SERIAL;
+        assert_eq!(client.write(index, sub, &[0; 201]), Err(NxCallRefused::ValueTooLong));
+        for _ in 0..REQUESTS_MAX {
+            client.read(index, sub).expect("room");
+        }
+        assert_eq!(client.read(index, sub), Err(NxCallRefused::TooManyCalls));
+    }
+
+    #[test]
+    fn a_unit_without_power_answers_nothing_and_leaves_no_call_pending() {
+        let (unit_end, mut bus) = nx_bus::connect(&IoAllocation::factory());
+        let mut client = NxObjectClient::default();
+        let sent = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.send(&mut bus.messages);
+        drop(unit_end);
+        let made = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.send(&mut bus.messages);
+        client.receive(&mut bus.messages);
+        for call in [sent, made] {
+            assert_eq!(client.take(call), Poll::Ready(Err(NxMessageError::NotReachable)));
+        }
+    }
+}
