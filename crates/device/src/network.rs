@@ -75,6 +75,12 @@ impl<U: Unit> Network<U> {
         self.devices.get_mut(position)
     }
 
+    /// The slave at a position and its ESC, for who has to do with both.
+    #[must_use]
+    pub fn slave_mut(&mut self, position: usize) -> Option<(&mut Device<U>, &mut Esc)> {
+        Some((self.devices.get_mut(position)?, self.segment.esc_mut(position)?))
+    }
+
     /// The ESC at a position.
     #[must_use]
     pub fn esc(&self, position: usize) -> Option<&Esc> {

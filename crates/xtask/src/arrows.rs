@@ -35,6 +35,7 @@ const FLOORS: &[Row] = &[
     row("nx-ect101", 5, Only(&["time", "wire", "objects", "esi", "device"])),
     row("plc", 6, Only(&["time", "nx-ect101"])),
     row("link", 7, Only(&["time", "segment"])),
+    row("storage", 7, Only(&[])),
     row("ectwin", 8, AnyFloorBelow),
     row("xtask", 9, AnyFloorBelow),
     // Namespaces and child processes for tests: dev-dependencies may name it from any floor.
