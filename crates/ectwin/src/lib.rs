@@ -26,6 +26,7 @@
 mod ethercrab_port;
 pub mod explain;
 mod live;
+mod memory_file;
 mod setup;
 mod twin;
 
@@ -34,7 +35,10 @@ pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::{Live, run};
 pub use nx_ect101::unit_file;
-pub use plc::{Echo, Io, OperatingMode, Program};
+pub use plc::{
+    Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,
+    OperatingMode, Program, SubIndex,
+};
 pub use setup::{Setup, SetupError};
 pub use time::{Duration, Instant};
 pub use twin::{Twin, UnitSide};

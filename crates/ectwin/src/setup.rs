@@ -2,35 +2,40 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 
 use nx_ect101::unit_file::{UnitFile, UnitFileErrors};
-use nx_ect101::{NxEct101, Timing, UnitSettings, device_config};
-use plc::{CpuSettings, CpuUnit, Echo, Io, Program};
+use nx_ect101::{NxEct101, Timing, UnitSettings, device_config_with};
+use plc::{CpuSettings, CpuUnit, Echo, Io, MessageEcho, Program};
 use time::Instant;
+
+use crate::memory_file::MemoryFile;
 
 /// Name of the built-in user program that copies what comes from the master back to it, in place of a path.
 const COPY_PROGRAM: &str = "builtin:copy";
+/// Name of the built-in user program that sends messages back besides.
+const MESSAGES_PROGRAM: &str = "builtin:messages";
 
-/// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none, or
-/// `builtin:copy`, which copies what comes from the master back to it ([`Echo`], the manual's example A-3).
+/// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
+/// `builtin:copy`, which copies what comes from the master back to it ([`Echo`], the manual's example A-3); or
+/// `builtin:messages`, which does so with messages too ([`MessageEcho`]).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
     system_time_ns: Option<u64>,
+    memory: Option<MemoryFile>,
 }
 
 impl Setup {
-    /// Reads the text of a unit file.
+    /// Reads the text of a unit file. A text has no place, so the file that `storage` names is left alone until
+    /// [`Setup::with_storage`] says where it is.
     ///
     /// # Errors
     /// What is wrong with it, and where.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
         let program = named_program(&file)?;
-        if let Some(storage) = &file.storage {
-            tracing::warn!("{}: non-volatile memory is not kept in a file yet", storage.value.display());
-        }
-        Ok(Self { file, program, system_time_ns: None })
+        Ok(Self { file, program, system_time_ns: None, memory: None })
     }
 
     /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
@@ -38,6 +43,25 @@ impl Setup {
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
         self.program = Box::new(program);
         self
+    }
+
+    /// Gives the unit the non-volatile memory in the file that the unit file names, seen from `folder`, and
+    /// keeps it there. Without a name it stays memory only. A damaged file gets another name, and the unit
+    /// starts with the fault that the manual tells (00200000).
+    ///
+    /// # Errors
+    /// [`SetupError::Storage`] when the file cannot be read.
+    pub fn with_storage(mut self, folder: &Path) -> Result<Self, SetupError> {
+        if let Some(storage) = &self.file.storage {
+            let path = folder.join(&storage.value);
+            let memory = MemoryFile::open(&path).map_err(|error| SetupError::Storage {
+                path: path.display().to_string(),
+                reason: error.to_string(),
+                span: storage.span.clone().unwrap_or_default(),
+            })?;
+            self.memory = Some(memory);
+        }
+        Ok(self)
     }
 
     /// Drops the waits of the unit, whatever its file says of `timing`.
@@ -66,19 +90,33 @@ impl Setup {
         UnitSettings::from_unit_file(&self.file)
     }
 
-    pub(crate) fn power_on(self, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
+    pub(crate) fn power_on(self, now: Instant) -> Powered {
         let settings = self.settings();
-        let (unit, bus) = NxEct101::power_on(&settings);
+        if let (Some(storage), None) = (&self.file.storage, &self.memory) {
+            tracing::warn!("{}: memory only, nobody has said where this file is", storage.value.display());
+        }
+        let (found, writer) = self.memory.unwrap_or(MemoryFile::none()).into_parts();
+        let (unit, bus) = NxEct101::power_on_with(&settings, found);
         let cpu =
             CpuSettings { system_time_ns: self.system_time_ns, ..CpuSettings::from_unit_file(&self.file) };
-        (device_config(&settings), unit, CpuUnit::power_on(now, cpu, bus, self.program))
+        let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
+        Powered { config, unit, cpu: CpuUnit::power_on(now, cpu, bus, self.program), writer }
     }
+}
+
+/// A unit that has got power, on its way into a line.
+pub(crate) struct Powered {
+    pub(crate) config: device::DeviceConfig,
+    pub(crate) unit: NxEct101,
+    pub(crate) cpu: CpuUnit,
+    pub(crate) writer: Option<storage::Writer>,
 }
 
 fn named_program(file: &UnitFile) -> Result<Box<dyn Program + Send>, SetupError> {
     match &file.cpu.program {
         None => Ok(Box::new(|_: &mut Io| {})),
         Some(name) if name.value.as_os_str() == COPY_PROGRAM => Ok(Box::new(Echo)),
+        Some(name) if name.value.as_os_str() == MESSAGES_PROGRAM => Ok(Box::new(MessageEcho::default())),
         Some(name) => Err(SetupError::Program {
             path: name.value.display().to_string(),
             span: name.span.clone().unwrap_or_default(),
@@ -98,6 +136,15 @@ pub enum SetupError {
         /// Its bytes in the unit file.
         span: Range<usize>,
     },
+    /// The file of its non-volatile memory cannot be used.
+    Storage {
+        /// The path.
+        path: String,
+        /// Why.
+        reason: String,
+        /// Its bytes in the unit file.
+        span: Range<usize>,
+    },
 }
 
 impl fmt::Display for SetupError {
@@ -107,8 +154,12 @@ impl fmt::Display for SetupError {
             Self::Program { path, .. } => write!(
                 formatter,
                 "the user program {path} cannot be read: programs in files are not supported yet; \
-                 `{COPY_PROGRAM}` copies the data from the master back to it, and without `program` there is none"
+                 `{COPY_PROGRAM}` copies the data from the master back to it, `{MESSAGES_PROGRAM}` the messages \
+                 too, and without `program` there is none"
             ),
+            Self::Storage { path, reason, .. } => {
+                write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")
+            }
         }
     }
 }

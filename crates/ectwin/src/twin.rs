@@ -7,6 +7,8 @@ use plc::{CpuUnit, Io};
 use time::{Duration, Instant};
 use wire::{AlState, AlStatus, AlStatusCode};
 
+use crate::memory_file::Keeper;
+use crate::setup::Powered;
 use crate::{Setup, SetupError};
 
 /// Units under power, in the order of the chain, with their CPU Units.
@@ -33,13 +35,15 @@ impl Twin {
     #[must_use]
     pub fn power_on(setups: impl IntoIterator<Item = Setup>) -> Self {
         let now = Instant::ZERO;
-        let (mut units, mut cpus) = (Vec::new(), Vec::new());
-        for setup in setups {
-            let (config, unit, cpu) = setup.power_on(now);
+        let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
+        for (position, setup) in setups.into_iter().enumerate() {
+            let Powered { config, unit, cpu, writer } = setup.power_on(now);
             units.push((config, unit));
             cpus.push(cpu);
+            keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
         }
-        let mut twin = Self { line: Line(Network::power_on(units, now)), cpus, now };
+        let line = Line { network: Network::power_on(units, now), keepers };
+        let mut twin = Self { line, cpus, now };
         twin.poll(now);
         twin
     }
@@ -115,19 +119,26 @@ pub(crate) fn cpu_deadline(cpus: &[CpuUnit]) -> Instant {
 
 /// The units without their CPU Units, as a link sees them.
 #[derive(Debug)]
-pub(crate) struct Line(Network<NxEct101>);
+pub(crate) struct Line {
+    network: Network<NxEct101>,
+    /// Those units whose memory is kept in a file.
+    keepers: Vec<Keeper>,
+}
 
 impl Responder for Line {
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
-        self.0.frame(now, frame)
+        self.network.frame(now, frame)
     }
 
     fn poll(&mut self, now: Instant) {
-        self.0.poll(now);
+        self.network.poll(now);
+        for keeper in &mut self.keepers {
+            keeper.keep(&mut self.network);
+        }
     }
 
     fn deadline(&self) -> Instant {
-        self.0.deadline()
+        self.network.deadline()
     }
 }
 
@@ -143,7 +154,7 @@ impl<'a> UnitSide<'a> {
     /// If the line has no unit there.
     pub(crate) fn of(line: &'a Line, cpus: &'a mut [CpuUnit], position: usize) -> Self {
         let count = cpus.len();
-        let (Some(device), Some(cpu)) = (line.0.device(position), cpus.get_mut(position)) else {
+        let (Some(device), Some(cpu)) = (line.network.device(position), cpus.get_mut(position)) else {
             panic!("there is no unit at position {position}: the line has {count}")
         };
         Self { device, cpu }

@@ -1,6 +1,7 @@
 //! Reading unit files for the command line, with a picture of what is wrong in them.
 
 use std::fmt;
+use std::ops::Range;
 use std::path::Path;
 
 use ectwin::unit_file::{UnitFile, UnitFileError};
@@ -14,6 +15,15 @@ pub(crate) fn read(path: &Path) -> Result<Setup, Failure> {
     let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
     let text = std::fs::read_to_string(path).map_err(unreadable)?;
     Setup::from_toml(&text).map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+}
+
+/// Reads one unit file, and the non-volatile memory that it names, seen from the unit file's folder.
+pub(crate) fn read_with_storage(path: &Path) -> Result<Setup, Failure> {
+    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let setup = Setup::from_toml(&text).and_then(|setup| setup.with_storage(folder));
+    setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
 }
 
 /// Reads one unit file with its text, and nothing that it names.
@@ -40,17 +50,21 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
     let source = || NamedSource::new(path.display().to_string(), text.to_owned());
     match error {
         SetupError::UnitFile(errors) => errors.iter().map(|error| FileProblem::of(error, source())).collect(),
-        SetupError::Program { span, .. } => vec![FileProblem {
-            message: error.to_string(),
-            label: "leave this key out".to_owned(),
-            help: None,
-            span: span.clone().into(),
-            source: source(),
-        }],
+        SetupError::Program { span, .. } => {
+            vec![FileProblem::at(span.clone(), error, "leave this key out", source())]
+        }
+        SetupError::Storage { span, .. } => {
+            vec![FileProblem::at(span.clone(), error, "seen from the folder of this file", source())]
+        }
     }
 }
 
 impl FileProblem {
+    fn at(span: Range<usize>, error: &SetupError, label: &str, source: NamedSource<String>) -> Self {
+        let (message, label) = (error.to_string(), label.to_owned());
+        Self { message, label, help: None, span: span.into(), source }
+    }
+
     fn of(error: &UnitFileError, source: NamedSource<String>) -> Self {
         let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
         let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));

@@ -35,7 +35,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 
 fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
     let read = |path: &std::path::PathBuf| {
-        let setup = unit_files::read(path)?;
+        let setup = unit_files::read_with_storage(path)?;
         Ok(if args.fast { setup.fast() } else { setup })
     };
     args.units.iter().map(read).collect()

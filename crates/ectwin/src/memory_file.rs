@@ -1,0 +1,67 @@
+//! The non-volatile memory of units in files.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use device::Network;
+use nx_ect101::{MemoryAtPowerOn, NonVolatileMemory, NxEct101};
+
+/// What a unit has found in its file, and who keeps the file from now on.
+#[derive(Debug)]
+pub(crate) struct MemoryFile {
+    found: MemoryAtPowerOn,
+    /// None for a damaged memory: it stores nothing.
+    writer: Option<storage::Writer>,
+}
+
+impl MemoryFile {
+    /// Memory only: nothing is found, and nothing is kept.
+    pub(crate) const fn none() -> Self {
+        Self { found: MemoryAtPowerOn::Factory, writer: None }
+    }
+
+    /// Reads the file. One that is damaged gets another name and is left alone; the unit starts with the fault
+    /// that the manual names.
+    pub(crate) fn open(path: &Path) -> io::Result<Self> {
+        let found = match storage::read(path)? {
+            None => MemoryAtPowerOn::Factory,
+            Some(bytes) => match NonVolatileMemory::decode(&bytes) {
+                Ok(memory) => MemoryAtPowerOn::Stored(Box::new(memory)),
+                Err(damage) => {
+                    let aside = storage::set_aside(path)?;
+                    tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
+                    return Ok(Self { found: MemoryAtPowerOn::Damaged, writer: None });
+                }
+            },
+        };
+        Ok(Self { found, writer: Some(storage::Writer::start(PathBuf::from(path))?) })
+    }
+
+    /// What was found, and who writes.
+    pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, Option<storage::Writer>) {
+        (self.found, self.writer)
+    }
+}
+
+/// Keeps the memory of one unit in its file.
+#[derive(Debug)]
+pub(crate) struct Keeper {
+    position: usize,
+    writer: storage::Writer,
+}
+
+impl Keeper {
+    /// Keeps the unit at `position`, counted from the master.
+    pub(crate) const fn new(position: usize, writer: storage::Writer) -> Self {
+        Self { position, writer }
+    }
+
+    /// Hands the memory over to its writer, if it has changed. Nothing waits for the disk.
+    pub(crate) fn keep(&mut self, network: &mut Network<NxEct101>) {
+        let Some((device, esc)) = network.slave_mut(self.position) else { return };
+        let unit = device.unit_mut();
+        if unit.take_memory_change(esc.sii_image(), esc.sii_words_written()) {
+            self.writer.store(|bytes| unit.memory().encode_into(bytes));
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! The non-volatile memory in a file: what a unit finds again, a damaged file, kills at any moment.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use std::fs;
+use std::hint::black_box;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use ectwin::{Setup, SetupError, Twin};
+use nx_ect101::NonVolatileMemory;
+use wire::{Command as Datagram, FrameBuilder, returned_datagrams};
+
+const UNIT: &str = "model = \"nx-ect101\"\nid_switch = 0x00\nstorage = \"N1.nvm\"\n";
+/// A word of the EEPROM that means nothing.
+const SPARE_WORD: u32 = 0x03F0;
+const ALIAS_WORD: u32 = 4;
+
+const STATION_ALIAS: u16 = 0x0012;
+const AL_CONTROL: u16 = 0x0120;
+const AL_STATUS: u16 = 0x0130;
+const SII_CONTROL: u16 = 0x0502;
+
+/// A folder of one test, empty at first.
+fn folder_of(test: &str) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).expect("a folder for temporary files");
+    path
+}
+
+fn start(folder: &Path) -> Twin {
+    let setup = Setup::from_toml(UNIT).expect("a right file").with_storage(folder);
+    Twin::power_on([setup.expect("a usable folder")])
+}
+
+fn stored(folder: &Path) -> Option<NonVolatileMemory> {
+    let bytes = fs::read(folder.join("N1.nvm")).ok()?;
+    Some(NonVolatileMemory::decode(&bytes).expect("whole"))
+}
+
+fn send(twin: &mut Twin, command: Datagram, offset: u16, data: &[u8]) -> Vec<u8> {
+    let mut frame = FrameBuilder::new().physical(command, 0, offset, data).finish();
+    twin.frame(&mut frame);
+    returned_datagrams(&frame).remove(0).data
+}
+
+/// AL status and AL status code.
+fn al_status(twin: &mut Twin) -> (u8, u16) {
+    let status = send(twin, Datagram::Aprd, AL_STATUS, &[0; 6]);
+    (status[0], u16::from_le_bytes([status[4], status[5]]))
+}
+
+fn write_sii(twin: &mut Twin, word_address: u32, word: u16) {
+    let command = 0x0201_u16.to_le_bytes();
+    let write = [&command[..], &word_address.to_le_bytes(), &word.to_le_bytes()].concat();
+    send(twin, Datagram::Apwr, SII_CONTROL, &write);
+}
+
+/// Sets the station alias as a master's tool does: word 4, and the checksum in word 7.
+fn write_alias(twin: &mut Twin, folder: &Path, alias: u16) {
+    let memory = stored(folder).expect("stored");
+    let mut configuration: [u8; 14] = memory.sii_image()[..14].try_into().expect("14 bytes");
+    configuration[8..10].copy_from_slice(&alias.to_le_bytes());
+    write_sii(twin, ALIAS_WORD, alias);
+    write_sii(twin, 7, u16::from(esi::sii::checksum(&configuration)));
+}
+
+#[test]
+fn what_a_master_writes_outlives_power_off() {
+    let folder = folder_of("outlives");
+    drop(start(&folder));
+    let mut twin = start(&folder);
+    write_alias(&mut twin, &folder, 0x0456);
+    write_sii(&mut twin, SPARE_WORD, 0xCAFE);
+    drop(twin);
+
+    let mut twin = start(&folder);
+    assert_eq!(send(&mut twin, Datagram::Aprd, STATION_ALIAS, &[0; 2]), 0x0456_u16.to_le_bytes());
+    drop(twin);
+    let memory = stored(&folder).expect("stored");
+    assert_eq!(memory.software_id(), 0x0456);
+    assert_eq!(memory.sii_image()[2 * SPARE_WORD as usize..][..2], [0xFE, 0xCA]);
+}
+
+#[test]
+fn a_damaged_file_is_a_fault_and_is_kept_aside() {
+    let folder = folder_of("damaged");
+    drop(start(&folder));
+    let path = folder.join("N1.nvm");
+    let mut damaged = fs::read(&path).expect("stored");
+    damaged[200] ^= 1;
+    fs::write(&path, &damaged).expect("writable");
+
+    let mut twin = start(&folder);
+    assert_eq!(al_status(&mut twin), (0x11, 0x0002));
+    send(&mut twin, Datagram::Apwr, AL_CONTROL, &[0x12, 0]);
+    assert_eq!(al_status(&mut twin), (0x11, 0x0002), "no way out of INIT");
+    write_sii(&mut twin, SPARE_WORD, 1);
+    drop(twin);
+    assert!(!path.exists(), "a unit with a damaged memory stores nothing");
+    assert_eq!(fs::read(folder.join("N1.nvm.damaged-1")).expect("kept"), damaged);
+
+    let mut twin = start(&folder);
+    assert_eq!(al_status(&mut twin), (0x01, 0x0000), "new memory");
+}
+
+#[test]
+fn a_folder_that_is_missing_is_an_error() {
+    let folder = folder_of("missing").join("nowhere");
+    let setup = Setup::from_toml(UNIT).expect("a right file").with_storage(&folder);
+    assert!(matches!(setup, Err(SetupError::Storage { .. })));
+}
+
+#[test]
+fn the_command_points_at_a_storage_that_it_cannot_use() {
+    let folder = folder_of("command");
+    let file = folder.join("unit.toml");
+    fs::write(&file, "model = \"nx-ect101\"\nstorage = \"nowhere/N1.nvm\"\n").expect("writable");
+    let mut ectwin = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+    let output = ectwin.arg("run").arg(&file).args(["--link", "udp:127.0.0.1:0"]).output().expect("runs");
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(told.contains("nowhere/N1.nvm cannot be used") && told.contains("unit.toml:2:"), "{told}");
+}
+
+/// Where the child finds its folder. Without it [`the_writer_that_is_killed`] is nothing.
+const CHILD: &str = "ECTWIN_TEST_STORAGE_CHILD";
+/// The child has sent one more frame.
+const PROGRESS: u8 = 0x01;
+const KILLS: u64 = 200;
+
+/// The child of the test below: a master that writes the EEPROM without end.
+#[test]
+fn the_writer_that_is_killed() {
+    let Some(folder) = std::env::var_os(CHILD) else { return };
+    let mut twin = start(Path::new(&folder));
+    for generation in 0..=u16::MAX {
+        write_sii(&mut twin, SPARE_WORD, generation);
+        write_sii(&mut twin, SPARE_WORD + 1, !generation);
+        let mut out = std::io::stdout().lock();
+        out.write_all(&[PROGRESS]).and_then(|()| out.flush()).expect("the parent listens");
+    }
+    // Until the kill comes.
+    std::thread::park();
+}
+
+/// Starts the child, waits until it has sent `frames` frames, lets `spins` go by and kills it (SIGKILL).
+fn kill_a_writer(folder: &Path, frames: u64, spins: u64) {
+    let program = std::env::current_exe().expect("this test");
+    let mut child = Command::new(program)
+        .args(["--exact", "the_writer_that_is_killed", "--nocapture"])
+        .env(CHILD, folder)
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("a child");
+    // Open until the kill: a child that nobody listens to would end by itself.
+    let mut out = child.stdout.take().expect("piped");
+    let mut sent = 0;
+    while sent < frames {
+        let mut byte = [0];
+        out.read_exact(&mut byte).expect("the child lives");
+        sent += u64::from(byte == [PROGRESS]);
+    }
+    for spin in 0..spins {
+        black_box(spin);
+    }
+    child.kill().expect("killed");
+    assert_eq!(child.wait().expect("ended").code(), None, "ended by the signal");
+}
+
+/// The same numbers in every run (SplitMix64).
+fn random(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mixed = (*state ^ *state >> 30).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let mixed = (mixed ^ mixed >> 27).wrapping_mul(0x94D0_49BB_1331_11EB);
+    mixed ^ mixed >> 31
+}
+
+#[test]
+fn a_kill_at_any_moment_leaves_a_whole_state() {
+    let folder = folder_of("killed");
+    let mut seed = 1;
+    let mut states = std::collections::BTreeSet::new();
+    for kill in 0..KILLS {
+        let (frames, spins) = (1 + random(&mut seed) % 400, random(&mut seed) % 3_000_000);
+        kill_a_writer(&folder, frames, spins);
+        let mut twin = start(&folder);
+        assert_eq!(al_status(&mut twin), (0x01, 0x0000), "after kill {kill}");
+        drop(twin);
+        let image = stored(&folder).expect("stored at the start").sii_image().to_vec();
+        let spare = &image[2 * SPARE_WORD as usize..][..4];
+        let generation = u16::from_le_bytes([spare[0], spare[1]]);
+        states.insert(generation);
+        let second = u16::from_le_bytes([spare[2], spare[3]]);
+        // Each word is a change of its own: the second one is of this generation or of the one before.
+        let erased = (generation, second) == (0xFFFF, 0xFFFF);
+        let whole = second == !generation || second == !generation.wrapping_sub(1);
+        assert!(erased || whole || generation == 0, "after kill {kill}: {generation:#06X}, {second:#06X}");
+    }
+    assert!(states.len() > KILLS as usize / 4, "only {} different moments", states.len());
+    let names = fs::read_dir(&folder).expect("readable").map(|entry| entry.expect("readable").file_name());
+    assert!(names.map(|name| name.to_string_lossy().into_owned()).all(|name| !name.contains("damaged")));
+}
