@@ -83,6 +83,12 @@ pub(crate) enum List {
         #[arg(long)]
         json: bool,
     },
+    /// The NX objects, as the CPU Unit sees them
+    NxObjects {
+        /// One JSON document instead of text
+        #[arg(long)]
+        json: bool,
+    },
     /// The setting rules with their events, in the order in which they are checked
     Rules {
         /// One JSON document instead of text
