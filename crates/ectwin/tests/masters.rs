@@ -171,3 +171,50 @@ fn pysoem_exchanges_with_eight_units_in_a_line() {
     }
     .run();
 }
+
+#[test]
+fn pysoem_breaks_each_pdo_rule_and_corrects_it() {
+    Run {
+        test: "pysoem_breaks_each_pdo_rule_and_corrects_it",
+        units: &["nx-ect101.toml"],
+        script: "rules.py",
+        arguments: &["pdo"],
+        visible: &[
+            "ecat.reg.alstatus.status == 0x02 && ecat.reg.alstatus.err == 1",
+            "ecat.reg.alstatuscode == 0x0024",
+            "ecat.reg.alstatuscode == 0x0025",
+        ],
+    }
+    .run();
+}
+
+#[test]
+fn pysoem_meets_units_that_break_each_io_entry_rule() {
+    Run {
+        test: "pysoem_meets_units_that_break_each_io_entry_rule",
+        units: &[
+            "../tests/masters/units/type-m-to-c.toml",
+            "../tests/masters/units/type-c-to-m.toml",
+            "../tests/masters/units/order-m-to-c.toml",
+            "../tests/masters/units/order-c-to-m.toml",
+            "../tests/masters/units/total-m-to-c.toml",
+            "../tests/masters/units/total-c-to-m.toml",
+        ],
+        script: "rules.py",
+        arguments: &["io", "6"],
+        visible: &["ecat.reg.alstatus.status == 0x08"],
+    }
+    .run();
+}
+
+#[test]
+fn pysoem_exchanges_four_entries_where_only_four_match() {
+    Run {
+        test: "pysoem_exchanges_four_entries_where_only_four_match",
+        units: &["nx-ect101.toml", "../tests/masters/units/four-entries.toml"],
+        script: "rules.py",
+        arguments: &["partial"],
+        visible: &["ecat_mailbox.coe.sdoidx == 0x1601", "ecat_mailbox.coe.sdoidx == 0x1a01"],
+    }
+    .run();
+}
