@@ -18,6 +18,7 @@ pub mod nx_bus;
 mod nx_objects;
 mod nx_server;
 mod pdo_settings;
+pub mod performance;
 mod rules;
 mod settings;
 mod status;

@@ -14,6 +14,8 @@ static TIMES: LazyLock<TimingFile> =
 #[serde(deny_unknown_fields)]
 struct TimingFile {
     sdo_response_us: u64,
+    transmission_per_slave_ns: u64,
+    transmission_per_byte_ns: u64,
     t_slave: Vec<SlaveRow>,
 }
 
@@ -51,10 +53,25 @@ impl Timing {
     #[must_use]
     pub fn sdo_response(self) -> Duration {
         match self {
-            Self::Exact => Duration::from_micros(TIMES.sdo_response_us),
+            Self::Exact => sdo_response(),
             Self::Fast => Duration::ZERO,
         }
     }
+}
+
+/// From the receipt of an SDO request to its response.
+pub(crate) fn sdo_response() -> Duration {
+    Duration::from_micros(TIMES.sdo_response_us)
+}
+
+/// What each slave adds to the transmission time of a frame.
+pub(crate) fn per_slave() -> Duration {
+    Duration::from_nanos(TIMES.transmission_per_slave_ns)
+}
+
+/// What each byte of a frame adds to its transmission time.
+pub(crate) fn per_byte() -> Duration {
+    Duration::from_nanos(TIMES.transmission_per_byte_ns)
 }
 
 #[cfg(test)]

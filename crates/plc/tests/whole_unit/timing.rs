@@ -1,0 +1,143 @@
+//! Response times against the manual's formulas (7-9), for whatever periods and phases.
+
+use nx_ect101::performance::{IoResponse, sdo_response_time, transmission_time};
+use nx_ect101::{DataSetKind, Direction, IoAllocation, layout};
+use plc::{CpuSettings, Echo};
+use time::{Duration, Instant};
+use wire::{Command, FrameBuilder};
+
+use crate::bench::{Bench, Random};
+
+const RUNS: u64 = 10_000;
+const BYTES: usize = 180;
+
+/// A master of its own period, whose frames take time on the wire.
+struct Master {
+    bench: Bench,
+    period: Duration,
+    /// From the sending of a frame to its passing the unit.
+    to_unit: Duration,
+    transmission: Duration,
+    next: Instant,
+}
+
+impl Master {
+    /// Sends outputs and reads inputs in one frame, and waits for the next cycle. When it was sent, and the
+    /// inputs.
+    fn cycle(&mut self, outputs: &[u8]) -> (Instant, Vec<u8>) {
+        let sent = self.next;
+        let mut frame = exchange_frame(outputs);
+        self.bench.run_to(sent + self.to_unit);
+        let inputs = self.bench.pass(&mut frame).remove(1).data;
+        self.next = sent + self.period;
+        (sent, inputs)
+    }
+
+    /// Sends new outputs; how long they take to come back.
+    fn response(&mut self, outputs: &[u8]) -> Duration {
+        let (first, mut inputs) = self.cycle(outputs);
+        let mut last = first;
+        while inputs[2..2 + BYTES] != *outputs {
+            (last, inputs) = self.cycle(outputs);
+        }
+        (last + self.transmission).saturating_since(first)
+    }
+}
+
+fn exchange_frame(outputs: &[u8]) -> Vec<u8> {
+    FrameBuilder::new()
+        .physical(Command::Apwr, 0, layout::OUTPUTS_START, outputs)
+        .physical(Command::Aprd, 0, layout::INPUTS_START, &[0; BYTES + 3])
+        .finish()
+}
+
+/// An allocation of 6 or more 15 UINT entries each way, for each row of T_slave.
+fn allocation(random: &mut Random) -> IoAllocation {
+    let entries = [6, 13, 14, 26, 27, 40][random.below(6) as usize];
+    let mut allocation = IoAllocation::empty();
+    for direction in Direction::ALL {
+        allocation.select(direction, DataSetKind::Uints, entries);
+    }
+    allocation
+}
+
+/// A measured I/O response and the longest one by the formula.
+fn measure_io_response(random: &mut Random) -> (Duration, Duration) {
+    let task_period = random.time(125, 10_000);
+    let cpu = CpuSettings { task_period, ..CpuSettings::default() };
+    let mut bench = Bench::with_program(allocation(random), cpu, Echo).into_pre_op().into_op(180, 183);
+    let frame_bytes = exchange_frame(&[0; BYTES]).len() as u64;
+    let transmission = transmission_time(1, frame_bytes);
+    let times = IoResponse {
+        master: random.time(250, 10_000),
+        slave: bench.refresh_period(),
+        cpu: task_period,
+        transmission,
+    };
+    bench.run_for(random.time(0, 20_000));
+    let to_unit = Duration::from_nanos(random.below(transmission.as_nanos()));
+    let next = bench.now;
+    let mut master = Master { bench, period: times.master, to_unit, transmission, next };
+    // Until data goes round; then something new.
+    master.response(&[0x11; BYTES]);
+    master.next = master.bench.now + random.time(100, 20_000);
+    (master.response(&[0x22; BYTES]), times.maximum())
+}
+
+#[test]
+fn an_io_response_never_takes_longer_than_the_formula_and_comes_close_to_it() {
+    let mut random = Random(1);
+    let mut closest = 0.0_f64;
+    for run in 0..RUNS {
+        let (measured, maximum) = measure_io_response(&mut random);
+        assert!(measured <= maximum, "run {run}: {measured} against {maximum}");
+        closest = closest.max(measured.as_nanos() as f64 / maximum.as_nanos() as f64);
+    }
+    println!("the longest response is {closest:.3} of the formula");
+    assert!(closest >= 0.9, "the longest response is only {closest:.3} of the formula");
+}
+
+/// What the master asks of the mailbox in a cycle.
+enum Step {
+    Request,
+    LookForResponse,
+    TakeResponse,
+}
+
+/// Sends an SDO request in one cycle of `period`, looks for the response in each of those that follow, and takes
+/// it; a frame is received when the next cycle begins. How long that takes.
+fn sdo_response(bench: &mut Bench, period: Duration) -> Duration {
+    let request = bench.sdo_request(0x40, 0x1018, 1, &[0; 4]);
+    let start = bench.now;
+    let mut step = Step::Request;
+    loop {
+        let (command, offset, data) = match step {
+            Step::Request => (Command::Apwr, layout::MAILBOX_RECEIVE_START, request.clone()),
+            Step::LookForResponse => (Command::Aprd, 0x080D, vec![0]),
+            Step::TakeResponse => (Command::Aprd, layout::MAILBOX_SEND_START, vec![0; 400]),
+        };
+        let mut frame = FrameBuilder::new().physical(command, 0, offset, &data).finish();
+        let returned = bench.pass(&mut frame).remove(0);
+        assert_eq!(returned.working_counter, 1);
+        bench.run_for(period);
+        step = match step {
+            Step::Request => Step::LookForResponse,
+            Step::LookForResponse if returned.data[0] & 0x08 == 0 => Step::LookForResponse,
+            Step::LookForResponse => Step::TakeResponse,
+            Step::TakeResponse => return bench.now.saturating_since(start),
+        };
+    }
+}
+
+#[test]
+fn an_sdo_response_takes_the_time_of_the_formula() {
+    let mut bench = Bench::power_on(IoAllocation::factory()).into_pre_op();
+    let mut random = Random(2);
+    let worked = [500, 1_000, 2_000, 4_000].map(Duration::from_micros);
+    let periods = worked.into_iter().chain((0..RUNS).map(|_| random.time(125, 10_000)));
+    for period in periods {
+        let measured = sdo_response(&mut bench, period);
+        assert_eq!(measured, sdo_response_time(period, 16), "cycle of {period}");
+        bench.run_for(Duration::from_micros(250));
+    }
+}
