@@ -49,12 +49,19 @@ pub(crate) fn process_data(config: &DeviceConfig, areas: ProcessDataAreas, pdi: 
     require(!(checks_trigger && untriggered), AlStatusCode::INVALID_WATCHDOG_CONFIGURATION)
 }
 
-/// SyncManagers 2 and 3 against the mapping, which have to stay valid in SAFE-OP and OP.
-pub(crate) fn process_data_sync_managers(
-    config: &DeviceConfig,
-    areas: ProcessDataAreas,
-    pdi: &Pdi<'_>,
-) -> Verdict {
+/// SyncManagers 2 and 3 in SAFE-OP and OP: they have to stay as they were checked.
+pub(crate) fn watched_process_data(config: &DeviceConfig, areas: ProcessDataAreas, pdi: &Pdi<'_>) -> Verdict {
+    process_data_sync_managers(config, areas, pdi)?;
+    let buffered = |index| {
+        let sm = pdi.sync_manager(index);
+        !sm.enabled || sm.mode == SmMode::Buffered
+    };
+    require(buffered(SmIndex::OUTPUTS), AlStatusCode::INVALID_OUTPUT_CONFIGURATION)?;
+    require(buffered(SmIndex::INPUTS), AlStatusCode::INVALID_INPUT_CONFIGURATION)
+}
+
+/// SyncManagers 2 and 3 against the mapping.
+fn process_data_sync_managers(config: &DeviceConfig, areas: ProcessDataAreas, pdi: &Pdi<'_>) -> Verdict {
     let outputs = Area { start: config.outputs_start, length_bytes: areas.outputs_bytes };
     let inputs = Area { start: config.inputs_start, length_bytes: areas.inputs_bytes };
     let fits = |index, area, direction| holds_process_data(&pdi.sync_manager(index), area, direction);

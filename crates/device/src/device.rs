@@ -15,7 +15,6 @@ const EVENTS: AlEvents = AlEvents::AL_CONTROL
     .union(AlEvents::SYNC_MANAGER_ACTIVATION)
     .union(AlEvents::WATCHDOG)
     .union(AlEvents::from_bits_truncate(0x0300));
-const AL_EVENT_MASK: u16 = 0x0204;
 
 /// A slave under power.
 #[derive(Debug)]
@@ -67,10 +66,9 @@ impl<U: Unit> Device<U> {
     }
 
     fn start(&mut self, esc: &mut Esc, now: Instant) {
-        let mut pdi = esc.pdi(now);
-        for (n, byte) in (0u16..).zip(EVENTS.bits().to_le_bytes()) {
-            pdi.set_register(AL_EVENT_MASK + n, byte);
-        }
+        let mut pdi = esc.pdi();
+        pdi.set_event_mask(EVENTS);
+        self.open_sync_managers(&mut pdi);
         self.next_refresh = now;
         self.follow_alias(&mut pdi);
         self.unit.entered(now, AlState::Init);
@@ -117,10 +115,10 @@ impl<U: Unit> Device<U> {
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
     pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
         esc.advance(now);
-        if esc.pdi(now).take_reset_request() {
+        if esc.pdi().take_reset_request() {
             self.restart(esc, now);
         }
-        let mut pdi = esc.pdi(now);
+        let mut pdi = esc.pdi();
         if pdi.take_activation_event() {
             self.watch_sync_managers(&mut pdi, now);
         }
@@ -185,7 +183,9 @@ impl<U: Unit> Device<U> {
 
     /// Queues an emergency message, if the state has a mailbox; false if it is lost.
     pub fn queue_emergency(&mut self, emergency: wire::Emergency) -> bool {
-        self.mailbox.as_mut().is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok())
+        let has_mailbox = self.status.state != AlState::Init;
+        let mailbox = self.mailbox.as_mut().filter(|_| has_mailbox);
+        mailbox.is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok())
     }
 
     /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
@@ -197,9 +197,7 @@ impl<U: Unit> Device<U> {
             return;
         }
         self.op_deadline = None;
-        if self.status.error {
-            pdi.set_deactivated(SmIndex::OUTPUTS, false);
-        }
+        self.open_sync_managers(pdi);
         let from = self.status.state;
         match transition(from, control.state) {
             None => {
@@ -255,14 +253,15 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The slave leaves its state on its own. Out of OP the outputs are closed until the master
-    /// acknowledges, so that it sees the working counter drop (reference 5.5, C063).
+    /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
+    /// are closed until the master acknowledges, so that it sees the working counter drop (reference 5.5, C063).
     fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        if state == AlState::SafeOp {
-            pdi.set_deactivated(SmIndex::OUTPUTS, true);
-        }
         self.op_deadline = None;
         self.enter(state, pdi, now);
+        if state == AlState::SafeOp {
+            let has_outputs = self.unit.process_data().outputs_bytes > 0;
+            pdi.set_deactivated(if has_outputs { SmIndex::OUTPUTS } else { SmIndex::INPUTS }, true);
+        }
         self.show(AlStatus { state, error: true, device_id_loaded: false }, code, pdi);
     }
 
@@ -274,17 +273,29 @@ impl<U: Unit> Device<U> {
         if state == before {
             return;
         }
-        if matches!(state, AlState::Init | AlState::PreOp) {
-            pdi.set_deactivated(SmIndex::OUTPUTS, false);
-        }
-        if before == AlState::Init || state == AlState::Init {
-            if let Some(mailbox) = &mut self.mailbox {
-                mailbox.reset();
-            }
-            pdi.empty_mailbox(SmIndex::MAILBOX_SEND);
+        self.open_sync_managers(pdi);
+        if (before == AlState::Init || state == AlState::Init)
+            && let Some(mailbox) = &mut self.mailbox
+        {
+            mailbox.reset();
         }
         self.unit.entered(now, state);
         self.exchange(pdi, now);
+    }
+
+    /// INIT has no mailbox, and process data begin with SAFE-OP (reference 5.1): what the state does not have
+    /// is closed for the wire, and begins empty when it opens.
+    fn open_sync_managers(&self, pdi: &mut Pdi<'_>) {
+        let state = self.status.state;
+        let process_data = matches!(state, AlState::SafeOp | AlState::Op);
+        for index in [SmIndex::OUTPUTS, SmIndex::INPUTS] {
+            pdi.set_deactivated(index, !process_data);
+        }
+        if self.config.mailbox.is_some() {
+            for index in [SmIndex::MAILBOX_RECEIVE, SmIndex::MAILBOX_SEND] {
+                pdi.set_deactivated(index, state == AlState::Init);
+            }
+        }
     }
 
     fn show(&mut self, status: AlStatus, code: AlStatusCode, pdi: &mut Pdi<'_>) {
@@ -305,7 +316,7 @@ impl<U: Unit> Device<U> {
         }
         let areas = self.unit.process_data();
         if matches!(state, AlState::SafeOp | AlState::Op)
-            && let Err(code) = checks::process_data_sync_managers(&self.config, areas, pdi)
+            && let Err(code) = checks::watched_process_data(&self.config, areas, pdi)
         {
             self.fall_back(AlState::PreOp, code, pdi, now);
         }

@@ -59,6 +59,7 @@ impl MailboxService {
         pdi: &mut Pdi<'_>,
         objects: &mut dyn ObjectServer,
     ) -> bool {
+        pdi.take_event(SmIndex::MAILBOX_SEND);
         if self.sent && !pdi.mailbox_full(SmIndex::MAILBOX_SEND) {
             self.sent = false;
             self.mailbox.confirm_read();

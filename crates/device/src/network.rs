@@ -35,12 +35,17 @@ impl<U: Unit> Network<U> {
 
     /// Lets every slave that has something to do react.
     pub fn poll(&mut self, now: Instant) {
+        let mut reset = false;
         for (position, device) in self.devices.iter_mut().enumerate() {
             let Some(esc) = self.segment.esc_mut(position) else { continue };
             let due = device.deadline().min(esc.deadline()) <= now;
             if esc.interrupts_pdi() || due || device.awaits_outputs() {
+                reset |= esc.asks_for_reset();
                 device.poll(esc, now);
             }
+        }
+        if reset {
+            self.segment.follow_changed_ports();
         }
     }
 
@@ -96,6 +101,7 @@ impl<U: Unit> Network<U> {
     pub fn restart(&mut self, position: usize, now: Instant) {
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
             device.restart(esc, now);
+            self.segment.follow_changed_ports();
         }
     }
 }

@@ -29,7 +29,7 @@ pub struct Exchange<'a> {
     /// The links at the ports.
     pub links: PortLinks,
     /// The newest whole outputs; none unless the slave is in OP, the master has sent outputs since it
-    /// entered OP, and the process data watchdog is alive.
+    /// entered SAFE-OP, and the process data watchdog is alive.
     pub outputs: Option<&'a [u8]>,
     /// The inputs to fill, `inputs_bytes` long; empty below SAFE-OP. They hold older inputs on entry.
     pub inputs: &'a mut [u8],

@@ -63,3 +63,20 @@ fn a_missed_refresh_is_not_made_up_for() {
     bench.network.poll(bench.now);
     assert!(bench.network.deadline() > bench.now);
 }
+
+/// Reference 5.1: below SAFE-OP there are no process data, and what was sent before does not come back.
+#[test]
+fn process_data_end_below_safe_op() {
+    let mut bench = Bench::in_state(Op);
+    bench.write(0x0420, &[0, 0]);
+    assert_eq!(bench.cycle(0x55).1, 3);
+    bench.request(PreOp.bits());
+    assert_eq!(bench.cycle(0x55).1, 0);
+    bench.request(SafeOp.bits());
+    bench.request(Op.bits());
+    bench.run_for(Duration::from_millis(2));
+    assert_eq!(unit(&mut bench).outputs, None, "outputs of an earlier OP are not valid");
+    bench.cycle(0x66);
+    bench.run_for(Duration::from_millis(1));
+    assert_eq!(unit(&mut bench).outputs, Some(0x66));
+}

@@ -224,6 +224,47 @@ fn without_sii_there_is_no_pre_op() {
     assert_eq!(bench.status(), (0x11, 0x51));
 }
 
+/// C069: what has expired shows until outputs come again, also while the fall-back keeps them closed.
+#[test]
+fn an_expired_watchdog_shows_in_its_status() {
+    let mut bench = Bench::in_state(Op);
+    bench.cycle(1);
+    bench.run_for(Duration::from_millis(101));
+    assert_eq!((bench.word(0x0440), bench.word(0x0442) & 0xFF), (0, 1));
+}
+
+/// Outputs that come too late do not hide that they were late, even if nobody looked in between.
+#[test]
+fn late_outputs_do_not_hide_an_expiry() {
+    let mut bench = Bench::in_state(Op);
+    bench.cycle(1);
+    bench.now += Duration::from_secs(5);
+    bench.cycle(2);
+    assert_eq!(bench.status(), (0x14, 0x1B));
+}
+
+/// C064: the buffer mode is watched too.
+#[test]
+fn a_sync_manager_that_becomes_a_mailbox_takes_the_slave_down() {
+    let mut bench = Bench::in_state(Op);
+    bench.write(0x0810, &[0x00, 0x10, 1, 0, 0x66, 0, 0, 0]);
+    bench.write(0x0816, &[1]);
+    assert_eq!(bench.status(), (0x12, 0x1D));
+}
+
+/// Two requests in one frame: the last one wins.
+#[test]
+fn the_last_al_control_of_a_frame_wins() {
+    let mut bench = Bench::new();
+    let mut frame = wire::FrameBuilder::new()
+        .physical(wire::Command::Bwr, 0, 0x0120, &[1, 0])
+        .physical(wire::Command::Bwr, 0, 0x0120, &[2, 0])
+        .finish();
+    bench.network.frame(bench.now, &mut frame);
+    bench.network.poll(bench.now);
+    assert_eq!(bench.status(), (0x02, 0));
+}
+
 proptest! {
     /// Whatever a master asks and in whatever order: AL status is a state of the standard, an error has a
     /// code, and no error has none.

@@ -12,6 +12,8 @@ use crate::sii::Sii;
 use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SmMode, SyncManagerSettings};
 
 const RESET_SEQUENCE: [u8; 3] = *b"RES";
+/// MII control: what is kept; command, errors and busy are not.
+const MII_SETTINGS: u16 = 0x00FF;
 /// DL control bit 24: the station alias answers too.
 const USE_ALIAS: u8 = 1;
 /// What 0x0040 reads after each step of the sequence.
@@ -47,18 +49,26 @@ impl Esc {
         sm.end_of_frame();
         let settings = sm.settings;
         if settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
+            // Outputs that come too late do not hide that they were late.
+            self.advance(now);
             self.watchdog.trigger(now);
         }
     }
 
     fn commit_registers(&mut self, shadow: &Shadow, passage: &Passage) {
-        if shadow.is_empty() {
-            return;
+        let (mut at, mut reset_step, mut al_control_written) = (0, None, false);
+        while let Some((offset, data)) = shadow.run(at) {
+            at = usize::from(offset) + data.len();
+            let effects = self.commit_write(offset, data, passage);
+            al_control_written |= effects.contains(Effect::AlControl);
+            if effects.contains(Effect::Reset) {
+                reset_step = data.get(usize::from(at::ESC_RESET_ECAT.saturating_sub(offset))).copied();
+            }
         }
-        let mut n = 0;
-        while let Some((offset, data)) = shadow.get(n) {
-            self.commit_write(offset, data, passage);
-            n += 1;
+        self.advance_reset(reset_step);
+        if al_control_written {
+            self.al_control_pending = true;
+            self.al_events |= AlEvents::AL_CONTROL;
         }
         self.protection = Protection {
             registers: self.memory.u8(at::WRITE_REGISTER_PROTECTION) & 1 != 0,
@@ -70,36 +80,32 @@ impl Esc {
     }
 
     /// Stores what the table lets be stored, then runs each effect of the bytes touched, once.
-    fn commit_write(&mut self, offset: u16, data: &[u8], passage: &Passage) {
-        let mut effects = 0u32;
+    fn commit_write(&mut self, offset: u16, data: &[u8], passage: &Passage) -> Effects {
+        let mut effects = Effects(0);
         for (offset, byte) in (offset..USER_RAM_START).zip(data) {
             if !self.accepts_write(offset) {
                 continue;
             }
             let effect = BYTES.effect(offset);
-            effects |= 1 << effect as u32;
+            effects.0 |= 1 << effect as u32;
             if stores(effect) {
                 self.memory.set_u8(offset, *byte);
             }
         }
         // SyncManagers decide about their bytes as a whole: a write that disables one may also set it.
-        let first_sm = at::SYNC_MANAGER.max(offset);
-        let has = |effect: Effect| effects & 1 << effect as u32 != 0;
-        if has(Effect::SyncManager) {
-            self.write_sync_managers(offset, data, first_sm);
+        if effects.contains(Effect::SyncManager) {
+            self.write_sync_managers(offset, data, at::SYNC_MANAGER.max(offset));
         }
-        if has(Effect::Fmmu) || has(Effect::SyncManager) {
+        if effects.contains(Effect::Fmmu) || effects.contains(Effect::SyncManager) {
             self.update_mappings();
         }
-        self.run_effects(has, offset, data, passage);
+        self.run_effects(effects, offset, data, passage);
+        effects
     }
 
-    fn run_effects(&mut self, has: impl Fn(Effect) -> bool, offset: u16, data: &[u8], passage: &Passage) {
+    fn run_effects(&mut self, effects: Effects, offset: u16, data: &[u8], passage: &Passage) {
         let now = passage.arrival;
-        if has(Effect::AlControl) {
-            self.al_control_pending = true;
-            self.al_events |= AlEvents::AL_CONTROL;
-        }
+        let has = |effect| effects.contains(effect);
         if has(Effect::DlControl) && self.ports.dl_control_written(&mut self.memory) {
             self.ports_changed = true;
             self.ecat_events |= EcatEvents::DL_STATUS;
@@ -113,8 +119,10 @@ impl Esc {
         if has(Effect::SiiCommand) {
             self.write_sii(offset, data, now);
         }
-        if has(Effect::Reset) {
-            self.advance_reset(data[0]);
+        if has(Effect::MiiControl) {
+            // No PHY stands behind it: a command is done at once, without error.
+            let control = self.memory.u16(at::MII_CONTROL);
+            self.memory.set_u16(at::MII_CONTROL, control & MII_SETTINGS);
         }
         if has(Effect::DcLatch) {
             self.dc.latch(&mut self.memory, passage);
@@ -128,11 +136,11 @@ impl Esc {
         if has(Effect::DcSpeedCounter) {
             self.dc.reset_control_loop(&mut self.memory);
         }
-        self.clear_counters(&has);
+        self.clear_counters(effects);
         self.update_addresses();
     }
 
-    fn clear_counters(&mut self, has: &impl Fn(Effect) -> bool) {
+    fn clear_counters(&mut self, effects: Effects) {
         let counters = [
             (Effect::ClearPortErrors, at::PORT_ERRORS, 12),
             (Effect::ClearProcessingUnitErrors, at::PROCESSING_UNIT_ERRORS, 1),
@@ -141,7 +149,7 @@ impl Esc {
             (Effect::ClearWatchdogCounters, at::WATCHDOG_COUNTER, 2),
         ];
         for (effect, offset, bytes) in counters {
-            if has(effect) {
+            if effects.contains(effect) {
                 self.memory.slice_mut(offset, bytes).fill(0);
             }
         }
@@ -168,7 +176,6 @@ impl Esc {
         if let Some(command) = byte(command_at) {
             let low = byte(at::SII_CONTROL).unwrap_or(0);
             self.sii.run_command(u16::from_le_bytes([low, command]), &mut self.memory, now);
-            // A reload may have changed the PDI configuration, never the alias.
         }
     }
 
@@ -204,7 +211,7 @@ impl Esc {
         }
         let mut bytes = [0; SYNC_MANAGER_BYTES];
         bytes.copy_from_slice(self.memory.slice(registers, SYNC_MANAGER_BYTES));
-        self.sync_managers[n].set(SyncManagerSettings::from_bytes(&bytes));
+        self.sync_managers[n].set(SyncManagerSettings::from_bytes(&bytes), self.memory.end());
         self.stop_watchdog_without_trigger();
     }
 
@@ -258,8 +265,14 @@ impl Esc {
         (exact && fmmu.is_bytewise() && sm.settings.mode == SmMode::Buffered).then_some(n)
     }
 
-    /// "RES" in three frames asks for a reset, which whoever drives this ESC carries out.
-    fn advance_reset(&mut self, byte: u8) {
+    /// "RES" in three frames asks for a reset, which whoever drives this ESC carries out. A frame that writes
+    /// other registers in between begins it anew.
+    fn advance_reset(&mut self, byte: Option<u8>) {
+        let Some(byte) = byte else {
+            self.reset_progress = 0;
+            self.memory.set_u8(at::ESC_RESET_ECAT, 0);
+            return;
+        };
         let step = usize::from(self.reset_progress);
         self.reset_progress = match RESET_SEQUENCE.get(step) {
             Some(expected) if *expected == byte => self.reset_progress + 1,
@@ -270,6 +283,16 @@ impl Esc {
             self.reset_requested = true;
         }
         self.memory.set_u8(at::ESC_RESET_ECAT, RESET_READBACK[usize::from(self.reset_progress)]);
+    }
+}
+
+/// The effects of one write, a bit each.
+#[derive(Clone, Copy)]
+struct Effects(u32);
+
+impl Effects {
+    const fn contains(self, effect: Effect) -> bool {
+        self.0 & 1 << effect as u32 != 0
     }
 }
 
@@ -284,6 +307,7 @@ const fn stores(effect: Effect) -> bool {
             | Effect::SiiOwner
             | Effect::Fmmu
             | Effect::DcSpeedCounter
+            | Effect::MiiControl
     )
 }
 

@@ -175,29 +175,22 @@ impl Esc {
     /// Writes memory. Tells whether at least one byte could be written.
     #[inline]
     pub fn write(&mut self, offset: u16, data: &[u8]) -> bool {
-        if self.hot.protected && self.is_protected(offset) {
-            return false;
-        }
+        let ram_is_open = !self.hot.protected || self.protection.opens_ram();
         if offset >= PROCESS_RAM_START {
-            return self.write_ram(u32::from(offset), data);
+            return ram_is_open && self.write_ram(u32::from(offset), data);
         }
         let (user_ram_from, ram_from) = (usize::from(USER_RAM_START), usize::from(PROCESS_RAM_START));
         let split = |limit: usize| limit.saturating_sub(usize::from(offset)).min(data.len());
         let registers = self.write_registers(offset, &data[..split(user_ram_from)]);
+        if !ram_is_open {
+            return registers;
+        }
         let user_ram = &data[split(user_ram_from)..split(ram_from)];
         if !user_ram.is_empty() {
             self.memory.slice_mut(offset.max(USER_RAM_START), user_ram.len()).copy_from_slice(user_ram);
         }
         let ram = self.write_ram(u32::from(PROCESS_RAM_START), &data[split(ram_from)..]);
         registers || !user_ram.is_empty() || ram
-    }
-
-    fn is_protected(&self, offset: u16) -> bool {
-        let protection = &self.protection;
-        let enables = offset == at::ESC_WRITE_ENABLE || offset == at::WRITE_REGISTER_ENABLE;
-        let everything = protection.everything && !protection.everything_enabled;
-        let registers = protection.registers && !protection.registers_enabled && offset < USER_RAM_START;
-        !enables && (everything || registers)
     }
 
     /// Register writes wait for the end of the frame.
@@ -213,14 +206,19 @@ impl Esc {
             self.protection.everything_enabled = data[0] & 1 != 0;
         }
         self.hot.registers_written = true;
-        self.shadow.as_mut().is_some_and(|shadow| shadow.push(offset, data))
+        if let Some(shadow) = &mut self.shadow {
+            shadow.write(offset, data);
+        }
+        true
     }
 
     /// Whether the wire may write the byte at `offset` now.
     pub(crate) fn accepts_write(&self, offset: u16) -> bool {
         let dc_missing = offset >> 8 == 0x09 && !self.config.distributed_clocks;
+        let protected = self.hot.protected && !self.protection.opens_register(offset);
         BYTES.writable(offset)
             && !dc_missing
+            && !protected
             && match BYTES.effect(offset) {
                 Effect::AlControl => !self.al_control_pending,
                 Effect::SiiCommand => Sii::ecat_owns(&self.memory),

@@ -135,6 +135,19 @@ pub(crate) struct Protection {
     pub(crate) everything_enabled: bool,
 }
 
+impl Protection {
+    /// Whether RAM may be written.
+    pub(crate) const fn opens_ram(&self) -> bool {
+        !self.everything || self.everything_enabled
+    }
+
+    /// Whether the register byte at `offset` may be written; the enable registers always may.
+    pub(crate) const fn opens_register(&self, offset: u16) -> bool {
+        let enables = offset == at::WRITE_REGISTER_ENABLE || offset == at::ESC_WRITE_ENABLE;
+        enables || self.opens_ram() && (!self.registers || self.registers_enabled)
+    }
+}
+
 impl Esc {
     /// An ESC that gets power at `now`, with this EEPROM image.
     #[must_use]
@@ -192,8 +205,8 @@ impl Esc {
     }
 
     /// The face of the application.
-    pub fn pdi(&mut self, now: Instant) -> Pdi<'_> {
-        Pdi::new(self, now)
+    pub fn pdi(&mut self) -> Pdi<'_> {
+        Pdi::new(self)
     }
 
     /// The EEPROM image.
@@ -241,7 +254,7 @@ impl Esc {
         core::mem::take(&mut self.ports_changed)
     }
 
-    /// A frame came with an error: counted as invalid at port 0, where it came in first.
+    /// A frame came with an error: counted as invalid at the port where it came in first.
     pub fn count_invalid_frame(&mut self, port: Port) {
         self.memory.count_up(at::PORT_ERRORS + 2 * u16::from(port == Port::Out));
     }
@@ -281,6 +294,12 @@ impl Esc {
         self.reset_requested || !self.visible_al_events().is_empty()
     }
 
+    /// Whether the master asks for a reset of the controller.
+    #[must_use]
+    pub const fn asks_for_reset(&self) -> bool {
+        self.reset_requested
+    }
+
     pub(crate) fn visible_al_events(&self) -> AlEvents {
         self.all_al_events() & AlEvents::from_bits_truncate(self.memory.u32(at::AL_EVENT_MASK))
     }
@@ -289,7 +308,7 @@ impl Esc {
     pub(crate) fn all_al_events(&self) -> AlEvents {
         let sync_managers = self.sync_managers.iter().enumerate();
         let bits = sync_managers
-            .filter(|(_, sm)| sm.active && sm.settings.pdi_event && sm.has_event())
+            .filter(|(_, sm)| sm.active && sm.settings.pdi_event && sm.pdi_event)
             .fold(0, |bits, (n, _)| bits | 0x100 << n);
         self.al_events | AlEvents::from_bits_truncate(bits)
     }
@@ -297,7 +316,7 @@ impl Esc {
     pub(crate) fn all_ecat_events(&self) -> EcatEvents {
         let sync_managers = self.sync_managers.iter().take(8).enumerate();
         let bits = sync_managers
-            .filter(|(_, sm)| sm.active && sm.settings.ecat_event && sm.has_event())
+            .filter(|(_, sm)| sm.active && sm.settings.ecat_event && sm.has_ecat_event())
             .fold(0, |bits, (n, _)| bits | 0x10 << n);
         self.ecat_events | EcatEvents::from_bits_truncate(bits)
     }

@@ -81,7 +81,7 @@ impl Esc {
             return false;
         }
         if mapping.bytewise {
-            let (range, physical) = byte_overlap(mapping, datagram);
+            let Some((range, physical)) = byte_overlap(mapping, datagram) else { return false };
             return self.read(physical, &mut data[range], now);
         }
         let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
@@ -137,7 +137,7 @@ impl Esc {
             return false;
         }
         if mapping.bytewise {
-            let (range, physical) = byte_overlap(mapping, datagram);
+            let Some((range, physical)) = byte_overlap(mapping, datagram) else { return false };
             return self.write(physical, &data[range]);
         }
         let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
@@ -185,13 +185,15 @@ fn logical_bytes(address: u32, length_bytes: usize) -> Span {
     Span { start, end: start + length_bytes as u64 }
 }
 
-/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start.
+/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start;
+/// none where the mapping has left the address space.
 #[inline]
-fn byte_overlap(mapping: &Mapping, datagram: Span) -> (core::ops::Range<usize>, u16) {
+fn byte_overlap(mapping: &Mapping, datagram: Span) -> Option<(core::ops::Range<usize>, u16)> {
     let bytes = mapping.logical_bytes();
     let both = bytes.intersection(datagram);
     let range = (both.start - datagram.start) as usize..(both.end - datagram.start) as usize;
-    (range, mapping.physical_start.wrapping_add((both.start - bytes.start) as u16))
+    let physical = mapping.physical_start.checked_add((both.start - bytes.start) as u16)?;
+    Some((range, physical))
 }
 
 fn bit_overlap(fmmu: &Fmmu, datagram: Span) -> Span {

@@ -1,29 +1,21 @@
 //! The face of the application: events, AL status, mailboxes, buffers, SII.
 
-use time::Instant;
 use wire::{AlControl, AlStatus, AlStatusCode};
 
 use crate::esc::Esc;
 use crate::events::{AlEvents, EcatEvents};
-use crate::ports::{self, Port};
-use crate::registers::{PdiAccess, REGISTERS, at};
+use crate::ports::Port;
+use crate::registers::at;
 use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
 
 /// The ESC as its application sees it, at one moment.
 pub struct Pdi<'a> {
     esc: &'a mut Esc,
-    now: Instant,
 }
 
 impl<'a> Pdi<'a> {
-    pub(crate) fn new(esc: &'a mut Esc, now: Instant) -> Self {
-        Self { esc, now }
-    }
-
-    /// AL event request, masked by the AL event mask.
-    #[must_use]
-    pub fn events(&self) -> AlEvents {
-        self.esc.visible_al_events()
+    pub(crate) fn new(esc: &'a mut Esc) -> Self {
+        Self { esc }
     }
 
     /// Takes the watchdog event, as reading 0x0440 does.
@@ -82,8 +74,8 @@ impl<'a> Pdi<'a> {
     pub fn set_deactivated(&mut self, index: SmIndex, deactivated: bool) {
         self.sm_mut(index).deactivate_by_pdi(deactivated);
         self.esc.update_mappings();
-        if deactivated {
-            self.esc.watchdog.stop();
+        if deactivated && self.sm(index).settings.watchdog_trigger {
+            self.esc.watchdog.disarm();
         }
     }
 
@@ -139,7 +131,15 @@ impl<'a> Pdi<'a> {
 
     /// Throws away a message that the wire has not read.
     pub fn empty_mailbox(&mut self, index: SmIndex) {
-        self.sm_mut(index).full = false;
+        let sm = self.sm_mut(index);
+        sm.full = false;
+        sm.interrupt_write = false;
+        self.esc.update_masked_events();
+    }
+
+    /// Takes the event that the wire has read or written this SyncManager.
+    pub fn take_event(&mut self, index: SmIndex) {
+        self.sm_mut(index).pdi_event = false;
     }
 
     /// The newest whole outputs, and whether they are new since the last call.
@@ -226,35 +226,14 @@ impl<'a> Pdi<'a> {
         })
     }
 
-    /// Shows in DL status whether the application runs.
-    pub fn set_operational(&mut self, operational: bool) {
-        ports::set_pdi_operational(&mut self.esc.memory, operational);
-    }
-
     /// Takes the wish of the master that the controller be reset ("RES" at 0x0040).
     pub fn take_reset_request(&mut self) -> bool {
         core::mem::take(&mut self.esc.reset_requested)
     }
 
-    /// Any register as the PDI reads it, at most 8 bytes, little endian.
-    #[must_use]
-    pub fn register(&mut self, offset: u16, size_bytes: u16) -> u64 {
-        self.esc.show_live_registers(self.now);
-        let bytes = self.esc.memory.slice(offset & 0x0FFF, usize::from(size_bytes.min(8)));
-        (0..).zip(bytes).fold(0, |value, (n, byte)| value | u64::from(*byte) << (8 * n))
-    }
-
-    /// Writes one register byte where the register map lets the PDI. False elsewhere.
-    pub fn set_register(&mut self, offset: u16, value: u8) -> bool {
-        let writable = REGISTERS.iter().any(|row| {
-            let end = row.offset + row.stride_bytes * (row.count - 1) + row.size_bytes;
-            row.pdi == PdiAccess::ReadWrite && (row.offset..end).contains(&offset)
-        });
-        if writable {
-            self.esc.memory.set_u8(offset, value);
-            self.esc.update_masked_events();
-        }
-        writable
+    /// Which events interrupt the application, register 0x0204.
+    pub fn set_event_mask(&mut self, mask: AlEvents) {
+        self.esc.memory.set_u32(at::AL_EVENT_MASK, mask.bits());
     }
 
     fn sm(&self, index: SmIndex) -> &SyncManager {

@@ -67,10 +67,12 @@ pub enum Effect {
     DcSystemTime,
     /// Stores, and resets the time control loop.
     DcSpeedCounter,
+    /// Stores the settings; a command is done at once.
+    MiiControl,
 }
 
 impl Effect {
-    const COUNT: usize = Self::DcSpeedCounter as usize + 1;
+    const COUNT: usize = Self::MiiControl as usize + 1;
 }
 
 const _: () = assert!(Effect::COUNT <= 32);
@@ -181,6 +183,7 @@ pub(crate) mod at {
     pub(crate) const SII_CONTROL: u16 = 0x0502;
     pub(crate) const SII_ADDRESS: u16 = 0x0504;
     pub(crate) const SII_DATA: u16 = 0x0508;
+    pub(crate) const MII_CONTROL: u16 = 0x0510;
     pub(crate) const FMMU: u16 = 0x0600;
     pub(crate) const SYNC_MANAGER: u16 = 0x0800;
     pub(crate) const RECEIVE_TIME_PORT: u16 = 0x0900;
@@ -253,7 +256,7 @@ pub const REGISTERS: &[Register] = &[
     row("SII control/status", at::SII_CONTROL, 2, W, W).effect(Effect::SiiCommand),
     row("SII address", at::SII_ADDRESS, 4, W, W).effect(Effect::SiiCommand),
     row("SII data", at::SII_DATA, 8, W, W).effect(Effect::SiiCommand),
-    row("MII control/status", 0x0510, 2, W, W),
+    row("MII control/status", at::MII_CONTROL, 2, W, W).effect(Effect::MiiControl),
     row("PHY address", 0x0512, 1, W, W),
     row("PHY register address", 0x0513, 1, W, W),
     row("PHY data", 0x0514, 2, W, W),

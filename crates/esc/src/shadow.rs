@@ -1,52 +1,73 @@
 //! Register writes of the frame that is passing: they take effect at its end (reference 1.7).
 
-use arrayvec::ArrayVec;
+use crate::registers::USER_RAM_START;
 
-/// Data bytes of one frame, at most.
-const DATA_BYTES_MAX: usize = 1_500;
-/// Datagrams of one frame, at most: each takes 12 bytes and one of data.
-const WRITES_MAX: usize = 120;
+const REGISTERS: usize = USER_RAM_START as usize;
+const WORDS: usize = REGISTERS / 64;
 
-/// The writes of one frame, in order. Their number and size is bound by the frame.
-#[derive(Clone, Debug, Default)]
+/// What a frame has written so far: a byte for each register, so that there is room for any frame and the
+/// last write of a byte wins.
+#[derive(Clone, Debug)]
 pub(crate) struct Shadow {
-    data: ArrayVec<u8, DATA_BYTES_MAX>,
-    writes: ArrayVec<Write, WRITES_MAX>,
+    bytes: [u8; REGISTERS],
+    written: [u64; WORDS],
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Write {
-    offset: u16,
-    data_at: u16,
-    length_bytes: u16,
+impl Default for Shadow {
+    fn default() -> Self {
+        Self { bytes: [0; REGISTERS], written: [0; WORDS] }
+    }
 }
 
 impl Shadow {
-    #[inline]
-    pub(crate) fn is_empty(&self) -> bool {
-        self.writes.is_empty()
-    }
-
-    /// Remembers a write. False if a frame longer than any Ethernet frame left no room.
-    pub(crate) fn push(&mut self, offset: u16, data: &[u8]) -> bool {
-        let data_at = self.data.len();
-        let room = self.data.remaining_capacity() >= data.len() && !self.writes.is_full();
-        if room {
-            self.data.extend(data.iter().copied());
-            self.writes.push(Write { offset, data_at: data_at as u16, length_bytes: data.len() as u16 });
+    /// Remembers a write; what lies behind the registers is not its business.
+    pub(crate) fn write(&mut self, offset: u16, data: &[u8]) {
+        for (at, byte) in (usize::from(offset)..REGISTERS).zip(data) {
+            self.bytes[at] = *byte;
+            self.written[at / 64] |= 1 << (at % 64);
         }
-        room
     }
 
-    /// The `n`-th write: its offset and its data.
-    pub(crate) fn get(&self, n: usize) -> Option<(u16, &[u8])> {
-        let write = self.writes.get(n)?;
-        let data_at = usize::from(write.data_at);
-        Some((write.offset, self.data.get(data_at..data_at + usize::from(write.length_bytes))?))
+    /// The next run of written bytes from `from` on: its offset and its data.
+    pub(crate) fn run(&self, from: usize) -> Option<(u16, &[u8])> {
+        let start = self.find(from, true)?;
+        let end = self.find(start, false).unwrap_or(REGISTERS);
+        Some((start as u16, &self.bytes[start..end]))
+    }
+
+    /// The first byte from `from` on that is written, or is not.
+    fn find(&self, from: usize, written: bool) -> Option<usize> {
+        let mut at = from;
+        while at < REGISTERS {
+            let word = self.written[at / 64];
+            let wanted = if written { word } else { !word } >> (at % 64);
+            if wanted != 0 {
+                return Some(at + wanted.trailing_zeros() as usize);
+            }
+            at = (at / 64 + 1) * 64;
+        }
+        None
     }
 
     pub(crate) fn clear(&mut self) {
-        self.data.clear();
-        self.writes.clear();
+        self.written.fill(0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_found_and_the_last_write_wins() {
+        let mut shadow = Shadow::default();
+        shadow.write(0x003F, &[1, 2, 3]);
+        shadow.write(0x0040, &[9]);
+        shadow.write(0x0F7F, &[7, 8]);
+        assert_eq!(shadow.run(0), Some((0x003F, &[1, 9, 3][..])));
+        assert_eq!(shadow.run(0x0042), Some((0x0F7F, &[7][..])));
+        assert_eq!(shadow.run(0x0F80), None);
+        shadow.clear();
+        assert_eq!(shadow.run(0), None);
     }
 }

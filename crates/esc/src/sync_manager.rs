@@ -1,5 +1,7 @@
 //! SyncManagers: settings, mailbox handshake, and the three buffers (reference 2.13, 3.1 to 3.4).
 
+use crate::registers::PROCESS_RAM_START;
+
 /// Bytes of one SyncManager in the register map.
 pub(crate) const SYNC_MANAGER_BYTES: usize = 8;
 /// Most SyncManagers that an ESC has.
@@ -145,6 +147,10 @@ pub struct SyncManager {
     pub(crate) interrupt_write: bool,
     /// Status bit 1: read, cleared when the first byte is written.
     pub(crate) interrupt_read: bool,
+    /// The wire has handed over, and the PDI has not looked yet.
+    pub(crate) pdi_event: bool,
+    /// Its area, with all its buffers, lies in the RAM.
+    fits: bool,
 }
 
 impl Default for SyncManager {
@@ -161,6 +167,8 @@ impl Default for SyncManager {
             complete: false,
             interrupt_write: false,
             interrupt_read: false,
+            pdi_event: false,
+            fits: false,
         }
     }
 }
@@ -186,10 +194,13 @@ impl SyncManager {
     }
 
     /// Takes new settings: all hand-over starts anew, except when only the repeat request toggles.
-    pub(crate) fn set(&mut self, settings: SyncManagerSettings) {
+    pub(crate) fn set(&mut self, settings: SyncManagerSettings, memory_end: usize) {
         let repeat_only = SyncManagerSettings { repeat_request: self.settings.repeat_request, ..settings };
         let restart = repeat_only != self.settings;
         self.settings = settings;
+        let buffers = if settings.mode == SmMode::Buffered && settings.length_bytes > 1 { 3 } else { 1 };
+        let area_end = usize::from(settings.start) + buffers * usize::from(settings.length_bytes);
+        self.fits = settings.start >= PROCESS_RAM_START && area_end <= memory_end;
         if restart {
             self.restart();
             self.repeat_acknowledge = false;
@@ -210,13 +221,14 @@ impl SyncManager {
             settings: self.settings,
             deactivated_by_pdi: self.deactivated_by_pdi,
             repeat_acknowledge: self.repeat_acknowledge,
+            fits: self.fits,
             ..Self::default()
         };
     }
 
     fn update_active(&mut self) {
         self.rules = self.settings.enabled && self.settings.length_bytes > 0;
-        self.active = self.rules && !self.deactivated_by_pdi;
+        self.active = self.rules && self.fits && !self.deactivated_by_pdi;
     }
 
     /// The wire writes `reach`: the offset of the buffer to write to, or none if it is refused.
@@ -294,17 +306,18 @@ impl SyncManager {
     fn buffer(&self, index: u8) -> u32 {
         let start = u32::from(self.settings.start);
         match self.settings.mode {
-            SmMode::Buffered => start + u32::from(index) * u32::from(self.settings.length_bytes),
-            SmMode::Mailbox | SmMode::Other(_) => start,
+            // One byte is whole by itself: it has no buffers (reference 3.1).
+            SmMode::Buffered if self.settings.length_bytes > 1 => {
+                start + u32::from(index) * u32::from(self.settings.length_bytes)
+            }
+            SmMode::Buffered | SmMode::Mailbox | SmMode::Other(_) => start,
         }
     }
 
-    /// Hands over at the end of a good frame. Tells whether the PDI has something new to see.
-    pub(crate) fn end_of_frame(&mut self) -> bool {
-        if !self.complete {
-            return false;
-        }
+    /// Hands over at the end of a good frame.
+    pub(crate) fn end_of_frame(&mut self) {
         self.complete = false;
+        self.pdi_event = true;
         match (self.settings.mode, self.settings.direction) {
             (SmMode::Mailbox, SmDirection::EcatWrites) => {
                 self.full = true;
@@ -322,7 +335,6 @@ impl SyncManager {
             }
             _ => self.interrupt_read = true,
         }
-        true
     }
 
     /// The PDI takes the newest whole outputs: the buffer's offset, and whether they are new.
@@ -332,6 +344,7 @@ impl SyncManager {
             SmBuffers::publish(&mut self.buffers.pdi, &mut self.buffers.between);
         }
         self.interrupt_write = false;
+        self.pdi_event = false;
         (self.buffer(self.buffers.pdi), fresh)
     }
 
@@ -352,6 +365,7 @@ impl SyncManager {
         self.buffers.fresh = true;
         self.interrupt_write = true;
         self.interrupt_read = false;
+        self.pdi_event = false;
     }
 
     /// The PDI has emptied a mailbox of the wire.
@@ -359,6 +373,7 @@ impl SyncManager {
         self.full = false;
         self.interrupt_write = false;
         self.interrupt_read = true;
+        self.pdi_event = false;
     }
 
     /// The PDI has filled a mailbox for the wire.
@@ -386,8 +401,11 @@ impl SyncManager {
         u8::from(self.deactivated_by_pdi) | u8::from(self.repeat_acknowledge) << 1
     }
 
-    /// Whether it shows in the event requests.
-    pub(crate) const fn has_event(&self) -> bool {
-        self.interrupt_write || self.interrupt_read
+    /// Whether the other side has handed something over to the wire.
+    pub(crate) const fn has_ecat_event(&self) -> bool {
+        match self.settings.direction {
+            SmDirection::EcatReads => self.interrupt_write,
+            SmDirection::EcatWrites | SmDirection::Other(_) => self.interrupt_read,
+        }
     }
 }

@@ -37,6 +37,11 @@ impl Watchdog {
         }
     }
 
+    /// Nothing will trigger it for now: it does not expire, and what has expired still shows.
+    pub(crate) fn disarm(&mut self) {
+        self.deadline = None;
+    }
+
     /// No SyncManager with trigger is left: there is nothing to watch.
     pub(crate) fn stop(&mut self) {
         self.deadline = None;

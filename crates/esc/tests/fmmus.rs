@@ -94,7 +94,7 @@ fn the_mailbox_status_bit_can_be_mapped() {
     let mut data = [0xFE];
     assert!(bench.esc.logical_read(0, &mut data, now));
     assert_eq!(data, [0xFE]);
-    bench.esc.pdi(now).fill_mailbox(esc::SmIndex(1), &[1]);
+    bench.esc.pdi().fill_mailbox(esc::SmIndex(1), &[1]);
     assert!(bench.esc.logical_read(0, &mut data, now));
     assert_eq!(data, [0xFF]);
     bench.write(0x062C, &[0]);
@@ -110,16 +110,13 @@ fn lrw_reads_inputs_and_writes_outputs_in_the_same_place() {
     bench.set_fmmu(0, &[0, 0, 0, 0, 2, 0, 0, 7, 0x00, 0x11, 0, 2, 1]);
     bench.set_fmmu(1, &[0, 0, 0, 0, 2, 0, 0, 7, 0x00, 0x12, 0, 1, 1]);
     let now = bench.now;
-    bench
-        .esc
-        .pdi(now)
-        .exchange(esc::SmIndex(2), esc::SmIndex(3), |_, inputs| inputs.copy_from_slice(&[7, 8]));
+    bench.esc.pdi().exchange(esc::SmIndex(2), esc::SmIndex(3), |_, inputs| inputs.copy_from_slice(&[7, 8]));
     let mut data = [1, 2];
     let access = bench.esc.logical_read_write(0, &mut data, now);
     bench.end();
     assert!(access.read && access.written);
     assert_eq!(data, [7, 8]);
-    assert_eq!(bench.esc.pdi(now).read_buffer(esc::SmIndex(2)).0, [1, 2]);
+    assert_eq!(bench.esc.pdi().read_buffer(esc::SmIndex(2)).0, [1, 2]);
 }
 
 /// A mapping for both directions over the same RAM gives the old content and takes the new.
@@ -136,6 +133,16 @@ fn lrw_over_shared_ram_exchanges() {
 }
 
 const DATAGRAM: std::ops::Range<u32> = 0x0000_FFF8..0x0001_0030;
+
+/// A mapping that leaves the address space maps nothing there; it does not begin anew at 0.
+#[test]
+fn a_mapping_does_not_wrap() {
+    let mut bench = Bench::new();
+    bench.set_fmmu(0, &[0, 0, 0, 0, 0x40, 0, 0, 7, 0xFE, 0xFF, 0, 3, 1]);
+    let now = bench.now;
+    assert!(!bench.esc.logical_read(2, &mut [0; 8], now));
+    assert!(!bench.esc.logical_write(2, &[0xFF; 32]));
+}
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]

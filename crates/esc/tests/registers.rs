@@ -56,8 +56,7 @@ fn al_control_waits_for_the_pdi() {
     let mut bench = Bench::new();
     assert!(bench.write(0x0120, &[2, 0]));
     assert!(!bench.write(0x0120, &[1, 0]));
-    let now = bench.now;
-    let control = bench.esc.pdi(now).take_al_control();
+    let control = bench.esc.pdi().take_al_control();
     assert_eq!(control.map(|control| control.state), Some(AlState::PreOp));
     assert!(bench.write(0x0120, &[1, 0]));
 }
@@ -69,9 +68,8 @@ fn al_status_raises_an_event_that_reading_it_clears() {
     bench.word(0x0110);
     bench.word(0x0130);
     assert_eq!(bench.esc.masked_events(), 0);
-    let now = bench.now;
     let status = AlStatus { state: AlState::PreOp, error: true, device_id_loaded: false };
-    bench.esc.pdi(now).set_al_status(status, AlStatusCode(0x11));
+    bench.esc.pdi().set_al_status(status, AlStatusCode(0x11));
     assert_eq!(bench.esc.masked_events(), 1 << 3);
     assert_eq!(bench.read(0x0130, 6), Some(vec![0x12, 0, 0, 0, 0x11, 0]));
     assert_eq!(bench.esc.masked_events(), 0);
@@ -140,12 +138,11 @@ fn res_in_three_frames_asks_for_a_reset() {
         })
         .collect();
     assert_eq!(readback, [1, 2, 0]);
-    let now = bench.now;
-    assert!(bench.esc.pdi(now).take_reset_request());
+    assert!(bench.esc.pdi().take_reset_request());
     b"RAS".iter().for_each(|byte| {
         bench.write(0x0040, &[*byte]);
     });
-    assert!(!bench.esc.pdi(now).take_reset_request());
+    assert!(!bench.esc.pdi().take_reset_request());
 }
 
 #[test]
@@ -200,7 +197,7 @@ fn the_process_data_watchdog_expires_after_its_time() {
     bench.now = due;
     bench.esc.advance(bench.now);
     assert_eq!((bench.word(0x0440), bench.byte(0x0442)), (0, 1));
-    assert!(bench.esc.pdi(due).take_watchdog_event());
+    assert!(bench.esc.pdi().take_watchdog_event());
     bench.write(0x1100, &[1, 2]);
     assert_eq!(bench.word(0x0440), 1);
     bench.write(0x0420, &[0, 0]);
@@ -233,6 +230,58 @@ fn the_control_loop_brings_the_difference_to_nothing() {
         difference = u32::from_le_bytes(bytes.try_into().expect("four bytes")) & 0x7FFF_FFFF;
     }
     assert!(difference < 10, "{difference} ns");
+}
+
+/// C019: a long write that begins at the enable register opens nothing behind it.
+#[test]
+fn write_protection_looks_at_every_byte() {
+    let mut bench = Bench::new();
+    bench.write(0x0021, &[1]);
+    let mut long = [0; 0x102];
+    long[0x100] = 2;
+    bench.write(0x0020, &long);
+    assert_eq!(bench.word(0x0120), 1);
+    assert!(bench.esc.pdi().take_al_control().is_none());
+}
+
+/// "RES" takes three frames, and nothing else in between.
+#[test]
+fn res_in_one_frame_or_interrupted_resets_nothing() {
+    let mut bench = Bench::new();
+    for byte in b"RES" {
+        bench.esc.write(0x0040, &[*byte]);
+    }
+    bench.end();
+    assert!(!bench.esc.pdi().take_reset_request());
+    for (byte, between) in b"RES".iter().zip([true, false, false]) {
+        bench.write(0x0040, &[*byte]);
+        if between {
+            bench.write(0x0010, &[1, 0]);
+        }
+    }
+    assert!(!bench.esc.pdi().take_reset_request());
+}
+
+/// However many FMMUs map registers, every write of a frame has room.
+#[test]
+fn a_frame_may_write_registers_many_times() {
+    let mut bench = Bench::new();
+    for n in 0..8 {
+        let physical: u16 = if n == 7 { 0x0010 } else { 0x0900 };
+        let [low, high] = physical.to_le_bytes();
+        bench.set_fmmu(n, &[0, 0, 0, 0, 248, 0, 0, 7, low, high, 0, 2, 1]);
+    }
+    assert!(bench.esc.logical_write(0, &[0x77; 248]));
+    bench.end();
+    assert_eq!(bench.word(0x0010), 0x7777);
+}
+
+/// Reference 2.11: no PHY stands behind the MII interface, so it is never busy and has no error.
+#[test]
+fn mii_management_is_never_busy() {
+    let mut bench = Bench::new();
+    bench.write(0x0510, &[0xFF, 0xFF]);
+    assert_eq!(bench.word(0x0510), 0x00FF);
 }
 
 proptest! {

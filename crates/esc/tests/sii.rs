@@ -86,9 +86,8 @@ fn ownership_decides_who_may_command() {
     let mut bench = words_8_to_11();
     bench.write(0x0500, &[1]);
     assert!(!bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
-    let now = bench.now;
-    assert!(bench.esc.pdi(now).take_sii(true));
-    assert!(bench.esc.pdi(now).write_sii_word(8, 0xBEEF));
+    assert!(bench.esc.pdi().take_sii(true));
+    assert!(bench.esc.pdi().write_sii_word(8, 0xBEEF));
     bench.write(0x0500, &[0]);
     assert!(!bench.write(0x0502, &[0, 1, 8, 0, 0, 0]), "the PDI still has it");
     bench.write(0x0500, &[2]);

@@ -24,9 +24,8 @@ fn a_full_mailbox_refuses_and_keeps_its_message() {
     let mut bench = with_sync_manager(0, 4, MAILBOX_RECEIVE);
     assert!(bench.write(START, &[1, 2, 3, 4]) && full(&mut bench, 0));
     assert!(!bench.write(START, &[9, 9, 9, 9]));
-    let now = bench.now;
-    assert_eq!(bench.esc.pdi(now).mailbox(SmIndex(0)), Some(&[1, 2, 3, 4][..]));
-    bench.esc.pdi(now).release_mailbox(SmIndex(0));
+    assert_eq!(bench.esc.pdi().mailbox(SmIndex(0)), Some(&[1, 2, 3, 4][..]));
+    bench.esc.pdi().release_mailbox(SmIndex(0));
     assert!(!full(&mut bench, 0) && bench.write(START, &[5, 6, 7, 8]));
 }
 
@@ -49,9 +48,8 @@ fn the_last_byte_alone_opens_nothing() {
 fn an_empty_mailbox_refuses_reads() {
     let mut bench = with_sync_manager(1, 4, MAILBOX_SEND);
     assert_eq!(bench.read(START, 4), None);
-    let now = bench.now;
-    assert!(bench.esc.pdi(now).fill_mailbox(SmIndex(1), &[1, 2]));
-    assert!(!bench.esc.pdi(now).fill_mailbox(SmIndex(1), &[3]));
+    assert!(bench.esc.pdi().fill_mailbox(SmIndex(1), &[1, 2]));
+    assert!(!bench.esc.pdi().fill_mailbox(SmIndex(1), &[3]));
     assert_eq!(bench.read(START, 2), Some(vec![1, 2]), "a partial read");
     assert!(full(&mut bench, 1));
     assert_eq!(bench.read(START + 3, 1), Some(vec![0]));
@@ -70,14 +68,13 @@ fn the_wrong_direction_is_refused() {
 #[test]
 fn repeat_request_and_acknowledge_follow_each_other() {
     let mut bench = with_sync_manager(1, 4, MAILBOX_SEND);
-    let now = bench.now;
-    bench.esc.pdi(now).fill_mailbox(SmIndex(1), &[1]);
+    bench.esc.pdi().fill_mailbox(SmIndex(1), &[1]);
     bench.write(0x080E, &[3]);
-    assert!(bench.esc.pdi(now).repeat_requested(SmIndex(1)));
+    assert!(bench.esc.pdi().repeat_requested(SmIndex(1)));
     assert!(full(&mut bench, 1), "a toggle throws nothing away");
-    bench.esc.pdi(now).acknowledge_repeat(SmIndex(1));
+    bench.esc.pdi().acknowledge_repeat(SmIndex(1));
     assert_eq!(bench.byte(0x080F), 2);
-    assert!(!bench.esc.pdi(now).repeat_requested(SmIndex(1)));
+    assert!(!bench.esc.pdi().repeat_requested(SmIndex(1)));
 }
 
 /// C080: settings are writable only while the SyncManager is disabled.
@@ -114,8 +111,7 @@ fn outputs_without_their_last_byte_are_not_handed_over() {
     let mut bench = with_sync_manager(2, 4, OUTPUTS);
     bench.write(START, &[1, 2, 3, 4]);
     bench.write(START, &[9, 9, 9]);
-    let now = bench.now;
-    assert_eq!(bench.esc.pdi(now).read_buffer(SmIndex(2)), (&[1, 2, 3, 4][..], true));
+    assert_eq!(bench.esc.pdi().read_buffer(SmIndex(2)), (&[1, 2, 3, 4][..], true));
 }
 
 #[test]
@@ -128,11 +124,10 @@ fn inputs_can_be_read_before_they_were_written() {
 #[test]
 fn a_sync_manager_that_the_pdi_closed_refuses() {
     let mut bench = with_sync_manager(2, 2, OUTPUTS);
-    let now = bench.now;
-    bench.esc.pdi(now).set_deactivated(SmIndex(2), true);
+    bench.esc.pdi().set_deactivated(SmIndex(2), true);
     assert_eq!(bench.byte(0x0817) & 1, 1);
     assert!(!bench.write(START, &[1, 2]));
-    bench.esc.pdi(now).set_deactivated(SmIndex(2), false);
+    bench.esc.pdi().set_deactivated(SmIndex(2), false);
     assert!(bench.write(START, &[1, 2]));
 }
 
@@ -161,6 +156,30 @@ enum InputStep {
 
 const LENGTH: usize = 8;
 const HALF: usize = LENGTH / 2;
+
+/// Reference 1.6: an area that leaves the RAM, with all its buffers, hands nothing over.
+#[test]
+fn an_area_beyond_the_ram_does_not_answer() {
+    let mut bench = Bench::new();
+    bench.set_sync_manager(0, 0x2FF0, 64, MAILBOX_RECEIVE);
+    assert!(!bench.write(0x2FF0, &[1; 64]));
+    assert!(!full(&mut bench, 0));
+    bench.set_sync_manager(3, 0x2F00, 100, INPUTS);
+    assert_eq!(bench.read(0x2F00, 100), None, "the third buffer has no room");
+}
+
+/// Reference 2.7: the PDI's event ends when it has looked, and does not come back by itself.
+#[test]
+fn an_event_ends_when_the_pdi_has_looked() {
+    let mut bench = with_sync_manager(1, 4, MAILBOX_SEND);
+    bench.esc.pdi().fill_mailbox(SmIndex(1), &[1]);
+    bench.esc.pdi().take_activation_event();
+    assert!(!bench.esc.interrupts_pdi(), "its own message is no event");
+    bench.read(START, 4);
+    assert!(bench.esc.interrupts_pdi());
+    bench.esc.pdi().take_event(SmIndex(1));
+    assert!(!bench.esc.interrupts_pdi());
+}
 
 proptest! {
     /// C081: for any interleaving the PDI gets whole images only, and always the newest whole one.
@@ -195,8 +214,7 @@ proptest! {
                     }
                 }
                 Step::PdiReads => {
-                    let now = bench.now;
-                    let read = bench.esc.pdi(now).read_buffer(SmIndex(2)).0.to_vec();
+                    let read = bench.esc.pdi().read_buffer(SmIndex(2)).0.to_vec();
                     prop_assert_eq!(&read, &newest);
                 }
             }
@@ -217,8 +235,7 @@ proptest! {
             match step {
                 InputStep::PdiPublishes => {
                     image = image.wrapping_add(1);
-                    let now = bench.now;
-                    bench.esc.pdi(now).exchange(SmIndex(2), SmIndex(3), |_, inputs| inputs.fill(image));
+                    bench.esc.pdi().exchange(SmIndex(2), SmIndex(3), |_, inputs| inputs.fill(image));
                 }
                 InputStep::WireReadsFirstHalf => {
                     reading = image;

@@ -124,12 +124,17 @@ impl Segment {
     /// A frame comes from the master's second port, at the far end. It runs back without being processed
     /// until it meets a closed port 0; there it is marked as circulating, and destroyed if it already was.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        let far_end = self.escs.last().map(|esc| esc.port(Port::Out));
+        if !far_end.is_some_and(|port| port.link && port.loop_state == LoopState::Open) {
+            return FrameFate::Destroyed;
+        }
         let open_in = |esc: &Esc| esc.port(Port::In).loop_state == LoopState::Open;
         let Some(first) = self.escs.iter().rposition(|esc| !open_in(esc)) else {
             return FrameFate::CrossedOver;
         };
         let FrameKind::Datagrams(layout) = FrameKind::of(frame) else { return FrameFate::Destroyed };
         if layout.datagrams(frame).any(|datagram| datagram.header.circulating) {
+            self.escs[first].count_processing_unit_error();
             return FrameFate::Destroyed;
         }
         for mut datagram in layout.datagrams(frame) {
@@ -207,9 +212,12 @@ impl Segment {
         self.escs.iter().map(Esc::deadline).min().unwrap_or(Instant::NEVER)
     }
 
-    /// Lets time pass in all ESCs.
-    pub fn advance(&mut self, now: Instant) {
-        self.escs.iter_mut().for_each(|esc| esc.advance(now));
+    /// Looks where frames go now, after an ESC was reset.
+    pub fn follow_changed_ports(&mut self) {
+        let changed = self.escs.iter_mut().fold(false, |changed, esc| esc.take_ports_changed() | changed);
+        if changed {
+            self.way = self.find_way();
+        }
     }
 
     fn follow_ports(&mut self) {
@@ -220,10 +228,10 @@ impl Segment {
     }
 
     fn find_way(&self) -> Way {
-        if !self.escs.first().is_some_and(|esc| esc.port(Port::In).link) {
-            return Way { reach: 0, end: WayEnd::Lost };
-        }
         for (position, esc) in self.escs.iter().enumerate() {
+            if esc.port(Port::In).loop_state == LoopState::Closed {
+                return Way { reach: position, end: WayEnd::Lost };
+            }
             let out = esc.port(Port::Out);
             let reach = position + 1;
             match (out.loop_state, out.link) {
@@ -232,6 +240,7 @@ impl Segment {
                 (LoopState::Open, true) => {}
             }
         }
-        Way { reach: self.escs.len(), end: WayEnd::CrossesOver }
+        let end = if self.escs.is_empty() { WayEnd::Lost } else { WayEnd::CrossesOver };
+        Way { reach: self.escs.len(), end }
     }
 }

@@ -187,3 +187,18 @@ fn ports_of_the_line_are_known() {
     let out = |position| line.esc(position).map(|esc| esc.port(Port::Out).link);
     assert_eq!((out(0), out(1), out(2)), (Some(true), Some(false), None));
 }
+
+#[test]
+fn a_port_0_that_the_master_closes_ends_the_line_before_it() {
+    let mut line = line(3);
+    write(&mut line, 1, 0x0101, &[0x03]);
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+    assert_eq!(returned_datagrams(&frame)[0].working_counter, 1);
+}
+
+#[test]
+fn nothing_crosses_to_a_far_end_without_a_cable() {
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    assert_eq!(line(2).frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+}

@@ -91,10 +91,4 @@ impl Command {
     pub const fn increments_position(self) -> bool {
         matches!(self, Self::Aprd | Self::Apwr | Self::Aprw | Self::Brd | Self::Bwr | Self::Brw | Self::Armw)
     }
-
-    /// Whether the address is a logical one of 32 bits.
-    #[must_use]
-    pub const fn is_logical(self) -> bool {
-        matches!(self, Self::Lrd | Self::Lwr | Self::Lrw)
-    }
 }

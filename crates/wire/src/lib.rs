@@ -13,12 +13,12 @@ mod frame;
 mod mailbox;
 mod mailbox_writer;
 mod object;
-mod sii;
 mod sdo;
 mod sdo_abort;
 mod sdo_info;
 mod sdo_info_description;
 mod sdo_response;
+mod sii;
 
 pub use al::{AlControl, AlState, AlStatus, AlStatusCode, AlStatusCodeRow};
 pub use build::{FrameBuilder, Returned, returned_datagrams};
