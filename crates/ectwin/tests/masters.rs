@@ -157,6 +157,18 @@ fn pysoem_reads_every_object_and_is_refused_what_it_must_be() {
 }
 
 #[test]
+fn pysoem_sends_messages_and_gets_each_of_them_back_once() {
+    Run {
+        test: "pysoem_sends_messages_and_gets_each_of_them_back_once",
+        units: &["nx-ect101-messages.toml"],
+        script: "messages.py",
+        arguments: &["1000"],
+        visible: &["ecat_mailbox.coe.sdoidx == 0x3001", "ecat_mailbox.coe.abortcode == 0x08000021"],
+    }
+    .run();
+}
+
+#[test]
 fn pysoem_exchanges_with_eight_units_in_a_line() {
     Run {
         test: "pysoem_exchanges_with_eight_units_in_a_line",
