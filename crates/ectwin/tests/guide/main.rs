@@ -8,3 +8,4 @@ mod cpu_unit;
 mod ethercrab_in_memory;
 mod frames_in_virtual_time;
 mod link_in_memory;
+mod messages;
