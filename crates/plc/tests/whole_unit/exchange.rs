@@ -1,7 +1,8 @@
 //! From power-on to data that comes back.
 
-use nx_ect101::{DataSetKind, Direction, IoAllocation};
-use time::Duration;
+use device::Network;
+use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings, device_config};
+use time::{Duration, Instant};
 
 use crate::bench::{Bench, PRE_OP, SAFE_OP};
 
@@ -65,4 +66,27 @@ fn the_id_switch_is_in_the_alias_register_and_in_al_status() {
     let mut bench = Bench::power_on(IoAllocation::factory()).into_pre_op();
     assert_eq!(bench.read(0x0012, 2), [1, 0]);
     assert_eq!(bench.request(PRE_OP | 0x20), (PRE_OP | 0x20, 1));
+}
+
+#[test]
+fn the_cpu_units_see_the_cables() {
+    let settings = UnitSettings::default();
+    let powered = [(); 2].map(|()| NxEct101::power_on(&settings));
+    let [(first, mut first_bus), (second, mut second_bus)] = powered;
+    let units = [first, second].map(|unit| (device_config(&settings), unit));
+    let mut network = Network::power_on(units, Instant::ZERO);
+    let mut now = Instant::ZERO;
+    let mut links = |network: &mut Network<NxEct101>| {
+        now += settings.timing.slave_period(0);
+        network.poll(now);
+        [&mut first_bus, &mut second_bus].map(|bus| {
+            let status = bus.m_to_c.newest().header.status;
+            (status.in_port_link, status.out_port_link)
+        })
+    };
+    assert_eq!(links(&mut network), [(true, true), (true, false)]);
+    network.segment_mut().set_cable(1, false);
+    assert_eq!(links(&mut network), [(true, false), (false, false)]);
+    network.segment_mut().set_cable(1, true);
+    assert_eq!(links(&mut network), [(true, true), (true, false)]);
 }
