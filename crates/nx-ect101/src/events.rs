@@ -1,12 +1,22 @@
 //! The events of the unit, from `tables/events.toml` (manual, 8-3-3 to 8-5-2).
+//!
+//! The table is the only place that knows what an event is. Diagnosis, indicators, checks and documents read it
+//! here.
+
+mod attributes;
 
 use core::fmt;
 use std::sync::LazyLock;
 
-use serde::{Deserialize, Deserializer};
+use serde::{Deserialize, Serialize};
 use wire::AlStatusCode;
 
 use crate::tables;
+
+pub use attributes::{
+    AttachedInformation, DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus, IoRefreshEffect,
+    Notified, Recovery,
+};
 
 static EVENTS: LazyLock<EventsFile> =
     LazyLock::new(|| tables::parse("events.toml", include_str!("../tables/events.toml")));
@@ -21,19 +31,85 @@ impl fmt::Display for EventCode {
     }
 }
 
-/// One event of the manual: what the checks of settings need to know of it.
-#[derive(Debug, Deserialize)]
+/// The events that the unit itself raises by their names; those of the setting rules stand in the rule table.
+impl EventCode {
+    /// Non-volatile Memory Hardware Error.
+    pub const NON_VOLATILE_MEMORY_HARDWARE_ERROR: Self = Self(0x0020_0000);
+    /// ESC Error.
+    pub const ESC_ERROR: Self = Self(0x0945_0000);
+    /// SII Verification Error.
+    pub const SII_VERIFICATION_ERROR: Self = Self(0x0946_0000);
+    /// Control Parameter Error in Master.
+    pub const CONTROL_PARAMETER_ERROR: Self = Self(0x1041_0000);
+    /// SM Event Mode Setting Error.
+    pub const SM_EVENT_MODE_SETTING_ERROR: Self = Self(0x3932_0000);
+    /// NX Unit Processing Error.
+    pub const PROCESSING_ERROR: Self = Self(0x4020_0000);
+    /// NX Unit I/O Communications Error.
+    pub const IO_COMMUNICATIONS_ERROR: Self = Self(0x8020_0000);
+    /// NX Message Communications Error.
+    pub const MESSAGE_COMMUNICATIONS_ERROR: Self = Self(0x8022_0000);
+    /// NX Unit Clock Not Synchronized Error.
+    pub const CLOCK_NOT_SYNCHRONIZED_ERROR: Self = Self(0x8024_0000);
+    /// Event Log Cleared.
+    pub const EVENT_LOG_CLEARED: Self = Self(0x9040_0000);
+    /// NX Unit Restart.
+    pub const UNIT_RESTART: Self = Self(0x94B8_0000);
+}
+
+/// One event of the manual, with the field names and the words of the table.
+#[derive(Debug, Deserialize, Serialize)]
 pub struct Event {
     /// Its code.
-    #[serde(deserialize_with = "event_code")]
+    #[serde(with = "attributes::code")]
     pub code: EventCode,
     /// Its name.
     pub name: String,
-    /// Whether a user may change its level.
+    /// Its level, unless a user has changed it.
+    pub level: EventLevel,
+    /// Whether a user may change its level to observation and back.
     pub changeable_level: bool,
+    /// The log category that the manual gives.
+    pub log: EventLog,
+    /// How the unit gets rid of it, once its cause is gone.
+    pub recovery: Recovery,
+    /// When it is detected.
+    pub detection_timing: DetectionTiming,
+    /// What it does to the user program.
+    pub user_program: String,
+    /// What it does to I/O refreshing with the CPU Unit.
+    pub io_refresh: IoRefreshEffect,
+    /// What it does to EtherCAT communications.
+    pub ecat_effect: EcatEffect,
+    /// The emergency error code; none if it has none.
+    #[serde(with = "attributes::emergency_code")]
+    pub emergency_code: Option<u16>,
+    /// Whether an emergency message can tell it to the master.
+    pub emergency_notified: Notified,
+    /// Whether the diagnosis history, object 10F3, gets a record of it.
+    pub logged: bool,
+    /// The log that keeps it for support software.
+    pub event_log: EventLog,
     /// The AL status code that the master reads; none if the event sets none.
-    #[serde(deserialize_with = "al_status_code")]
+    #[serde(with = "attributes::al_status_code")]
     pub al_status_code: Option<AlStatusCode>,
+    /// RUN indicator.
+    pub run: IndicatorStatus,
+    /// ERR indicator.
+    pub err: IndicatorStatus,
+    /// TS indicator, green.
+    pub ts_green: IndicatorStatus,
+    /// TS indicator, red.
+    pub ts_red: IndicatorStatus,
+    /// Whether the ERROR indicator of the CPU Unit flashes.
+    pub cpu_error_indicator_flashes: bool,
+    /// Attached information 1 to 4.
+    pub attached_information: Vec<AttachedInformation>,
+    /// Whether objects 2003, 2004 and the error status show it.
+    pub reported_as_current_error: bool,
+    /// What else there is to know.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
 }
 
 impl Event {
@@ -48,25 +124,18 @@ impl Event {
     pub fn find(code: EventCode) -> Option<&'static Self> {
         Self::all().iter().find(|event| event.code == code)
     }
+
+    /// Whether the unit stays in INIT, or goes there, until it is started anew.
+    #[must_use]
+    pub fn stops_in_init(&self) -> bool {
+        self.ecat_effect == EcatEffect::StopInit
+    }
 }
 
 /// The table has more to tell than this file reads.
 #[derive(Deserialize)]
 struct EventsFile {
     event: Vec<Event>,
-}
-
-fn event_code<'de, D: Deserializer<'de>>(deserializer: D) -> Result<EventCode, D::Error> {
-    let digits = String::deserialize(deserializer)?;
-    u32::from_str_radix(&digits, 16).map(EventCode).map_err(serde::de::Error::custom)
-}
-
-fn al_status_code<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<AlStatusCode>, D::Error> {
-    let digits = String::deserialize(deserializer)?;
-    if digits == "none" {
-        return Ok(None);
-    }
-    u16::from_str_radix(&digits, 16).map(|code| Some(AlStatusCode(code))).map_err(serde::de::Error::custom)
 }
 
 #[cfg(test)]
@@ -91,5 +160,25 @@ mod tests {
         let mismatch = Event::find(EventCode(0x3917_0000)).expect("an event of the manual");
         assert!(mismatch.changeable_level && mismatch.al_status_code.is_none());
         assert!(Event::find(EventCode(0x1234_5678)).is_none());
+    }
+
+    #[test]
+    fn every_named_code_is_an_event_of_that_name() {
+        let named = [
+            (EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR, "Non-volatile Memory Hardware Error"),
+            (EventCode::ESC_ERROR, "ESC Error"),
+            (EventCode::SII_VERIFICATION_ERROR, "SII Verification Error"),
+            (EventCode::CONTROL_PARAMETER_ERROR, "Control Parameter Error in Master"),
+            (EventCode::SM_EVENT_MODE_SETTING_ERROR, "SM Event Mode Setting Error"),
+            (EventCode::PROCESSING_ERROR, "NX Unit Processing Error"),
+            (EventCode::IO_COMMUNICATIONS_ERROR, "NX Unit I/O Communications Error"),
+            (EventCode::MESSAGE_COMMUNICATIONS_ERROR, "NX Message Communications Error"),
+            (EventCode::CLOCK_NOT_SYNCHRONIZED_ERROR, "NX Unit Clock Not Synchronized Error"),
+            (EventCode::EVENT_LOG_CLEARED, "Event Log Cleared"),
+            (EventCode::UNIT_RESTART, "NX Unit Restart"),
+        ];
+        for (code, name) in named {
+            assert_eq!(Event::find(code).map(|event| event.name.as_str()), Some(name));
+        }
     }
 }

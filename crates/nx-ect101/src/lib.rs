@@ -32,12 +32,15 @@ pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use config::{device_config, device_config_with};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
-pub use events::{Event, EventCode};
+pub use events::{
+    AttachedInformation, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
+    IndicatorStatus, IoRefreshEffect, Notified, Recovery,
+};
 pub use exchange::{ByteCopy, ExchangePlan};
 pub use finding::{Amount, Fact, Finding, Side};
 pub use memory::{
-    ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogLevel, LogRecord, MemoryAtPowerOn,
-    NonVolatileMemory, SYSTEM_RECORDS_MAX,
+    ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogRecord, MemoryAtPowerOn, NonVolatileMemory,
+    SYSTEM_RECORDS_MAX,
 };
 pub use messages::MESSAGE_BYTES;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};

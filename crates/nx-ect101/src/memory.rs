@@ -12,7 +12,7 @@ use crate::description::description;
 use crate::settings::UnitSettings;
 
 pub use codec::Damage;
-pub use error_log::{ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, LogLevel, LogRecord, SYSTEM_RECORDS_MAX};
+pub use error_log::{ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, LogRecord, SYSTEM_RECORDS_MAX};
 
 /// Bytes of SII word 4, the station alias.
 const ALIAS: core::ops::Range<usize> = 8..10;

@@ -5,8 +5,8 @@ use core::fmt;
 use arrayvec::ArrayVec;
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use super::{ErrorLog, LogLevel, LogRecord, NonVolatileMemory};
-use crate::events::EventCode;
+use super::{ErrorLog, LogRecord, NonVolatileMemory};
+use crate::events::{EventCode, EventLevel};
 
 const MAGIC: &[u8; 8] = b"ectwnvm\0";
 const VERSION: u16 = 1;
@@ -110,9 +110,9 @@ fn put_record(record: &LogRecord, bytes: &mut Vec<u8>) {
     bytes.extend_from_slice(&record.event.0.to_le_bytes());
     bytes.extend_from_slice(&record.time_ns.to_le_bytes());
     let level = match record.level {
-        LogLevel::MinorFault => 0,
-        LogLevel::Observation => 1,
-        LogLevel::Information => 2,
+        EventLevel::MinorFault => 0,
+        EventLevel::Observation => 1,
+        EventLevel::Information => 2,
     };
     bytes.extend_from_slice(&[level, record.details.len() as u8]);
     record.details.iter().for_each(|detail| bytes.extend_from_slice(&detail.to_le_bytes()));
@@ -152,9 +152,9 @@ impl Reader<'_> {
     fn record(&mut self) -> Option<LogRecord> {
         let (event, time_ns) = (EventCode(self.u32()?), u64::from_le_bytes(self.take()?));
         let level = match self.u8()? {
-            0 => LogLevel::MinorFault,
-            1 => LogLevel::Observation,
-            2 => LogLevel::Information,
+            0 => EventLevel::MinorFault,
+            1 => EventLevel::Observation,
+            2 => EventLevel::Information,
             _ => return None,
         };
         let mut details = ArrayVec::new();

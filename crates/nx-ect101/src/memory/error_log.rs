@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 
-use crate::events::EventCode;
+use crate::events::{EventCode, EventLevel};
 
 /// Records of the system event log, which object 10F3 shows.
 pub const SYSTEM_RECORDS_MAX: usize = 32;
@@ -11,24 +11,13 @@ pub const ACCESS_RECORDS_MAX: usize = 5;
 /// Pieces of attached information of one event.
 pub const DETAILS_MAX: usize = 4;
 
-/// Level of an event.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LogLevel {
-    /// Minor fault.
-    MinorFault,
-    /// Observation.
-    Observation,
-    /// Information.
-    Information,
-}
-
 /// One event that occurred.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogRecord {
     /// Which event.
     pub event: EventCode,
     /// The level that it had.
-    pub level: LogLevel,
+    pub level: EventLevel,
     /// When: system time in nanoseconds since 1970-01-01 00:00:00, 0 if it was not known.
     pub time_ns: u64,
     /// Attached information 1 to 4, as many as the event has.

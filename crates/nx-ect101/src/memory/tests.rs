@@ -5,7 +5,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::*;
-use crate::events::EventCode;
+use crate::events::{EventCode, EventLevel};
 
 fn encoded(memory: &NonVolatileMemory) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -14,8 +14,11 @@ fn encoded(memory: &NonVolatileMemory) -> Vec<u8> {
 }
 
 fn record() -> impl Strategy<Value = LogRecord> {
-    let level =
-        prop_oneof![Just(LogLevel::MinorFault), Just(LogLevel::Observation), Just(LogLevel::Information)];
+    let level = prop_oneof![
+        Just(EventLevel::MinorFault),
+        Just(EventLevel::Observation),
+        Just(EventLevel::Information)
+    ];
     (any::<u32>(), level, any::<u64>(), vec(any::<u32>(), 0..=DETAILS_MAX)).prop_map(
         |(event, level, time_ns, details)| LogRecord {
             event: EventCode(event),

@@ -1,0 +1,219 @@
+//! The attributes of events, in the words of `tables/events.toml`.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// Level of an event, the most severe first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventLevel {
+    /// Minor fault.
+    MinorFault,
+    /// Observation.
+    Observation,
+    /// Information.
+    Information,
+}
+
+/// A log for support software (manual, 8-3-2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventLog {
+    /// System event log, 32 records.
+    System,
+    /// Access event log, 5 records.
+    Access,
+    /// No log.
+    None,
+}
+
+/// How a unit gets rid of an error (manual, 8-3-4, for the NX bus of CPU Units).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Recovery {
+    /// Reset the error in the unit.
+    ResetErrorInSlaveUnit,
+    /// Make the I/O allocation settings again.
+    RedoIoAllocationSettings,
+    /// Cycle the power of the unit, or restart the NX bus.
+    CycleUnitPowerOrRestartNxBus,
+    /// Cycle the power of the unit.
+    CycleSlaveUnitPower,
+    /// Cycle the power of the unit.
+    CycleUnitPower,
+    /// Cycle the power of the unit, then reset the error in the NX Bus Function Module.
+    CycleNxUnitPowerThenResetErrorInNxBusFm,
+    /// Restart the unit, then reset the error, where the fail-soft setting says.
+    RestartNxUnitThenResetErrorByFailsoft,
+    /// Reset the error, where the fail-soft setting says.
+    ResetErrorByFailsoft,
+    /// There is nothing to recover.
+    None,
+}
+
+/// When an event is detected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DetectionTiming {
+    /// When the unit gets power.
+    NxUnitPowerOn,
+    /// When EtherCAT communications are established.
+    EcatCommunicationsEstablished,
+    /// INIT to PRE-OP.
+    InitToPreop,
+    /// PRE-OP to SAFE-OP.
+    PreopToSafeop,
+    /// Any state transition.
+    EcatStateTransition,
+    /// Continuously.
+    Continuous,
+    /// During NX message communications.
+    NxMessageCommunications,
+    /// When a user commands it.
+    UserCommand,
+    /// The manual says nothing.
+    Unspecified,
+}
+
+/// What an event does to I/O refreshing with the CPU Unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IoRefreshEffect {
+    /// It goes on.
+    Continues,
+    /// It goes on; data are exchanged where the sizes of both sides match.
+    ContinuesPartialExchange,
+    /// It does not start.
+    NotPerformed,
+    /// It stops.
+    Stops,
+    /// None.
+    NotAffected,
+    /// It starts again after the restart.
+    ResumesAfterRestart,
+}
+
+/// What an event does to EtherCAT communications.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EcatEffect {
+    /// They stop in INIT and leave it no more.
+    StopInit,
+    /// They stay in PRE-OP.
+    StopPreop,
+    /// They keep their state.
+    RetainState,
+    /// They go to SAFE-OP.
+    EnterSafeop,
+    /// None.
+    NotAffected,
+    /// They start again after the restart.
+    Restart,
+}
+
+/// Whether an emergency message can tell an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Notified {
+    /// It can.
+    Possible,
+    /// It cannot.
+    NotPossible,
+}
+
+/// What an event does to an indicator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IndicatorStatus {
+    /// Lit.
+    Lit,
+    /// Not lit.
+    NotLit,
+    /// Flashing at intervals of 1 s.
+    #[serde(rename = "flashing_1s")]
+    Flashing1s,
+    /// Flashing at intervals of 2 s.
+    #[serde(rename = "flashing_2s")]
+    Flashing2s,
+    /// Flickering.
+    Flickering,
+    /// Blinking.
+    Blinking,
+    /// Single flash.
+    SingleFlash,
+    /// Double flash.
+    DoubleFlash,
+    /// The manual leaves it open: the event does not touch the indicator.
+    Undefined,
+    /// The event is not in the manual's table of indicators.
+    NotListed,
+}
+
+/// A piece of information that goes with an event.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct AttachedInformation {
+    /// Its number, 1 to 4.
+    pub n: u8,
+    /// What it tells.
+    pub meaning: String,
+    /// What its values mean, where the manual names them.
+    pub values: BTreeMap<String, String>,
+}
+
+/// Eight hexadecimal digits.
+pub(super) mod code {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    use crate::events::EventCode;
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<EventCode, D::Error> {
+        let digits = String::deserialize(deserializer)?;
+        u32::from_str_radix(&digits, 16).map(EventCode).map_err(serde::de::Error::custom)
+    }
+
+    pub(crate) fn serialize<S: Serializer>(code: &EventCode, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(code)
+    }
+}
+
+/// Four hexadecimal digits, or "none".
+pub(super) mod emergency_code {
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u16>, D::Error> {
+        let digits = String::deserialize(deserializer)?;
+        if digits == "none" {
+            return Ok(None);
+        }
+        u16::from_str_radix(&digits, 16).map(Some).map_err(serde::de::Error::custom)
+    }
+
+    pub(crate) fn serialize<S: Serializer>(code: &Option<u16>, serializer: S) -> Result<S::Ok, S::Error> {
+        match code {
+            Some(code) => serializer.collect_str(&format_args!("{code:04X}")),
+            None => serializer.serialize_str("none"),
+        }
+    }
+}
+
+/// Four hexadecimal digits, or "none".
+pub(super) mod al_status_code {
+    use serde::{Deserializer, Serializer};
+    use wire::AlStatusCode;
+
+    use super::emergency_code;
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<AlStatusCode>, D::Error> {
+        Ok(emergency_code::deserialize(deserializer)?.map(AlStatusCode))
+    }
+
+    pub(crate) fn serialize<S: Serializer>(
+        code: &Option<AlStatusCode>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        emergency_code::serialize(&code.map(|code| code.0), serializer)
+    }
+}
