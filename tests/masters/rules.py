@@ -43,10 +43,14 @@ FACTORY = (outputs(*range(1, 7)), inputs(*range(1, 7)), ASSIGNED_OUTPUTS, ASSIGN
 # What is broken, and the AL status code by direction; writing FACTORY corrects it.
 PDO_CASES = (
     ("without 1A00", [(0x1C13, [0x1A01, 0x1BFE])], INVALID_INPUT_MAPPING),
+    ("a TxPDO in 1C12", [(0x1C12, [0x1601, 0x1A00])], INVALID_OUTPUT_MAPPING),
+    ("an RxPDO in 1C13", [(0x1C13, [0x1A00, 0x1A01, 0x1601])], INVALID_INPUT_MAPPING),
     ("SyncManager order M to C", [(0x1C12, [0x1603, 0x1601])], INVALID_OUTPUT_MAPPING),
     ("SyncManager order C to M", [(0x1C13, [0x1A00, 0x1BFE, 0x1A01])], INVALID_INPUT_MAPPING),
     ("type M to C", [(0x1601, entries(0x7000_00F0, 1) + entries(0x7001_0050, 1))], INVALID_OUTPUT_MAPPING),
     ("type C to M", [(0x1A01, entries(0x6000_00F0, 1) + entries(0x6001_0050, 1))], INVALID_INPUT_MAPPING),
+    ("an input M to C", [(0x1601, entries(0x6000_00F0, 1))], INVALID_OUTPUT_MAPPING),
+    ("an output C to M", [(0x1A01, entries(0x7000_00F0, 1))], INVALID_INPUT_MAPPING),
     ("order M to C", [outputs(1, 3, 2, 4)], INVALID_OUTPUT_MAPPING),
     ("order C to M", [inputs(1, 3, 2, 4)], INVALID_INPUT_MAPPING),
     (

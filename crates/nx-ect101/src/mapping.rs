@@ -1,8 +1,8 @@
 //! PDO mapping and PDO assignment: 1601–1603, 1A00–1A03, 1BFE, 1BFF, 1C12, 1C13, as masters write them.
 //!
 //! A master clears subindex 0, writes the elements, sets subindex 0; complete access comes here as the same
-//! sequence. Every element that exists and can be mapped is taken here: whether the settings fit together is
-//! checked at PRE-OP to SAFE-OP, as the manual's events say.
+//! sequence. Every element that exists and can be mapped is taken here, whichever way it goes: whether the
+//! settings fit together is checked at PRE-OP to SAFE-OP, as the manual's events say.
 
 use objects::{AccessRights, Object, ObjectTable};
 use wire::{DataType, ObjectIndex, SdoAbort, SubIndex};
@@ -40,7 +40,6 @@ pub(crate) struct Mapping {
 #[derive(Clone, Debug)]
 struct List {
     index: ObjectIndex,
-    direction: Direction,
     content: Content,
     count: u8,
     elements: Vec<u32>,
@@ -115,7 +114,7 @@ impl Mapping {
 
     /// Whether an assigned PDO maps this entry (subindex 0 never is).
     pub(crate) fn is_mapped(&self, index: ObjectIndex, sub: SubIndex) -> bool {
-        [Direction::MToC, Direction::CToM].into_iter().any(|direction| {
+        Direction::ALL.into_iter().any(|direction| {
             let mut entries = self.assigned(direction).flat_map(|pdo| self.entries(pdo));
             entries.any(|entry| (entry.index(), entry.sub()) == (index, sub))
         })
@@ -133,18 +132,16 @@ impl Mapping {
 impl List {
     /// The list of a mapping or assignment object; none for every other object.
     fn of_object(object: &Object) -> Option<Self> {
-        let assignment = [Direction::MToC, Direction::CToM]
-            .into_iter()
-            .find(|&direction| Assignment::of(direction).object == object.index);
-        let (content, direction) = match assignment {
-            Some(direction) => (Content::Pdos, direction),
-            None if object.data_type != DataType::PDO_MAPPING => return None,
-            None if object.index.0 < 0x1A00 => (Content::Entries, Direction::MToC),
-            None => (Content::Entries, Direction::CToM),
+        let is_assignment =
+            Direction::ALL.into_iter().any(|direction| Assignment::of(direction).object == object.index);
+        let content = match is_assignment {
+            true => Content::Pdos,
+            false if is_pdo(object) => Content::Entries,
+            false => return None,
         };
         let mut numbers = object.entries.iter().map(|entry| little_endian(&entry.default));
         let count = numbers.next().map_or(0, |count| count as u8);
-        Some(Self { index: object.index, direction, content, count, elements: numbers.collect() })
+        Some(Self { index: object.index, content, count, elements: numbers.collect() })
     }
 
     fn counted(&self) -> impl Iterator<Item = u32> + '_ {
@@ -164,8 +161,8 @@ impl List {
         let element = self.elements.get_mut(at).ok_or(SdoAbort::PDO_LENGTH_EXCEEDED)?;
         let mappable = number == 0
             || match self.content {
-                Content::Entries => entry_is_mappable(table, self.direction, MappedEntry(number)),
-                Content::Pdos => pdo_is_assignable(self.direction, number),
+                Content::Entries => entry_is_mappable(table, MappedEntry(number)),
+                Content::Pdos => pdo_exists(table, number),
             };
         if !mappable {
             return Err(SdoAbort::NOT_MAPPABLE);
@@ -175,21 +172,25 @@ impl List {
     }
 }
 
-/// Any entry that can go this way, with its own length: the rules about which entry belongs to which PDO are
+/// Any entry that can go either way, with its own length: the rules about which entry belongs to which PDO are
 /// checked at PRE-OP to SAFE-OP, else their events could never occur.
-fn entry_is_mappable(table: &ObjectTable, direction: Direction, mapped: MappedEntry) -> bool {
-    let wanted = match direction {
-        Direction::MToC => AccessRights::RX_PDO,
-        Direction::CToM => AccessRights::TX_PDO,
-    };
+fn entry_is_mappable(table: &ObjectTable, mapped: MappedEntry) -> bool {
     let entry = table.entry(mapped.index(), mapped.sub());
     entry.is_some_and(|entry| {
-        entry.access.contains(wanted) && usize::from(entry.bit_length) == mapped.bit_length()
+        entry.access.intersects(AccessRights::RX_PDO | AccessRights::TX_PDO)
+            && usize::from(entry.bit_length) == mapped.bit_length()
     })
 }
 
-fn pdo_is_assignable(direction: Direction, number: u32) -> bool {
-    Assignment::of(direction).allowed.iter().any(|pdo| u32::from(pdo.0) == number)
+/// Any PDO that exists, for the same reason: one that goes the other way has its events too.
+fn pdo_exists(table: &ObjectTable, number: u32) -> bool {
+    let index = u16::try_from(number).ok().map(ObjectIndex);
+    index.and_then(|index| table.object(index)).is_some_and(is_pdo)
+}
+
+/// Whether it is a PDO mapping object.
+fn is_pdo(object: &Object) -> bool {
+    object.data_type == DataType::PDO_MAPPING
 }
 
 /// A value of at most four bytes, little endian.

@@ -44,11 +44,16 @@ fn pdo_cases() -> Vec<PdoCase> {
     };
     vec![
         case("mandatory: without 1A00", vec![assign_tx(&[0x1A01, 0x1BFE])], to_master, vec![assigned_tx()]),
+        case("mandatory: a TxPDO in 1C12", vec![assign_rx(&[0x1601, 0x1A00])], to_cpu, vec![assigned_rx()]),
+        case("mandatory: a TxPDO alone in 1C12", vec![assign_rx(&[0x1A00])], to_cpu, vec![assigned_rx()]),
+        case("mandatory: an RxPDO in 1C13", vec![assign_tx(&[0x1A00, 0x1A01, 0x1601])], to_master, vec![assigned_tx()]),
         case("SyncManager order M to C", vec![assign_rx(&[0x1603, 0x1601])], to_cpu, vec![assigned_rx()]),
         case("SyncManager order M to C: twice", vec![assign_rx(&[0x1601, 0x1601])], to_cpu, vec![assigned_rx()]),
         case("SyncManager order C to M", vec![assign_tx(&[0x1A00, 0x1BFE, 0x1A01])], to_master, vec![assigned_tx()]),
         case("type M to C", vec![stray(0x7000, 0x1601)], to_cpu, vec![factory_rx()]),
         case("type C to M", vec![stray(0x6000, 0x1A01)], to_master, vec![factory_tx()]),
+        case("type M to C: an input", vec![Setting::Mapping(0x1601, vec![entry(0x6000, 1, 1)])], to_cpu, vec![factory_rx()]),
+        case("type C to M: an output", vec![Setting::Mapping(0x1A01, vec![entry(0x7000, 1, 1)])], to_master, vec![factory_tx()]),
         case("order M to C: not ascending", vec![rx(1, [1, 3, 2, 4])], to_cpu, vec![factory_rx()]),
         case("order M to C: not from 01", vec![rx(1, [2, 3, 4])], to_cpu, vec![factory_rx()]),
         case("order M to C: a gap", vec![rx(1, [1, 2, 4])], to_cpu, vec![factory_rx()]),
@@ -85,17 +90,18 @@ async fn an_entry_or_pdo_that_does_not_exist_is_refused_when_it_is_written() {
     let bench = Bench::power_on(UNIT);
     let group = bench.pre_op(&[]).await;
     let unit = group.subdevice(&bench.master, 0).unwrap();
-    let elements: [(&str, u16, u32); 4] = [
+    let elements: [(&str, u16, u32); 5] = [
         ("7000:29 in 1601", 0x1601, 0x7000_29F0),
-        ("6000:01, an input, in 1601", 0x1601, entry(0x6000, 1, 1)),
-        ("7000:01, an output, in 1A01", 0x1A01, entry(0x7000, 1, 1)),
+        ("6000:29 in 1601", 0x1601, 0x6000_29F0),
+        ("1018:01, in no PDO, in 1A01", 0x1A01, 0x1018_0120),
         ("7000:01 with another length in 1601", 0x1601, 0x7000_0110),
+        ("padding in 1A01", 0x1A01, 0x0000_0008),
     ];
     for (name, object, element) in elements {
         unit.sdo_write(object, 0, 0_u8).await.unwrap();
         expect_not_mappable(name, unit.sdo_write(object, 1, element).await);
     }
-    for (name, object, pdo) in [("1A00 in 1C12", 0x1C12, 0x1A00_u16), ("1601 in 1C13", 0x1C13, 0x1601)] {
+    for (name, object, pdo) in [("1604 in 1C12", 0x1C12, 0x1604_u16), ("1018 in 1C13", 0x1C13, 0x1018)] {
         unit.sdo_write(object, 0, 0_u8).await.unwrap();
         expect_not_mappable(name, unit.sdo_write(object, 1, pdo).await);
     }

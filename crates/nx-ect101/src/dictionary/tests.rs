@@ -171,8 +171,8 @@ fn complete_access_sets_an_assignment_at_once() {
 #[test]
 fn a_refused_complete_access_changes_nothing() {
     let mut bench = Bench::in_pre_op();
-    let wrong_direction = [2, 0, 0x02, 0x16, 0x00, 0x1A];
-    assert_eq!(bench.download_complete(0x1C12, &wrong_direction), Err(SdoAbort::NOT_MAPPABLE));
+    let no_pdo = [2, 0, 0x02, 0x16, 0x18, 0x10];
+    assert_eq!(bench.download_complete(0x1C12, &no_pdo), Err(SdoAbort::NOT_MAPPABLE));
     assert_eq!(bench.upload_complete(0x1C12), Ok(vec![1, 0, 0x01, 0x16]));
     assert_eq!(bench.upload(0x1C12, 2), Ok(vec![0, 0]));
 }

@@ -67,9 +67,12 @@ fn status_lies_where_its_pdos_are() {
 /// Any elements that a master can write, right or wrong.
 fn any_mapping() -> impl Strategy<Value = Mapping> {
     let subs = |max| prop::collection::vec(1..=max, 0..=usize::from(max));
-    let rx = prop::collection::vec(0x1601..=0x1603u32, 0..=3);
-    let tx =
-        prop::collection::vec(prop::sample::select(&[0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1BFE, 0x1BFF]), 0..=6);
+    let pdo = || {
+        let all = [0x1601, 0x1602, 0x1603, 0x1A00, 0x1A01, 0x1A02, 0x1A03, 0x1BFE, 0x1BFF];
+        prop::sample::select(all.to_vec())
+    };
+    let rx = prop::collection::vec(pdo(), 0..=3);
+    let tx = prop::collection::vec(pdo(), 0..=6);
     (subs(40u8), subs(10u8), subs(32u8), rx, tx, any::<bool>()).prop_map(
         |(uints, bytes, udints, rx, tx, bit)| {
             let mut mapping = factory();
@@ -78,8 +81,9 @@ fn any_mapping() -> impl Strategy<Value = Mapping> {
                 for (pdo, area) in [(0x1600 + number, 0x7000_0000u32), (0x1A00 + number, 0x6000_0000)] {
                     let mut elements: Vec<u32> =
                         subs.iter().map(|&sub| area | base | u32::from(sub) << 8).collect();
-                    if bit && pdo >= 0x1A00 && !elements.is_empty() {
-                        elements[0] = 0x6003_0101;
+                    match elements.first_mut() {
+                        Some(first) if bit => *first = 0x6003_0101,
+                        _ => {}
                     }
                     set(&mut mapping, pdo, &elements).expect("mappable");
                 }

@@ -1,7 +1,9 @@
 //! Mapping and assignment objects, written right and wrong.
 
 use super::*;
+use crate::pdo_settings::PdoSettings;
 use crate::tables::object_table;
+use crate::verdict::Configuration;
 
 const INPUTS: ObjectIndex = ObjectIndex(0x1C13);
 
@@ -79,15 +81,14 @@ fn what_cannot_be_mapped_is_refused() {
     write(&mut mapping, 0x1601, 0, 0).expect("cleared");
     let missing = 0x7000_29F0;
     let not_mappable = 0x1018_0120;
-    let other_direction = 0x6000_01F0;
     let other_length = 0x7000_0110;
     let count = 0x7000_0008;
     let padding = 0x0000_0008;
-    for element in [missing, not_mappable, other_direction, other_length, count, padding] {
+    for element in [missing, not_mappable, other_length, count, padding] {
         assert_eq!(write(&mut mapping, 0x1601, 1, element), Err(SdoAbort::NOT_MAPPABLE), "{element:08X}");
     }
     write(&mut mapping, 0x1C12, 0, 0).expect("cleared");
-    for element in [0x1600, 0x1A00, 0x1601_0000] {
+    for element in [0x1600, 0x1604, 0x1018, 0x7000, 0x1C13, 0x1601_0000] {
         assert_eq!(write(&mut mapping, 0x1C12, 1, element), Err(SdoAbort::NOT_MAPPABLE), "{element:04X}");
     }
 }
@@ -98,6 +99,56 @@ fn an_entry_of_another_data_set_is_left_to_the_rules() {
     set(&mut mapping, 0x1601, &[0x7001_0150, 0, 0x7000_01F0]).expect("all exist and can be mapped");
     set(&mut mapping, 0x1A01, &[0x6003_0101, 0x10F3_0401, 0x2002_0108]).expect("all exist and can be mapped");
     assert_eq!(sizes(&mapping), (40, 2 + 2 + 1));
+}
+
+#[test]
+fn an_entry_of_the_other_direction_is_left_to_the_rules() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1601, &[0x6000_01F0, 0x6003_0101, 0x10F3_0401]).expect("all exist and can be mapped");
+    set(&mut mapping, 0x1A01, &[0x7002_0120]).expect("exists and can be mapped");
+    assert_eq!(sizes(&mapping), (31, 2 + 4 + 1), "240 + 1 + 1 bits there, 32 bits here");
+    let wrong_length = 0x6000_0110;
+    write(&mut mapping, 0x1601, 0, 0).expect("cleared");
+    assert_eq!(write(&mut mapping, 0x1601, 1, wrong_length), Err(SdoAbort::NOT_MAPPABLE));
+}
+
+#[test]
+fn a_pdo_of_the_other_direction_is_left_to_the_rules() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1C12, &[0x1601, 0x1A00, 0x1BFF]).expect("all are PDOs");
+    set(&mut mapping, 0x1C13, &[0x1A00, 0x1601, 0x1602, 0x1603]).expect("all are PDOs");
+    let outputs: Vec<ObjectIndex> = mapping.assigned(Direction::MToC).collect();
+    assert_eq!(outputs, [0x1601, 0x1A00, 0x1BFF].map(ObjectIndex));
+    assert_eq!(sizes(&mapping), (180 + 2 + 1, 2 + 180 + 20 + 16));
+}
+
+/// Events of the rules that `object` breaks with these elements, the rest being the factory setting.
+fn events(object: u16, elements: &[u32]) -> Vec<String> {
+    let mut mapping = factory();
+    set(&mut mapping, object, elements).expect("all exist and can be mapped");
+    let configuration = Configuration { pdo: PdoSettings::of_mapping(&mapping), ..Configuration::factory() };
+    let verdict = configuration.check();
+    assert_eq!(verdict.plan.copies(Direction::MToC), [], "nothing is exchanged");
+    verdict.findings.iter().map(|finding| finding.event.to_string()).collect()
+}
+
+#[test]
+fn what_goes_the_other_way_raises_the_event_of_its_rule() {
+    assert_eq!(events(0x1C12, &[0x1601, 0x1A00]), ["350A0000"], "a TxPDO besides the RxPDO");
+    assert_eq!(events(0x1C12, &[0x1A00]), ["350A0000"], "a TxPDO in place of the RxPDO");
+    assert_eq!(events(0x1C13, &[0x1A00, 0x1A01, 0x1601]), ["35090000"], "an RxPDO besides the TxPDOs");
+    assert_eq!(events(0x1601, &[0x6000_01F0]), ["391E0000"], "an input");
+    assert_eq!(events(0x1A01, &[0x7000_01F0]), ["391F0000"], "an output");
+}
+
+#[test]
+fn what_the_largest_assignment_carries_still_has_a_length_of_16_bits() {
+    let mut mapping = factory();
+    set(&mut mapping, 0x1601, &entries(0x7000_00F0, 40)).expect("40 entries");
+    set(&mut mapping, 0x1A01, &entries(0x6000_00F0, 40)).expect("40 entries");
+    set(&mut mapping, 0x1C12, &[0x1601, 0x1A01, 0x1601]).expect("all are PDOs");
+    set(&mut mapping, 0x1C13, &[0x1601, 0x1A01, 0x1601, 0x1A01, 0x1601, 0x1A01]).expect("all are PDOs");
+    assert_eq!(sizes(&mapping), (3 * 1200, 6 * 1200));
 }
 
 #[test]
@@ -129,4 +180,6 @@ fn an_entry_is_mapped_as_long_as_its_pdo_is_assigned_and_counts_it() {
     assert!(!mapped(&mapping, 0x7001, 1) && mapped(&mapping, 0x6003, 1));
     set(&mut mapping, 0x1C12, &[]).expect("no RxPDO");
     assert!(!mapped(&mapping, 0x7000, 6));
+    set(&mut mapping, 0x1C13, &[0x1601]).expect("a PDO");
+    assert!(mapped(&mapping, 0x7000, 6) && !mapped(&mapping, 0x6000, 1), "wrong as it is, it carries them");
 }
