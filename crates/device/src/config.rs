@@ -42,6 +42,15 @@ pub enum OutputsBeforeOp {
     Within(Duration),
 }
 
+/// What a refused request does to a slave in OP. In the other states it keeps its state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RefusedInOp {
+    /// It drops to SAFE-OP (reference 5.2, C061, C062).
+    DropToSafeOp,
+    /// It stays in OP and shows the error.
+    StayInOp,
+}
+
 /// What PRE-OP to SAFE-OP says to a watchdog time that no SyncManager triggers (AL status code 0x001F).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WatchdogCheck {
@@ -68,4 +77,6 @@ pub struct DeviceConfig {
     pub outputs_before_op: OutputsBeforeOp,
     /// PRE-OP to SAFE-OP.
     pub watchdog_check: WatchdogCheck,
+    /// Requests in OP that are no transition.
+    pub refused_in_op: RefusedInOp,
 }

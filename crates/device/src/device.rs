@@ -5,10 +5,10 @@ use time::{Duration, Instant};
 use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 
 use crate::checks;
-use crate::config::{DeviceConfig, OutputsBeforeOp};
+use crate::config::{DeviceConfig, OutputsBeforeOp, RefusedInOp};
 use crate::mailbox_service::MailboxService;
 use crate::state_machine::{Check, refusal, transition};
-use crate::unit::{Exchange, PortLinks, Unit};
+use crate::unit::{Exchange, PortLinks, Start, Unit};
 
 /// What the stack listens to. Process data are not among it: the refresh runs freely.
 const EVENTS: AlEvents = AlEvents::AL_CONTROL
@@ -53,8 +53,8 @@ impl<U: Unit> Device<U> {
     }
 
     /// Starts again from INIT, as after power-on; the EEPROM keeps what was written to it.
-    pub fn restart(&mut self, esc: &mut Esc, now: Instant) {
-        self.unit.restart(now, esc.sii_image_mut());
+    pub fn restart(&mut self, esc: &mut Esc, now: Instant, start: Start) {
+        let code = self.unit.restart(now, start, esc.sii_image_mut());
         esc.reset(now);
         self.status = AlStatus::default();
         self.code = AlStatusCode::NO_ERROR;
@@ -63,6 +63,9 @@ impl<U: Unit> Device<U> {
             mailbox.reset();
         }
         self.start(esc, now);
+        if let (Some(code), None) = (code, self.unit.fault()) {
+            self.refuse(AlState::Init, code, &mut esc.pdi(), now);
+        }
     }
 
     fn start(&mut self, esc: &mut Esc, now: Instant) {
@@ -72,9 +75,7 @@ impl<U: Unit> Device<U> {
         self.next_refresh = now;
         self.follow_alias(&mut pdi);
         self.unit.entered(now, AlState::Init);
-        if let Some(code) = self.unit.fault() {
-            self.refuse(AlState::Init, code, &mut pdi, now);
-        }
+        self.watch_fault(&mut pdi, now);
     }
 
     /// The unit model.
@@ -116,7 +117,7 @@ impl<U: Unit> Device<U> {
     pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
         esc.advance(now);
         if esc.pdi().take_reset_request() {
-            self.restart(esc, now);
+            self.restart(esc, now, Start::EscReset);
         }
         let mut pdi = esc.pdi();
         if pdi.take_activation_event() {
@@ -126,13 +127,31 @@ impl<U: Unit> Device<U> {
             self.on_al_control(control, &mut pdi, now);
         }
         if pdi.take_watchdog_event() && self.status.state == AlState::Op {
-            self.fall_back(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, &mut pdi, now);
+            self.drop_to(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, &mut pdi, now);
         }
         self.watch_op_request(&mut pdi, now);
         if now >= self.next_refresh {
             self.refresh(&mut pdi, now);
         }
+        self.watch_fault(&mut pdi, now);
+        self.queue_emergencies();
         self.poll_mailbox(&mut pdi, now);
+        self.queue_emergencies();
+    }
+
+    /// A fault of the unit takes the slave to INIT, whenever it comes.
+    fn watch_fault(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        if let Some(code) = self.unit.fault()
+            && (self.status.state, self.code) != (AlState::Init, code)
+        {
+            self.refuse(AlState::Init, code, pdi, now);
+        }
+    }
+
+    fn queue_emergencies(&mut self) {
+        while let Some(emergency) = self.unit.take_emergency() {
+            self.queue_emergency(emergency);
+        }
     }
 
     /// Runs the unit's refresh and sets the time of the next one; what was missed is not made up for.
@@ -201,8 +220,9 @@ impl<U: Unit> Device<U> {
         let from = self.status.state;
         match transition(from, control.state) {
             None => {
-                let (state, code) = refusal(from, control.state);
-                self.refuse(state, code, pdi, now);
+                let code = self.unit.al_error(now, refusal(from, control.state));
+                let drops = from == AlState::Op && self.config.refused_in_op == RefusedInOp::DropToSafeOp;
+                self.refuse(if drops { AlState::SafeOp } else { from }, code, pdi, now);
             }
             Some(row) => match self.check(row.check, pdi, now) {
                 Err(code) => self.refuse(from, code, pdi, now),
@@ -221,10 +241,13 @@ impl<U: Unit> Device<U> {
     fn check(&mut self, check: Check, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
         match check {
             Check::Nothing => {}
-            Check::Mailbox => checks::mailbox(&self.config, pdi)?,
+            Check::Mailbox => {
+                let found = checks::mailbox(&self.config, pdi);
+                self.unit.check_transition(now, check, &found)?;
+            }
             Check::ProcessData => {
-                self.unit.check_mapping(now)?;
-                checks::process_data(&self.config, self.unit.process_data(), pdi)?;
+                let found = checks::process_data(&self.config, self.unit.process_data(), pdi);
+                self.unit.check_transition(now, check, &found)?;
             }
             Check::Outputs => {
                 let waits =
@@ -247,10 +270,16 @@ impl<U: Unit> Device<U> {
     /// A refused request: the error is shown in `state`, which differs from the current one where OP drops.
     fn refuse(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
         if state == self.status.state {
-            self.show(AlStatus { state, error: true, device_id_loaded: false }, code, pdi);
+            self.show_error(state, code, pdi);
         } else {
             self.fall_back(state, code, pdi, now);
         }
+    }
+
+    /// The stack itself has a reason to leave the state.
+    fn drop_to(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
+        let code = self.unit.al_error(now, code);
+        self.fall_back(state, code, pdi, now);
     }
 
     /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
@@ -262,7 +291,7 @@ impl<U: Unit> Device<U> {
             let has_outputs = self.unit.process_data().outputs_bytes > 0;
             pdi.set_deactivated(if has_outputs { SmIndex::OUTPUTS } else { SmIndex::INPUTS }, true);
         }
-        self.show(AlStatus { state, error: true, device_id_loaded: false }, code, pdi);
+        self.show_error(state, code, pdi);
     }
 
     /// Changes the state inside; what the wire sees follows by [`Device::show`], so that the inputs of
@@ -298,6 +327,12 @@ impl<U: Unit> Device<U> {
         }
     }
 
+    /// Without a code there is no error indication.
+    fn show_error(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>) {
+        let error = code != AlStatusCode::NO_ERROR;
+        self.show(AlStatus { state, error, device_id_loaded: false }, code, pdi);
+    }
+
     fn show(&mut self, status: AlStatus, code: AlStatusCode, pdi: &mut Pdi<'_>) {
         self.status = status;
         self.code = code;
@@ -312,13 +347,13 @@ impl<U: Unit> Device<U> {
         }
         let mailbox = self.config.mailbox.as_ref();
         if let Some(Err(code)) = mailbox.map(|mailbox| checks::mailbox_sync_managers(mailbox, pdi)) {
-            return self.fall_back(AlState::Init, code, pdi, now);
+            return self.drop_to(AlState::Init, code, pdi, now);
         }
         let areas = self.unit.process_data();
         if matches!(state, AlState::SafeOp | AlState::Op)
             && let Err(code) = checks::watched_process_data(&self.config, areas, pdi)
         {
-            self.fall_back(AlState::PreOp, code, pdi, now);
+            self.drop_to(AlState::PreOp, code, pdi, now);
         }
     }
 
@@ -330,7 +365,8 @@ impl<U: Unit> Device<U> {
             self.show(AlStatus { state: AlState::Op, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
         } else if now >= deadline {
             self.op_deadline = None;
-            self.refuse(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, pdi, now);
+            let code = self.unit.al_error(now, AlStatusCode::SYNC_MANAGER_WATCHDOG);
+            self.refuse(AlState::SafeOp, code, pdi, now);
         }
     }
 }

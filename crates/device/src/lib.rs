@@ -11,11 +11,11 @@ mod network;
 mod state_machine;
 mod unit;
 
-pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, WatchdogCheck};
+pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, WatchdogCheck};
 pub use device::Device;
 pub use esc::{EscConfig, SiiTiming, SyncManagerWrites};
 pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;
 pub use state_machine::{Check, TRANSITIONS, Transition, refusal, transition};
-pub use unit::{Exchange, PortLinks, ProcessDataAreas, Unit};
+pub use unit::{Exchange, PortLinks, ProcessDataAreas, Start, Unit};

@@ -6,7 +6,7 @@ use time::Instant;
 
 use crate::config::DeviceConfig;
 use crate::device::Device;
-use crate::unit::Unit;
+use crate::unit::{Start, Unit};
 
 /// A line of slaves behind a master, driven from outside: no clock, no thread.
 ///
@@ -97,10 +97,10 @@ impl<U: Unit> Network<U> {
         &mut self.segment
     }
 
-    /// Starts one slave again, as its restart button does; a position without slave is nothing.
-    pub fn restart(&mut self, position: usize, now: Instant) {
+    /// Starts one slave again; a position without slave is nothing.
+    pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
-            device.restart(esc, now);
+            device.restart(esc, now, start);
             self.segment.follow_changed_ports();
         }
     }

@@ -57,14 +57,12 @@ pub fn transition(from: AlState, to: AlState) -> Option<&'static Transition> {
     TRANSITIONS.iter().find(|row| row.from == from && row.to == to)
 }
 
-/// Why a request that stands in no row is refused, and the state that the slave then keeps: OP drops to
-/// SAFE-OP (reference 5.2, C061, C062), any other state stays.
+/// Why a request that stands in no row is refused (reference 5.2).
 #[must_use]
-pub fn refusal(from: AlState, to: AlState) -> (AlState, AlStatusCode) {
-    let code = match (from, to) {
+pub fn refusal(from: AlState, to: AlState) -> AlStatusCode {
+    match (from, to) {
         (_, AlState::Other(_)) => AlStatusCode::UNKNOWN_REQUESTED_STATE,
         (Init, Boot) => AlStatusCode::BOOTSTRAP_NOT_SUPPORTED,
         _ => AlStatusCode::INVALID_REQUESTED_STATE_CHANGE,
-    };
-    (if from == Op { SafeOp } else { from }, code)
+    }
 }

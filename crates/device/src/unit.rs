@@ -2,7 +2,9 @@
 
 use objects::ObjectServer;
 use time::{Duration, Instant};
-use wire::{AlState, AlStatusCode};
+use wire::{AlState, AlStatusCode, Emergency};
+
+use crate::state_machine::Check;
 
 /// Lengths in bytes of the process data that the mapping asks for. Zero: there is none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -35,6 +37,17 @@ pub struct Exchange<'a> {
     pub inputs: &'a mut [u8],
 }
 
+/// Why a slave starts again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Its power was cycled.
+    PowerOn,
+    /// Someone restarted it, locally.
+    Restart,
+    /// The master has reset the ESC by register 0x0040.
+    EscReset,
+}
+
 /// A unit model on the slave stack.
 pub trait Unit {
     /// The object dictionary behind CoE; none for a unit without a mailbox.
@@ -45,23 +58,44 @@ pub trait Unit {
     /// Lengths of the process data by the mapping that is set now.
     fn process_data(&self) -> ProcessDataAreas;
 
-    /// The unit's own checks at PRE-OP to SAFE-OP, before the stack compares the SyncManagers with
-    /// [`Unit::process_data`].
+    /// The master asks for a state that has to be checked: PRE-OP ([`Check::Mailbox`]) or SAFE-OP
+    /// ([`Check::ProcessData`]). `found` is what the stack has against it, in the order in which the first one
+    /// counts; mostly nothing. The unit adds its own and may name the stack's in its own terms.
     ///
     /// # Errors
-    /// The AL status code that the slave shows; it stays in PRE-OP.
-    fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
-        Ok(())
+    /// The AL status code that the slave shows; it keeps its state.
+    fn check_transition(
+        &mut self,
+        _now: Instant,
+        _check: Check,
+        found: &[AlStatusCode],
+    ) -> Result<(), AlStatusCode> {
+        found.first().map_or(Ok(()), |&code| Err(code))
     }
 
-    /// A fault that keeps the slave in INIT: every request for another state is refused with this AL status
-    /// code, which is shown from power-on.
+    /// The stack refuses a request that is no transition, or leaves a state on its own, for this reason. The
+    /// AL status code that the slave shows, which is mostly the same.
+    fn al_error(&mut self, _now: Instant, code: AlStatusCode) -> AlStatusCode {
+        code
+    }
+
+    /// A fault that takes the slave to INIT and keeps it there: every request for another state is refused
+    /// with this AL status code, which is shown as long as the fault stands. [`AlStatusCode::NO_ERROR`]
+    /// refuses without an error indication.
     fn fault(&self) -> Option<AlStatusCode> {
         None
     }
 
-    /// The slave starts again, as after power-on. `sii_image` is the EEPROM, which is loaded right after.
-    fn restart(&mut self, _now: Instant, _sii_image: &mut [u8]) {}
+    /// The slave starts again, for the reason `start`. `sii_image` is the EEPROM, which is loaded right after.
+    /// The AL status code that the master finds in INIT; none: no error.
+    fn restart(&mut self, _now: Instant, _start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
+        None
+    }
+
+    /// Takes the oldest emergency message that the unit wants to send. Below PRE-OP it is lost.
+    fn take_emergency(&mut self) -> Option<Emergency> {
+        None
+    }
 
     /// The state machine has arrived in `state`.
     fn entered(&mut self, _now: Instant, _state: AlState) {}

@@ -1,7 +1,7 @@
 //! What the slave stack is told about the unit.
 
 use device::{
-    AbortProfile, Area, DeviceConfig, EscConfig, MailboxConfig, OutputsBeforeOp, SiiTiming,
+    AbortProfile, Area, DeviceConfig, EscConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, SiiTiming,
     SyncManagerWrites, WatchdogCheck,
 };
 
@@ -40,7 +40,9 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
         inputs_start: layout::INPUTS_START,
         // Masters differ in what comes first, outputs or OP. Outputs are not valid until they come.
         outputs_before_op: OutputsBeforeOp::NotRequired,
-        watchdog_check: WatchdogCheck::Off,
+        watchdog_check: WatchdogCheck::TriggerRequired,
+        // Manual, 8-3-4: the state is kept when the error occurs.
+        refused_in_op: RefusedInOp::StayInOp,
     }
 }
 

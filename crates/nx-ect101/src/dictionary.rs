@@ -4,10 +4,18 @@ use objects::{Dictionary, ObjectServer, ObjectTable};
 use time::Duration;
 use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 
+use crate::diagnosis::{CurrentError, DIAGNOSIS_MESSAGE_BYTES, Diagnosis};
+use crate::events::EventLevel;
 use crate::identification::Identification;
 use crate::mapping::Mapping;
+use crate::memory::LogRecord;
 use crate::messages::{Message, Messages};
 use crate::tables::object_table;
+
+/// Sysmac Observation.
+const OBSERVATIONS: u16 = 0x2003;
+/// Sysmac Minor Fault.
+const MINOR_FAULTS: u16 = 0x2004;
 
 /// Answers for the object dictionary of one unit.
 #[derive(Debug)]
@@ -16,18 +24,22 @@ pub(crate) struct UnitObjects {
     pub(crate) mapping: Mapping,
     pub(crate) identification: Identification,
     pub(crate) messages: Messages,
+    pub(crate) diagnosis: Diagnosis,
     /// A message was read or written since [`UnitObjects::take_message_change`].
     message_changed: bool,
     pub(crate) state: AlState,
     /// Time between two refreshes.
     period: Duration,
-    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has told none.
-    pub(crate) system_time_ns: u64,
 }
 
 impl UnitObjects {
-    /// The objects at power-on.
-    pub(crate) fn power_on(serial: u32, identification: Identification, period: Duration) -> Self {
+    /// The objects when the unit starts.
+    pub(crate) fn start(
+        serial: u32,
+        identification: Identification,
+        period: Duration,
+        diagnosis: Diagnosis,
+    ) -> Self {
         let table = object_table();
         let mapping = Mapping::factory(&table);
         let mut values = Dictionary::new(table);
@@ -38,16 +50,55 @@ impl UnitObjects {
             mapping,
             identification,
             messages: Messages::default(),
+            diagnosis,
             message_changed: false,
             state: AlState::Init,
             period,
-            system_time_ns: 0,
         }
+    }
+
+    /// The unit starts again: everything but the diagnosis begins anew.
+    pub(crate) fn restart(&mut self, serial: u32, identification: Identification) {
+        let diagnosis = core::mem::take(&mut self.diagnosis);
+        *self = Self::start(serial, identification, self.period, diagnosis);
     }
 
     /// Whether a master has read or written a message since the last call.
     pub(crate) const fn take_message_change(&mut self) -> bool {
         core::mem::replace(&mut self.message_changed, false)
+    }
+
+    /// Reads an entry of the diagnosis objects; none if it only keeps a value.
+    fn diagnosis_number(&self, index: ObjectIndex, sub: SubIndex) -> Option<u64> {
+        let diagnosis = &self.diagnosis;
+        let count = |level| diagnosis.current(level).len() as u64;
+        Some(match (index.0, sub.0) {
+            (0x10F3, 1) => diagnosis.log().system.len() as u64,
+            (0x10F3, 2) => diagnosis.log().newest.into(),
+            (0x10F3, 3) => diagnosis.newest_acknowledged().into(),
+            (0x10F3, 4) => diagnosis.has_new_messages().into(),
+            (0x10F3, 5) => diagnosis.emergencies_enabled().into(),
+            (0x10F8, 0) => diagnosis.time_ns(),
+            (0x2002, 1) => diagnosis.error_status().into(),
+            (OBSERVATIONS, 0) => count(EventLevel::Observation),
+            (MINOR_FAULTS, 0) => count(EventLevel::MinorFault),
+            _ => return None,
+        })
+    }
+
+    /// A record of the history or a current error; zeros where there is none.
+    fn read_record(&self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) {
+        value.fill(0);
+        let at = usize::from(sub.0.saturating_sub(1));
+        let error = |level| self.diagnosis.current(level).get(at).map(CurrentError::bytes);
+        match index.0 {
+            OBSERVATIONS => copy(error(EventLevel::Observation), value),
+            MINOR_FAULTS => copy(error(EventLevel::MinorFault), value),
+            _ => {
+                let record = self.diagnosis.log().record_at(sub.0);
+                copy::<DIAGNOSIS_MESSAGE_BYTES>(record.map(LogRecord::diagnosis_message), value);
+            }
+        }
     }
 
     /// Reads 3000:01 or 3001:01.
@@ -101,12 +152,18 @@ impl ObjectServer for UnitObjects {
             self.read_message(index, value);
             return Ok(());
         }
+        if matches!((index.0, sub.0), (0x10F3, 6..) | (OBSERVATIONS | MINOR_FAULTS, 1..)) {
+            self.read_record(index, sub, value);
+            return Ok(());
+        }
         let number = match (index.0, sub.0) {
             (0x10E0, 1) => u64::from(self.identification.alias_register_value()),
             (0x10E0, 3) => u64::from(self.identification.switch_value()),
-            (0x10F8, 0) => self.system_time_ns,
             (0x1C32 | 0x1C33, 2) => self.cycle_time_ns(),
-            _ => return self.values.read(index, sub, value),
+            _ => match self.diagnosis_number(index, sub) {
+                Some(number) => number,
+                None => return self.values.read(index, sub, value),
+            },
         };
         for (to, from) in value.iter_mut().zip(number.to_le_bytes()) {
             *to = from;
@@ -123,12 +180,28 @@ impl ObjectServer for UnitObjects {
             (0x10E0, 1) => self.identification.set_software(word(value)?),
             (0x10E0, 3) => self.identification.reload_switch(word(value)?),
             (0x3001, 1) => self.write_message(value),
-            // The diagnosis history is empty: there is no record to acknowledge, and nothing to clear.
-            (0x10F3, 3) if value != [0] => Err(SdoAbort::VALUE_OUT_OF_RANGE),
-            // Commands that clear error status and logs; they read 0 ever after (manual, A-6-7).
-            (0x10F3, 3) | (0x2002, 2) | (0x2100, 0) => Ok(()),
+            (0x10F3, 3) => self.diagnosis.acknowledge(value.first().copied().unwrap_or(0)),
+            (0x10F3, 5) => {
+                self.diagnosis.enable_emergencies(word(value)? & 1 != 0);
+                Ok(())
+            }
+            // Commands, whose one value the table has checked; they read 0 ever after (manual, A-6-7).
+            (0x2002, 2) => {
+                self.diagnosis.reset_errors();
+                Ok(())
+            }
+            (0x2100, 0) => {
+                self.diagnosis.clear_history();
+                Ok(())
+            }
             _ => self.values.write(index, sub, value),
         }
+    }
+}
+
+fn copy<const BYTES: usize>(from: Option<[u8; BYTES]>, value: &mut [u8]) {
+    for (to, from) in value.iter_mut().zip(from.into_iter().flatten()) {
+        *to = from;
     }
 }
 

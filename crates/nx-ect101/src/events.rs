@@ -125,6 +125,11 @@ impl Event {
         Self::all().iter().find(|event| event.code == code)
     }
 
+    /// The events that show this AL status code.
+    pub fn of_al_status_code(code: AlStatusCode) -> impl Iterator<Item = &'static Self> {
+        Self::all().iter().filter(move |event| event.al_status_code == Some(code))
+    }
+
     /// Whether the unit stays in INIT, or goes there, until it is started anew.
     #[must_use]
     pub fn stops_in_init(&self) -> bool {

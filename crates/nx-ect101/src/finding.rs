@@ -152,16 +152,21 @@ impl Finding {
         Self { rule, event: events.of(direction), side: events.side, direction, data_set, fact }
     }
 
+    /// The row of the event that it raises.
+    pub(crate) fn event_row(&self) -> Option<&'static Event> {
+        Event::find(self.event)
+    }
+
     /// The event's name in the manual; empty for a code that is not in its table.
     #[must_use]
     pub fn event_name(&self) -> &'static str {
-        Event::find(self.event).map_or("", |event| event.name.as_str())
+        self.event_row().map_or("", |event| event.name.as_str())
     }
 
     /// What the master reads as AL status code when it asks for SAFE-OP; none if the unit goes there.
     #[must_use]
     pub fn al_status_code(&self) -> Option<AlStatusCode> {
-        Event::find(self.event)?.al_status_code
+        self.event_row()?.al_status_code
     }
 
     /// The data set that it is about; none if it is about none, or about several at once.

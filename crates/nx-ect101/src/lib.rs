@@ -5,11 +5,14 @@ mod amounts;
 mod config;
 mod data_sets;
 mod description;
+mod diagnosis;
 mod dictionary;
 mod events;
 mod exchange;
+mod fault;
 mod finding;
 mod identification;
+mod indicators;
 pub mod layout;
 mod mapping;
 mod memory;
@@ -32,12 +35,17 @@ pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use config::{device_config, device_config_with};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
+pub use diagnosis::{CURRENT_ERRORS_MAX, CurrentError, DIAGNOSIS_MESSAGE_BYTES};
 pub use events::{
     AttachedInformation, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
     IndicatorStatus, IoRefreshEffect, Notified, Recovery,
 };
 pub use exchange::{ByteCopy, ExchangePlan};
+pub use fault::Fault;
 pub use finding::{Amount, Fact, Finding, Side};
+pub use indicators::{
+    Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition, Pattern, PortCondition,
+};
 pub use memory::{
     ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogRecord, MemoryAtPowerOn, NonVolatileMemory,
     SYSTEM_RECORDS_MAX,
@@ -46,7 +54,7 @@ pub use messages::MESSAGE_BYTES;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};
 pub use pdo_settings::{PdoEntry, PdoSettings};
 pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
-pub use settings::UnitSettings;
+pub use settings::{EventLevels, LevelNotChangeable, NewestAcknowledged, UnitSettings};
 pub use status::{NxUnitStatus, SlaveStatus};
 pub use tables::object_table;
 pub use timing::Timing;

@@ -1,9 +1,12 @@
 //! How a unit is set up, before it gets power.
 
+use std::collections::BTreeMap;
+
 use crate::allocation::IoAllocation;
+use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
 use crate::timing::Timing;
-use crate::unit_file::UnitFile;
+use crate::unit_file::{ChangedLevel, UnitFile};
 
 /// How one unit is set up, on its case and by its support software.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -19,6 +22,61 @@ pub struct UnitSettings {
     pub timing: Timing,
     /// I/O allocation of the CPU Unit.
     pub io_allocation: IoAllocation,
+    /// Event levels that the user has changed.
+    pub event_levels: EventLevels,
+    /// What object 10F3:03 reads.
+    pub newest_acknowledged: NewestAcknowledged,
+}
+
+/// What 10F3:03, Newest Acknowledged Message, reads: the manual says both (A-6-4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NewestAcknowledged {
+    /// The subindex of the most recent record; 0 if there is none.
+    #[default]
+    NewestRecord,
+    /// What a master has written last since the unit started; 0 if nothing.
+    LastAcknowledged,
+}
+
+/// The Event Level Settings (manual, 6-5-1), in force from the start of the unit on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct EventLevels(BTreeMap<EventCode, EventLevel>);
+
+/// The level of this event cannot be changed, or not to that level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelNotChangeable;
+
+impl EventLevels {
+    /// Changes the level of an event.
+    ///
+    /// # Errors
+    /// [`LevelNotChangeable`]: the manual lets users change 39160000 and 39170000, to minor fault and observation.
+    pub fn set(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
+        let changeable = Event::find(code).is_some_and(|event| event.changeable_level);
+        if !changeable || level == EventLevel::Information {
+            return Err(LevelNotChangeable);
+        }
+        self.0.insert(code, level);
+        Ok(())
+    }
+
+    /// The level of an event.
+    #[must_use]
+    pub fn of(&self, event: &Event) -> EventLevel {
+        self.0.get(&event.code).copied().unwrap_or(event.level)
+    }
+
+    /// The reader of unit files has refused what cannot be changed.
+    fn from_unit_file(file: &UnitFile) -> Self {
+        let levels = file.event_levels.iter().map(|changed| {
+            let level = match changed.level.value {
+                ChangedLevel::Observation => EventLevel::Observation,
+                ChangedLevel::MinorFault => EventLevel::MinorFault,
+            };
+            (EventCode(changed.event_code.value), level)
+        });
+        Self(levels.collect())
+    }
 }
 
 impl UnitSettings {
@@ -31,6 +89,8 @@ impl UnitSettings {
             software_id: 0,
             timing: file.timing.value,
             io_allocation: file.io_allocation(),
+            event_levels: EventLevels::from_unit_file(file),
+            newest_acknowledged: NewestAcknowledged::default(),
         }
     }
 
@@ -51,6 +111,8 @@ impl Default for UnitSettings {
             software_id: 0,
             timing: Timing::Exact,
             io_allocation: IoAllocation::factory(),
+            event_levels: EventLevels::default(),
+            newest_acknowledged: NewestAcknowledged::default(),
         }
     }
 }

@@ -1,16 +1,20 @@
 //! The unit itself: objects, mapping and refresh behind the slave stack.
 
+mod checks;
+mod diagnosis;
 mod memory;
 
-use device::{Exchange, ProcessDataAreas, Unit};
+use device::{Check, Exchange, ProcessDataAreas, Start, Unit};
 use objects::ObjectServer;
 use time::{Duration, Instant};
-use wire::{AlState, AlStatusCode};
+use wire::{AlState, AlStatusCode, Emergency};
 
 use crate::allocation::ImageLayout;
 use crate::data_sets::Direction;
+use crate::diagnosis::Diagnosis;
 use crate::dictionary::UnitObjects;
 use crate::exchange::{self, ExchangePlan, StatusToMaster};
+use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::memory::MemoryAtPowerOn;
 use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd, UnitHeader};
@@ -45,6 +49,12 @@ pub struct NxEct101 {
     period: Duration,
     status: SlaveStatus,
     nx_unit_status: NxUnitStatus,
+    /// Why the unit has started, until it has told what the start has found.
+    started: Option<Start>,
+    /// Whether the CPU Unit did I/O refreshing when last looked.
+    cpu_refreshing: bool,
+    /// It has stopped, which is the present cause of NX Unit I/O Communications Error.
+    io_communications_lost: bool,
 }
 
 impl NxEct101 {
@@ -59,13 +69,19 @@ impl NxEct101 {
     #[must_use]
     pub fn power_on_with(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, CpuEnd) {
         let (bus, cpu_end) = nx_bus::connect(&settings.io_allocation);
+        let is_damaged = memory == MemoryAtPowerOn::Damaged;
         let (memory, identification) = KeptMemory::power_on(settings, memory);
+        let mut diagnosis = Diagnosis::new(memory.contents().error_log().clone());
+        if is_damaged {
+            diagnosis.inject(Fault::NonVolatileMemory);
+        }
+        diagnosis.start(settings.event_levels.clone(), settings.newest_acknowledged);
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let mut io_findings = Vec::new();
         rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
         let unit = Self {
-            objects: UnitObjects::power_on(memory.contents().serial(), identification, period),
+            objects: UnitObjects::start(memory.contents().serial(), identification, period, diagnosis),
             memory,
             bus,
             io_findings,
@@ -78,6 +94,9 @@ impl NxEct101 {
             period,
             status: SlaveStatus::default(),
             nx_unit_status: NxUnitStatus::default(),
+            started: Some(Start::PowerOn),
+            cpu_refreshing: false,
+            io_communications_lost: false,
             settings: settings.clone(),
         };
         (unit, cpu_end)
@@ -108,11 +127,14 @@ impl NxEct101 {
 
     /// Whether the I/O allocation and the unit's own health let I/O be refreshed.
     fn io_is_refreshed(&self) -> bool {
-        self.io_findings.is_empty() && !self.memory.is_damaged()
+        self.io_findings.is_empty() && !self.objects.diagnosis.stops_io()
     }
 
     /// Answers the NX messages that have come. What they change shows in the same refresh.
     fn answer_messages(&mut self) {
+        if self.bus.messages.take_discarded() {
+            self.objects.diagnosis.inject(Fault::MessageCommunications);
+        }
         let (objects, serial) = (&mut self.objects, self.memory.contents().serial());
         self.bus.messages.answer(|request| nx_server::answer(request, serial, &mut objects.messages));
     }
@@ -146,7 +168,7 @@ impl NxEct101 {
         if let Some(outputs) = outputs.filter(|_| io_data_active) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
         }
-        let header = UnitHeader { status: self.status, io_data_active, error: !io_data_active };
+        let header = UnitHeader { status: self.status, io_data_active, error: self.has_error() };
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
@@ -156,7 +178,11 @@ impl NxEct101 {
         if self.io_is_refreshed() {
             exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
         }
-        let status = StatusToMaster { nx_unit: self.nx_unit_status, ..StatusToMaster::default() };
+        let status = StatusToMaster {
+            nx_unit: self.nx_unit_status,
+            new_messages: self.objects.diagnosis.has_new_messages(),
+            sysmac_error: self.objects.diagnosis.error_status(),
+        };
         exchange::put_status(&self.plan.status, status, inputs);
     }
 }
@@ -174,39 +200,46 @@ impl Unit for NxEct101 {
         ProcessDataAreas { outputs_bytes: length(Direction::MToC), inputs_bytes: length(Direction::CToM) }
     }
 
-    fn check_mapping(&mut self, _now: Instant) -> Result<(), AlStatusCode> {
-        self.pdo.follow(&self.objects.mapping);
-        self.pdo_findings.clear();
-        rules::check_at_safe_op(
-            &self.settings.io_allocation,
-            &self.pdo,
-            &self.io_findings,
-            &mut self.pdo_findings,
-        );
-        // All are recorded, the first tells the master. A mismatch has no AL status code: it stops nothing.
-        if let Some(code) = self.pdo_findings.iter().find_map(Finding::al_status_code) {
-            return Err(code);
+    fn check_transition(
+        &mut self,
+        _now: Instant,
+        check: Check,
+        found: &[AlStatusCode],
+    ) -> Result<(), AlStatusCode> {
+        match check {
+            Check::Mailbox => self.check_mailbox(found),
+            Check::ProcessData => self.check_process_data(found),
+            Check::Nothing | Check::Outputs => Ok(()),
         }
-        self.plan.rebuild(&self.pdo, &self.m_to_c_layout, &self.c_to_m_layout);
-        // What the new mapping does not exchange has its default value again.
-        self.m_to_c.fill(0);
-        Ok(())
+    }
+
+    fn al_error(&mut self, _now: Instant, code: AlStatusCode) -> AlStatusCode {
+        self.raise_al_error(code)
     }
 
     fn fault(&self) -> Option<AlStatusCode> {
-        self.memory.al_status_code()
+        self.stop_in_init()
     }
 
-    fn restart(&mut self, _now: Instant, sii_image: &mut [u8]) {
+    fn restart(&mut self, _now: Instant, start: Start, sii_image: &mut [u8]) -> Option<AlStatusCode> {
         let identification = self.memory.restart(&self.settings, self.objects.identification, sii_image);
-        let serial = self.memory.contents().serial();
-        self.objects = UnitObjects::power_on(serial, identification, self.period);
+        self.objects.diagnosis.start(self.settings.event_levels.clone(), self.settings.newest_acknowledged);
+        self.objects.restart(self.memory.contents().serial(), identification);
         self.pdo_findings.clear();
         self.m_to_c.fill(0);
+        self.started = Some(start);
+        self.code_after(start)
+    }
+
+    fn take_emergency(&mut self) -> Option<Emergency> {
+        self.objects.diagnosis.take_emergency()
     }
 
     fn entered(&mut self, _now: Instant, state: AlState) {
         self.objects.state = state;
+        if !matches!(state, AlState::SafeOp | AlState::Op) {
+            self.settle_mismatches();
+        }
     }
 
     fn refresh_period(&self) -> Duration {
@@ -215,7 +248,9 @@ impl Unit for NxEct101 {
 
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
         let cpu = self.bus.c_to_m.newest().header;
-        self.objects.system_time_ns = cpu.system_time_ns;
+        self.objects.diagnosis.set_time(cpu.system_time_ns);
+        self.tell_start();
+        self.watch_io_communications(cpu.refreshing);
         self.answer_messages();
         self.update_status(&exchange, cpu);
         self.refresh_m_to_c(exchange.outputs);

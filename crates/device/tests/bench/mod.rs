@@ -1,7 +1,9 @@
 //! A line with one digital unit: 8 inputs, 8 outputs, no mailbox. It proves that nothing from `device` down
 //! knows of NX, and it is small enough for every state to be tried.
 
-use device::{DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, Unit, WatchdogCheck};
+use device::{
+    DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Unit, WatchdogCheck,
+};
 use esc::EscConfig;
 use time::{Duration, Instant};
 use wire::{AlState, Command, FrameBuilder, Returned, returned_datagrams};
@@ -56,6 +58,7 @@ pub(crate) fn config() -> DeviceConfig {
         inputs_start: INPUTS_START,
         outputs_before_op: OutputsBeforeOp::NotRequired,
         watchdog_check: WatchdogCheck::Off,
+        refused_in_op: RefusedInOp::DropToSafeOp,
     }
 }
 

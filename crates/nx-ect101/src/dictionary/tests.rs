@@ -16,7 +16,7 @@ struct Bench {
 impl Bench {
     fn with_switch(switch: u8) -> Self {
         let identification = Identification::at_power_on(switch, 0);
-        let objects = UnitObjects::power_on(7, identification, Duration::from_millis(1));
+        let objects = UnitObjects::start(7, identification, Duration::from_millis(1), Diagnosis::default());
         let sizes = MailboxSizes { receive_bytes: 400, send_bytes: 400 };
         let mailbox = Mailbox::new(sizes, AbortProfile::COARSE, objects.table());
         Self { objects, mailbox }.in_state(AlState::PreOp)

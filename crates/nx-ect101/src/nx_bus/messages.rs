@@ -5,6 +5,8 @@
 //! image: so no flag that a user program sees is older than a response that it has got.
 
 use core::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
 
 use arrayvec::ArrayVec;
@@ -94,16 +96,21 @@ pub enum NotSent {
 pub struct CpuMessages {
     requests: SyncSender<NxRequest>,
     responses: Receiver<NxResponse>,
+    discarded: Arc<AtomicBool>,
 }
 
 impl CpuMessages {
-    /// Sends a request, without waiting.
+    /// Sends a request, without waiting. One that finds no room is discarded, and the unit notices.
     ///
     /// # Errors
     /// [`REQUESTS_MAX`] requests wait, or the unit has no power.
     pub fn send(&mut self, request: NxRequest) -> Result<(), NotSent> {
         self.requests.try_send(request).map_err(|error| match error {
-            TrySendError::Full(_) => NotSent::Full,
+            TrySendError::Full(_) => {
+                // Only a flag: nothing else has to be seen with it.
+                self.discarded.store(true, Ordering::Relaxed);
+                NotSent::Full
+            }
             TrySendError::Disconnected(_) => NotSent::NotReachable,
         })
     }
@@ -128,9 +135,15 @@ pub struct UnitMessages {
     responses: SyncSender<NxResponse>,
     /// Responses that are not to be seen before the image that goes with them.
     held: ArrayVec<NxResponse, REQUESTS_MAX>,
+    discarded: Arc<AtomicBool>,
 }
 
 impl UnitMessages {
+    /// Whether a request was discarded since the last call.
+    pub(crate) fn take_discarded(&self) -> bool {
+        self.discarded.load(Ordering::Relaxed) && self.discarded.swap(false, Ordering::Relaxed)
+    }
+
     /// Answers what has come in, oldest first, and holds the responses back. Tells whether there was anything.
     pub(crate) fn answer(
         &mut self,
@@ -159,8 +172,9 @@ impl UnitMessages {
 pub(super) fn connect() -> (UnitMessages, CpuMessages) {
     let (ask, requests) = sync_channel(REQUESTS_MAX);
     let (responses, hear) = sync_channel(REQUESTS_MAX);
-    let unit = UnitMessages { requests, responses, held: ArrayVec::new() };
-    (unit, CpuMessages { requests: ask, responses: hear })
+    let discarded = Arc::new(AtomicBool::new(false));
+    let unit = UnitMessages { requests, responses, held: ArrayVec::new(), discarded: Arc::clone(&discarded) };
+    (unit, CpuMessages { requests: ask, responses: hear, discarded })
 }
 
 #[cfg(test)]

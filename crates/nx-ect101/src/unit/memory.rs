@@ -1,21 +1,16 @@
 //! What of the unit outlives power-off, and when it has to be stored.
 
-use wire::AlStatusCode;
-
-use crate::events::{Event, EventCode};
+use crate::diagnosis::Diagnosis;
+use crate::fault::Fault;
 use crate::identification::Identification;
 use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
 use crate::settings::UnitSettings;
 use crate::unit::NxEct101;
 
-/// Non-volatile Memory Hardware Error.
-const DAMAGED: EventCode = EventCode(0x0020_0000);
-
 /// The memory of a unit under power.
 #[derive(Debug)]
 pub(super) struct KeptMemory {
     contents: NonVolatileMemory,
-    is_damaged: bool,
     /// It differs from what is stored.
     is_unsaved: bool,
     /// The EEPROM writes of the wire that `contents` knows of.
@@ -25,13 +20,12 @@ pub(super) struct KeptMemory {
 impl KeptMemory {
     /// Reads the memory and samples the ID.
     pub(super) fn power_on(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, Identification) {
-        let (is_damaged, is_unsaved) =
-            (memory == MemoryAtPowerOn::Damaged, memory == MemoryAtPowerOn::Factory);
+        let is_unsaved = memory == MemoryAtPowerOn::Factory;
         let contents = match memory {
             MemoryAtPowerOn::Stored(contents) => *contents,
             MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => NonVolatileMemory::factory(settings),
         };
-        let mut kept = Self { contents, is_damaged, is_unsaved, sii_words_seen: 0 };
+        let mut kept = Self { contents, is_unsaved, sii_words_seen: 0 };
         let identification = kept.start(settings);
         (kept, identification)
     }
@@ -78,13 +72,12 @@ impl KeptMemory {
         &self.contents
     }
 
-    pub(super) const fn is_damaged(&self) -> bool {
-        self.is_damaged
-    }
-
-    /// What the master reads of a damaged memory.
-    pub(super) fn al_status_code(&self) -> Option<AlStatusCode> {
-        self.is_damaged.then(|| Event::find(DAMAGED))?.and_then(|event| event.al_status_code)
+    /// Takes over the logs, if they have changed.
+    fn take_over_log(&mut self, diagnosis: &mut Diagnosis) {
+        if diagnosis.take_log_change() {
+            self.contents.error_log_mut().clone_from(diagnosis.log());
+            self.is_unsaved = true;
+        }
     }
 }
 
@@ -95,12 +88,6 @@ impl NxEct101 {
         self.memory.contents()
     }
 
-    /// The event of a fault that was found at power-on, such as a damaged memory.
-    #[must_use]
-    pub fn fault_event(&self) -> Option<EventCode> {
-        self.memory.is_damaged().then_some(DAMAGED)
-    }
-
     /// Takes over what has changed since the last call: the EEPROM of the controller, of which the wire has
     /// written `sii_words_written` words so far, and the ID that was set by software. Tells whether
     /// [`NxEct101::memory`] is to be stored now: never while it is damaged.
@@ -109,6 +96,8 @@ impl NxEct101 {
         let written = sii_words_written != memory.sii_words_seen;
         memory.sii_words_seen = sii_words_written;
         memory.take_over(&mut self.objects.identification, written.then_some(sii_image));
-        core::mem::replace(&mut memory.is_unsaved, false) && !memory.is_damaged
+        memory.take_over_log(&mut self.objects.diagnosis);
+        let is_broken = self.objects.diagnosis.found().any(|fault| fault == Fault::NonVolatileMemory);
+        core::mem::replace(&mut memory.is_unsaved, false) && !is_broken
     }
 }

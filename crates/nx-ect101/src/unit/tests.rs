@@ -7,7 +7,9 @@ use super::*;
 use crate::allocation::tests::symmetric;
 use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::DataSetKind;
+use crate::events::{EventCode, EventLevel};
 use crate::mapping::tests::set;
+use crate::settings::{EventLevels, NewestAcknowledged};
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;
 
@@ -33,7 +35,7 @@ impl Bench {
     }
 
     fn enter_safe_op(&mut self) {
-        self.unit.check_mapping(NOW).expect("the mapping is right");
+        self.unit.check_transition(NOW, Check::ProcessData, &[]).expect("the mapping is right");
         self.unit.entered(NOW, AlState::SafeOp);
         self.inputs = vec![0xEE; usize::from(self.unit.process_data().inputs_bytes)];
     }
@@ -106,14 +108,18 @@ fn what_only_one_side_has_stays_0() {
         [[5; 10]; 6].concat().into_iter().chain([0; 10]).collect::<Vec<_>>()
     );
     assert!(bench.inputs[2..62].iter().all(|&byte| byte == 9));
-    assert!(bench.inputs[62..183].iter().all(|&byte| byte == 0));
+    assert!(bench.inputs[62..182].iter().all(|&byte| byte == 0));
+    assert_eq!(bench.inputs[182], 1, "the mismatch is a new message");
 }
 
 #[test]
 fn a_mapping_without_the_unit_status_is_refused() {
     let mut bench = Bench::factory();
     set(&mut bench.unit.objects.mapping, 0x1C13, &[0x1A01]).expect("assignable");
-    assert_eq!(bench.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_INPUT_MAPPING));
+    assert_eq!(
+        bench.unit.check_transition(NOW, Check::ProcessData, &[]),
+        Err(AlStatusCode::INVALID_INPUT_MAPPING)
+    );
 }
 
 #[test]
@@ -121,16 +127,22 @@ fn a_mapping_beyond_the_limits_is_refused() {
     let forty = |base: u32| (1..=40).map(|sub| base | sub << 8).collect::<Vec<_>>();
     let mut outputs = Bench::factory();
     set(&mut outputs.unit.objects.mapping, 0x1601, &forty(0x7000_00F0)).expect("1,200 bytes");
-    assert_eq!(outputs.unit.check_mapping(NOW), Ok(()));
+    assert_eq!(outputs.unit.check_transition(NOW, Check::ProcessData, &[]), Ok(()));
     set(&mut outputs.unit.objects.mapping, 0x1C12, &[0x1601, 0x1603]).expect("assignable");
-    assert_eq!(outputs.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_OUTPUT_MAPPING));
+    assert_eq!(
+        outputs.unit.check_transition(NOW, Check::ProcessData, &[]),
+        Err(AlStatusCode::INVALID_OUTPUT_MAPPING)
+    );
 
     let mut inputs = Bench::factory();
     set(&mut inputs.unit.objects.mapping, 0x1A01, &forty(0x6000_00F0)).expect("1,200 bytes");
     set(&mut inputs.unit.objects.mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1BFE, 0x1BFF]).expect("1,204 bytes");
-    assert_eq!(inputs.unit.check_mapping(NOW), Ok(()));
+    assert_eq!(inputs.unit.check_transition(NOW, Check::ProcessData, &[]), Ok(()));
     set(&mut inputs.unit.objects.mapping, 0x1C13, &[0x1A00, 0x1A01, 0x1A02, 0x1BFE]).expect("assignable");
-    assert_eq!(inputs.unit.check_mapping(NOW), Err(AlStatusCode::INVALID_INPUT_MAPPING));
+    assert_eq!(
+        inputs.unit.check_transition(NOW, Check::ProcessData, &[]),
+        Err(AlStatusCode::INVALID_INPUT_MAPPING)
+    );
 }
 
 #[test]
@@ -143,12 +155,22 @@ fn a_unit_starts_with_180_and_183_bytes_every_millisecond() {
 
 #[test]
 fn a_unit_file_sets_up_a_unit() {
-    let text = "model = \"nx-ect101\"\nserial = 77\nid_switch = 0x21\ntiming = \"fast\"\n[io_allocation.m_to_c]\nudint = 3\n";
+    let text = "model = \"nx-ect101\"\nserial = 77\nid_switch = 0x21\ntiming = \"fast\"\n\
+                [io_allocation.m_to_c]\nudint = 3\n[event_levels]\n39170000 = \"observation\"\n";
     let file = UnitFile::parse(text).expect("a right file");
     let mut io_allocation = IoAllocation::empty();
     io_allocation.select(Direction::MToC, DataSetKind::Udint, 3);
-    let expected =
-        UnitSettings { serial: 77, id_switch: 0x21, software_id: 0, timing: Timing::Fast, io_allocation };
+    let mut event_levels = EventLevels::default();
+    event_levels.set(EventCode(0x3917_0000), EventLevel::Observation).expect("changeable");
+    let expected = UnitSettings {
+        serial: 77,
+        id_switch: 0x21,
+        software_id: 0,
+        timing: Timing::Fast,
+        io_allocation,
+        event_levels,
+        newest_acknowledged: NewestAcknowledged::NewestRecord,
+    };
     assert_eq!(UnitSettings::from_unit_file(&file), expected);
     let least = UnitFile::parse("model = \"nx-ect101\"").expect("a right file");
     assert_eq!(UnitSettings::from_unit_file(&least), UnitSettings::default());
@@ -167,7 +189,7 @@ fn the_timestamp_is_the_system_time_of_the_cpu_unit() {
 
 /// The AL status code and the event codes that a mapping leads to.
 fn asking_for_safe_op(bench: &mut Bench) -> (Option<AlStatusCode>, Vec<String>) {
-    let code = bench.unit.check_mapping(NOW).err();
+    let code = bench.unit.check_transition(NOW, Check::ProcessData, &[]).err();
     (code, bench.unit.findings().map(|finding| finding.event.to_string()).collect())
 }
 
@@ -198,7 +220,8 @@ fn a_wrong_io_allocation_keeps_io_from_being_refreshed_and_ethercat_goes_on() {
     assert_eq!(image.bytes(), [0; 30]);
     assert_eq!((image.header.io_data_active, image.header.error), (false, true));
     assert!(!image.header.status.m_to_c_valid && !image.header.status.c_to_m_valid);
-    assert!(bench.inputs[2..].iter().all(|&byte| byte == 0));
+    assert!(bench.inputs[2..182].iter().all(|&byte| byte == 0));
+    assert_eq!(bench.inputs[182], 1, "the wrong allocation is a new message");
 }
 
 mod data;

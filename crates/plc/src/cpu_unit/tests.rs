@@ -1,6 +1,6 @@
 //! A CPU Unit and a unit in virtual time, each with its own period and phase.
 
-use device::{Exchange, PortLinks, Unit};
+use device::{Check, Exchange, PortLinks, Unit};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
 use wire::AlState;
@@ -22,7 +22,7 @@ impl Bench {
     fn in_op(io_allocation: IoAllocation, cpu: CpuSettings, program: impl Program + Send + 'static) -> Self {
         let (mut unit, cpu_end) =
             NxEct101::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
-        unit.check_mapping(Instant::ZERO).expect("the factory setting");
+        unit.check_transition(Instant::ZERO, Check::ProcessData, &[]).expect("the factory setting");
         unit.entered(Instant::ZERO, AlState::Op);
         let areas = unit.process_data();
         Self {

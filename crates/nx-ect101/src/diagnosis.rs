@@ -1,0 +1,297 @@
+//! What a unit knows of its events, and whom it tells (manual, 8-3 to 8-6).
+//!
+//! An event that occurs goes to every channel that its row of the event table names: the diagnosis history with
+//! time stamp, the access log, the current errors with the error status, an emergency message. What causes it
+//! may stand on; then a reset of the errors records it anew.
+
+mod current_errors;
+mod history;
+mod occurrence;
+mod standing;
+
+use arrayvec::ArrayVec;
+use wire::{Emergency, SdoAbort};
+
+use crate::events::{Event, EventCode, EventLevel, EventLog, Notified};
+use crate::fault::{Fault, FaultSet};
+use crate::memory::{ErrorLog, LogRecord};
+use crate::settings::{EventLevels, NewestAcknowledged};
+
+pub use current_errors::{CURRENT_ERRORS_MAX, CurrentError};
+pub use history::DIAGNOSIS_MESSAGE_BYTES;
+pub(crate) use occurrence::Occurrence;
+
+use current_errors::CurrentErrors;
+use standing::Standing;
+
+/// Emergencies that wait for the slave stack to take them; it does so with every step of the unit.
+const EMERGENCIES_MAX: usize = 16;
+/// Attached information 2 of NX Message Communications Error: the NX bus.
+const NX_BUS: u32 = 0;
+
+/// Everything that a unit knows of its events.
+#[derive(Debug, Default)]
+pub(crate) struct Diagnosis {
+    log: ErrorLog,
+    log_changed: bool,
+    current: CurrentErrors,
+    /// Configuration errors and mismatches whose causes last.
+    standing: Standing,
+    /// The faults whose causes are there.
+    present: FaultSet,
+    /// The faults that the unit has found. They outlast their causes.
+    found: FaultSet,
+    emergencies: ArrayVec<Emergency, EMERGENCIES_MAX>,
+    /// 10F3:05.
+    emergencies_enabled: bool,
+    /// What a master has written to 10F3:03 last, since the start.
+    acknowledged: u8,
+    newest_acknowledged: NewestAcknowledged,
+    levels: EventLevels,
+    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0: not known.
+    time_ns: u64,
+}
+
+impl Diagnosis {
+    /// Nothing has happened yet, apart from what the log remembers.
+    pub(crate) fn new(log: ErrorLog) -> Self {
+        Self { log, ..Self::default() }
+    }
+
+    /// The unit starts: what only lasted until then is gone, and the faults of its hardware are looked for.
+    /// They are told with [`Diagnosis::tell_start`], when the time is known.
+    pub(crate) fn start(&mut self, levels: EventLevels, newest_acknowledged: NewestAcknowledged) {
+        self.current.clear();
+        self.standing.clear();
+        self.emergencies.clear();
+        self.emergencies_enabled = false;
+        self.acknowledged = 0;
+        self.newest_acknowledged = newest_acknowledged;
+        self.levels = levels;
+        self.found.clear();
+        for fault in self.present.iter() {
+            if fault.is_found_at_start() || fault.is_found_at_once() {
+                self.found.insert(fault);
+            }
+        }
+    }
+
+    /// Tells the faults that the start has found.
+    pub(crate) fn tell_start(&mut self) {
+        for fault in self.found.iter() {
+            self.raise(Occurrence::of_fault(fault));
+        }
+    }
+
+    /// The system time of the CPU Unit, which stamps what occurs from now on.
+    pub(crate) const fn set_time(&mut self, time_ns: u64) {
+        self.time_ns = time_ns;
+    }
+
+    /// 10F8: the system time of the CPU Unit.
+    pub(crate) const fn time_ns(&self) -> u64 {
+        self.time_ns
+    }
+
+    /// An event occurs. Every channel that its row names is told.
+    pub(crate) fn raise(&mut self, occurrence: Occurrence) {
+        let Some(event) = Event::find(occurrence.event) else { return };
+        let level = self.levels.of(event);
+        self.record(event, level, &occurrence);
+        if event.reported_as_current_error && level != EventLevel::Information {
+            self.current.add(level, CurrentError::new(event.code, occurrence.details.first().copied()));
+        }
+        if self.emergencies_enabled && event.emergency_notified == Notified::Possible {
+            self.send_emergency(event);
+        }
+    }
+
+    /// An event occurs whose cause stands on: a reset of the errors records it anew.
+    pub(crate) fn raise_standing(&mut self, occurrence: Occurrence) {
+        self.standing.add(occurrence.clone());
+        self.raise(occurrence);
+    }
+
+    /// The causes of these events are gone.
+    pub(crate) fn settle(&mut self, is_gone: impl Fn(EventCode) -> bool) {
+        self.standing.remove(is_gone);
+    }
+
+    fn record(&mut self, event: &Event, level: EventLevel, occurrence: &Occurrence) {
+        let record = || LogRecord {
+            event: event.code,
+            level,
+            time_ns: self.time_ns,
+            details: occurrence.details.clone(),
+        };
+        if event.logged {
+            self.log.add(record());
+            self.log_changed = true;
+        }
+        if event.event_log == EventLog::Access {
+            self.log.add_access(record());
+            self.log_changed = true;
+        }
+    }
+
+    /// An emergency that finds the queue full is lost; the slave stack empties it with every step.
+    fn send_emergency(&mut self, event: &Event) {
+        if let Some(code) = event.emergency_code {
+            let [a, b, c, d] = event.code.0.to_le_bytes();
+            // Manual, 8-4-1: two reserved bytes, then the event code.
+            let emergency = Emergency { code, error_register: 0, manufacturer: [0, a, b, c, d] };
+            let _ = self.emergencies.try_push(emergency);
+        }
+    }
+
+    /// Takes the oldest emergency message.
+    pub(crate) fn take_emergency(&mut self) -> Option<Emergency> {
+        self.emergencies.pop_at(0)
+    }
+
+    /// Resets the current errors (manual, 8-6). An error whose cause is still there occurs again at once.
+    pub(crate) fn reset_errors(&mut self) {
+        self.current.clear();
+        for fault in self.found.iter() {
+            if fault.goes_with_reset() && !self.present.contains(fault) {
+                self.found.remove(fault);
+            } else {
+                self.raise(Occurrence::of_fault(fault));
+            }
+        }
+        let standing = core::mem::take(&mut self.standing);
+        standing.iter().for_each(|occurrence| self.raise(occurrence.clone()));
+        self.standing = standing;
+    }
+
+    /// A user clears a log from the side of the CPU Unit, and the unit writes that down.
+    pub(crate) fn clear_log(&mut self, log: EventLog) {
+        let number = match log {
+            EventLog::System => {
+                self.clear_history();
+                1
+            }
+            EventLog::Access => {
+                self.log.access.clear();
+                2
+            }
+            EventLog::None => return,
+        };
+        self.raise(Occurrence::new(EventCode::EVENT_LOG_CLEARED, [number]));
+    }
+}
+
+/// Faults.
+impl Diagnosis {
+    /// The cause of a fault is there. What the unit finds at once occurs at once.
+    pub(crate) fn inject(&mut self, fault: Fault) {
+        if fault == Fault::MessageCommunications {
+            return self.raise(Occurrence::new(fault.event(), [0, NX_BUS]));
+        }
+        self.present.insert(fault);
+        if fault.is_found_at_once() {
+            self.find(fault);
+        }
+    }
+
+    /// The cause of a fault is gone. What the unit has found stands until its recovery.
+    pub(crate) const fn remove(&mut self, fault: Fault) {
+        self.present.remove(fault);
+    }
+
+    /// Whether the cause of a fault is there.
+    pub(crate) const fn is_present(&self, fault: Fault) -> bool {
+        self.present.contains(fault)
+    }
+
+    /// The unit has found a fault: it is told once.
+    pub(crate) fn find(&mut self, fault: Fault) {
+        if !self.found.contains(fault) {
+            self.found.insert(fault);
+            self.raise(Occurrence::of_fault(fault));
+        }
+    }
+
+    /// Whether a fault is found that keeps I/O from being refreshed.
+    pub(crate) fn stops_io(&self) -> bool {
+        self.found.iter().any(Fault::stops_io)
+    }
+
+    /// The first of the faults that keep the unit in INIT.
+    pub(crate) fn stop_in_init(&self) -> Option<Fault> {
+        self.found.iter().find(|fault| fault.stops_in_init())
+    }
+
+    /// The faults that were found.
+    pub(crate) fn found(&self) -> impl Iterator<Item = Fault> + '_ {
+        self.found.iter()
+    }
+}
+
+/// What the master is told.
+impl Diagnosis {
+    /// 2002:01 Sysmac Error Status.
+    pub(crate) const fn error_status(&self) -> u8 {
+        self.current.status()
+    }
+
+    /// The current errors of a level, the oldest first.
+    pub(crate) fn current(&self, level: EventLevel) -> &[CurrentError] {
+        self.current.of(level)
+    }
+
+    /// 10F3:04 New Messages Available.
+    pub(crate) const fn has_new_messages(&self) -> bool {
+        self.log.newest != 0 && !self.log.acknowledged
+    }
+
+    /// Both logs.
+    pub(crate) const fn log(&self) -> &ErrorLog {
+        &self.log
+    }
+
+    /// Whether a log has changed since the last call.
+    pub(crate) const fn take_log_change(&mut self) -> bool {
+        core::mem::replace(&mut self.log_changed, false)
+    }
+
+    /// 10F3:03 as it is read.
+    pub(crate) const fn newest_acknowledged(&self) -> u8 {
+        match self.newest_acknowledged {
+            NewestAcknowledged::NewestRecord => self.log.newest,
+            NewestAcknowledged::LastAcknowledged => self.acknowledged,
+        }
+    }
+
+    /// Writes 10F3:03: acknowledges a record, or clears the history by 0.
+    pub(crate) fn acknowledge(&mut self, sub: u8) -> Result<(), SdoAbort> {
+        if sub == 0 {
+            self.clear_history();
+            return Ok(());
+        }
+        self.log.record_at(sub).ok_or(SdoAbort::VALUE_OUT_OF_RANGE)?;
+        self.acknowledged = sub;
+        if sub == self.log.newest && !self.log.acknowledged {
+            self.log.acknowledged = true;
+            self.log_changed = true;
+        }
+        Ok(())
+    }
+
+    /// Clears the diagnosis history (10F3:03, 2100). The current errors stay (A53), and no event tells it (A54).
+    pub(crate) fn clear_history(&mut self) {
+        self.log.clear_system();
+        self.acknowledged = 0;
+        self.log_changed = true;
+    }
+
+    /// 10F3:05 Flags: whether emergency messages are sent.
+    pub(crate) const fn emergencies_enabled(&self) -> bool {
+        self.emergencies_enabled
+    }
+
+    /// Writes 10F3:05.
+    pub(crate) const fn enable_emergencies(&mut self, enabled: bool) {
+        self.emergencies_enabled = enabled;
+    }
+}

@@ -1,0 +1,97 @@
+//! The current errors: objects 2003 and 2004 with their shared room, and the error status 2002:01 (manual,
+//! 8-3-2 and A-6-7).
+
+use arrayvec::ArrayVec;
+
+use crate::events::{EventCode, EventLevel};
+
+/// Observations and minor faults together.
+pub const CURRENT_ERRORS_MAX: usize = 10;
+/// Length of an error in objects 2003 and 2004, in bytes.
+pub(crate) const CURRENT_ERROR_BYTES: usize = 12;
+
+const OBSERVATION: u8 = 1 << 4;
+const MINOR_FAULT: u8 = 1 << 5;
+/// Type of error detail without attached information, and with (A34).
+const WITHOUT_DETAIL: u32 = 0x0007_0000;
+const WITH_DETAIL: u32 = 0x0007_0401;
+
+/// An error that exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CurrentError {
+    /// Its event.
+    pub event: EventCode,
+    /// Attached information 1.
+    pub detail: Option<u32>,
+}
+
+impl CurrentError {
+    pub(crate) const fn new(event: EventCode, detail: Option<u32>) -> Self {
+        Self { event, detail }
+    }
+
+    /// The bytes in objects 2003 and 2004.
+    #[must_use]
+    pub fn bytes(&self) -> [u8; CURRENT_ERROR_BYTES] {
+        let kind = if self.detail.is_some() { WITH_DETAIL } else { WITHOUT_DETAIL };
+        let mut bytes = [0; CURRENT_ERROR_BYTES];
+        let words = [self.event.0, kind, self.detail.unwrap_or(0)];
+        for (to, word) in bytes.chunks_exact_mut(4).zip(words) {
+            to.copy_from_slice(&word.to_le_bytes());
+        }
+        bytes
+    }
+}
+
+/// Both lists, each in the order in which its errors occurred.
+#[derive(Debug, Default)]
+pub(super) struct CurrentErrors {
+    observations: ArrayVec<CurrentError, CURRENT_ERRORS_MAX>,
+    minor_faults: ArrayVec<CurrentError, CURRENT_ERRORS_MAX>,
+    /// It tells errors that have found no room too (manual, 8-3-2).
+    status: u8,
+}
+
+impl CurrentErrors {
+    /// Adds an error. One that exists already exists once. Ten find room: a minor fault takes the place of the
+    /// newest observation, an observation takes nobody's (A32).
+    pub(super) fn add(&mut self, level: EventLevel, error: CurrentError) {
+        let is_full = self.observations.len() + self.minor_faults.len() == CURRENT_ERRORS_MAX;
+        match level {
+            EventLevel::MinorFault => {
+                self.status |= MINOR_FAULT;
+                if self.minor_faults.contains(&error) {
+                    return;
+                }
+                if !is_full || self.observations.pop().is_some() {
+                    self.minor_faults.push(error);
+                }
+            }
+            EventLevel::Observation => {
+                self.status |= OBSERVATION;
+                if !is_full && !self.observations.contains(&error) {
+                    self.observations.push(error);
+                }
+            }
+            EventLevel::Information => {}
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.observations.clear();
+        self.minor_faults.clear();
+        self.status = 0;
+    }
+
+    pub(super) const fn status(&self) -> u8 {
+        self.status
+    }
+
+    pub(super) fn of(&self, level: EventLevel) -> &[CurrentError] {
+        match level {
+            EventLevel::MinorFault => &self.minor_faults,
+            EventLevel::Observation => &self.observations,
+            EventLevel::Information => &[],
+        }
+    }
+}

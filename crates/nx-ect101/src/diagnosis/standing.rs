@@ -1,0 +1,33 @@
+//! Errors whose causes last: wrong settings, and sizes that do not match.
+
+use arrayvec::ArrayVec;
+
+use super::Occurrence;
+use crate::events::EventCode;
+use crate::rules::MAX_FINDINGS;
+
+/// What stands, in the order in which it occurred, each once.
+#[derive(Debug, Default)]
+pub(super) struct Standing(ArrayVec<Occurrence, MAX_FINDINGS>);
+
+impl Standing {
+    /// One that stands already stands once.
+    pub(super) fn add(&mut self, occurrence: Occurrence) {
+        if !self.0.contains(&occurrence) {
+            // There is room for every finding that the rules can make.
+            let _ = self.0.try_push(occurrence);
+        }
+    }
+
+    pub(super) fn remove(&mut self, is_gone: impl Fn(EventCode) -> bool) {
+        self.0.retain(|occurrence| !is_gone(occurrence.event));
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    pub(super) fn iter(&self) -> impl Iterator<Item = &Occurrence> {
+        self.0.iter()
+    }
+}

@@ -1,0 +1,149 @@
+//! Faults that can be injected into a unit: what breaks in hardware and on the NX bus, as an input of the core.
+
+use crate::events::{DetectionTiming, Event, EventCode, IoRefreshEffect};
+
+/// The cause of an event that no setting and no master brings about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Fault {
+    /// The non-volatile memory is broken. Found when the unit starts.
+    NonVolatileMemory,
+    /// The EtherCAT slave controller is broken. Found when the unit starts.
+    Esc,
+    /// The SII information does not belong to the unit. Found at INIT to PRE-OP.
+    SiiVerification,
+    /// The CPU Unit has lost the Unit operation settings. Found when the unit starts.
+    ControlParameters,
+    /// The master has set another synchronization than Free-Run. Found at PRE-OP to SAFE-OP.
+    SmEventMode,
+    /// The unit's software has failed.
+    Processing,
+    /// The NX bus does not carry I/O.
+    IoCommunications,
+    /// The unit has lost the time of the NX bus.
+    ClockNotSynchronized,
+    /// A message frame is discarded: once, whenever it is injected.
+    MessageCommunications,
+}
+
+impl Fault {
+    /// All faults. Where several stand, the master reads the AL status code of the first.
+    pub const ALL: [Self; 9] = [
+        Self::NonVolatileMemory,
+        Self::Esc,
+        Self::Processing,
+        Self::ClockNotSynchronized,
+        Self::SiiVerification,
+        Self::ControlParameters,
+        Self::IoCommunications,
+        Self::SmEventMode,
+        Self::MessageCommunications,
+    ];
+
+    /// The event that it raises.
+    #[must_use]
+    pub const fn event(self) -> EventCode {
+        match self {
+            Self::NonVolatileMemory => EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR,
+            Self::Esc => EventCode::ESC_ERROR,
+            Self::SiiVerification => EventCode::SII_VERIFICATION_ERROR,
+            Self::ControlParameters => EventCode::CONTROL_PARAMETER_ERROR,
+            Self::SmEventMode => EventCode::SM_EVENT_MODE_SETTING_ERROR,
+            Self::Processing => EventCode::PROCESSING_ERROR,
+            Self::IoCommunications => EventCode::IO_COMMUNICATIONS_ERROR,
+            Self::ClockNotSynchronized => EventCode::CLOCK_NOT_SYNCHRONIZED_ERROR,
+            Self::MessageCommunications => EventCode::MESSAGE_COMMUNICATIONS_ERROR,
+        }
+    }
+
+    /// The fault that raises this event; none for an event with another cause.
+    #[must_use]
+    pub fn of_event(code: EventCode) -> Option<Self> {
+        Self::ALL.into_iter().find(|fault| fault.event() == code)
+    }
+
+    fn row(self) -> &'static Event {
+        match Event::find(self.event()) {
+            Some(event) => event,
+            None => panic!("tables/events.toml: no row {}", self.event()),
+        }
+    }
+
+    /// Whether it is found when the unit starts, and at no other time.
+    pub(crate) fn is_found_at_start(self) -> bool {
+        self.row().detection_timing == DetectionTiming::NxUnitPowerOn
+    }
+
+    /// Whether it is found the moment that it comes.
+    pub(crate) const fn is_found_at_once(self) -> bool {
+        matches!(self, Self::Processing | Self::IoCommunications | Self::ClockNotSynchronized)
+    }
+
+    /// Whether an error reset gets rid of it, once its cause is gone; the others last until the unit starts.
+    pub(crate) const fn goes_with_reset(self) -> bool {
+        matches!(self, Self::IoCommunications)
+    }
+
+    /// Whether I/O is refreshed no more, or does not begin to be.
+    pub(crate) fn stops_io(self) -> bool {
+        matches!(self.row().io_refresh, IoRefreshEffect::NotPerformed | IoRefreshEffect::Stops)
+    }
+
+    /// Whether the unit goes to INIT and stays there.
+    pub(crate) fn stops_in_init(self) -> bool {
+        self.row().stops_in_init()
+    }
+}
+
+/// Some of the faults.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct FaultSet(u16);
+
+impl FaultSet {
+    const fn bit(fault: Fault) -> u16 {
+        1 << fault as u16
+    }
+
+    pub(crate) const fn contains(self, fault: Fault) -> bool {
+        self.0 & Self::bit(fault) != 0
+    }
+
+    pub(crate) const fn insert(&mut self, fault: Fault) {
+        self.0 |= Self::bit(fault);
+    }
+
+    pub(crate) const fn remove(&mut self, fault: Fault) {
+        self.0 &= !Self::bit(fault);
+    }
+
+    pub(crate) const fn clear(&mut self) {
+        self.0 = 0;
+    }
+
+    pub(crate) fn iter(self) -> impl Iterator<Item = Fault> {
+        Fault::ALL.into_iter().filter(move |&fault| self.contains(fault))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_raises_another_event_of_the_table() {
+        let events: std::collections::BTreeSet<_> = Fault::ALL.map(Fault::event).into();
+        assert_eq!(events.len(), Fault::ALL.len());
+        assert!(events.iter().all(|&code| Event::find(code).is_some()));
+        assert!(Fault::ALL.into_iter().all(|fault| Fault::of_event(fault.event()) == Some(fault)));
+    }
+
+    #[test]
+    fn a_set_holds_each_fault_on_its_own() {
+        for fault in Fault::ALL {
+            let mut set = FaultSet::default();
+            set.insert(fault);
+            assert_eq!(set.iter().collect::<Vec<_>>(), [fault]);
+            set.remove(fault);
+            assert_eq!(set, FaultSet::default());
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! The indicators of the unit: RUN, ERR, L/A IN, L/A OUT and TS (manual, 3-2 and 8-2).
+//!
+//! Causes go in, patterns come out, and a moment makes lights of them: no clock, no state. Where several causes
+//! meet:
+//!
+//! | indicator | what wins |
+//! |---|---|
+//! | all | no power: everything is dark; before initialization RUN, ERR and TS are |
+//! | RUN | a hardware failure darkens it, else the EtherCAT state alone |
+//! | ERR | hardware failure, ESC error, then the AL status code that the master reads |
+//! | L/A | the port alone |
+//! | TS | one condition at a time; [`NxCondition::or_worse`] picks it |
+
+mod pattern;
+mod table;
+
+use time::Instant;
+use wire::{AlState, AlStatusCode};
+
+use crate::events::{Event, EventCode};
+use table::{Cause, PrimaryCause, pattern_for, primary};
+
+pub use pattern::Pattern;
+pub use table::{Colour, Indicator, IndicatorMeaning};
+
+/// All that decides on the indicators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct IndicatorCauses {
+    /// Whether the unit has power.
+    pub power: bool,
+    /// How it stands as an NX Unit.
+    pub nx: NxCondition,
+    /// The actual EtherCAT state.
+    pub state: AlState,
+    /// The AL status code, while AL status indicates an error.
+    pub al_error: Option<AlStatusCode>,
+    /// Whether ESC Error stands; it has no AL status code.
+    pub esc_error: bool,
+    /// Port IN.
+    pub in_port: PortCondition,
+    /// Port OUT.
+    pub out_port: PortCondition,
+}
+
+/// How the unit stands as an NX Unit: what TS tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum NxCondition {
+    /// After power-on or a restart, before initialization begins.
+    #[default]
+    WaitingForInitialization,
+    /// Initialization or download; a restart ends with it.
+    Initializing,
+    /// Ready for I/O refreshing.
+    Normal,
+    /// An event stands.
+    Error(EventCode),
+    /// The CPU Unit has failed.
+    CpuUnitMalfunction,
+    /// The unit itself is broken.
+    HardwareFailure,
+}
+
+impl NxCondition {
+    /// The condition that TS tells when both hold. The more severe one, from least to most: normal, events that TS
+    /// does not tell, TS dark, initializing, TS flashing red, TS red, waiting for initialization, hardware failure.
+    /// Of two that are equal it is `self`: give the older one first.
+    #[must_use]
+    pub fn or_worse(self, other: Self) -> Self {
+        if other.severity() > self.severity() { other } else { self }
+    }
+
+    fn severity(self) -> u8 {
+        match self {
+            Self::Normal => 0,
+            Self::Error(_) => match self.ts() {
+                (_, Pattern::Lit) => 5,
+                (_, Pattern::Flashing1s) => 4,
+                (Pattern::NotLit, _) => 2,
+                _ => 1,
+            },
+            Self::Initializing => 3,
+            Self::CpuUnitMalfunction => 5,
+            Self::WaitingForInitialization => 6,
+            Self::HardwareFailure => 7,
+        }
+    }
+
+    /// TS green and red. A column that the event leaves open shows what it would without the event.
+    fn ts(self) -> (Pattern, Pattern) {
+        let row = primary(self.primary());
+        let event = match self {
+            Self::Error(code) => Event::find(code),
+            _ => None,
+        };
+        match event {
+            Some(event) => (
+                event.ts_green.pattern().unwrap_or(row.ts_green),
+                event.ts_red.pattern().unwrap_or(row.ts_red),
+            ),
+            None => (row.ts_green, row.ts_red),
+        }
+    }
+
+    const fn primary(self) -> PrimaryCause {
+        match self {
+            Self::WaitingForInitialization => PrimaryCause::WaitingForInitialization,
+            Self::Initializing => PrimaryCause::Initializing,
+            Self::Normal | Self::Error(_) => PrimaryCause::Normal,
+            Self::CpuUnitMalfunction => PrimaryCause::CpuUnitMalfunction,
+            Self::HardwareFailure => PrimaryCause::HardwareFailure,
+        }
+    }
+
+    /// Whether the application runs, so that RUN and ERR tell of EtherCAT.
+    const fn application_runs(self) -> bool {
+        !matches!(self, Self::WaitingForInitialization | Self::HardwareFailure)
+    }
+}
+
+/// How a port stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PortCondition {
+    /// No link.
+    #[default]
+    NoLink,
+    /// A link, and no frames.
+    Link,
+    /// A link, and frames pass.
+    Active,
+}
+
+impl PortCondition {
+    /// From what a segment knows of the port: whether there is a link, and whether frames pass.
+    #[must_use]
+    pub const fn new(link: bool, active: bool) -> Self {
+        match (link, active) {
+            (false, _) => Self::NoLink,
+            (true, false) => Self::Link,
+            (true, true) => Self::Active,
+        }
+    }
+
+    fn pattern(self) -> Pattern {
+        pattern_for(match self {
+            Self::NoLink => Cause::NoLink,
+            Self::Link => Cause::Link,
+            Self::Active => Cause::Active,
+        })
+    }
+}
+
+/// What each indicator does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Indicators {
+    /// RUN, green.
+    pub run: Pattern,
+    /// ERR, red.
+    pub err: Pattern,
+    /// L/A IN, green.
+    pub la_in: Pattern,
+    /// L/A OUT, green.
+    pub la_out: Pattern,
+    /// TS, green.
+    pub ts_green: Pattern,
+    /// TS, red; green and red are never lit together.
+    pub ts_red: Pattern,
+}
+
+/// What is lit at a moment.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Lights {
+    /// RUN, green.
+    pub run: bool,
+    /// ERR, red.
+    pub err: bool,
+    /// L/A IN, green.
+    pub la_in: bool,
+    /// L/A OUT, green.
+    pub la_out: bool,
+    /// TS, green.
+    pub ts_green: bool,
+    /// TS, red.
+    pub ts_red: bool,
+}
+
+impl Indicators {
+    /// No power: all dark.
+    pub const DARK: Self = Self {
+        run: Pattern::NotLit,
+        err: Pattern::NotLit,
+        la_in: Pattern::NotLit,
+        la_out: Pattern::NotLit,
+        ts_green: Pattern::NotLit,
+        ts_red: Pattern::NotLit,
+    };
+
+    /// What the indicators do for these causes.
+    #[must_use]
+    pub fn of(causes: &IndicatorCauses) -> Self {
+        if !causes.power {
+            return Self::DARK;
+        }
+        let (ts_green, ts_red) = causes.nx.ts();
+        let row = primary(causes.nx.primary());
+        let (run, err) = if causes.nx.application_runs() {
+            (run(causes.state), err(causes.esc_error, causes.al_error))
+        } else {
+            (row.run, row.err)
+        };
+        Self { run, err, la_in: causes.in_port.pattern(), la_out: causes.out_port.pattern(), ts_green, ts_red }
+    }
+
+    /// What is lit at this moment.
+    #[must_use]
+    pub fn lights(&self, at: Instant) -> Lights {
+        Lights {
+            run: self.run.is_lit(at),
+            err: self.err.is_lit(at),
+            la_in: self.la_in.is_lit(at),
+            la_out: self.la_out.is_lit(at),
+            ts_green: self.ts_green.is_lit(at),
+            ts_red: self.ts_red.is_lit(at),
+        }
+    }
+
+    /// When a light changes next, after `at`, unless a cause changes before; [`Instant::NEVER`] if all are steady.
+    #[must_use]
+    pub fn next_change(&self, at: Instant) -> Instant {
+        let all = [self.run, self.err, self.la_in, self.la_out, self.ts_green, self.ts_red];
+        all.into_iter().map(|pattern| pattern.next_change(at)).min().unwrap_or(Instant::NEVER)
+    }
+}
+
+/// RUN by state. BOOT, which the unit does not have, shows as INIT.
+fn run(state: AlState) -> Pattern {
+    pattern_for(match state {
+        AlState::Op => Cause::Op,
+        AlState::SafeOp => Cause::SafeOp,
+        AlState::PreOp => Cause::PreOp,
+        AlState::Init | AlState::Boot | AlState::Other(_) => Cause::Init,
+    })
+}
+
+/// ERR by the event whose AL status code the master reads: events that share a code share the pattern. A code of
+/// no event comes from the state machine, which refuses a request.
+fn err(esc_error: bool, al_error: Option<AlStatusCode>) -> Pattern {
+    let esc_error = esc_error.then(|| Event::find(EventCode::ESC_ERROR)).flatten();
+    if let Some(pattern) = esc_error.and_then(|event| event.err.pattern()) {
+        return pattern;
+    }
+    let Some(code) = al_error else { return pattern_for(Cause::NoError) };
+    let event = Event::all().iter().find(|event| event.al_status_code == Some(code));
+    event.and_then(|event| event.err.pattern()).unwrap_or_else(|| pattern_for(Cause::StateOrSettingError))
+}

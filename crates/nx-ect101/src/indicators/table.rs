@@ -1,0 +1,183 @@
+//! The table of indicators, from `tables/indicators.toml`.
+
+use std::sync::LazyLock;
+
+use serde::{Deserialize, Serialize};
+
+use super::Pattern;
+use crate::events::{Event, EventCode};
+use crate::tables;
+
+static TABLE: LazyLock<IndicatorsFile> =
+    LazyLock::new(|| tables::parse("indicators.toml", include_str!("../../tables/indicators.toml")));
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct IndicatorsFile {
+    pattern: Vec<PatternRow>,
+    indicator: Vec<Indicator>,
+    primary: Vec<PrimaryRow>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct PatternRow {
+    name: Pattern,
+    steps_ms: Vec<u64>,
+    source: String,
+}
+
+/// An indicator, or two of a kind.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Indicator {
+    /// The letters beside it on the front.
+    pub names: Vec<String>,
+    /// What it is for.
+    pub shows: String,
+    /// What it may show, the most important first.
+    pub status: Vec<IndicatorMeaning>,
+}
+
+/// What an indicator means by a colour and a pattern.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IndicatorMeaning {
+    /// The colour.
+    pub colour: Colour,
+    /// The pattern.
+    pub pattern: Pattern,
+    /// What the unit decides by.
+    cause: Option<Cause>,
+    /// Which events show it.
+    events: Option<EventColumn>,
+    /// What it tells.
+    pub meaning: Vec<String>,
+}
+
+impl Indicator {
+    /// All indicators, as they stand on the front: RUN, ERR, L/A IN and L/A OUT, TS (manual, 3-2).
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        &TABLE.indicator
+    }
+}
+
+impl IndicatorMeaning {
+    /// The events that make the indicator show it.
+    pub fn events(&self) -> impl Iterator<Item = EventCode> {
+        let shows = |event: &&Event| self.events.is_some_and(|column| column.shows(event, self.pattern));
+        Event::all().iter().filter(shows).map(|event| event.code)
+    }
+}
+
+/// The column of the events that decides.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum EventColumn {
+    Err,
+    TsRed,
+    /// Green is dark, and red stays so.
+    TsDark,
+}
+
+impl EventColumn {
+    fn shows(self, event: &Event, pattern: Pattern) -> bool {
+        match self {
+            Self::Err => event.err.pattern() == Some(pattern),
+            Self::TsRed => event.ts_red.pattern() == Some(pattern),
+            Self::TsDark => event.ts_green.pattern() == Some(pattern) && event.ts_red.pattern().is_none(),
+        }
+    }
+}
+
+/// Colour of an indicator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Colour {
+    /// Green.
+    Green,
+    /// Red.
+    Red,
+    /// Dark.
+    None,
+}
+
+impl Colour {
+    /// The word of the table for it.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Green => "green",
+            Self::Red => "red",
+            Self::None => "none",
+        }
+    }
+}
+
+/// What makes RUN, ERR and L/A show a pattern, where no event does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Cause {
+    Op,
+    SafeOp,
+    PreOp,
+    Init,
+    StateOrSettingError,
+    NoError,
+    Active,
+    Link,
+    NoLink,
+}
+
+/// A row of 8-2-2 that is no event.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PrimaryRow {
+    cause: PrimaryCause,
+    pub(super) run: Pattern,
+    pub(super) err: Pattern,
+    pub(super) ts_green: Pattern,
+    pub(super) ts_red: Pattern,
+}
+
+/// What such a row is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum PrimaryCause {
+    Normal,
+    Initializing,
+    WaitingForInitialization,
+    HardwareFailure,
+    CpuUnitMalfunction,
+}
+
+/// The steps of a pattern; none for those that are steady and have no row.
+pub(super) fn steps_ms(pattern: Pattern) -> &'static [u64] {
+    TABLE.pattern.iter().find(|row| row.name == pattern).map_or(&[], |row| &row.steps_ms)
+}
+
+/// The pattern for a cause.
+pub(super) fn pattern_for(cause: Cause) -> Pattern {
+    let mut rows = TABLE.indicator.iter().flat_map(|indicator| &indicator.status);
+    match rows.find(|row| row.cause == Some(cause)) {
+        Some(row) => row.pattern,
+        None => panic!("tables/indicators.toml: no row for {cause:?}"),
+    }
+}
+
+/// The row for a cause.
+pub(super) fn primary(cause: PrimaryCause) -> PrimaryRow {
+    match TABLE.primary.iter().find(|row| row.cause == cause) {
+        Some(row) => *row,
+        None => panic!("tables/indicators.toml: no row for {cause:?}"),
+    }
+}
+
+impl Pattern {
+    /// The document that gives its times; none for a steady one.
+    #[must_use]
+    pub fn source(self) -> Option<&'static str> {
+        TABLE.pattern.iter().find(|row| row.name == self).map(|row| row.source.as_str())
+    }
+}

@@ -1,0 +1,117 @@
+//! What the unit says to requests of the master: its own findings beside the stack's, and the events of both.
+
+use wire::AlStatusCode;
+
+use crate::diagnosis::Occurrence;
+use crate::events::{Event, EventCode};
+use crate::fault::Fault;
+use crate::finding::Finding;
+use crate::rules;
+use crate::unit::NxEct101;
+
+impl NxEct101 {
+    /// INIT to PRE-OP.
+    pub(super) fn check_mailbox(&mut self, found: &[AlStatusCode]) -> Result<(), AlStatusCode> {
+        let diagnosis = &mut self.objects.diagnosis;
+        if found.contains(&AlStatusCode::EEPROM_ERROR) || diagnosis.is_present(Fault::SiiVerification) {
+            diagnosis.find(Fault::SiiVerification);
+            return Err(self.stop_in_init().unwrap_or(AlStatusCode::NO_VALID_FIRMWARE));
+        }
+        self.raise_all(found);
+        found.first().map_or(Ok(()), |&code| Err(code))
+    }
+
+    /// PRE-OP to SAFE-OP. Everything that is wrong is recorded, the first finding tells the master: the mapping,
+    /// the SyncManagers, the synchronization type, DC, buffers, watchdog; then what does not match, which stops
+    /// nothing.
+    pub(super) fn check_process_data(&mut self, found: &[AlStatusCode]) -> Result<(), AlStatusCode> {
+        self.read_pdo_rules();
+        let mapping = self.raise_broken_rules();
+        let (sync_managers, others) = found.split_at(found.iter().take_while(is_sync_manager).count());
+        self.raise_all(sync_managers);
+        let sync_mode = self.check_sync_mode();
+        self.raise_all(others);
+        let codes = sync_managers.iter().copied().chain(sync_mode).chain(others.iter().copied());
+        let first = mapping.or_else(|| codes.into_iter().next());
+        self.raise_mismatches();
+        if let Some(code) = first {
+            self.settle_mismatches();
+            return Err(code);
+        }
+        self.plan.rebuild(&self.pdo, &self.m_to_c_layout, &self.c_to_m_layout);
+        // What the new mapping does not exchange has its default value again.
+        self.m_to_c.fill(0);
+        Ok(())
+    }
+
+    fn read_pdo_rules(&mut self) {
+        self.pdo.follow(&self.objects.mapping);
+        self.pdo_findings.clear();
+        rules::check_at_safe_op(
+            &self.settings.io_allocation,
+            &self.pdo,
+            &self.io_findings,
+            &mut self.pdo_findings,
+        );
+    }
+
+    /// The events of the rules that keep the unit in PRE-OP, and the AL status code of the first.
+    fn raise_broken_rules(&mut self) -> Option<AlStatusCode> {
+        let broken = self.pdo_findings.iter().filter(|finding| finding.al_status_code().is_some());
+        for finding in broken.clone() {
+            self.objects.diagnosis.raise(Occurrence::of_finding(finding));
+        }
+        broken.clone().find_map(Finding::al_status_code)
+    }
+
+    /// The master has set another synchronization than Free-Run; objects 1C32 and 1C33 take no other value, so
+    /// that it is a fault which is injected (A17).
+    fn check_sync_mode(&mut self) -> Option<AlStatusCode> {
+        let fault = Fault::SmEventMode;
+        if !self.objects.diagnosis.is_present(fault) {
+            return None;
+        }
+        self.objects.diagnosis.raise(Occurrence::of_fault(fault));
+        Event::find(fault.event()).and_then(|event| event.al_status_code)
+    }
+
+    /// Sizes that do not match stand as long as data are exchanged.
+    fn raise_mismatches(&mut self) {
+        let mismatches = self.pdo_findings.iter().filter(|finding| finding.al_status_code().is_none());
+        for finding in mismatches {
+            self.objects.diagnosis.raise_standing(Occurrence::of_finding(finding));
+        }
+    }
+
+    /// No data are exchanged any more, so that nothing does not match.
+    pub(super) fn settle_mismatches(&mut self) {
+        let findings = &self.pdo_findings;
+        let is_mismatch = |code: EventCode| {
+            findings.iter().any(|finding| finding.event == code && finding.al_status_code().is_none())
+        };
+        self.objects.diagnosis.settle(is_mismatch);
+    }
+
+    fn raise_all(&mut self, codes: &[AlStatusCode]) {
+        for &code in codes {
+            self.raise_al_error(code);
+        }
+    }
+
+    /// The event of an AL status code that the stack has found, and the code in the unit's own terms: its list
+    /// (manual, 8-5-2) has none for BOOT.
+    pub(super) fn raise_al_error(&mut self, code: AlStatusCode) -> AlStatusCode {
+        let code = match code {
+            AlStatusCode::BOOTSTRAP_NOT_SUPPORTED => AlStatusCode::INVALID_REQUESTED_STATE_CHANGE,
+            code => code,
+        };
+        if let Some(event) = Event::of_al_status_code(code).next() {
+            self.objects.diagnosis.raise(Occurrence::bare(event.code));
+        }
+        code
+    }
+}
+
+fn is_sync_manager(code: &&AlStatusCode) -> bool {
+    matches!(**code, AlStatusCode::INVALID_OUTPUT_CONFIGURATION | AlStatusCode::INVALID_INPUT_CONFIGURATION)
+}

@@ -1,0 +1,115 @@
+//! The events of the unit as such: faults, what its start finds, what a user does from the CPU Unit's side.
+
+use device::Start;
+use wire::AlStatusCode;
+
+use crate::diagnosis::{CurrentError, Occurrence};
+use crate::events::{Event, EventCode, EventLevel, EventLog};
+use crate::fault::Fault;
+use crate::memory::ErrorLog;
+use crate::settings::LevelNotChangeable;
+use crate::unit::NxEct101;
+
+impl NxEct101 {
+    /// The cause of a fault appears. Some faults are found at once, others when the unit starts or when the
+    /// master asks for a state (manual, 8-3-4, detection timing).
+    pub fn inject(&mut self, fault: Fault) {
+        self.objects.diagnosis.inject(fault);
+    }
+
+    /// The cause of a fault disappears. What it has done stays until the recovery that the manual names.
+    pub fn remove(&mut self, fault: Fault) {
+        self.objects.diagnosis.remove(fault);
+    }
+
+    /// The faults that the unit has found and not recovered from.
+    pub fn faults(&self) -> impl Iterator<Item = Fault> + '_ {
+        self.objects.diagnosis.found()
+    }
+
+    /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause is still there
+    /// occurs again.
+    pub fn reset_errors(&mut self) {
+        self.objects.diagnosis.reset_errors();
+    }
+
+    /// A user clears a log from the side of the CPU Unit: Event Log Cleared (90400000).
+    pub fn clear_event_log(&mut self, log: EventLog) {
+        self.objects.diagnosis.clear_log(log);
+    }
+
+    /// Changes the level of an event, in force from the next start of the unit on (manual, 6-5-1).
+    ///
+    /// # Errors
+    /// [`LevelNotChangeable`].
+    pub fn set_event_level(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
+        self.settings.event_levels.set(code, level)
+    }
+
+    /// The current errors of a level, the oldest first: objects 2003 and 2004.
+    #[must_use]
+    pub fn current_errors(&self, level: EventLevel) -> &[CurrentError] {
+        self.objects.diagnosis.current(level)
+    }
+
+    /// Sysmac Error Status, object 2002:01: bit 4 observation, bit 5 minor fault.
+    #[must_use]
+    pub const fn error_status(&self) -> u8 {
+        self.objects.diagnosis.error_status()
+    }
+
+    /// New Messages Available, object 10F3:04.
+    #[must_use]
+    pub const fn has_new_messages(&self) -> bool {
+        self.objects.diagnosis.has_new_messages()
+    }
+
+    /// The system event log, which is the diagnosis history 10F3, and the access event log.
+    #[must_use]
+    pub const fn error_log(&self) -> &ErrorLog {
+        self.objects.diagnosis.log()
+    }
+
+    /// NX Unit Error Status: the unit has an error (manual, 8-1-1). A fault that is no current error, such as a
+    /// broken memory, counts.
+    pub(super) fn has_error(&self) -> bool {
+        self.error_status() != 0 || self.objects.diagnosis.found().next().is_some()
+    }
+
+    /// The AL status code of the fault that keeps the unit in INIT.
+    pub(super) fn stop_in_init(&self) -> Option<AlStatusCode> {
+        let fault = self.objects.diagnosis.stop_in_init()?;
+        let code = Event::find(fault.event()).and_then(|event| event.al_status_code);
+        Some(code.unwrap_or(AlStatusCode::NO_ERROR))
+    }
+
+    /// What the master finds when the unit has started again.
+    pub(super) fn code_after(&self, start: Start) -> Option<AlStatusCode> {
+        let restarted = Event::find(EventCode::UNIT_RESTART).filter(|_| start == Start::Restart);
+        restarted.and_then(|event| event.al_status_code)
+    }
+
+    /// Tells what the start has found, once. It waits for the first refresh, which knows the time.
+    pub(super) fn tell_start(&mut self) {
+        let Some(start) = self.started.take() else { return };
+        let diagnosis = &mut self.objects.diagnosis;
+        if start == Start::Restart {
+            diagnosis.raise(Occurrence::bare(EventCode::UNIT_RESTART));
+        }
+        diagnosis.tell_start();
+        for finding in &self.io_findings {
+            diagnosis.raise_standing(Occurrence::of_finding(finding));
+        }
+    }
+
+    /// A CPU Unit that stops I/O refreshing is an NX bus without I/O communications.
+    pub(super) fn watch_io_communications(&mut self, refreshing: bool) {
+        if self.cpu_refreshing && !refreshing {
+            self.io_communications_lost = true;
+            self.inject(Fault::IoCommunications);
+        } else if refreshing && core::mem::take(&mut self.io_communications_lost) {
+            self.remove(Fault::IoCommunications);
+        }
+        self.cpu_refreshing = refreshing;
+    }
+}
