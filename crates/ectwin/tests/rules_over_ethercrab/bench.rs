@@ -63,6 +63,8 @@ pub(crate) struct Flags {
 
 pub(crate) const EXCHANGING: Flags =
     Flags { nx_unit_status: 0b110, slave_status: 0b110, io_data_active: true, unit_error: false };
+/// Sizes that do not match are an error, and data go on.
+pub(crate) const MISMATCHED: Flags = Flags { unit_error: true, ..EXCHANGING };
 pub(crate) const NOT_REFRESHED: Flags =
     Flags { nx_unit_status: 0, slave_status: 0, io_data_active: false, unit_error: true };
 
@@ -129,8 +131,12 @@ impl Bench {
         group
     }
 
+    /// Resets the errors on the way to SAFE-OP, as the ESI asks a master to.
     pub(crate) async fn op(&self, settings: &[Setting]) -> Group<Op> {
-        self.pre_op(settings).await.into_op(&self.master).await.unwrap()
+        let group = self.pre_op(settings).await;
+        let unit = group.subdevice(&self.master, 0).unwrap();
+        unit.sdo_write(0x2002, 2, 1_u8).await.unwrap();
+        group.into_op(&self.master).await.unwrap()
     }
 
     /// Asks for SAFE-OP with SyncManagers as the mapping asks for them. Returns AL status and AL status code.

@@ -12,8 +12,8 @@ use ectwin::AlState;
 use ethercrab::error::{CoeAbortCode, Error, MailboxError};
 
 use bench::{
-    Bench, EXCHANGING, NOT_REFRESHED, Seen, Setting, assign_rx, assign_tx, entry, image, input, output, rx,
-    tx,
+    Bench, EXCHANGING, MISMATCHED, NOT_REFRESHED, Seen, Setting, assign_rx, assign_tx, entry, image, input,
+    output, rx, tx,
 };
 
 const UNIT: &str = "model = \"nx-ect101\"";
@@ -169,7 +169,7 @@ async fn unequal_amounts_exchange_the_entries_that_both_sides_have() {
             let group = bench.op(&[mapped, assigned].concat()).await;
             let (moved, bytes) = (4 * entry_bytes, |entries| usize::from(entries) * entry_bytes);
             let wanted = Seen {
-                flags: EXCHANGING,
+                flags: MISMATCHED,
                 outputs: image(output, moved, bytes(io_entries)),
                 inputs: image(input, moved, bytes(pdo_entries)),
             };
@@ -185,6 +185,6 @@ async fn a_data_set_without_partner_stops_nothing_and_moves_nothing() {
     let assigned = [assign_rx(&[0x1602]), assign_tx(&[0x1A00, 0x1A02, 0x1BFE])];
     let group = bench.op(&assigned).await;
     // 1602 and 1A02 map two BYTE arrays each; the CPU Unit has UINT arrays only.
-    let wanted = Seen { flags: EXCHANGING, outputs: vec![0; FACTORY_BYTES], inputs: vec![0; 20] };
+    let wanted = Seen { flags: MISMATCHED, outputs: vec![0; FACTORY_BYTES], inputs: vec![0; 20] };
     bench.expect("1602 against UINT arrays", &group, &wanted).await;
 }
