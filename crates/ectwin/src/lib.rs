@@ -29,17 +29,20 @@ mod live;
 mod memory_file;
 mod setup;
 mod twin;
+mod unit_side;
 
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::{Live, run};
 pub use nx_ect101::unit_file;
+pub use nx_ect101::{CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, LogRecord};
 pub use plc::{
     Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,
     OperatingMode, Program, SubIndex,
 };
 pub use setup::{Setup, SetupError};
 pub use time::{Duration, Instant};
-pub use twin::{Twin, UnitSide};
+pub use twin::Twin;
+pub use unit_side::UnitSide;
 pub use wire::{AlState, AlStatus, AlStatusCode};

@@ -10,7 +10,8 @@ use plc::CpuUnit;
 use time::{Duration, Instant};
 
 use crate::Twin;
-use crate::twin::{Line, UnitSide, cpu_deadline, cycle};
+use crate::twin::{Line, cpu_deadline, cycle};
+use crate::unit_side::UnitSide;
 
 /// Longest sleep of the CPU Units' thread, so that it sees the stop flag.
 const STOP_CHECK: Duration = Duration::from_millis(100);
@@ -66,7 +67,7 @@ impl Twin {
         let tasks = spawn("cpu-unit", &shared, move |shared| {
             keep_pace(&clock, &shared.stop, |now| turn(&mut shared.cpus(), now));
         });
-        let mut live = Live { shared, frames: Some(frames), tasks: None };
+        let mut live = Live { shared, frames: Some(frames), tasks: None, clock };
         live.tasks = Some(tasks?);
         Ok(live)
     }
@@ -91,6 +92,7 @@ pub struct Live {
     shared: Arc<Shared>,
     frames: Option<JoinHandle<io::Result<Statistics>>>,
     tasks: Option<JoinHandle<()>>,
+    clock: Clock,
 }
 
 impl Live {
@@ -99,8 +101,8 @@ impl Live {
     /// # Panics
     /// If the line has no unit there.
     pub fn look<T>(&self, position: usize, look: impl FnOnce(&mut UnitSide<'_>) -> T) -> T {
-        let (line, mut cpus) = (self.shared.line(), self.shared.cpus());
-        look(&mut UnitSide::of(&line, &mut cpus, position))
+        let (mut line, mut cpus) = (self.shared.line(), self.shared.cpus());
+        look(&mut line.unit(&mut cpus, position, self.clock.now()))
     }
 
     /// Switches the units off and tells what they did.

@@ -1,14 +1,14 @@
 //! A line of units in virtual time: frame in, frame out, and a look at the units' side.
 
-use device::{Device, Network};
+use device::Network;
 use link::{FrameFate, Responder};
 use nx_ect101::NxEct101;
-use plc::{CpuUnit, Io};
+use plc::CpuUnit;
 use time::{Duration, Instant};
-use wire::{AlState, AlStatus, AlStatusCode};
 
 use crate::memory_file::Keeper;
 use crate::setup::Powered;
+use crate::unit_side::UnitSide;
 use crate::{Setup, SetupError};
 
 /// Units under power, in the order of the chain, with their CPU Units.
@@ -88,7 +88,7 @@ impl Twin {
     /// # Panics
     /// If the line has no unit there.
     pub fn unit(&mut self, position: usize) -> UnitSide<'_> {
-        UnitSide::of(&self.line, &mut self.cpus, position)
+        self.line.unit(&mut self.cpus, position, self.now)
     }
 
     pub(crate) fn into_parts(self) -> (Line, Vec<CpuUnit>, Instant) {
@@ -125,6 +125,17 @@ pub(crate) struct Line {
     keepers: Vec<Keeper>,
 }
 
+impl Line {
+    pub(crate) fn unit<'a>(
+        &'a mut self,
+        cpus: &'a mut [CpuUnit],
+        position: usize,
+        now: Instant,
+    ) -> UnitSide<'a> {
+        UnitSide::of(&mut self.network, cpus, position, now)
+    }
+}
+
 impl Responder for Line {
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         self.network.frame(now, frame)
@@ -139,72 +150,5 @@ impl Responder for Line {
 
     fn deadline(&self) -> Instant {
         self.network.deadline()
-    }
-}
-
-/// What a unit is like inside, and what its CPU Unit has.
-#[derive(Debug)]
-pub struct UnitSide<'a> {
-    device: &'a Device<NxEct101>,
-    cpu: &'a mut CpuUnit,
-}
-
-impl<'a> UnitSide<'a> {
-    /// # Panics
-    /// If the line has no unit there.
-    pub(crate) fn of(line: &'a Line, cpus: &'a mut [CpuUnit], position: usize) -> Self {
-        let count = cpus.len();
-        let (Some(device), Some(cpu)) = (line.network.device(position), cpus.get_mut(position)) else {
-            panic!("there is no unit at position {position}: the line has {count}")
-        };
-        Self { device, cpu }
-    }
-
-    /// State of the EtherCAT state machine.
-    #[must_use]
-    pub fn state(&self) -> AlState {
-        self.device.al_status().state
-    }
-
-    /// State and error indication, as the master reads them.
-    #[must_use]
-    pub fn al_status(&self) -> AlStatus {
-        self.device.al_status()
-    }
-
-    /// AL status code, as the master reads it.
-    #[must_use]
-    pub fn al_status_code(&self) -> AlStatusCode {
-        self.device.al_status_code()
-    }
-
-    /// The data from the master as the CPU Unit has it, entry after entry of the I/O allocation.
-    #[must_use]
-    pub fn outputs(&self) -> &[u8] {
-        self.cpu.io().m_to_c()
-    }
-
-    /// Sets the data to the master, entry after entry; it goes out with the next task period, unless the user
-    /// program writes it too. What `bytes` has too many of is left out.
-    pub fn set_inputs(&mut self, bytes: &[u8]) {
-        for (input, byte) in self.cpu.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
-            *input = *byte;
-        }
-    }
-
-    /// The I/O by data set, as the user program sees it.
-    #[must_use]
-    pub fn io(&self) -> &Io {
-        self.cpu.io()
-    }
-
-    /// The I/O by data set, to be changed.
-    pub fn io_mut(&mut self) -> &mut Io {
-        self.cpu.io_mut()
-    }
-
-    /// The CPU Unit, such as for its operating mode.
-    pub fn cpu(&mut self) -> &mut CpuUnit {
-        self.cpu
     }
 }

@@ -1,0 +1,159 @@
+//! The side of a unit that no master sees: its state inside, its CPU Unit, its faults and logs.
+
+use device::{Device, Network, Start};
+use nx_ect101::{CurrentError, ErrorLog, EventLevel, EventLog, Fault, NxEct101};
+use plc::{CpuUnit, Io};
+use time::Instant;
+use wire::{AlState, AlStatus, AlStatusCode};
+
+/// What a unit is like inside, and what its CPU Unit has.
+#[derive(Debug)]
+pub struct UnitSide<'a> {
+    network: &'a mut Network<NxEct101>,
+    cpu: &'a mut CpuUnit,
+    position: usize,
+    now: Instant,
+}
+
+impl<'a> UnitSide<'a> {
+    /// # Panics
+    /// If the line has no unit there.
+    pub(crate) fn of(
+        network: &'a mut Network<NxEct101>,
+        cpus: &'a mut [CpuUnit],
+        position: usize,
+        now: Instant,
+    ) -> Self {
+        let count = network.len();
+        match cpus.get_mut(position) {
+            Some(cpu) if position < count => Self { network, cpu, position, now },
+            _ => panic!("there is no unit at position {position}: the line has {count}"),
+        }
+    }
+
+    fn device(&self) -> &Device<NxEct101> {
+        match self.network.device(self.position) {
+            Some(device) => device,
+            None => unreachable!("`UnitSide::of` has found a unit at this position"),
+        }
+    }
+
+    fn unit(&self) -> &NxEct101 {
+        self.device().unit()
+    }
+
+    fn unit_mut(&mut self) -> &mut NxEct101 {
+        match self.network.device_mut(self.position) {
+            Some(device) => device.unit_mut(),
+            None => unreachable!("`UnitSide::of` has found a unit at this position"),
+        }
+    }
+
+    /// State of the EtherCAT state machine.
+    #[must_use]
+    pub fn state(&self) -> AlState {
+        self.device().al_status().state
+    }
+
+    /// State and error indication, as the master reads them.
+    #[must_use]
+    pub fn al_status(&self) -> AlStatus {
+        self.device().al_status()
+    }
+
+    /// AL status code, as the master reads it.
+    #[must_use]
+    pub fn al_status_code(&self) -> AlStatusCode {
+        self.device().al_status_code()
+    }
+
+    /// The data from the master as the CPU Unit has it, entry after entry of the I/O allocation.
+    #[must_use]
+    pub fn outputs(&self) -> &[u8] {
+        self.cpu.io().m_to_c()
+    }
+
+    /// Sets the data to the master, entry after entry; it goes out with the next task period, unless the user
+    /// program writes it too. What `bytes` has too many of is left out.
+    pub fn set_inputs(&mut self, bytes: &[u8]) {
+        for (input, byte) in self.cpu.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
+            *input = *byte;
+        }
+    }
+
+    /// The I/O by data set, as the user program sees it.
+    #[must_use]
+    pub fn io(&self) -> &Io {
+        self.cpu.io()
+    }
+
+    /// The I/O by data set, to be changed.
+    pub fn io_mut(&mut self) -> &mut Io {
+        self.cpu.io_mut()
+    }
+
+    /// The CPU Unit, such as for its operating mode.
+    pub fn cpu(&mut self) -> &mut CpuUnit {
+        self.cpu
+    }
+}
+
+/// Events and faults.
+impl UnitSide<'_> {
+    /// The cause of a fault appears. Some faults are found at once, others when the unit starts or when the
+    /// master asks for a state (manual, 8-3-4, detection timing).
+    pub fn inject(&mut self, fault: Fault) {
+        self.unit_mut().inject(fault);
+    }
+
+    /// The cause of a fault disappears. What it has done stays until the recovery that the manual names.
+    pub fn remove(&mut self, fault: Fault) {
+        self.unit_mut().remove(fault);
+    }
+
+    /// The current errors of a level, the oldest first: objects 2003 and 2004.
+    #[must_use]
+    pub fn current_errors(&self, level: EventLevel) -> &[CurrentError] {
+        self.unit().current_errors(level)
+    }
+
+    /// Sysmac Error Status, object 2002:01: bit 4 observation, bit 5 minor fault.
+    #[must_use]
+    pub fn error_status(&self) -> u8 {
+        self.unit().error_status()
+    }
+
+    /// The system event log, which is the diagnosis history 10F3, and the access event log.
+    #[must_use]
+    pub fn error_log(&self) -> &ErrorLog {
+        self.unit().error_log()
+    }
+
+    /// A user resets the errors from the CPU Unit (manual, 8-6). An error whose cause is still there occurs again.
+    pub fn reset_errors(&mut self) {
+        self.unit_mut().reset_errors();
+    }
+
+    /// A user clears a log from the CPU Unit: Event Log Cleared (90400000).
+    pub fn clear_event_log(&mut self, log: EventLog) {
+        self.unit_mut().clear_event_log(log);
+    }
+}
+
+/// What hands do to the unit.
+impl UnitSide<'_> {
+    /// Restarts the unit, as support software does: NX Unit Restart (94B80000).
+    pub fn restart(&mut self) {
+        self.network.restart(self.position, self.now, Start::Restart);
+    }
+
+    /// Turns the unit off and on again. What is in its non-volatile memory stays.
+    pub fn cycle_power(&mut self) {
+        self.network.restart(self.position, self.now, Start::PowerOn);
+    }
+
+    /// Turns the ID switch. The unit looks at it when it starts (manual, 3-3).
+    pub fn set_id_switch(&mut self, id_switch: u8) {
+        self.unit_mut().set_id_switch(id_switch);
+    }
+}
