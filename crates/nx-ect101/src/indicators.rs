@@ -207,7 +207,14 @@ impl Indicators {
         } else {
             (row.run, row.err)
         };
-        Self { run, err, la_in: causes.in_port.pattern(), la_out: causes.out_port.pattern(), ts_green, ts_red }
+        Self {
+            run,
+            err,
+            la_in: causes.in_port.pattern(),
+            la_out: causes.out_port.pattern(),
+            ts_green,
+            ts_red,
+        }
     }
 
     /// What is lit at this moment.
