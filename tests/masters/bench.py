@@ -17,7 +17,7 @@ NEW_MESSAGES_BYTES = 1  # 1BFE, behind them
 
 STATE_TIMEOUT_US = 5_000_000
 # A frame that comes late, because the host was busy, is no frame that was answered wrongly.
-FRAME_TIMEOUT_US = 200_000
+FRAME_TIMEOUT_US = 1_000_000
 # Cycles until a value must have come back; T_master + 3 T_slave + 2 T_cpu is 12 ms at most, and the rest is
 # for a host that does other things too.
 ECHO_CYCLES = 500
@@ -45,6 +45,7 @@ def show(value):
 @contextlib.contextmanager
 def network(interface, units):
     """The master on `interface` with `units` slaves found, in PRE-OP. Back to INIT at the end."""
+    pysoem.settings.timeouts.ret = FRAME_TIMEOUT_US
     master = pysoem.Master()
     master.open(interface)
     try:
