@@ -1,0 +1,92 @@
+//! The way back: the cause is removed, the recovery of the event's row is done, and nothing is left.
+
+use nx_ect101::{Event, Recovery};
+
+use crate::cases::{CASES, Case};
+use crate::stage::{INIT, OP, Stage};
+use crate::{caused, event};
+
+/// Does what the row says; the unit is anywhere.
+fn recover(event: &Event, case: &Case, mut stage: Stage) -> Stage {
+    match event.recovery {
+        // Error reset by the CPU Unit; the master's is another test.
+        Recovery::ResetErrorInSlaveUnit | Recovery::ResetErrorByFailsoft => {
+            stage.twin.unit(0).reset_errors();
+        }
+        Recovery::CycleUnitPowerOrRestartNxBus | Recovery::CycleSlaveUnitPower | Recovery::CycleUnitPower => {
+            stage.twin.unit(0).cycle_power()
+        }
+        Recovery::CycleNxUnitPowerThenResetErrorInNxBusFm => {
+            stage.twin.unit(0).cycle_power();
+            stage.run_for_ms(2);
+            stage.twin.unit(0).reset_errors();
+        }
+        Recovery::RestartNxUnitThenResetErrorByFailsoft => {
+            stage.twin.unit(0).restart();
+            stage.run_for_ms(2);
+            stage.twin.unit(0).reset_errors();
+        }
+        Recovery::RedoIoAllocationSettings => stage = Stage::power_on(""),
+        Recovery::None => {
+            // An observation or an information: nothing is broken, and a reset takes it off the list.
+            assert!(!case.code.starts_with('3'));
+            stage.twin.unit(0).reset_errors();
+        }
+    }
+    stage.run_for_ms(2);
+    stage
+}
+
+#[test]
+fn without_its_cause_and_after_its_recovery_nothing_of_an_event_is_left() {
+    for case in CASES {
+        let (event, mut stage) = (event(case), caused(case));
+        (case.remove)(&mut stage);
+        if case.code == "39160000" || case.code == "39170000" {
+            // The cause stands in the I/O allocation.
+            stage = Stage::power_on("");
+        }
+        let mut stage = recover(event, case, stage);
+        // The factory setting again, for cases that have changed the mapping.
+        assert_eq!(stage.request(INIT | 0x10), (INIT, 0), "{}", case.code);
+        restore_mapping(&mut stage);
+        stage.to_pre_op();
+        stage.to_op();
+        assert_eq!(stage.al(), (OP, 0), "{}", case.code);
+        let inputs = stage.exchange(&[0xC3; 180]);
+        assert_eq!((inputs[0] & 0x06, inputs[183]), (0x06, 0), "{}: flags", case.code);
+        assert_eq!(stage.upload(0x2002, 1), [0], "{}", case.code);
+        assert_eq!((stage.upload(0x2003, 0), stage.upload(0x2004, 0)), (vec![0], vec![0]), "{}", case.code);
+        assert_eq!(stage.take_emergencies(), [], "{}", case.code);
+        let side = stage.twin.unit(0);
+        assert!(side.io().io_data_active() && !side.io().unit_error(), "{}", case.code);
+        assert_eq!(side.outputs(), [0xC3; 180], "{}", case.code);
+    }
+}
+
+/// What a case has set in PRE-OP.
+fn restore_mapping(stage: &mut Stage) {
+    stage.set_mailboxes();
+    stage.request(crate::PRE_OP);
+    let entries = |base: u32| (1..=6).map(|sub| base | sub << 8 | 240).collect::<Vec<u32>>();
+    stage.map(0x1601, &entries(0x7000_0000));
+    stage.map(0x1A01, &entries(0x6000_0000));
+    stage.assign(0x1C12, &[0x1601]);
+}
+
+#[test]
+fn an_error_that_is_reset_with_its_cause_in_place_is_recorded_anew() {
+    for case in CASES {
+        let (event, mut stage) = (event(case), caused(case));
+        let stands = event.reported_as_current_error
+            && !matches!(event.recovery, Recovery::ResetErrorInSlaveUnit | Recovery::None);
+        if !stands {
+            continue;
+        }
+        let before = stage.history().len();
+        stage.twin.unit(0).reset_errors();
+        assert_eq!(stage.history().len(), before + 1, "{}", case.code);
+        assert_eq!(stage.twin.unit(0).error_status(), 0x20, "{}", case.code);
+        assert!(stage.twin.unit(0).io().unit_error(), "{}", case.code);
+    }
+}
