@@ -14,8 +14,8 @@ use wire::AlStatusCode;
 use crate::tables;
 
 pub use attributes::{
-    AttachedInformation, DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus, IoRefreshEffect,
-    Notified, Recovery,
+    AttachedInformation, Cause, DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus,
+    IoRefreshEffect, Notified, Recovery,
 };
 
 static EVENTS: LazyLock<EventsFile> =
@@ -110,6 +110,12 @@ pub struct Event {
     /// What else there is to know.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+    /// What it says, a sentence.
+    pub meaning: String,
+    /// Where it comes from and what to do, the likeliest first.
+    pub causes: Vec<Cause>,
+    /// What makes it happen in an emulated unit: a setting, what a master does, or a fault. A sentence.
+    pub in_ectwin: String,
 }
 
 impl Event {

@@ -37,7 +37,7 @@ pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusP
 pub use description::description;
 pub use diagnosis::{CURRENT_ERRORS_MAX, CurrentError, DIAGNOSIS_MESSAGE_BYTES};
 pub use events::{
-    AttachedInformation, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
+    AttachedInformation, Cause, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
     IndicatorStatus, IoRefreshEffect, Notified, Recovery,
 };
 pub use exchange::{ByteCopy, ExchangePlan};

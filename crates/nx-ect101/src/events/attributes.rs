@@ -161,6 +161,15 @@ pub struct AttachedInformation {
     pub values: BTreeMap<String, String>,
 }
 
+/// Where an event comes from.
+#[derive(Debug, Deserialize, Serialize)]
+pub struct Cause {
+    /// What has happened, a sentence.
+    pub cause: String,
+    /// What to do about it, a sentence.
+    pub correction: String,
+}
+
 /// Eight hexadecimal digits.
 pub(super) mod code {
     use serde::{Deserialize, Deserializer, Serializer};
