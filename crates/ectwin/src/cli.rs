@@ -34,7 +34,8 @@ pub(crate) enum Command {
     List(List),
     /// Tell what a code means, where it comes from and what helps
     Explain {
-        /// AL status code or SDO abort code in hexadecimal, such as 0x001B or 0x0602_0000
+        /// Event code, AL status code, emergency error code or SDO abort code in hexadecimal, such as
+        /// 391E0000, 0x001B, 0xA000 or 0x0602_0000
         code: String,
     },
 }
@@ -77,6 +78,12 @@ pub(crate) struct ExportArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum List {
+    /// The events with their levels, AL status codes and emergency error codes
+    Events {
+        /// One JSON document instead of text
+        #[arg(long)]
+        json: bool,
+    },
     /// The CoE objects with their types, access rights and defaults
     Objects {
         /// One JSON document instead of text

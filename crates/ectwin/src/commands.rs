@@ -5,6 +5,7 @@ mod check;
 mod demo;
 mod explain;
 mod export;
+mod list_events;
 mod list_nx_objects;
 mod list_objects;
 mod list_rules;
@@ -22,6 +23,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),
+        Command::List(List::Events { json }) => list_events::run(json),
         Command::List(List::Objects { json }) => list_objects::run(json),
         Command::List(List::NxObjects { json }) => list_nx_objects::run(json),
         Command::List(List::Rules { json }) => list_rules::run(json),

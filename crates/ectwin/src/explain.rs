@@ -1,14 +1,26 @@
 //! `ectwin explain CODE`: what a code means and what to do.
+//!
+//! A code may be several things: 0x0020 is an AL status code, and in a diagnosis message it is the event
+//! 00200000. [`explain`] tells all of them, as facts under headings; [`event_pages`] writes the same facts as
+//! the pages of docs/events.
 
+mod al_status;
 mod al_status_codes;
+mod emergency;
+mod event;
+mod number;
+mod pages;
 mod sdo_abort_codes;
+#[cfg(test)]
+mod tests;
 
 use std::fmt;
 
+use nx_ect101::EventCode;
 use wire::{AlStatusCode, SdoAbort};
 
-/// AL status code of the NX-ECT101 that no standard has: its manual, 8-5-2.
-const CPU_UNIT_ERROR: AlStatusCode = AlStatusCode(0x8004);
+use number::Number;
+pub use pages::{Page, event_pages};
 
 /// Why a code comes, and what helps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,22 +31,52 @@ pub struct Advice {
     pub correction: &'static str,
 }
 
+/// Something that is known, under a word that says of what.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fact {
+    /// Of what: a word or two.
+    pub label: &'static str,
+    /// What is known of it.
+    pub text: String,
+}
+
+impl Fact {
+    fn new(label: &'static str, text: impl Into<String>) -> Self {
+        Self { label, text: text.into() }
+    }
+}
+
+/// Facts that belong together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// What they are about.
+    pub heading: &'static str,
+    /// The facts, in the order in which they are told.
+    pub facts: Vec<Fact>,
+}
+
 /// A code that is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     /// The code.
     pub code: Code,
     /// What it is called.
-    pub meaning: &'static str,
-    /// The state in which a slave usually shows it; nothing for abort codes.
-    pub state: Option<&'static str>,
-    /// Cause and correction.
-    pub advice: Advice,
+    pub name: String,
+    /// What there is to say before its causes.
+    pub facts: Vec<Fact>,
+    /// Causes with their corrections, the likeliest first.
+    pub advice: Vec<Advice>,
+    /// What each side sees of it.
+    pub sections: Vec<Section>,
 }
 
-/// A code, by what it is a code of. Four hex digits or fewer make an AL status code, more an abort code.
+/// A code, by what it is a code of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Code {
+    /// Event code of the NX-ECT101.
+    Event(EventCode),
+    /// Emergency error code, in an emergency message or a diagnosis code.
+    Emergency(u16),
     /// AL status code, register 0x0134.
     AlStatus(AlStatusCode),
     /// SDO abort code.
@@ -44,6 +86,8 @@ pub enum Code {
 impl fmt::Display for Code {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Event(code) => write!(formatter, "event {code}"),
+            Self::Emergency(code) => write!(formatter, "emergency error code 0x{code:04X}"),
             Self::AlStatus(code) => write!(formatter, "AL status code 0x{:04X}", code.0),
             Self::Abort(code) => {
                 write!(formatter, "SDO abort code 0x{:04X}_{:04X}", code.0 >> 16, code.0 & 0xFFFF)
@@ -53,22 +97,32 @@ impl fmt::Display for Code {
 }
 
 /// A code that cannot be explained.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unexplained {
     /// The text is no hexadecimal number of up to eight digits.
     NotACode,
-    /// No table has the code; the nearest that one has.
-    Unknown(Code, Explanation),
+    /// No table has the code.
+    Unknown {
+        /// The number, as it is usually written.
+        number: String,
+        /// What it might have been.
+        kinds: &'static str,
+        /// The nearest code that is known.
+        nearest: Code,
+        /// What that is called.
+        name: String,
+    },
 }
 
 impl fmt::Display for Unexplained {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotACode => formatter.write_str(
-                "not a code: expected hexadecimal digits, such as 0x001B (AL status code) or 0x0602_0000 (abort code)",
+                "not a code: expected hexadecimal digits, such as 391E0000 (event code), 0x001B (AL status code), \
+                 0xA000 (emergency error code) or 0x0602_0000 (SDO abort code)",
             ),
-            Self::Unknown(code, nearest) => {
-                write!(formatter, "{code} is not known; the nearest is {}, {}", nearest.code, nearest.meaning)
+            Self::Unknown { number, kinds, nearest, name } => {
+                write!(formatter, "{number} is not known as {kinds}; the nearest is {nearest}, {name}")
             }
         }
     }
@@ -76,131 +130,69 @@ impl fmt::Display for Unexplained {
 
 impl std::error::Error for Unexplained {}
 
+/// Lines of text, a fact each, without the last line's end.
 impl fmt::Display for Explanation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(formatter, "{}: {}", self.code, self.meaning)?;
-        if let Some(state) = self.state {
-            writeln!(formatter, "  shown in    {state}")?;
+        write!(formatter, "{}: {}", self.code, self.name)?;
+        let line = |formatter: &mut fmt::Formatter<'_>, label: &str, text: &str| {
+            write!(formatter, "\n  {label:<12}{text}")
+        };
+        for fact in &self.facts {
+            line(formatter, fact.label, &fact.text)?;
         }
-        writeln!(formatter, "  cause       {}", self.advice.cause)?;
-        write!(formatter, "  correction  {}", self.advice.correction)
+        for advice in &self.advice {
+            line(formatter, "cause", advice.cause)?;
+            line(formatter, "correction", advice.correction)?;
+        }
+        for section in &self.sections {
+            write!(formatter, "\n{}", section.heading)?;
+            for fact in &section.facts {
+                line(formatter, fact.label, &fact.text)?;
+            }
+        }
+        Ok(())
     }
 }
 
-/// Explains the code that `text` holds in hexadecimal digits, with or without `0x` and underscores.
+/// Explains the code that `text` holds in hexadecimal digits, with or without `0x`, `hex` and underscores: all
+/// that it can be, one at least.
 ///
 /// # Errors
 /// The text is no code, or no table has it.
-pub fn explain(text: &str) -> Result<Explanation, Unexplained> {
-    let code = parse(text).ok_or(Unexplained::NotACode)?;
-    let mut known = explanations(code);
-    known.find(|row| row.code == code).map_or_else(|| Err(nearest(code)), Ok)
+pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
+    let number = Number::parse(text).ok_or(Unexplained::NotACode)?;
+    let meanings: Vec<Explanation> = number.codes().filter_map(explanation).collect();
+    if meanings.is_empty() { Err(nearest(number)) } else { Ok(meanings) }
 }
 
-fn parse(text: &str) -> Option<Code> {
-    let digits = text.trim().to_ascii_lowercase().replace('_', "");
-    let digits = digits.strip_prefix("0x").unwrap_or(&digits);
-    if !(1..=8).contains(&digits.len()) || !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
-        return None;
-    }
-    let number = u32::from_str_radix(digits, 16).ok()?;
-    Some(match u16::try_from(number) {
-        Ok(number) if digits.len() <= 4 => Code::AlStatus(AlStatusCode(number)),
-        _ => Code::Abort(SdoAbort(number)),
-    })
-}
-
-fn nearest(code: Code) -> Unexplained {
-    let distance = |row: &Explanation| number(row.code).abs_diff(number(code));
-    explanations(code)
-        .min_by_key(distance)
-        .map_or(Unexplained::NotACode, |row| Unexplained::Unknown(code, row))
-}
-
-const fn number(code: Code) -> u32 {
+/// What is known of a code; none if no table has it.
+fn explanation(code: Code) -> Option<Explanation> {
     match code {
-        Code::AlStatus(code) => code.0 as u32,
-        Code::Abort(code) => code.0,
+        Code::Event(code) => event::explanation(code),
+        Code::Emergency(code) => emergency::explanation(code),
+        Code::AlStatus(code) => al_status::explanation(code),
+        Code::Abort(code) => abort(code),
     }
 }
 
-/// All that is known of codes of the same kind.
-fn explanations(kind: Code) -> Box<dyn Iterator<Item = Explanation>> {
-    match kind {
-        Code::AlStatus(_) => Box::new(al_status_codes().chain([cpu_unit_error()])),
-        Code::Abort(_) => Box::new(abort_codes()),
-    }
-}
-
-fn al_status_codes() -> impl Iterator<Item = Explanation> {
-    al_status_codes::ADVICE.iter().filter_map(|(code, advice)| {
-        let row = code.row()?;
-        let (meaning, state) = (row.meaning, Some(row.state));
-        Some(Explanation { code: Code::AlStatus(*code), meaning, state, advice: *advice })
+fn abort(code: SdoAbort) -> Option<Explanation> {
+    let (_, advice) = sdo_abort_codes::ADVICE.iter().find(|(known, _)| *known == code)?;
+    Some(Explanation {
+        code: Code::Abort(code),
+        name: code.row()?.meaning.into(),
+        facts: Vec::new(),
+        advice: vec![*advice],
+        sections: Vec::new(),
     })
 }
 
-fn abort_codes() -> impl Iterator<Item = Explanation> {
-    sdo_abort_codes::ADVICE.iter().filter_map(|(code, advice)| {
-        let meaning = code.row()?.meaning;
-        Some(Explanation { code: Code::Abort(*code), meaning, state: None, advice: *advice })
+fn nearest(number: Number) -> Unexplained {
+    let by_distance = number.known().min_by_key(|(value, _)| value.abs_diff(number.value()));
+    let nearest = by_distance.and_then(|(_, code)| explanation(code));
+    nearest.map_or(Unexplained::NotACode, |nearest| Unexplained::Unknown {
+        number: number.to_string(),
+        kinds: number.kinds(),
+        nearest: nearest.code,
+        name: nearest.name,
     })
-}
-
-fn cpu_unit_error() -> Explanation {
-    Explanation {
-        code: Code::AlStatus(CPU_UNIT_ERROR),
-        meaning: "CPU Unit error (NX-ECT101)",
-        state: Some("INIT + error"),
-        advice: Advice {
-            cause: "The hardware of the unit or of the CPU Unit failed: NX Unit Clock Not Synchronized Error.",
-            correction: "Switch the power off and on; the unit stays in INIT until then.",
-        },
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_code_of_the_tables_has_its_advice() {
-        assert!(
-            al_status_codes::ADVICE
-                .iter()
-                .map(|row| row.0)
-                .eq(AlStatusCode::TABLE.iter().map(|row| row.code))
-        );
-        assert!(
-            sdo_abort_codes::ADVICE.iter().map(|row| row.0).eq(SdoAbort::TABLE.iter().map(|row| row.code))
-        );
-    }
-
-    #[test]
-    fn a_code_may_be_written_in_every_usual_way() {
-        for text in ["0x001B", "001B", "1B", "0x1b", "0X001B", " 1b "] {
-            assert_eq!(
-                explain(text).unwrap().code,
-                Code::AlStatus(AlStatusCode::SYNC_MANAGER_WATCHDOG),
-                "{text}"
-            );
-        }
-        for text in ["0x0602_0000", "06020000", "0x06020000", "6020000", "0602_0000"] {
-            assert_eq!(explain(text).unwrap().code, Code::Abort(SdoAbort::OBJECT_DOES_NOT_EXIST), "{text}");
-        }
-        assert_eq!(explain("8004").unwrap().meaning, "CPU Unit error (NX-ECT101)");
-    }
-
-    #[test]
-    fn an_unknown_code_is_told_with_the_nearest_one() {
-        let text = explain("0x0099").unwrap_err().to_string();
-        assert_eq!(
-            text,
-            "AL status code 0x0099 is not known; the nearest is AL status code 0x0083, temperature too high"
-        );
-        assert!(explain("06020001").unwrap_err().to_string().contains("0x0602_0000"));
-        for text in ["", "0x", "hello", "123456789", "-1", "+1B"] {
-            assert_eq!(explain(text), Err(Unexplained::NotACode), "{text}");
-        }
-    }
 }

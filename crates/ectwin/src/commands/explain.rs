@@ -3,6 +3,9 @@
 use crate::failure::Failure;
 use crate::output::print_line;
 
+/// Prints all that the code means, with an empty line between two meanings.
 pub(crate) fn run(code: &str) -> Result<(), Failure> {
-    print_line(ectwin::explain::explain(code).map_err(Failure::Unexplained)?)
+    let meanings = ectwin::explain::explain(code).map_err(Failure::Unexplained)?;
+    let texts: Vec<String> = meanings.iter().map(ToString::to_string).collect();
+    print_line(texts.join("\n\n"))
 }

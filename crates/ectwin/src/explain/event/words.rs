@@ -1,0 +1,112 @@
+//! The attributes of events in words for people.
+
+use nx_ect101::{
+    DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus, IoRefreshEffect, Recovery,
+};
+
+/// A level.
+pub(in crate::explain) const fn level(level: EventLevel) -> &'static str {
+    match level {
+        EventLevel::MinorFault => "minor fault",
+        EventLevel::Observation => "observation",
+        EventLevel::Information => "information",
+    }
+}
+
+/// How a unit gets rid of an error, once the cause is gone.
+pub(in crate::explain) const fn recovery(recovery: Recovery) -> &'static str {
+    match recovery {
+        Recovery::ResetErrorInSlaveUnit => "reset the error in the unit: 2002:02 = 1, or from the CPU Unit",
+        Recovery::RedoIoAllocationSettings => "correct the I/O allocation settings and download them",
+        Recovery::CycleUnitPowerOrRestartNxBus => "cycle the power of the unit, or restart the NX bus",
+        Recovery::CycleSlaveUnitPower | Recovery::CycleUnitPower => "cycle the power of the unit",
+        Recovery::CycleNxUnitPowerThenResetErrorInNxBusFm => {
+            "cycle the power of the unit, then reset the error in the NX Bus Function Module"
+        }
+        Recovery::RestartNxUnitThenResetErrorByFailsoft => {
+            "restart the unit, then reset the error: in the NX Bus Function Module if the fail-soft setting is Stop, \
+             in the unit if it is Fail-soft"
+        }
+        Recovery::ResetErrorByFailsoft => {
+            "reset the error: in the NX Bus Function Module if the fail-soft setting is Stop, in the unit if it is \
+             Fail-soft"
+        }
+        Recovery::None => "none needed",
+    }
+}
+
+pub(super) const fn detected(timing: DetectionTiming) -> &'static str {
+    match timing {
+        DetectionTiming::NxUnitPowerOn => "when the unit starts",
+        DetectionTiming::EcatCommunicationsEstablished => "when EtherCAT communications are established",
+        DetectionTiming::InitToPreop => "INIT to PRE-OP",
+        DetectionTiming::PreopToSafeop => "PRE-OP to SAFE-OP",
+        DetectionTiming::EcatStateTransition => "when the master asks for a state",
+        DetectionTiming::Continuous => "at any time",
+        DetectionTiming::NxMessageCommunications => "during NX message communications",
+        DetectionTiming::UserCommand => "when a user commands it",
+        DetectionTiming::Unspecified => "at any time (the manual does not say when)",
+    }
+}
+
+pub(super) const fn ecat(effect: EcatEffect) -> &'static str {
+    match effect {
+        EcatEffect::StopInit => {
+            "INIT; the unit stays there, or goes there, and refuses PRE-OP as long as the error lasts"
+        }
+        EcatEffect::StopPreop => {
+            "PRE-OP; the unit stays there and refuses SAFE-OP as long as the cause lasts"
+        }
+        EcatEffect::RetainState => "as it was",
+        EcatEffect::EnterSafeop => "SAFE-OP",
+        EcatEffect::NotAffected => "not affected",
+        EcatEffect::Restart => "INIT, after the restart",
+    }
+}
+
+pub(super) const fn io_refresh(effect: IoRefreshEffect) -> &'static str {
+    match effect {
+        IoRefreshEffect::Continues | IoRefreshEffect::NotAffected => "goes on",
+        IoRefreshEffect::ContinuesPartialExchange => {
+            "goes on; only entries that both sides have are exchanged"
+        }
+        IoRefreshEffect::NotPerformed => "does not start",
+        IoRefreshEffect::Stops => "stops",
+        IoRefreshEffect::ResumesAfterRestart => "starts again after the restart",
+    }
+}
+
+pub(super) const fn event_log(log: EventLog) -> &'static str {
+    match log {
+        EventLog::System => "system event log, 32 records",
+        EventLog::Access => "access event log, 5 records",
+        EventLog::None => "no log keeps it",
+    }
+}
+
+/// What an indicator does; nothing if the event does not touch it.
+pub(super) const fn indicator(status: IndicatorStatus) -> Option<&'static str> {
+    match status {
+        IndicatorStatus::Lit => Some("lit"),
+        IndicatorStatus::NotLit => Some("not lit"),
+        IndicatorStatus::Flashing1s => Some("flashing at intervals of 1 s"),
+        IndicatorStatus::Flashing2s => Some("flashing at intervals of 2 s"),
+        IndicatorStatus::Flickering => Some("flickering"),
+        IndicatorStatus::Blinking => Some("blinking"),
+        IndicatorStatus::SingleFlash => Some("single flash"),
+        IndicatorStatus::DoubleFlash => Some("double flash"),
+        IndicatorStatus::Undefined | IndicatorStatus::NotListed => None,
+    }
+}
+
+/// What a piece of attached information tells.
+pub(super) fn attached(meaning: &str) -> &str {
+    match meaning {
+        "io_entry_mapping_index_hex" => "index of the I/O entry mapping, hexadecimal",
+        "pdo_mapping_object_index_hex" => "index of the PDO mapping object, hexadecimal",
+        "system_information" => "system information of the maker; 0 in ectwin",
+        "communications_type" => "kind of communications",
+        "cleared_log" => "which log was cleared",
+        other => other,
+    }
+}

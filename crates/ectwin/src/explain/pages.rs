@@ -1,0 +1,101 @@
+//! docs/events: a page for each event and an index, from the facts that `ectwin explain` tells.
+
+use std::fmt::Write;
+
+use nx_ect101::{Event, Notified};
+
+use super::event::{self, level, recovery};
+use super::{Advice, Explanation, Fact};
+
+/// Line 1 of each file.
+const GENERATED: &str = "<!-- Generated: cargo xtask bless -->";
+
+/// What the index says before its table.
+const INDEX_HEAD: &str = "\
+All events of the NX-ECT101 by their codes; each has a page with causes and with what every side sees of it.
+
+An emergency error code in brackets is in the diagnosis history, object 10F3, but in no emergency message. A fault that a page
+names is injected by `UnitSide::inject` of the library; `UnitSide` also resets errors, clears logs, and restarts the unit.";
+const INDEX_COLUMNS: &str = "\
+| event | name | level | AL status code | emergency | recovery |
+|---|---|---|---|---|---|";
+
+/// A file of docs/events.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Page {
+    /// Its name in that folder.
+    pub file_name: String,
+    /// What is in it.
+    pub text: String,
+}
+
+/// All files of docs/events: the index, and a page for each event.
+#[must_use]
+pub fn event_pages() -> Vec<Page> {
+    let explanations = Event::all().iter().filter_map(|row| Some((row, event::explanation(row.code)?)));
+    let pages = explanations
+        .map(|(row, explanation)| Page { file_name: file_name(row), text: page(row, &explanation) });
+    [Page { file_name: "README.md".into(), text: index() }].into_iter().chain(pages).collect()
+}
+
+fn file_name(event: &Event) -> String {
+    format!("{}.md", event.code)
+}
+
+fn page(row: &Event, explanation: &Explanation) -> String {
+    let mut text = format!("{GENERATED}\n# {} {}\n\n", row.code, row.name);
+    let (sentence, facts) = explanation
+        .facts
+        .split_first()
+        .map_or(("", [].as_slice()), |(first, rest)| (first.text.as_str(), rest));
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{sentence}\n");
+    list(facts, &mut text);
+    causes(&explanation.advice, &mut text);
+    for section in &explanation.sections {
+        let _ = writeln!(text, "\n## {}", section.heading);
+        list(&section.facts, &mut text);
+    }
+    let _ = writeln!(text, "\n[All events](README.md). `ectwin explain {}` tells the same.", row.code);
+    text
+}
+
+fn list(facts: &[Fact], text: &mut String) {
+    for fact in facts {
+        let _ = writeln!(text, "- *{}*: {}", fact.label, fact.text);
+    }
+}
+
+fn causes(advice: &[Advice], text: &mut String) {
+    text.push_str("\n## Causes\n| cause | correction |\n|---|---|\n");
+    for Advice { cause, correction } in advice {
+        let _ = writeln!(text, "| {cause} | {correction} |");
+    }
+}
+
+fn index() -> String {
+    let mut text = format!("{GENERATED}\n# Events\n\n{INDEX_HEAD}\n\n{INDEX_COLUMNS}\n");
+    let mut events: Vec<&Event> = Event::all().iter().collect();
+    events.sort_unstable_by_key(|event| event.code);
+    events.iter().for_each(|event| index_row(event, &mut text));
+    text
+}
+
+fn index_row(event: &Event, text: &mut String) {
+    let al_status = event.al_status_code.map_or_else(|| "none".into(), |code| format!("{:04X}", code.0));
+    let emergency = match (event.emergency_code, event.emergency_notified) {
+        (None, _) => "none".into(),
+        (Some(code), Notified::Possible) => format!("{code:04X}"),
+        (Some(code), Notified::NotPossible) => format!("({code:04X})"),
+    };
+    let changeable = if event.changeable_level { " or observation" } else { "" };
+    let _ = writeln!(
+        text,
+        "| [{code}]({file}) | {name} | {level}{changeable} | {al_status} | {emergency} | {recovery} |",
+        code = event.code,
+        file = file_name(event),
+        name = event.name,
+        level = level(event.level),
+        recovery = recovery(event.recovery),
+    );
+}

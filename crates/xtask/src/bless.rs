@@ -1,0 +1,19 @@
+//! `cargo xtask bless`: writes what is generated and kept in the repository. A review reads the difference.
+
+use crate::Outcome;
+use crate::tools;
+
+/// Makes the tests below write what they compare.
+const BLESS: &str = "ECTWIN_BLESS";
+
+/// The tests, by package: each compares files with what it would write.
+const TESTS: &[(&str, &str)] = &[("ectwin-nx-ect101", "allocation_page"), ("ectwin", "event_pages")];
+
+/// Runs them all.
+pub(crate) fn bless() -> Outcome {
+    TESTS.iter().try_for_each(|(package, test)| {
+        let mut command = tools::command("cargo");
+        command.args(["test", "--quiet", "-p", package, "--test", test]).env(BLESS, "1");
+        tools::run(command)
+    })
+}
