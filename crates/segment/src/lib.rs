@@ -3,7 +3,9 @@
 //! A segment is a line of ESCs with two ports each. A frame passes the processing unit of each, turns at
 //! the first closed loop, and comes back. Frames are edited in place; nothing is allocated on their way.
 
+mod activity;
 mod datagram;
 mod segment;
 
+pub use activity::PortActivity;
 pub use segment::{FrameFate, Segment};

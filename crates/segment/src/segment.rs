@@ -4,6 +4,7 @@ use esc::{Esc, LoopState, Passage, Port};
 use time::{Duration, Instant};
 use wire::{Defect, FrameKind, Layout, mark_source_address};
 
+use crate::activity::{Activity, PortActivity};
 use crate::datagram::pass;
 
 /// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of a real ESC.
@@ -27,6 +28,7 @@ pub enum FrameFate {
 pub struct Segment {
     escs: Vec<Esc>,
     way: Way,
+    activity: Activity,
 }
 
 /// The way of a frame that comes in at the master's end.
@@ -34,6 +36,8 @@ pub struct Segment {
 struct Way {
     /// ESCs that it passes.
     reach: usize,
+    /// Cables that it goes over, the one to the master included.
+    cables: usize,
     end: WayEnd,
 }
 
@@ -54,7 +58,9 @@ impl Segment {
             esc.set_link(Port::In, true);
             esc.set_link(Port::Out, position < last);
         }
-        let mut segment = Self { escs, way: Way { reach: 0, end: WayEnd::Lost } };
+        let activity = Activity::new(escs.len());
+        let way = Way { reach: 0, cables: 0, end: WayEnd::Lost };
+        let mut segment = Self { escs, way, activity };
         segment.follow_ports();
         segment
     }
@@ -95,13 +101,29 @@ impl Segment {
         self.follow_ports();
     }
 
+    /// What a port of the ESC at `position` has to tell its L/A indicator; nothing beyond the line. A cable counts
+    /// as carrying every frame that was put on it, also a broken one.
+    #[must_use]
+    pub fn port_activity(&self, position: usize, port: Port) -> Option<PortActivity> {
+        let link = self.escs.get(position)?.port(port).link;
+        let cable = match port {
+            Port::In => position,
+            Port::Out => position + 1,
+        };
+        Some(PortActivity { link, last_frame: self.activity.last_frame(cable, self.way.cables) })
+    }
+
     /// A frame comes from the master at `now`, from its destination address on, without FCS.
     pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         let way = self.way;
+        let kind = FrameKind::of(frame);
+        if way.reach == 0 || !matches!(kind, FrameKind::NotEtherCat) {
+            self.activity.on_way(now);
+        }
         if way.reach == 0 {
             return FrameFate::Destroyed;
         }
-        let fate = match FrameKind::of(frame) {
+        let fate = match kind {
             FrameKind::Datagrams(layout) => {
                 self.pass_datagrams(0..way.reach, now, frame, &layout);
                 layout.mark_passed(frame);
@@ -111,7 +133,7 @@ impl Segment {
                 mark_source_address(frame);
                 FrameFate::Returned
             }
-            FrameKind::NotEtherCat => self.pass_foreign(way.reach, frame),
+            FrameKind::NotEtherCat => self.pass_foreign(way.reach, now, frame),
             FrameKind::Defective(defect) => self.pass_defective(way.reach, defect),
         };
         match (fate, way.end) {
@@ -124,12 +146,17 @@ impl Segment {
     /// A frame comes from the master's second port, at the far end. It runs back without being processed
     /// until it meets a closed port 0; there it is marked as circulating, and destroyed if it already was.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
-        let far_end = self.escs.last().map(|esc| esc.port(Port::Out));
-        if !far_end.is_some_and(|port| port.link && port.loop_state == LoopState::Open) {
+        let far_end = self.escs.last().map(|esc| esc.port(Port::Out)).filter(|port| port.link);
+        let Some(far_end) = far_end else { return FrameFate::Destroyed };
+        let far_cable = self.escs.len();
+        if far_end.loop_state == LoopState::Closed {
+            self.activity.over(far_cable..far_cable + 1, now);
             return FrameFate::Destroyed;
         }
         let open_in = |esc: &Esc| esc.port(Port::In).loop_state == LoopState::Open;
-        let Some(first) = self.escs.iter().rposition(|esc| !open_in(esc)) else {
+        let first = self.escs.iter().rposition(|esc| !open_in(esc));
+        self.activity.over(first.map_or(0, |first| first + 1)..far_cable + 1, now);
+        let Some(first) = first else {
             return FrameFate::CrossedOver;
         };
         let FrameKind::Datagrams(layout) = FrameKind::of(frame) else { return FrameFate::Destroyed };
@@ -180,14 +207,16 @@ impl Segment {
     }
 
     /// A frame that is not EtherCAT: the first ESC whose forwarding rule says so destroys it.
-    fn pass_foreign(&mut self, reach: usize, frame: &mut [u8]) -> FrameFate {
+    fn pass_foreign(&mut self, reach: usize, now: Instant, frame: &mut [u8]) -> FrameFate {
         mark_source_address(frame);
-        for esc in &mut self.escs[..reach] {
+        for (position, esc) in self.escs[..reach].iter_mut().enumerate() {
             if esc.destroys_foreign_frames() {
                 esc.count_processing_unit_error();
+                self.activity.over(0..position + 1, now);
                 return FrameFate::Destroyed;
             }
         }
+        self.activity.on_way(now);
         FrameFate::Returned
     }
 
@@ -216,31 +245,41 @@ impl Segment {
     pub fn follow_changed_ports(&mut self) {
         let changed = self.escs.iter_mut().fold(false, |changed, esc| esc.take_ports_changed() | changed);
         if changed {
-            self.way = self.find_way();
+            self.take_new_way();
         }
     }
 
     fn follow_ports(&mut self) {
-        self.way = self.find_way();
+        self.take_new_way();
         self.escs.iter_mut().for_each(|esc| {
             esc.take_ports_changed();
         });
     }
 
+    fn take_new_way(&mut self) {
+        let way = self.find_way();
+        if way.cables != self.way.cables {
+            self.activity.way_changes(self.way.cables);
+        }
+        self.way = way;
+    }
+
     fn find_way(&self) -> Way {
         for (position, esc) in self.escs.iter().enumerate() {
             if esc.port(Port::In).loop_state == LoopState::Closed {
-                return Way { reach: position, end: WayEnd::Lost };
+                // A closed port with a partner still hears what comes over the cable.
+                let cables = position + usize::from(esc.port(Port::In).link);
+                return Way { reach: position, cables, end: WayEnd::Lost };
             }
             let out = esc.port(Port::Out);
             let reach = position + 1;
             match (out.loop_state, out.link) {
-                (LoopState::Closed, _) => return Way { reach, end: WayEnd::Turns },
-                (LoopState::Open, false) => return Way { reach, end: WayEnd::Lost },
+                (LoopState::Closed, _) => return Way { reach, cables: reach, end: WayEnd::Turns },
+                (LoopState::Open, false) => return Way { reach, cables: reach, end: WayEnd::Lost },
                 (LoopState::Open, true) => {}
             }
         }
         let end = if self.escs.is_empty() { WayEnd::Lost } else { WayEnd::CrossesOver };
-        Way { reach: self.escs.len(), end }
+        Way { reach: self.escs.len(), cables: self.escs.len() + 1, end }
     }
 }
