@@ -57,6 +57,7 @@ pub struct CpuUnit {
     task_period: Duration,
     powered_on: Instant,
     system_time_ns: Option<u64>,
+    io_refreshing: bool,
     deadline: Instant,
 }
 
@@ -82,6 +83,7 @@ impl CpuUnit {
             task_period: settings.task_period,
             powered_on: now,
             system_time_ns: settings.system_time_ns,
+            io_refreshing: true,
             deadline: now,
         }
     }
@@ -119,6 +121,12 @@ impl CpuUnit {
         self.mode = mode;
     }
 
+    /// Whether the CPU Unit does I/O refreshing on the NX bus, from the next task period on. A CPU Unit that stops
+    /// it has an error of its own; the unit tells NX Unit I/O Communications Error (manual, 8-3-4, 80200000).
+    pub fn set_io_refreshing(&mut self, io_refreshing: bool) {
+        self.io_refreshing = io_refreshing;
+    }
+
     /// The I/O as the user program sees it.
     #[must_use]
     pub const fn io(&self) -> &Io {
@@ -142,7 +150,7 @@ impl CpuUnit {
     fn refresh_outputs(&mut self, now: Instant) {
         let running_ns = now.saturating_since(self.powered_on).as_nanos();
         let system_time_ns = self.system_time_ns.map_or(0, |start_ns| start_ns.saturating_add(running_ns));
-        let header = CpuHeader { refreshing: true, messages_enabled: true, system_time_ns };
+        let header = CpuHeader { refreshing: self.io_refreshing, messages_enabled: true, system_time_ns };
         self.bus.c_to_m.publish(header, &self.io.c_to_m);
     }
 }

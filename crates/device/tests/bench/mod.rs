@@ -2,11 +2,12 @@
 //! knows of NX, and it is small enough for every state to be tried.
 
 use device::{
-    DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Unit, WatchdogCheck,
+    Check, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start, Unit,
+    WatchdogCheck,
 };
 use esc::EscConfig;
 use time::{Duration, Instant};
-use wire::{AlState, Command, FrameBuilder, Returned, returned_datagrams};
+use wire::{AlState, AlStatusCode, Command, FrameBuilder, Returned, returned_datagrams};
 
 pub(crate) const OUTPUTS_START: u16 = 0x1000;
 pub(crate) const INPUTS_START: u16 = 0x1100;
@@ -17,6 +18,11 @@ pub(crate) struct Digital8 {
     pub(crate) inputs: u8,
     pub(crate) outputs: Option<u8>,
     pub(crate) states: Vec<AlState>,
+    pub(crate) fault: Option<AlStatusCode>,
+    /// What the master finds after a restart of the kind.
+    pub(crate) restarted: Option<Start>,
+    /// What the stack has told of itself.
+    pub(crate) told: Vec<AlStatusCode>,
 }
 
 impl Unit for Digital8 {
@@ -26,6 +32,30 @@ impl Unit for Digital8 {
 
     fn entered(&mut self, _now: Instant, state: AlState) {
         self.states.push(state);
+    }
+
+    fn check_transition(
+        &mut self,
+        _now: Instant,
+        _check: Check,
+        found: &[AlStatusCode],
+    ) -> Result<(), AlStatusCode> {
+        self.told.extend(found);
+        found.first().map_or(Ok(()), |&code| Err(code))
+    }
+
+    fn al_error(&mut self, _now: Instant, code: AlStatusCode) -> AlStatusCode {
+        self.told.push(code);
+        code
+    }
+
+    fn fault(&self) -> Option<AlStatusCode> {
+        self.fault
+    }
+
+    fn restart(&mut self, _now: Instant, start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
+        self.restarted = Some(start);
+        (start == Start::Restart).then_some(AlStatusCode(0x0060))
     }
 
     fn refresh_period(&self) -> Duration {

@@ -1,0 +1,103 @@
+//! What goes wrong inside a unit, and what the stack tells its unit of what it finds itself.
+
+mod bench;
+
+use bench::{Bench, Digital8, config};
+use device::{DeviceConfig, RefusedInOp, Start};
+use time::Duration;
+use wire::AlState::{Init, Op, PreOp, SafeOp};
+use wire::{AlState, AlStatusCode};
+
+fn unit(bench: &mut Bench) -> &mut Digital8 {
+    bench.network.device_mut(0).expect("a unit").unit_mut()
+}
+
+fn all_states() -> [AlState; 4] {
+    [Init, PreOp, SafeOp, Op]
+}
+
+#[test]
+fn a_fault_takes_the_slave_to_init_from_every_state_and_keeps_it_there() {
+    for state in all_states() {
+        let mut bench = Bench::in_state(state);
+        unit(&mut bench).fault = Some(AlStatusCode(0x8004));
+        bench.run_for(Duration::from_millis(1));
+        assert_eq!(bench.status(), (0x11, 0x8004), "from {state:?}");
+        for request in all_states().map(AlState::bits) {
+            bench.request(request);
+            bench.request(request | 0x10);
+            assert_eq!(bench.status(), (0x11, 0x8004), "asked for {request:#04X}");
+        }
+        unit(&mut bench).fault = None;
+        bench.network.restart(0, bench.now, Start::PowerOn);
+        assert_eq!(bench.status(), (0x01, 0));
+        bench.bring_to(Op);
+    }
+}
+
+#[test]
+fn a_fault_without_code_refuses_without_an_error_indication() {
+    let mut bench = Bench::in_state(Op);
+    unit(&mut bench).fault = Some(AlStatusCode::NO_ERROR);
+    bench.run_for(Duration::from_millis(1));
+    assert_eq!(bench.status(), (0x01, 0));
+    for request in all_states().map(AlState::bits) {
+        bench.request(request);
+        assert_eq!(bench.status(), (0x01, 0), "asked for {request:#04X}");
+    }
+}
+
+#[test]
+fn a_restart_shows_what_the_unit_says_until_it_is_acknowledged() {
+    for (start, status) in
+        [(Start::Restart, (0x11, 0x0060)), (Start::PowerOn, (0x01, 0)), (Start::EscReset, (0x01, 0))]
+    {
+        let mut bench = Bench::in_state(Op);
+        bench.network.restart(0, bench.now, start);
+        assert_eq!(bench.status(), status);
+        assert_eq!(unit(&mut bench).restarted, Some(start));
+        bench.request(0x11);
+        assert_eq!(bench.status(), (0x01, 0));
+        bench.bring_to(Op);
+    }
+}
+
+#[test]
+fn a_unit_may_stay_in_op_when_it_refuses() {
+    let config = DeviceConfig { refused_in_op: RefusedInOp::StayInOp, ..config() };
+    for (request, code) in [(0x05, 0x12), (0x03, 0x11)] {
+        let mut bench = Bench::with(config.clone());
+        bench.bring_to(Op);
+        bench.cycle(1);
+        bench.request(request);
+        assert_eq!(bench.status(), (0x18, code));
+        assert_eq!(bench.cycle(1).1, 3, "process data go on");
+        bench.request(0x18);
+        assert_eq!(bench.status(), (0x08, 0));
+    }
+}
+
+#[test]
+fn the_unit_hears_all_that_the_stack_finds_and_the_first_is_shown() {
+    let mut bench = Bench::in_state(PreOp);
+    bench.write(0x0810, &[0x00, 0x10, 2, 0, 0x66, 0, 1, 0]);
+    bench.write(0x0818, &[0x00, 0x11, 2, 0, 0x20, 0, 1, 0]);
+    bench.write(0x0981, &[1]);
+    bench.request(SafeOp.bits());
+    assert_eq!(bench.status(), (0x12, 0x1D));
+    assert_eq!(unit(&mut bench).told, [0x1D, 0x1E, 0x30, 0x29].map(AlStatusCode));
+}
+
+#[test]
+fn the_unit_hears_why_it_leaves_a_state() {
+    let mut bench = Bench::in_state(Op);
+    bench.cycle(1);
+    bench.run_for(Duration::from_millis(101));
+    bench.request(0x05);
+    bench.request(0x15);
+    assert_eq!(
+        unit(&mut bench).told,
+        [0x1B, 0x12].map(AlStatusCode),
+        "an error has to be acknowledged first"
+    );
+}
