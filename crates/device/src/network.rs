@@ -92,6 +92,12 @@ impl<U: Unit> Network<U> {
         self.segment.esc(position)
     }
 
+    /// The line itself, to look at.
+    #[must_use]
+    pub const fn segment(&self) -> &Segment {
+        &self.segment
+    }
+
     /// The line itself: cables, ESCs.
     pub const fn segment_mut(&mut self) -> &mut Segment {
         &mut self.segment

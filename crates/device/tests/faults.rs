@@ -1,5 +1,7 @@
 //! What goes wrong inside a unit, and what the stack tells its unit of what it finds itself.
 
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
 mod bench;
 
 use bench::{Bench, Digital8, config};

@@ -36,7 +36,9 @@ pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::{Live, run};
 pub use nx_ect101::unit_file;
-pub use nx_ect101::{CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, LogRecord};
+pub use nx_ect101::{
+    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, Lights, LogRecord, Pattern,
+};
 pub use plc::{
     Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,
     OperatingMode, Program, SubIndex,

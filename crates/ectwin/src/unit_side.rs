@@ -1,7 +1,10 @@
 //! The side of a unit that no master sees: its state inside, its CPU Unit, its faults and logs.
 
 use device::{Device, Network, Start};
-use nx_ect101::{CurrentError, ErrorLog, EventLevel, EventLog, Fault, NxEct101};
+use esc::Port;
+use nx_ect101::{
+    CurrentError, ErrorLog, EventLevel, EventLog, Fault, IndicatorCauses, Indicators, NxEct101, PortCondition,
+};
 use plc::{CpuUnit, Io};
 use time::Instant;
 use wire::{AlState, AlStatus, AlStatusCode};
@@ -137,6 +140,32 @@ impl UnitSide<'_> {
     /// A user clears a log from the CPU Unit: Event Log Cleared (90400000).
     pub fn clear_event_log(&mut self, log: EventLog) {
         self.unit_mut().clear_event_log(log);
+    }
+}
+
+/// Indicators.
+impl UnitSide<'_> {
+    /// What each indicator does now (manual, 3-2). [`Indicators::lights`] tells which of them are lit at a moment.
+    #[must_use]
+    pub fn indicators(&self) -> Indicators {
+        let (device, unit) = (self.device(), self.unit());
+        let status = device.al_status();
+        Indicators::of(&IndicatorCauses {
+            power: true,
+            nx: unit.nx_condition(),
+            state: status.state,
+            al_error: status.error.then(|| device.al_status_code()),
+            esc_error: unit.faults().any(|fault| fault == Fault::Esc),
+            in_port: self.port(Port::In),
+            out_port: self.port(Port::Out),
+        })
+    }
+
+    fn port(&self, port: Port) -> PortCondition {
+        let activity = self.network.segment().port_activity(self.position, port);
+        activity.map_or(PortCondition::NoLink, |activity| {
+            PortCondition::new(activity.link, activity.is_active(self.now))
+        })
     }
 }
 

@@ -53,6 +53,8 @@ pub struct NxEct101 {
     started: Option<Start>,
     /// Whether the CPU Unit did I/O refreshing when last looked.
     cpu_refreshing: bool,
+    /// It has done so since the unit started.
+    is_initialized: bool,
     /// It has stopped, which is the present cause of NX Unit I/O Communications Error.
     io_communications_lost: bool,
 }
@@ -96,6 +98,7 @@ impl NxEct101 {
             nx_unit_status: NxUnitStatus::default(),
             started: Some(Start::PowerOn),
             cpu_refreshing: false,
+            is_initialized: false,
             io_communications_lost: false,
             settings: settings.clone(),
         };
@@ -228,6 +231,7 @@ impl Unit for NxEct101 {
         self.pdo_findings.clear();
         self.m_to_c.fill(0);
         self.started = Some(start);
+        self.is_initialized = false;
         self.code_after(start)
     }
 

@@ -10,7 +10,7 @@ mod stage;
 
 use std::collections::BTreeSet;
 
-use ectwin::{EventCode, EventLevel};
+use ectwin::{EventCode, EventLevel, Pattern};
 use nx_ect101::{EcatEffect, Event, Notified};
 
 use cases::{CASES, Case, When, state_before};
@@ -149,6 +149,41 @@ fn the_master_sees_each_event_in_its_process_data() {
         assert_eq!(inputs[0] & 0x04 != 0, valid && is_op, "{}: M to C valid", case.code);
         let moved = stage.twin.unit(0).outputs().first() == Some(&0x5A);
         assert_eq!(moved, valid && is_op, "{}: data M to C", case.code);
+    }
+}
+
+#[test]
+fn the_indicators_show_each_event_as_its_row_says() {
+    for case in CASES {
+        let (event, mut stage) = (event(case), caused(case));
+        if case.when == When::UnitFile {
+            stage.to_pre_op();
+            stage.to_op();
+        }
+        let state = stage.al().0 & 0x0F;
+        let shown = stage.twin.unit(0).indicators();
+        // The rows of 10410000 and 80200000 say RUN not lit and mean INIT: they do not touch EtherCAT (A21).
+        let run = match state {
+            OP => Pattern::Lit,
+            SAFE_OP => Pattern::SingleFlash,
+            PRE_OP => Pattern::Blinking,
+            _ => Pattern::NotLit,
+        };
+        assert_eq!(shown.run, run, "{}: RUN", case.code);
+        let columns = [
+            ("RUN", shown.run, event.run),
+            ("ERR", shown.err, event.err),
+            ("TS green", shown.ts_green, event.ts_green),
+            ("TS red", shown.ts_red, event.ts_red),
+        ];
+        let contradicted = ["10410000", "80200000"].contains(&case.code);
+        for (name, shown, column) in columns {
+            let open = contradicted && name == "RUN" && state != INIT;
+            if let Some(pattern) = column.pattern().filter(|_| !open) {
+                assert_eq!(shown, pattern, "{}: {name}", case.code);
+            }
+        }
+        assert_eq!((shown.la_in, shown.la_out), (Pattern::Flickering, Pattern::NotLit), "{}", case.code);
     }
 }
 

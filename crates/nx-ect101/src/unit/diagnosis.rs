@@ -6,6 +6,7 @@ use wire::AlStatusCode;
 use crate::diagnosis::{CurrentError, Occurrence};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
+use crate::indicators::NxCondition;
 use crate::memory::ErrorLog;
 use crate::settings::LevelNotChangeable;
 use crate::unit::NxEct101;
@@ -76,6 +77,20 @@ impl NxEct101 {
         self.error_status() != 0 || self.objects.diagnosis.found().next().is_some()
     }
 
+    /// What the TS indicator tells: how the unit stands as an NX Unit. It is initialized when the CPU Unit begins
+    /// I/O refreshing.
+    #[must_use]
+    pub fn nx_condition(&self) -> NxCondition {
+        let faults = self.faults().map(Fault::event);
+        let errors = faults.chain(self.io_findings.iter().map(|finding| finding.event));
+        let condition = match (self.started, self.is_initialized) {
+            (Some(_), _) => NxCondition::WaitingForInitialization,
+            (None, false) => NxCondition::Initializing,
+            (None, true) => NxCondition::Normal,
+        };
+        errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
+    }
+
     /// The AL status code of the fault that keeps the unit in INIT.
     pub(super) fn stop_in_init(&self) -> Option<AlStatusCode> {
         let fault = self.objects.diagnosis.stop_in_init()?;
@@ -111,5 +126,6 @@ impl NxEct101 {
             self.remove(Fault::IoCommunications);
         }
         self.cpu_refreshing = refreshing;
+        self.is_initialized |= refreshing;
     }
 }
