@@ -96,6 +96,12 @@ pub(crate) enum List {
         #[arg(long)]
         json: bool,
     },
+    /// What each indicator tells, and its patterns over time
+    Indicators {
+        /// One JSON document instead of text
+        #[arg(long)]
+        json: bool,
+    },
     /// The setting rules with their events, in the order in which they are checked
     Rules {
         /// One JSON document instead of text

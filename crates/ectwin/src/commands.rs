@@ -6,6 +6,7 @@ mod demo;
 mod explain;
 mod export;
 mod list_events;
+mod list_indicators;
 mod list_nx_objects;
 mod list_objects;
 mod list_rules;
@@ -26,6 +27,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::List(List::Events { json }) => list_events::run(json),
         Command::List(List::Objects { json }) => list_objects::run(json),
         Command::List(List::NxObjects { json }) => list_nx_objects::run(json),
+        Command::List(List::Indicators { json }) => list_indicators::run(json),
         Command::List(List::Rules { json }) => list_rules::run(json),
         Command::Explain { code } => explain::run(&code),
     }
