@@ -37,7 +37,8 @@ pub use link::{self, FrameFate};
 pub use live::{Live, run};
 pub use nx_ect101::unit_file;
 pub use nx_ect101::{
-    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, Lights, LogRecord, Pattern,
+    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, Lights,
+    LogRecord, Pattern,
 };
 pub use plc::{
     Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,

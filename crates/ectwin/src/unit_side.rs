@@ -3,7 +3,8 @@
 use device::{Device, Network, Start};
 use esc::Port;
 use nx_ect101::{
-    CurrentError, ErrorLog, EventLevel, EventLog, Fault, IndicatorCauses, Indicators, NxEct101, PortCondition,
+    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, IndicatorCauses, Indicators,
+    LevelNotChangeable, NxEct101, PortCondition,
 };
 use plc::{CpuUnit, Io};
 use time::Instant;
@@ -130,6 +131,14 @@ impl UnitSide<'_> {
     #[must_use]
     pub fn error_log(&self) -> &ErrorLog {
         self.unit().error_log()
+    }
+
+    /// Changes the level of an event, in force from the next start of the unit on (manual, 6-5-1).
+    ///
+    /// # Errors
+    /// [`LevelNotChangeable`]: the manual lets users change 39160000 and 39170000, to minor fault and observation.
+    pub fn set_event_level(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
+        self.unit_mut().set_event_level(code, level)
     }
 
     /// A user resets the errors from the CPU Unit (manual, 8-6). An error whose cause is still there occurs again.

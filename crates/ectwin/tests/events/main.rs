@@ -4,6 +4,7 @@
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 mod cases;
+mod causes;
 mod expectations;
 mod recovery;
 mod stage;

@@ -238,3 +238,18 @@ fn a_damaged_memory_is_a_fault_that_stores_nothing() {
     let image = bench.unit.memory().sii_image().to_vec();
     assert!(!bench.unit.take_memory_change(&image, 7));
 }
+
+#[test]
+fn a_message_that_finds_no_room_is_an_event() {
+    let mut bench = Bench::factory();
+    bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
+    let request = |number| NxRequest { number, index: ObjectIndex(0x1000), sub: SubIndex(2), value: None };
+    let refused = (0..10).filter(|&number| bench.cpu.messages.send(request(number)).is_err()).count();
+    bench.refresh(AlState::Init, None);
+    bench.refresh(AlState::Init, None);
+    assert_eq!(refused, 2);
+    let records: Vec<_> = bench.unit.error_log().history().collect();
+    assert_eq!(records.len(), 1, "they came between two refreshes");
+    assert_eq!(records[0].event, EventCode::MESSAGE_COMMUNICATIONS_ERROR);
+    assert_eq!(records[0].details.as_slice(), [0, 0], "system information, NX bus");
+}
