@@ -34,8 +34,8 @@ fn a_master_that_spoils_the_sii_has_a_unit_that_stays_in_init() {
 #[test]
 fn a_cpu_unit_that_stops_io_refreshing_is_an_io_communications_error() {
     let mut stage = Stage::power_on("");
-    stage.to_pre_op();
-    stage.to_op();
+    stage.enter_pre_op();
+    stage.enter_op();
     stage.twin.unit(0).cpu().set_io_refreshing(false);
     let inputs = stage.exchange(&[1; 180]);
     assert_eq!(inputs[0] & 0x06, 0, "no data is valid");
@@ -56,7 +56,7 @@ fn a_cpu_unit_that_stops_io_refreshing_is_an_io_communications_error() {
 #[test]
 fn everything_that_is_wrong_is_recorded_and_the_first_is_shown() {
     let mut stage = Stage::power_on("io_allocation.m_to_c.uints = 4\nio_allocation.c_to_m.uints = 6");
-    stage.to_pre_op();
+    stage.enter_pre_op();
     stage.assign(0x1C13, &[0x1A01, 0x1BFE]);
     stage.set_sync_manager(2, 0x13A0, OUTPUTS_BYTES + 1, 0x26);
     stage.set_sync_manager(3, 0x21B0, INPUTS_BYTES, 0x20);
@@ -76,20 +76,20 @@ fn the_level_of_a_mismatch_can_be_observation_from_the_next_start_on() {
     assert!(side.set_event_level(EventCode(0x3919_0000), EventLevel::Observation).is_err());
     assert!(side.set_event_level(code, EventLevel::Information).is_err());
     side.set_event_level(code, EventLevel::Observation).expect("changeable");
-    stage.to_pre_op();
-    stage.to_op();
+    stage.enter_pre_op();
+    stage.enter_op();
     assert_eq!(stage.upload(0x2002, 1), [0x20], "not before the start");
     assert_eq!(stage.take_emergencies().len(), 1);
     stage.twin.unit(0).restart();
     stage.run_for_ms(2);
-    stage.to_pre_op();
-    stage.to_op();
+    stage.enter_pre_op();
+    stage.enter_op();
     compare_observation(&mut stage);
     assert_eq!(stage.history().last().map(|record| record[4]), Some(0x11));
 
     let mut stage = Stage::power_on(&format!("event_levels.39170000 = \"observation\"\n{four}"));
-    stage.to_pre_op();
-    stage.to_op();
+    stage.enter_pre_op();
+    stage.enter_op();
     compare_observation(&mut stage);
 }
 
@@ -103,7 +103,7 @@ fn compare_observation(stage: &mut Stage) {
 #[test]
 fn the_history_outlives_the_power_and_the_current_errors_do_not() {
     let mut stage = Stage::power_on("");
-    stage.to_pre_op();
+    stage.enter_pre_op();
     stage.request(OP);
     let before = (stage.upload(0x10F3, 6), stage.upload(0x10F3, 2), stage.upload(0x2004, 0));
     assert_eq!((&before.1[..], &before.2[..], stage.upload(0x10F3, 5)), (&[6][..], &[1][..], vec![1, 0]));
@@ -119,7 +119,7 @@ fn the_history_outlives_the_power_and_the_current_errors_do_not() {
 #[test]
 fn the_master_acknowledges_and_clears_by_the_rules_of_the_manual() {
     let mut stage = Stage::power_on("");
-    stage.to_pre_op();
+    stage.enter_pre_op();
     assert_eq!(stage.download(0x10F3, 3, &[6]), Err(0x0609_0030), "there is no record");
     for _ in 0..2 {
         stage.request(OP);

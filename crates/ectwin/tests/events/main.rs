@@ -28,10 +28,10 @@ fn caused(case: &Case) -> Stage {
     let mut stage = Stage::power_on(case.unit_file);
     match case.when {
         When::UnitFile | When::Start | When::Init => {}
-        When::PreOp => stage.to_pre_op(),
+        When::PreOp => stage.enter_pre_op(),
         When::Op => {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
     }
     (case.cause)(&mut stage);
@@ -75,8 +75,8 @@ fn each_event_takes_ethercat_where_its_row_says() {
             }
         }
         if matches!(case.when, When::UnitFile | When::Start) && event.ecat_effect == EcatEffect::NotAffected {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
             assert_eq!(stage.al(), (OP, 0), "{}: goes to OP", case.code);
         }
     }
@@ -88,8 +88,8 @@ fn each_event_is_recorded_once_with_the_bytes_of_its_row() {
         let (expected, mut stage) = (Expected::of(case, event(case)), caused(case));
         if case.when == When::UnitFile {
             // Sizes are compared on the way to SAFE-OP.
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
         let history = stage.history();
         let records: Vec<_> = history.iter().map(|record| (&record[..8], &record[16..])).collect();
@@ -113,8 +113,8 @@ fn each_event_is_a_current_error_where_its_row_says() {
     for case in CASES {
         let (expected, mut stage) = (Expected::of(case, event(case)), caused(case));
         if case.when == When::UnitFile {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
         let side = stage.twin.unit(0);
         assert_eq!(side.error_status(), expected.error_status, "{}", case.code);
@@ -134,8 +134,8 @@ fn the_master_sees_each_event_in_its_process_data() {
     for case in CASES {
         let (expected, mut stage) = (Expected::of(case, event(case)), caused(case));
         if case.when == When::UnitFile || case.code == "10410000" {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
         if stage.al().0 & 0x0C == 0 {
             continue;
@@ -158,8 +158,8 @@ fn the_indicators_show_each_event_as_its_row_says() {
     for case in CASES {
         let (event, mut stage) = (event(case), caused(case));
         if case.when == When::UnitFile {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
         let state = stage.al().0 & 0x0F;
         let shown = stage.twin.unit(0).indicators();
@@ -194,8 +194,8 @@ fn emergencies_are_sent_where_the_row_says_and_only_if_they_are_enabled() {
         let event = event(case);
         let mut stage = caused(case);
         if case.when == When::UnitFile || case.code == "10410000" {
-            stage.to_pre_op();
-            stage.to_op();
+            stage.enter_pre_op();
+            stage.enter_op();
         }
         if !stage.has_mailbox() {
             assert_eq!(stage.emergencies, [], "{}", case.code);

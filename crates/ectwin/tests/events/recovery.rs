@@ -50,8 +50,8 @@ fn without_its_cause_and_after_its_recovery_nothing_of_an_event_is_left() {
         // The factory setting again, for cases that have changed the mapping.
         assert_eq!(stage.request(INIT | 0x10), (INIT, 0), "{}", case.code);
         restore_mapping(&mut stage);
-        stage.to_pre_op();
-        stage.to_op();
+        stage.enter_pre_op();
+        stage.enter_op();
         assert_eq!(stage.al(), (OP, 0), "{}", case.code);
         let inputs = stage.exchange(&[0xC3; 180]);
         assert_eq!((inputs[0] & 0x06, inputs[183]), (0x06, 0), "{}: flags", case.code);

@@ -87,7 +87,7 @@ impl Stage {
     }
 
     /// From wherever it is to PRE-OP with the factory setting, every status in the inputs, and emergencies on.
-    pub(crate) fn to_pre_op(&mut self) {
+    pub(crate) fn enter_pre_op(&mut self) {
         assert_eq!(self.request(INIT | 0x10), (INIT, 0));
         self.set_mailboxes();
         assert_eq!(self.request(PRE_OP), (PRE_OP, 0));
@@ -97,7 +97,7 @@ impl Stage {
     }
 
     /// From PRE-OP to OP.
-    pub(crate) fn to_op(&mut self) {
+    pub(crate) fn enter_op(&mut self) {
         assert_eq!(self.request(SAFE_OP), (SAFE_OP, 0));
         self.exchange(&[0; OUTPUTS_BYTES as usize]);
         assert_eq!(self.request(OP), (OP, 0));
