@@ -5,6 +5,7 @@
 //! may stand on; then a reset of the errors records it anew.
 
 mod current_errors;
+mod faults;
 mod history;
 mod occurrence;
 mod standing;
@@ -13,7 +14,7 @@ use arrayvec::ArrayVec;
 use wire::{Emergency, SdoAbort};
 
 use crate::events::{Event, EventCode, EventLevel, EventLog, Notified};
-use crate::fault::{Fault, FaultSet};
+use crate::fault::FaultSet;
 use crate::memory::{ErrorLog, LogRecord};
 use crate::settings::{EventLevels, NewestAcknowledged};
 
@@ -37,10 +38,14 @@ pub(crate) struct Diagnosis {
     current: CurrentErrors,
     /// Configuration errors and mismatches whose causes last.
     standing: Standing,
-    /// The faults whose causes are there.
-    present: FaultSet,
+    /// The faults whose causes are injected.
+    injected: FaultSet,
+    /// The faults whose causes the unit itself sees.
+    seen: FaultSet,
     /// The faults that the unit has found. They outlast their causes.
     found: FaultSet,
+    /// Those of them that the start has found and not told yet.
+    untold: FaultSet,
     emergencies: ArrayVec<Emergency, EMERGENCIES_MAX>,
     /// 10F3:05.
     emergencies_enabled: bool,
@@ -68,19 +73,7 @@ impl Diagnosis {
         self.acknowledged = 0;
         self.newest_acknowledged = newest_acknowledged;
         self.levels = levels;
-        self.found.clear();
-        for fault in self.present.iter() {
-            if fault.is_found_at_start() || fault.is_found_at_once() {
-                self.found.insert(fault);
-            }
-        }
-    }
-
-    /// Tells the faults that the start has found.
-    pub(crate) fn tell_start(&mut self) {
-        for fault in self.found.iter() {
-            self.raise(Occurrence::of_fault(fault));
-        }
+        self.find_at_start();
     }
 
     /// The system time of the CPU Unit, which stamps what occurs from now on.
@@ -153,9 +146,9 @@ impl Diagnosis {
     pub(crate) fn reset_errors(&mut self) {
         self.current.clear();
         for fault in self.found.iter() {
-            if fault.goes_with_reset() && !self.present.contains(fault) {
-                self.found.remove(fault);
-            } else {
+            if fault.goes_with_reset() && !self.is_present(fault) {
+                self.forget(fault);
+            } else if !self.untold.contains(fault) {
                 self.raise(Occurrence::of_fault(fault));
             }
         }
@@ -178,53 +171,6 @@ impl Diagnosis {
             EventLog::None => return,
         };
         self.raise(Occurrence::new(EventCode::EVENT_LOG_CLEARED, [number]));
-    }
-}
-
-/// Faults.
-impl Diagnosis {
-    /// The cause of a fault is there. What the unit finds at once occurs at once.
-    pub(crate) fn inject(&mut self, fault: Fault) {
-        if fault == Fault::MessageCommunications {
-            return self.raise(Occurrence::new(fault.event(), [0, NX_BUS]));
-        }
-        self.present.insert(fault);
-        if fault.is_found_at_once() {
-            self.find(fault);
-        }
-    }
-
-    /// The cause of a fault is gone. What the unit has found stands until its recovery.
-    pub(crate) const fn remove(&mut self, fault: Fault) {
-        self.present.remove(fault);
-    }
-
-    /// Whether the cause of a fault is there.
-    pub(crate) const fn is_present(&self, fault: Fault) -> bool {
-        self.present.contains(fault)
-    }
-
-    /// The unit has found a fault: it is told once.
-    pub(crate) fn find(&mut self, fault: Fault) {
-        if !self.found.contains(fault) {
-            self.found.insert(fault);
-            self.raise(Occurrence::of_fault(fault));
-        }
-    }
-
-    /// Whether a fault is found that keeps I/O from being refreshed.
-    pub(crate) fn stops_io(&self) -> bool {
-        self.found.iter().any(Fault::stops_io)
-    }
-
-    /// The first of the faults that keep the unit in INIT.
-    pub(crate) fn stop_in_init(&self) -> Option<Fault> {
-        self.found.iter().find(|fault| fault.stops_in_init())
-    }
-
-    /// The faults that were found.
-    pub(crate) fn found(&self) -> impl Iterator<Item = Fault> + '_ {
-        self.found.iter()
     }
 }
 
@@ -295,3 +241,6 @@ impl Diagnosis {
         self.emergencies_enabled = enabled;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -121,9 +121,9 @@ impl NxEct101 {
     pub(super) fn watch_io_communications(&mut self, refreshing: bool) {
         if self.cpu_refreshing && !refreshing {
             self.io_communications_lost = true;
-            self.inject(Fault::IoCommunications);
+            self.objects.diagnosis.see(Fault::IoCommunications);
         } else if refreshing && core::mem::take(&mut self.io_communications_lost) {
-            self.remove(Fault::IoCommunications);
+            self.objects.diagnosis.see_no_more(Fault::IoCommunications);
         }
         self.cpu_refreshing = refreshing;
         self.is_initialized |= refreshing;
