@@ -1,0 +1,242 @@
+//! A unit's diagnosis as the manual tells it (8-3 to 8-6, A-6-4, A-6-7), in plain lists.
+
+mod requests;
+
+use std::collections::BTreeSet;
+
+use device::Start;
+use nx_ect101::Fault;
+use wire::AlState;
+
+use crate::log::{HISTORY, Log, Record};
+use crate::rows::{self, FAULTS, Found, MINOR_FAULT, OBSERVATION};
+use crate::settings::{IoSetting, PdoSetting, Told};
+
+/// Current errors, observations and minor faults together (8-3-2).
+pub(crate) const CURRENT: usize = 10;
+/// Emergency messages that wait.
+pub(crate) const WAITING: usize = 16;
+
+/// Situations that random sequences have to come by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Situation {
+    Event(u32),
+    HistoryWrapped,
+    MinorFaultTookPlace,
+    EleventhMinorFault,
+    ObservationWithoutRoom,
+    EmergencyLost,
+    OlderAcknowledged,
+    EmptySlotAcknowledged,
+    RecordedWhileMemoryBroken,
+    OneOfTwoIoCausesGone,
+}
+
+/// An error that exists.
+#[derive(Clone, Debug)]
+pub(crate) struct Error {
+    pub(crate) level: u16,
+    event: u32,
+    detail: Option<u32>,
+}
+
+impl Error {
+    /// The twelve bytes in objects 2003 and 2004.
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let kind = if self.detail.is_some() { [1, 4, 7, 0] } else { [0, 0, 7, 0] };
+        [self.event.to_le_bytes(), kind, self.detail.unwrap_or(0).to_le_bytes()].concat()
+    }
+}
+
+/// The unit, as far as its events go.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) log: Log,
+    /// What was last stored.
+    pub(crate) stored: Log,
+    log_changed: bool,
+    /// In the order in which they occurred.
+    pub(crate) errors: Vec<Error>,
+    pub(crate) error_status: u8,
+    /// Settings that are wrong and mismatches that last.
+    standing: Vec<(u32, Vec<u32>)>,
+    /// Causes by injection.
+    injected: BTreeSet<Fault>,
+    /// The CPU Unit did refresh I/O and does no more.
+    cpu_stopped: bool,
+    cpu_refreshing: bool,
+    found: BTreeSet<Fault>,
+    /// What the start has found and the first refresh will tell.
+    untold: BTreeSet<Fault>,
+    started: Option<Start>,
+    pub(crate) emergencies: Vec<[u8; 8]>,
+    pub(crate) emergencies_enabled: bool,
+    pub(crate) last_acknowledged: u8,
+    /// Mismatch levels as set, and as in force since the start.
+    set_levels: Vec<(u32, u16)>,
+    levels: Vec<(u32, u16)>,
+    time_ns: u64,
+    pub(crate) state: AlState,
+    io: IoSetting,
+    /// The mapping that the unit entered SAFE-OP with.
+    pub(crate) mapped: PdoSetting,
+    pub(crate) seen: BTreeSet<Situation>,
+}
+
+impl Model {
+    /// Power comes for the first time.
+    pub(crate) fn power_on(io: IoSetting, mapped: PdoSetting) -> Self {
+        Self {
+            log: Log::default(),
+            stored: Log::default(),
+            log_changed: false,
+            errors: Vec::new(),
+            error_status: 0,
+            standing: Vec::new(),
+            injected: BTreeSet::new(),
+            cpu_stopped: false,
+            cpu_refreshing: false,
+            found: BTreeSet::new(),
+            untold: BTreeSet::new(),
+            started: Some(Start::PowerOn),
+            emergencies: Vec::new(),
+            emergencies_enabled: false,
+            last_acknowledged: 0,
+            set_levels: Vec::new(),
+            levels: Vec::new(),
+            time_ns: 0,
+            state: AlState::Init,
+            io,
+            mapped,
+            seen: BTreeSet::new(),
+        }
+    }
+
+    /// Power goes and comes. Only what was stored is left, if it can be read.
+    pub(crate) fn cycle_power(&mut self, damaged: bool) {
+        self.log = if damaged { Log::default() } else { self.stored.clone() };
+        self.injected.clear();
+        self.injected.extend(damaged.then_some(Fault::NonVolatileMemory));
+        (self.cpu_stopped, self.cpu_refreshing) = (false, false);
+        self.time_ns = 0;
+        self.start(Start::PowerOn);
+    }
+
+    /// The unit starts (8-6): the current errors are gone, the logs stay.
+    pub(crate) fn start(&mut self, start: Start) {
+        self.clear_errors();
+        self.standing.clear();
+        self.emergencies.clear();
+        self.emergencies_enabled = false;
+        self.last_acknowledged = 0;
+        self.levels.clone_from(&self.set_levels);
+        self.started = Some(start);
+        self.state = AlState::Init;
+        let lasting = |row: &&rows::FaultRow| matches!(row.found, Found::AtStart | Found::AtOnce);
+        let found = FAULTS.iter().filter(lasting).map(|row| row.fault);
+        self.found = found.filter(|&fault| self.is_present(fault)).collect();
+        self.untold.clone_from(&self.found);
+    }
+
+    /// Whether the cause of a fault is there.
+    fn is_present(&self, fault: Fault) -> bool {
+        self.injected.contains(&fault) || fault == Fault::IoCommunications && self.cpu_stopped
+    }
+
+    /// What is stored follows the log. What changes while the memory is broken is stored with the first change
+    /// after that.
+    pub(crate) fn store(&mut self) {
+        let broken = self.found.contains(&Fault::NonVolatileMemory);
+        if core::mem::take(&mut self.log_changed) {
+            if broken {
+                self.seen.insert(Situation::RecordedWhileMemoryBroken);
+            } else {
+                self.stored = self.log.clone();
+            }
+        }
+    }
+
+    /// NX Unit Error Status: any error, and a broken memory too.
+    pub(crate) fn has_error(&self) -> bool {
+        self.error_status != 0 || self.found.contains(&Fault::NonVolatileMemory)
+    }
+
+    /// What keeps the unit in INIT: the AL status code of the fault that counts.
+    pub(crate) fn fault(&self) -> Option<u16> {
+        FAULTS.iter().filter(|row| self.found.contains(&row.fault)).find_map(|row| row.stops_in_init)
+    }
+
+    /// An event occurs.
+    fn occurs(&mut self, event: u32, details: Vec<u32>) {
+        self.seen.insert(Situation::Event(event));
+        if event == rows::MEMORY_BROKEN {
+            return;
+        }
+        let changed = self.levels.iter().rfind(|changed| changed.0 == event);
+        let level = changed.map_or(rows::level(event), |changed| changed.1);
+        let record = Record { event, level, time_ns: self.time_ns, details };
+        let detail = record.details.first().copied();
+        self.log_changed |= rows::emergency_code(event).is_some() || rows::is_access_event(event);
+        if rows::is_access_event(event) {
+            self.log.access.push(record.clone());
+        }
+        if rows::emergency_code(event).is_some() {
+            self.log.add(record);
+            if self.log.history.len() > HISTORY {
+                self.seen.insert(Situation::HistoryWrapped);
+            }
+        }
+        self.exists(Error { level, event, detail });
+        self.notify(event);
+    }
+
+    fn tell(&mut self, told: &[Told]) {
+        for &(event, detail) in told {
+            self.occurs(event, detail.into_iter().collect());
+        }
+    }
+
+    /// Ten errors, the oldest and highest first (8-3-2); the status tells the others too.
+    fn exists(&mut self, error: Error) {
+        match error.level {
+            MINOR_FAULT => self.error_status |= 0x20,
+            OBSERVATION => self.error_status |= 0x10,
+            _ => return,
+        }
+        let is_same = |other: &Error| (other.event, other.detail) == (error.event, error.detail);
+        if self.errors.iter().any(is_same) {
+            return;
+        }
+        if self.errors.len() == CURRENT {
+            let newest_observation = self.errors.iter().rposition(|other| other.level == OBSERVATION);
+            let (place, situation) = match (error.level, newest_observation) {
+                (OBSERVATION, _) => (None, Situation::ObservationWithoutRoom),
+                (_, None) => (None, Situation::EleventhMinorFault),
+                (_, place) => (place, Situation::MinorFaultTookPlace),
+            };
+            self.seen.insert(situation);
+            let Some(place) = place else { return };
+            self.errors.remove(place);
+        }
+        self.errors.push(error);
+    }
+
+    /// An emergency message, if the master wants them and the event has one.
+    fn notify(&mut self, event: u32) {
+        let Some(code) = rows::emergency_code(event) else { return };
+        if !self.emergencies_enabled || !rows::can_be_notified(event) {
+            return;
+        }
+        let ([a, b], [e, f, g, h]) = (code.to_le_bytes(), event.to_le_bytes());
+        if self.emergencies.len() < WAITING {
+            self.emergencies.push([a, b, 0, 0, e, f, g, h]);
+        } else {
+            self.seen.insert(Situation::EmergencyLost);
+        }
+    }
+
+    fn clear_errors(&mut self) {
+        self.errors.clear();
+        self.error_status = 0;
+    }
+}
