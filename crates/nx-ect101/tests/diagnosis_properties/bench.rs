@@ -2,7 +2,9 @@
 
 use device::{Check, Exchange, PortLinks, Start, Unit};
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
-use nx_ect101::{MemoryAtPowerOn, NewestAcknowledged, NonVolatileMemory, NxEct101, UnitSettings};
+use nx_ect101::{
+    EventCode, EventLevel, MemoryAtPowerOn, NewestAcknowledged, NonVolatileMemory, NxEct101, UnitSettings,
+};
 use time::Instant;
 use wire::{AlState, AlStatusCode};
 
@@ -26,9 +28,18 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    pub(crate) fn power_on(io: &IoSetting, newest_acknowledged: NewestAcknowledged) -> Self {
+    /// Power comes for the first time; the user has made these events observations.
+    pub(crate) fn power_on(
+        io: &IoSetting,
+        newest_acknowledged: NewestAcknowledged,
+        observations: &[u32],
+    ) -> Self {
         let io_allocation = io.allocation.clone();
-        let settings = UnitSettings { io_allocation, newest_acknowledged, ..UnitSettings::default() };
+        let mut settings = UnitSettings { io_allocation, newest_acknowledged, ..UnitSettings::default() };
+        for &event in observations {
+            let levels = &mut settings.event_levels;
+            levels.set(EventCode(event), EventLevel::Observation).expect("a level that can be changed");
+        }
         let (unit, cpu) = NxEct101::power_on(&settings);
         let sii_image = unit.memory().sii_image().to_vec();
         let mut bench = Self {

@@ -42,6 +42,8 @@ fn random_sequences_come_by_every_event_and_every_corner() {
         Situation::MinorFaultTookPlace,
         Situation::EleventhMinorFault,
         Situation::ObservationWithoutRoom,
+        Situation::ObservationBesideOthersWithoutRoom,
+        Situation::AccessLogFull,
         Situation::EmergencyLost,
         Situation::OlderAcknowledged,
         Situation::EmptySlotAcknowledged,

@@ -8,7 +8,7 @@ use device::Start;
 use nx_ect101::Fault;
 use wire::AlState;
 
-use crate::log::{HISTORY, Log, Record};
+use crate::log::{ACCESS, HISTORY, Log, Record};
 use crate::rows::{self, FAULTS, Found, MINOR_FAULT, OBSERVATION};
 use crate::settings::{IoSetting, PdoSetting, Told};
 
@@ -25,6 +25,8 @@ pub(crate) enum Situation {
     MinorFaultTookPlace,
     EleventhMinorFault,
     ObservationWithoutRoom,
+    ObservationBesideOthersWithoutRoom,
+    AccessLogFull,
     EmergencyLost,
     OlderAcknowledged,
     EmptySlotAcknowledged,
@@ -84,8 +86,9 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// Power comes for the first time.
-    pub(crate) fn power_on(io: IoSetting, mapped: PdoSetting) -> Self {
+    /// Power comes for the first time; the user has made these events observations.
+    pub(crate) fn power_on(io: IoSetting, mapped: PdoSetting, observations: &[u32]) -> Self {
+        let levels: Vec<_> = observations.iter().map(|&event| (event, OBSERVATION)).collect();
         Self {
             log: Log::default(),
             stored: Log::default(),
@@ -102,8 +105,8 @@ impl Model {
             emergencies: Vec::new(),
             emergencies_enabled: false,
             last_acknowledged: 0,
-            set_levels: Vec::new(),
-            levels: Vec::new(),
+            set_levels: levels.clone(),
+            levels,
             time_ns: 0,
             state: AlState::Init,
             io,
@@ -179,6 +182,9 @@ impl Model {
         self.log_changed |= rows::emergency_code(event).is_some() || rows::is_access_event(event);
         if rows::is_access_event(event) {
             self.log.access.push(record.clone());
+            if self.log.access.len() > ACCESS {
+                self.seen.insert(Situation::AccessLogFull);
+            }
         }
         if rows::emergency_code(event).is_some() {
             self.log.add(record);
@@ -210,7 +216,8 @@ impl Model {
         if self.errors.len() == CURRENT {
             let newest_observation = self.errors.iter().rposition(|other| other.level == OBSERVATION);
             let (place, situation) = match (error.level, newest_observation) {
-                (OBSERVATION, _) => (None, Situation::ObservationWithoutRoom),
+                (OBSERVATION, None) => (None, Situation::ObservationWithoutRoom),
+                (OBSERVATION, _) => (None, Situation::ObservationBesideOthersWithoutRoom),
                 (_, None) => (None, Situation::EleventhMinorFault),
                 (_, place) => (place, Situation::MinorFaultTookPlace),
             };

@@ -21,6 +21,8 @@ pub(crate) struct Setup {
     pub(crate) io: Index,
     /// Object 10F3:03 reads what was written last.
     pub(crate) reads_last_acknowledged: bool,
+    /// The user has made both mismatches observations.
+    pub(crate) mismatches_are_observations: bool,
 }
 
 /// One thing that happens.
@@ -36,7 +38,7 @@ pub(crate) enum Operation {
     Refresh { time_ns: u64, refreshing: bool },
     Write(Write),
     ResetErrors { times: u8 },
-    ClearEventLog(EventLog),
+    ClearEventLog { log: EventLog, times: u8 },
     SetLevel { event: u32, level: EventLevel },
     Restart(Start),
     PowerCycle { damaged: bool },
@@ -54,8 +56,12 @@ pub(crate) enum Write {
 }
 
 pub(crate) fn setups() -> impl Strategy<Value = Setup> {
-    let setup = |(io, reads_last_acknowledged)| Setup { io, reads_last_acknowledged };
-    (any::<Index>(), any::<bool>()).prop_map(setup)
+    let setup = |(io, reads_last_acknowledged, mismatches_are_observations)| Setup {
+        io,
+        reads_last_acknowledged,
+        mismatches_are_observations,
+    };
+    (any::<Index>(), any::<bool>(), any::<bool>()).prop_map(setup)
 }
 
 pub(crate) fn sequences() -> impl Strategy<Value = Vec<Operation>> {
@@ -74,8 +80,7 @@ fn operations() -> impl Strategy<Value = Operation> {
         9 => refresh(),
         9 => writes().prop_map(Operation::Write),
         2 => often().prop_map(|times| Operation::ResetErrors { times }),
-        1 => select(vec![EventLog::System, EventLog::Access, EventLog::None])
-            .prop_map(Operation::ClearEventLog),
+        1 => clear_event_log(),
         2 => set_level(),
         1 => select(vec![Start::PowerOn, Start::Restart, Start::Restart, Start::EscReset])
             .prop_map(Operation::Restart),
@@ -99,6 +104,11 @@ fn al_errors() -> impl Strategy<Value = Operation> {
 /// Mostly once, and now and then more often than there are records.
 fn often() -> impl Strategy<Value = u8> {
     prop_oneof![9 => Just(1), 1 => 2..=40u8]
+}
+
+fn clear_event_log() -> impl Strategy<Value = Operation> {
+    let log = select(vec![EventLog::System, EventLog::Access, EventLog::None]);
+    (log, often()).prop_map(|(log, times)| Operation::ClearEventLog { log, times })
 }
 
 fn ask_for_safe_op() -> impl Strategy<Value = Operation> {

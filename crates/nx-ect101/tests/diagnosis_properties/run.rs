@@ -9,7 +9,7 @@ use wire::AlState;
 use crate::bench::Bench;
 use crate::model::Model;
 use crate::operations::{Operation, Setup, Write};
-use crate::rows::{INFORMATION, MINOR_FAULT, OBSERVATION};
+use crate::rows::{INFORMATION, MINOR_FAULT, MISMATCH_C_TO_M, MISMATCH_M_TO_C, OBSERVATION};
 use crate::settings::{PdoSetting, io_settings, pdo_settings};
 
 /// A unit and its model.
@@ -31,9 +31,13 @@ impl Run {
             false => NewestAcknowledged::NewestRecord,
         };
         let pdo_settings = pdo_settings();
+        let observations: &[u32] = match setup.mismatches_are_observations {
+            true => &[MISMATCH_M_TO_C, MISMATCH_C_TO_M],
+            false => &[],
+        };
         Self {
-            bench: Bench::power_on(io, newest_acknowledged),
-            model: Model::power_on(io.clone(), pdo_settings[0].clone()),
+            bench: Bench::power_on(io, newest_acknowledged, observations),
+            model: Model::power_on(io.clone(), pdo_settings[0].clone(), observations),
             reads_last_acknowledged: setup.reads_last_acknowledged,
             pdo_settings,
         }
@@ -88,13 +92,14 @@ impl Run {
                 (0..*times).for_each(|_| bench.unit.reset_errors());
                 (0..*times).for_each(|_| model.reset_errors());
             }
-            Operation::ClearEventLog(log) => {
-                bench.unit.clear_event_log(*log);
-                match log {
-                    EventLog::System => model.clear_event_log(1),
-                    EventLog::Access => model.clear_event_log(2),
-                    EventLog::None => {}
-                }
+            Operation::ClearEventLog { log, times } => {
+                (0..*times).for_each(|_| bench.unit.clear_event_log(*log));
+                let number = match log {
+                    EventLog::System => 1,
+                    EventLog::Access => 2,
+                    EventLog::None => return Ok(()),
+                };
+                (0..*times).for_each(|_| model.clear_event_log(number));
             }
             Operation::Refresh { time_ns, refreshing } => return self.refresh(*time_ns, *refreshing),
             Operation::SetLevel { event, level } => return self.set_level(*event, *level),
