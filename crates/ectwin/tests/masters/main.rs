@@ -3,92 +3,12 @@
 //! The scripts of the masters are in tests/masters. What a master sees is judged there; here the run is set
 //! up, ended as a user ends it, and its capture read by tshark.
 
-use std::path::{Path, PathBuf};
-use std::process::Command;
-use std::sync::Mutex;
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
-use testbed::{MasterSide, Process, add_veth_pair, has_program, in_network_namespace, python_with, skip};
+mod events;
+mod run;
 
-/// Masters run in real time: two of them at once would disturb each other.
-static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
-
-const MASTER_INTERFACE: &str = "m0";
-const UNIT_INTERFACE: &str = "u0";
-
-/// One run: the units of a line, and the script of the master with its arguments.
-struct Run {
-    test: &'static str,
-    units: &'static [&'static str],
-    script: &'static str,
-    arguments: &'static [&'static str],
-    /// Display filters of tshark that must match at least one frame each; without any, nothing is captured.
-    visible: &'static [&'static str],
-}
-
-impl Run {
-    /// Everything, or a skip that is counted.
-    fn run(&self) {
-        let _alone = ONE_AT_A_TIME.lock();
-        let Some(python) = python_with("pysoem") else { return skip(self.test, "pysoem is not installed") };
-        if !has_program("tshark") {
-            return skip(self.test, "tshark is not installed");
-        }
-        in_network_namespace(self.test, || self.run_inside(&python));
-    }
-
-    fn run_inside(&self, python: &Path) {
-        let capture = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.pcapng", self.test));
-        add_veth_pair(MASTER_INTERFACE, UNIT_INTERFACE);
-        let mut ectwin = Process::start(&mut self.ectwin(&capture));
-        let link = format!("raw:{UNIT_INTERFACE}");
-        let ready = ectwin.wait_for_line("ready ").to_string();
-        assert_eq!(ready, format!("ready link={link} units={}", self.units.len()));
-
-        let script = top_folder().join("tests/masters").join(self.script);
-        let mut master = Command::new(python);
-        master.arg(script).arg(MASTER_INTERFACE).args(self.arguments);
-        let mut master = MasterSide::start(MASTER_INTERFACE, &master);
-        assert_eq!(master.wait(), 0, "exit code of {}", self.script);
-
-        ectwin.interrupt();
-        let ended = ectwin.wait();
-        assert_eq!(ended.code(), Some(0), "ectwin after SIGINT");
-        self.read_capture(&capture);
-    }
-
-    fn ectwin(&self, capture: &Path) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
-        command.arg("run").args(self.units.iter().map(|unit| top_folder().join("units").join(unit)));
-        command.args(["--link", &format!("raw:{UNIT_INTERFACE}")]);
-        if !self.visible.is_empty() {
-            command.arg("--pcap").arg(capture);
-        }
-        command
-    }
-
-    fn read_capture(&self, capture: &Path) {
-        if self.visible.is_empty() {
-            return;
-        }
-        assert_eq!(count(capture, "_ws.malformed"), 0, "malformed frames in {}", capture.display());
-        for filter in self.visible {
-            assert!(count(capture, filter) > 0, "no frame matches `{filter}` in {}", capture.display());
-        }
-    }
-}
-
-fn top_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// How many frames of `capture` match the display filter, as tshark sees it.
-fn count(capture: &Path, filter: &str) -> usize {
-    let mut tshark = Command::new("tshark");
-    tshark.arg("-r").arg(capture).args(["-Y", filter]).args(["-T", "fields", "-e", "frame.number"]);
-    let output = tshark.output().unwrap_or_else(|error| panic!("tshark: {error}"));
-    assert!(output.status.success(), "tshark: {}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8_lossy(&output.stdout).lines().count()
-}
+use run::Run;
 
 /// Datagrams of a start, the way to OP, process data answered, objects read and written.
 const BRING_UP: &[&str] = &[

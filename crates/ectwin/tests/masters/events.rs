@@ -1,0 +1,118 @@
+//! Events over real masters: on every channel while process data run, after power-off, without a memory.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use nx_ect101::{ErrorLog, EventCode, NonVolatileMemory};
+
+use crate::run::{Line, Run, with_pysoem};
+
+const UNIT: &str = "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n";
+const MEMORY_ERROR: EventCode = EventCode(0x0020_0000);
+/// The memory is stored soon after a change, and nothing waits for it.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+#[test]
+fn pysoem_is_told_of_an_event_on_every_channel_while_process_data_run() {
+    Run {
+        test: "events::pysoem_is_told_of_an_event_on_every_channel_while_process_data_run",
+        units: &["../tests/masters/units/mismatch.toml"],
+        script: "events.py",
+        arguments: &["told"],
+        visible: &[
+            "ecat_mailbox.coe.type == 1 && eth.src[0] & 2",
+            "ecat_mailbox.coe.sdoidx == 0x10f3",
+            "ecat_mailbox.coe.sdoidx == 0x2003",
+            "ecat_mailbox.coe.sdoidx == 0x2004",
+            "ecat_mailbox.coe.abortcode == 0x06090030",
+        ],
+    }
+    .run();
+}
+
+/// A unit with a file for its memory, in a folder of its own.
+struct Unit {
+    folder: PathBuf,
+}
+
+impl Unit {
+    fn new(name: &str) -> Self {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+        let _gone = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("unit.toml"), UNIT).unwrap();
+        Self { folder }
+    }
+
+    fn memory(&self) -> PathBuf {
+        self.folder.join("N1.nvm")
+    }
+
+    /// Power on, the script of the master, and a signal that ends it all.
+    fn run(&self, cable: usize, python: &Path, arguments: &[&str], signal: &str) {
+        let line = Line::start(cable, &[self.folder.join("unit.toml")], None);
+        line.run_master(python, "events.py", arguments);
+        if signal == "KILL" {
+            // What is on the disk is what a power cut leaves.
+            self.wait_for_log(|log| log.system.is_full() && log.acknowledged);
+        }
+        let ended = line.end(signal);
+        assert_eq!(ended, if signal == "KILL" { None } else { Some(0) }, "ectwin after SIG{signal}");
+    }
+
+    fn log(&self) -> ErrorLog {
+        let stored = fs::read(self.memory()).unwrap();
+        NonVolatileMemory::decode(&stored).unwrap().error_log().clone()
+    }
+
+    fn wait_for_log(&self, is_wanted: impl Fn(&ErrorLog) -> bool) {
+        let begin = Instant::now();
+        while !is_wanted(&self.log()) {
+            assert!(begin.elapsed() < PATIENCE, "not stored: {:?}", self.log());
+            std::thread::yield_now();
+        }
+    }
+}
+
+#[test]
+fn the_history_that_pysoem_reads_outlives_power_off_and_a_kill() {
+    with_pysoem("events::the_history_that_pysoem_reads_outlives_power_off_and_a_kill", |python| {
+        let mut cables = 0..;
+        let mut run = |unit: &Unit, arguments: &[&str], signal| {
+            unit.run(cables.next().unwrap(), python, arguments, signal);
+        };
+        for signal in ["TERM", "KILL"] {
+            let unit = Unit::new(&format!("history-{signal}"));
+            let history = unit.folder.join("history.json");
+            let history = history.to_str().unwrap();
+            run(&unit, &["cause", history], signal);
+            let stored = unit.log();
+            run(&unit, &["compare", history], "TERM");
+            run(&unit, &["compare", history], "TERM");
+            assert_eq!(unit.log(), stored, "a start by itself changes nothing");
+        }
+    });
+}
+
+#[test]
+fn a_unit_without_memory_says_so_to_pysoem_and_in_no_log() {
+    with_pysoem("events::a_unit_without_memory_says_so_to_pysoem_and_in_no_log", |python| {
+        let unit = Unit::new("without-memory");
+        let empty = unit.folder.join("empty.json");
+        let empty = empty.to_str().unwrap();
+        unit.run(0, python, &["remember", empty], "TERM");
+        let mut damaged = fs::read(unit.memory()).unwrap();
+        damaged[200] ^= 1;
+        fs::write(unit.memory(), &damaged).unwrap();
+
+        unit.run(1, python, &["damaged"], "TERM");
+        assert!(!unit.memory().exists(), "a unit with a damaged memory stores nothing");
+        assert_eq!(fs::read(unit.folder.join("N1.nvm.damaged-1")).unwrap(), damaged, "set aside");
+
+        unit.run(2, python, &["compare", empty], "TERM");
+        let log = unit.log();
+        let mut records = log.system.iter().chain(&log.access);
+        assert!(!records.any(|record| record.event == MEMORY_ERROR), "{log:?}");
+    });
+}

@@ -1,0 +1,114 @@
+//! A cable, the built command at one end, the script of a master at the other, a capture.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::Mutex;
+
+use testbed::{MasterSide, Process, add_veth_pair, has_program, in_network_namespace, python_with, skip};
+
+/// Masters run in real time: two of them at once would disturb each other.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+/// One run: the units of a line, and the script of the master with its arguments.
+pub(crate) struct Run {
+    pub(crate) test: &'static str,
+    pub(crate) units: &'static [&'static str],
+    pub(crate) script: &'static str,
+    pub(crate) arguments: &'static [&'static str],
+    /// Display filters of tshark that must match at least one frame each; without any, nothing is captured.
+    pub(crate) visible: &'static [&'static str],
+}
+
+impl Run {
+    /// Everything, or a skip that is counted.
+    pub(crate) fn run(&self) {
+        if !has_program("tshark") {
+            return skip(self.test, "tshark is not installed");
+        }
+        with_pysoem(self.test, |python| self.run_inside(python));
+    }
+
+    fn run_inside(&self, python: &Path) {
+        let capture = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{}.pcapng", self.test));
+        let units: Vec<PathBuf> =
+            self.units.iter().map(|unit| top_folder().join("units").join(unit)).collect();
+        let captured = (!self.visible.is_empty()).then_some(capture.as_path());
+        let line = Line::start(0, &units, captured);
+        line.run_master(python, self.script, self.arguments);
+        assert_eq!(line.end("INT"), Some(0), "ectwin after SIGINT");
+        self.read_capture(&capture);
+    }
+
+    fn read_capture(&self, capture: &Path) {
+        if self.visible.is_empty() {
+            return;
+        }
+        assert_eq!(count(capture, "_ws.malformed"), 0, "malformed frames in {}", capture.display());
+        for filter in self.visible {
+            assert!(count(capture, filter) > 0, "no frame matches `{filter}` in {}", capture.display());
+        }
+    }
+}
+
+/// Runs `body` with a Python that has pysoem in a network namespace, or skips `test`.
+pub(crate) fn with_pysoem(test: &str, body: impl FnOnce(&Path)) {
+    let _alone = ONE_AT_A_TIME.lock();
+    let Some(python) = python_with("pysoem") else { return skip(test, "pysoem is not installed") };
+    in_network_namespace(test, || body(&python));
+}
+
+/// Units under power at one end of a cable.
+pub(crate) struct Line {
+    ectwin: Process,
+    master_interface: String,
+}
+
+impl Line {
+    /// Makes a cable with this number and gives power to the units. A cable serves one master.
+    pub(crate) fn start(cable: usize, units: &[PathBuf], capture: Option<&Path>) -> Self {
+        let (master_interface, unit_interface) = (format!("m{cable}"), format!("u{cable}"));
+        add_veth_pair(&master_interface, &unit_interface);
+        let link = format!("raw:{unit_interface}");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+        command.arg("run").args(units).args(["--link", &link]);
+        if let Some(capture) = capture {
+            command.arg("--pcap").arg(capture);
+        }
+        let mut ectwin = Process::start(&mut command);
+        let ready = ectwin.wait_for_line("ready ");
+        assert_eq!(ready, format!("ready link={link} units={}", units.len()));
+        Self { ectwin, master_interface }
+    }
+
+    /// Runs a script of tests/masters at the other end. It has to succeed.
+    pub(crate) fn run_master(&self, python: &Path, script: &str, arguments: &[&str]) {
+        let mut master = Command::new(python);
+        master.arg(top_folder().join("tests/masters").join(script));
+        master.arg(&self.master_interface).args(arguments);
+        let mut master = MasterSide::start(&self.master_interface, &master);
+        assert_eq!(master.wait(), 0, "exit code of {script} {arguments:?}");
+    }
+
+    /// Sends a signal to the command. Its exit code; none where the signal has killed it.
+    pub(crate) fn end(mut self, signal: &str) -> Option<i32> {
+        // The shell's own kill: the program of that name is not on every machine.
+        let kill = format!("kill -{signal} {}", self.ectwin.id());
+        let sent = Command::new("sh").args(["-c", &kill]).status();
+        assert!(sent.as_ref().is_ok_and(|sent| sent.success()), "{kill}: {sent:?}");
+        self.ectwin.wait().code()
+    }
+}
+
+/// The top folder of the checkout.
+pub(crate) fn top_folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// How many frames of `capture` match the display filter, as tshark sees it.
+fn count(capture: &Path, filter: &str) -> usize {
+    let mut tshark = Command::new("tshark");
+    tshark.arg("-r").arg(capture).args(["-Y", filter]).args(["-T", "fields", "-e", "frame.number"]);
+    let output = tshark.output().unwrap_or_else(|error| panic!("tshark: {error}"));
+    assert!(output.status.success(), "tshark: {}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8_lossy(&output.stdout).lines().count()
+}
