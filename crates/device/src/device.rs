@@ -27,6 +27,7 @@ pub struct Device<U> {
     /// The master has asked for OP; outputs have to come before this moment.
     op_deadline: Option<Instant>,
     next_refresh: Instant,
+    is_off: bool,
 }
 
 impl<U: Unit> Device<U> {
@@ -42,6 +43,7 @@ impl<U: Unit> Device<U> {
             code: AlStatusCode::NO_ERROR,
             op_deadline: None,
             next_refresh: now,
+            is_off: false,
         };
         let mailbox = device.config.mailbox;
         device.mailbox = mailbox.and_then(|mailbox| {
@@ -59,6 +61,7 @@ impl<U: Unit> Device<U> {
         self.status = AlStatus::default();
         self.code = AlStatusCode::NO_ERROR;
         self.op_deadline = None;
+        self.is_off = false;
         if let Some(mailbox) = &mut self.mailbox {
             mailbox.reset();
         }
@@ -66,6 +69,12 @@ impl<U: Unit> Device<U> {
         if let (Some(code), None) = (code, self.unit.fault()) {
             self.refuse(AlState::Init, code, &mut esc.pdi(), now);
         }
+    }
+
+    /// The slave loses its power: it does nothing until [`Device::restart`]. Its cables are the segment's.
+    pub(crate) fn power_off(&mut self, now: Instant) {
+        self.is_off = true;
+        self.unit.power_off(now);
     }
 
     fn start(&mut self, esc: &mut Esc, now: Instant) {
@@ -104,6 +113,9 @@ impl<U: Unit> Device<U> {
     /// When the device has to be polled next, whatever the wire does.
     #[must_use]
     pub fn deadline(&self) -> Instant {
+        if self.is_off {
+            return Instant::NEVER;
+        }
         let mailbox = self.mailbox.as_ref().map_or(Instant::NEVER, MailboxService::deadline);
         self.next_refresh.min(mailbox).min(self.op_deadline.unwrap_or(Instant::NEVER))
     }
@@ -116,6 +128,9 @@ impl<U: Unit> Device<U> {
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
     pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
         esc.advance(now);
+        if self.is_off {
+            return;
+        }
         if esc.pdi().take_reset_request() {
             self.restart(esc, now, Start::EscReset);
         }

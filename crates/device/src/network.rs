@@ -103,6 +103,16 @@ impl<U: Unit> Network<U> {
         &mut self.segment
     }
 
+    /// Takes the power from one slave: no frame passes it any more. [`Network::restart`] gives it back; the cables
+    /// on both sides are to be plugged in again then. A position without slave is nothing.
+    pub fn power_off(&mut self, position: usize, now: Instant) {
+        if let Some(device) = self.devices.get_mut(position) {
+            device.power_off(now);
+            self.segment.set_cable(position, false);
+            self.segment.set_cable(position + 1, false);
+        }
+    }
+
     /// Starts one slave again; a position without slave is nothing.
     pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {

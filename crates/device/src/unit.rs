@@ -92,6 +92,9 @@ pub trait Unit {
         None
     }
 
+    /// The slave loses its power. It is restarted with [`Start::PowerOn`] when it gets it back.
+    fn power_off(&mut self, _now: Instant) {}
+
     /// Takes the oldest emergency message that the unit wants to send. Below PRE-OP it is lost.
     fn take_emergency(&mut self) -> Option<Emergency> {
         None

@@ -27,6 +27,8 @@ use standing::Standing;
 
 /// Emergencies that wait for the slave stack to take them; it does so with every step of the unit.
 const EMERGENCIES_MAX: usize = 16;
+/// Events that are kept for who watches the unit.
+pub const OCCURRED_MAX: usize = 64;
 /// Attached information 2 of NX Message Communications Error: the NX bus.
 const NX_BUS: u32 = 0;
 
@@ -47,6 +49,8 @@ pub(crate) struct Diagnosis {
     /// Those of them that the start has found and not told yet.
     untold: FaultSet,
     emergencies: ArrayVec<Emergency, EMERGENCIES_MAX>,
+    /// What has occurred since someone looked.
+    occurred: ArrayVec<EventCode, OCCURRED_MAX>,
     /// 10F3:05.
     emergencies_enabled: bool,
     /// What a master has written to 10F3:03 last, since the start.
@@ -90,6 +94,8 @@ impl Diagnosis {
     pub(crate) fn raise(&mut self, occurrence: Occurrence) {
         let Some(event) = Event::find(occurrence.event) else { return };
         let level = self.levels.of(event);
+        // Whoever watches takes them with every step; for nobody the first ones are kept.
+        let _ = self.occurred.try_push(event.code);
         self.record(event, level, &occurrence);
         if event.reported_as_current_error && level != EventLevel::Information {
             self.current.add(level, CurrentError::new(event.code, occurrence.details.first().copied()));
@@ -135,6 +141,11 @@ impl Diagnosis {
             let emergency = Emergency { code, error_register: 0, manufacturer: [0, a, b, c, d] };
             let _ = self.emergencies.try_push(emergency);
         }
+    }
+
+    /// Takes what has occurred since the last call, the oldest first.
+    pub(crate) fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
+        core::mem::take(&mut self.occurred)
     }
 
     /// Takes the oldest emergency message.

@@ -35,7 +35,7 @@ pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use config::{device_config, device_config_with};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
-pub use diagnosis::{CURRENT_ERRORS_MAX, CurrentError, DIAGNOSIS_MESSAGE_BYTES};
+pub use diagnosis::{CURRENT_ERRORS_MAX, CurrentError, DIAGNOSIS_MESSAGE_BYTES, OCCURRED_MAX};
 pub use events::{
     AttachedInformation, Cause, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
     IndicatorStatus, IoRefreshEffect, Notified, Recovery,

@@ -235,6 +235,14 @@ impl Unit for NxEct101 {
         self.code_after(start)
     }
 
+    /// The CPU Unit misses the unit: its I/O data is not active, and that is an error.
+    fn power_off(&mut self, _now: Instant) {
+        self.status = SlaveStatus::default();
+        self.nx_unit_status = NxUnitStatus::default();
+        let header = UnitHeader { status: self.status, io_data_active: false, error: true };
+        self.bus.m_to_c.publish(header, &self.m_to_c);
+    }
+
     fn take_emergency(&mut self) -> Option<Emergency> {
         self.objects.diagnosis.take_emergency()
     }

@@ -1,9 +1,10 @@
 //! The events of the unit as such: faults, what its start finds, what a user does from the CPU Unit's side.
 
+use arrayvec::ArrayVec;
 use device::Start;
 use wire::AlStatusCode;
 
-use crate::diagnosis::{CurrentError, Occurrence};
+use crate::diagnosis::{CurrentError, OCCURRED_MAX, Occurrence};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
 use crate::indicators::NxCondition;
@@ -26,6 +27,12 @@ impl NxEct101 {
     /// The faults that the unit has found and not recovered from.
     pub fn faults(&self) -> impl Iterator<Item = Fault> + '_ {
         self.objects.diagnosis.found()
+    }
+
+    /// Takes the events that have occurred since the last call, the oldest first, for who watches the unit. At
+    /// most [`OCCURRED_MAX`] are kept; later ones are left out until someone looks.
+    pub fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
+        self.objects.diagnosis.take_occurred()
     }
 
     /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause is still there
