@@ -269,6 +269,16 @@ impl Esc {
         self.memory.count_up(at::PROCESSING_UNIT_ERRORS);
     }
 
+    /// What registers and RAM hold from `offset` on, without the effects that an access by the wire has; bytes
+    /// beyond the memory stay as they are. What a register works out when it is read (times, the SII interface)
+    /// is not in it.
+    pub fn look(&self, offset: u16, bytes: &mut [u8]) {
+        let length_bytes = bytes.len();
+        if let Some(memory) = self.memory.get(u32::from(offset), length_bytes) {
+            bytes.copy_from_slice(memory);
+        }
+    }
+
     /// Whether frames that are not EtherCAT are destroyed here (DL control bit 0) or forwarded.
     #[must_use]
     pub fn destroys_foreign_frames(&self) -> bool {

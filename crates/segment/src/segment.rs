@@ -143,6 +143,24 @@ impl Segment {
         }
     }
 
+    /// A frame comes from the master and gets a bit error on the cable in front of the ESC at `position`. The ESCs
+    /// before it take the frame; that one counts it as invalid, those behind it as forwarded, and nobody there
+    /// takes it. It does not return: its FCS is wrong.
+    pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], position: usize) -> FrameFate {
+        let reach = self.way.reach;
+        self.activity.on_way(now);
+        if let FrameKind::Datagrams(layout) = FrameKind::of(frame) {
+            self.pass_datagrams(0..position.min(reach), now, frame, &layout);
+        }
+        if let Some((first, others)) =
+            self.escs[..reach].get_mut(position..).and_then(<[Esc]>::split_first_mut)
+        {
+            first.count_invalid_frame(Port::In);
+            others.iter_mut().for_each(|esc| esc.count_forwarded_error(Port::In));
+        }
+        FrameFate::Destroyed
+    }
+
     /// A frame comes from the master's second port, at the far end. It runs back without being processed
     /// until it meets a closed port 0; there it is marked as circulating, and destroyed if it already was.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
