@@ -9,7 +9,6 @@
 mod clock;
 pub mod memory;
 mod open;
-pub mod pcapng;
 mod port;
 mod raw;
 mod recorder;

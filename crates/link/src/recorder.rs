@@ -5,9 +5,9 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use capture::{Direction, PcapngWriter};
 use time::Instant;
 
-use crate::pcapng::{Direction, PcapngWriter};
 use crate::{Clock, FRAME_BUFFER_BYTES, Observer, Seen};
 
 /// Frames that may wait for the disk: two seconds of a 1 ms master, requests and answers.

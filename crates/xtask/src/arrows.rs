@@ -26,6 +26,7 @@ const fn row(name: &'static str, floor: u8, may_use: MayUse) -> Row {
 const FLOORS: &[Row] = &[
     row("time", 1, Only(&[])),
     row("wire", 1, Only(&[])),
+    row("capture", 1, Only(&[])),
     row("esc", 2, Only(&["time", "wire"])),
     row("objects", 2, Only(&["wire"])),
     row("segment", 3, Only(&["time", "wire", "esc"])),
@@ -34,10 +35,11 @@ const FLOORS: &[Row] = &[
     row("device", 4, AnyFloorBelow),
     row("nx-ect101", 5, Only(&["time", "wire", "objects", "esi", "device"])),
     row("plc", 6, Only(&["time", "nx-ect101"])),
-    row("link", 7, Only(&["time", "segment"])),
-    row("storage", 7, Only(&[])),
-    row("ectwin", 8, AnyFloorBelow),
-    row("xtask", 9, AnyFloorBelow),
+    row("scenario", 7, AnyFloorBelow),
+    row("link", 8, Only(&["time", "capture", "segment"])),
+    row("storage", 8, Only(&[])),
+    row("ectwin", 9, AnyFloorBelow),
+    row("xtask", 10, AnyFloorBelow),
     // Namespaces and child processes for tests: dev-dependencies may name it from any floor.
     row(FOR_TESTS, 0, Only(&[])),
 ];
@@ -45,7 +47,7 @@ const FLOORS: &[Row] = &[
 const FOR_TESTS: &str = "testbed";
 
 /// The first floor that may do input and output.
-const SHELL_FLOOR: u8 = 7;
+const SHELL_FLOOR: u8 = 8;
 
 /// Crates of others that do input and output, ask the clock or start threads.
 const SHELL_CRATES: &[&str] =

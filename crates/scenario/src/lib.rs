@@ -1,0 +1,25 @@
+//! Scenarios: units, a scripted master, CPU Units, faults and expectations in virtual time.
+//!
+//! A file says what happens and what must follow; a replay is the same on every machine. Nothing here reads a
+//! clock or a file: who does gives texts in and takes bytes out.
+
+mod dice;
+mod expectation;
+mod line;
+mod master;
+mod orders;
+mod recording;
+mod replay;
+mod scenario;
+pub mod sentence;
+pub mod sentences;
+mod world;
+
+pub use expectation::Condition;
+pub use orders::{
+    Choice, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder, Mode, Order,
+    UnitOrder, UnitSet,
+};
+pub use recording::Recording;
+pub use replay::{Failure, Report};
+pub use scenario::{BuiltinProgram, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};

@@ -1,0 +1,316 @@
+//! The scripted master: works off its orders in virtual time, one acyclic frame at a time, and exchanges process
+//! data beside.
+
+mod operation;
+mod process_data;
+mod sdo;
+mod slave;
+
+use std::collections::VecDeque;
+
+use time::{Duration, Instant};
+use wire::{AlState, Returned, returned_datagrams};
+
+use crate::orders::{FrameKind, MasterOrder, UnitSet};
+
+use operation::{Operation, Outcome, Step};
+use process_data::ProcessData;
+use slave::Slave;
+
+/// How long an answer may take before the frame counts as lost.
+const ANSWER_PATIENCE: Duration = Duration::from_millis(2);
+/// From one look at a status to the next.
+const POLL_PERIOD: Duration = Duration::from_micros(500);
+/// From one look into the mailboxes to the next.
+const LISTEN_PERIOD: Duration = Duration::from_millis(10);
+/// How long one operation may take in all.
+const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
+
+/// The scripted master.
+#[derive(Debug)]
+pub(crate) struct Master {
+    slaves: Vec<Slave>,
+    operations: VecDeque<Operation>,
+    /// What the first operation waits for.
+    waiting: Waiting,
+    process_data: ProcessData,
+    /// It looks into the mailboxes then, if it has nothing else to do.
+    next_listen: Instant,
+    /// Units whose mailboxes it looks into.
+    listens: Vec<bool>,
+    ticket: u64,
+    mailbox: MailboxHabits,
+    gave_up: Option<String>,
+    last_sdo: Option<Result<Vec<u8>, u32>>,
+    emergencies: Vec<u16>,
+    story: Vec<String>,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    /// Sends its next frame then.
+    at: Instant,
+    /// The frame that is on its way.
+    ticket: Option<u64>,
+    /// Gives up then.
+    until: Instant,
+}
+
+/// How it treats mailboxes.
+#[derive(Debug, Default)]
+pub(crate) struct MailboxHabits {
+    counter: u8,
+    stuck_counter: Option<u8>,
+    reads_nothing: bool,
+}
+
+/// A frame that the master sends.
+pub(crate) struct Sent {
+    pub(crate) ticket: u64,
+    pub(crate) kind: FrameKind,
+    pub(crate) frame: Vec<u8>,
+}
+
+impl Master {
+    pub(crate) fn new(units: usize, cycle: Duration) -> Self {
+        Self {
+            slaves: (0..units).map(Slave::new).collect(),
+            operations: VecDeque::new(),
+            waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
+            process_data: ProcessData::new(units, cycle),
+            next_listen: Instant::NEVER,
+            listens: vec![false; units],
+            ticket: 0,
+            mailbox: MailboxHabits::default(),
+            gave_up: None,
+            last_sdo: None,
+            emergencies: Vec::new(),
+            story: Vec::new(),
+        }
+    }
+
+    /// Takes an order.
+    pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
+        match order {
+            MasterOrder::Take(units, state) => {
+                self.queue_for(units, now, |unit| Operation::take(unit, state))
+            }
+            MasterOrder::Request { units, state, acknowledge } => {
+                let bits = state.bits() | if acknowledge { 0x10 } else { 0 };
+                self.queue_for(units, now, |unit| {
+                    Operation::write(unit, 0x0120, bits.to_le_bytes().to_vec())
+                });
+            }
+            MasterOrder::WriteRegister(unit, offset, bytes) => {
+                self.queue_for(UnitSet::One(unit), now, |unit| Operation::write(unit, offset, bytes.clone()));
+            }
+            MasterOrder::WriteSdo(unit, entry, bytes) => {
+                self.queue_for(UnitSet::One(unit), now, |unit| Operation::download(unit, entry, &bytes));
+            }
+            MasterOrder::ReadSdo(unit, entry) => {
+                self.queue_for(UnitSet::One(unit), now, |unit| Operation::upload(unit, entry));
+            }
+            MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
+            MasterOrder::StopExchange => self.process_data.stop(),
+            MasterOrder::SetOutputs(unit, bytes) => self.process_data.set_outputs(unit, &bytes),
+            MasterOrder::Map(unit, pdo, entries) => self.with_slave(unit, |slave| slave.map(pdo, &entries)),
+            MasterOrder::Assign(unit, index, pdos) => {
+                self.with_slave(unit, |slave| slave.assign(index, &pdos))
+            }
+            MasterOrder::SyncManagerLength { unit, number, length_bytes } => {
+                self.with_slave(unit, |slave| slave.wrong_length(number, length_bytes));
+            }
+            MasterOrder::SyncManagerControl { unit, number, control } => {
+                self.with_slave(unit, |slave| slave.wrong_control(number, control));
+            }
+            MasterOrder::MailboxCounter(counter) => self.mailbox.stuck_counter = Some(counter),
+            MasterOrder::ReadNoMailbox => self.mailbox.reads_nothing = true,
+            MasterOrder::Behave => {
+                self.mailbox = MailboxHabits { counter: self.mailbox.counter, ..MailboxHabits::default() };
+                self.slaves.iter_mut().for_each(Slave::behave);
+            }
+            MasterOrder::Restart => {
+                let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
+                let ticket = self.ticket + 1;
+                *self = Self { ticket, ..Self::new(units, cycle) };
+            }
+        }
+    }
+
+    fn with_slave(&mut self, unit: usize, change: impl FnOnce(&mut Slave)) {
+        if let Some(slave) = self.slaves.get_mut(unit) {
+            change(slave);
+        }
+    }
+
+    fn queue_for(&mut self, units: UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
+        let was_idle = self.operations.is_empty();
+        self.operations.extend(units.positions(self.slaves.len()).map(operation));
+        if was_idle {
+            self.begin(now);
+        }
+    }
+
+    /// The first operation starts.
+    fn begin(&mut self, now: Instant) {
+        let at = if self.operations.is_empty() { Instant::NEVER } else { now };
+        self.waiting = Waiting { at, ticket: None, until: now + OPERATION_PATIENCE };
+    }
+
+    /// When it sends next, or loses patience.
+    pub(crate) fn deadline(&self) -> Instant {
+        let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
+        self.waiting.at.min(self.process_data.deadline()).min(listen)
+    }
+
+    /// What it sends now.
+    pub(crate) fn send(&mut self, now: Instant) -> Vec<Sent> {
+        let mut frames = Vec::new();
+        if self.process_data.deadline() <= now {
+            frames.extend(self.process_data.send(now, &mut self.ticket));
+        }
+        if self.operations.is_empty() && self.next_listen <= now {
+            self.listen(now);
+        }
+        if self.waiting.at <= now {
+            frames.extend(self.send_operation(now));
+        }
+        frames
+    }
+
+    /// Looks into the mailboxes, for emergencies.
+    fn listen(&mut self, now: Instant) {
+        self.next_listen = now + LISTEN_PERIOD;
+        let units = self.listens.iter().enumerate().filter(|(_, listens)| **listens);
+        self.operations.extend(units.map(|(unit, _)| Operation::listen(unit)));
+        self.begin(now);
+    }
+
+    fn send_operation(&mut self, now: Instant) -> Option<Sent> {
+        let operation = self.operations.front_mut()?;
+        if now >= self.waiting.until {
+            let reason = format!("{}: no success within {OPERATION_PATIENCE}", operation.words());
+            self.give_up(reason, now);
+            return None;
+        }
+        let (frame, kind) = operation.frame(&mut self.mailbox);
+        self.ticket += 1;
+        self.waiting.ticket = Some(self.ticket);
+        // Without an answer by then the frame is sent once more.
+        self.waiting.at = now + ANSWER_PATIENCE;
+        Some(Sent { ticket: self.ticket, kind, frame })
+    }
+
+    /// A frame comes back. What nobody waits for any more is passed over, as a master does.
+    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8], now: Instant) {
+        let datagrams = returned_datagrams(frame);
+        if self.process_data.receive(ticket, &datagrams) || self.waiting.ticket != Some(ticket) {
+            return;
+        }
+        self.waiting.ticket = None;
+        let Some(answer) = datagrams.first() else { return };
+        self.answer(answer, now);
+    }
+
+    fn answer(&mut self, answer: &Returned, now: Instant) {
+        let Some(operation) = self.operations.front_mut() else { return };
+        match operation.answer(answer, &mut self.slaves) {
+            Outcome::Again => self.waiting.at = now + POLL_PERIOD,
+            Outcome::Next => self.waiting.at = now,
+            Outcome::Received(code) => {
+                self.emergencies.push(code);
+                self.story.push(format!("receives emergency {code:04X}"));
+                self.waiting.at = now;
+            }
+            Outcome::Done(steps) => {
+                self.operations.pop_front();
+                self.take_steps(steps, now);
+                self.begin(now);
+            }
+            Outcome::Failed(reason) => self.give_up(reason, now),
+        }
+    }
+
+    /// What an operation leads to goes before everything else.
+    fn take_steps(&mut self, steps: Vec<Step>, now: Instant) {
+        for step in steps.into_iter().rev() {
+            match step {
+                Step::Do(operation) => self.operations.push_front(operation),
+                Step::Exchange { unit, outputs_bytes, inputs_bytes } => {
+                    self.process_data.open(unit, outputs_bytes, inputs_bytes, now);
+                }
+                Step::Close(unit) => self.process_data.close(unit),
+                Step::Listen { unit, listens } => {
+                    self.listens[unit] = listens;
+                    let any = self.listens.contains(&true);
+                    self.next_listen = if any { now + LISTEN_PERIOD } else { Instant::NEVER };
+                }
+                Step::SdoResult(result) => {
+                    self.last_sdo = Some(result);
+                    self.story.push(self.last_sdo_words());
+                }
+                Step::Tell(words) => self.story.push(words),
+            }
+        }
+    }
+
+    /// An order that cannot be done takes what belongs to it with it; the next order goes on.
+    fn give_up(&mut self, reason: String, now: Instant) {
+        if !self.operations.front().is_some_and(Operation::is_listening) {
+            self.story.push(format!("gives up: {reason}"));
+            self.gave_up = Some(reason);
+        }
+        let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
+        self.operations.drain(..parts.max(1));
+        self.begin(now);
+    }
+
+    pub(crate) fn cycles(&self) -> u64 {
+        self.process_data.cycles()
+    }
+
+    pub(crate) fn is_idle(&self) -> bool {
+        self.operations.iter().all(Operation::is_listening)
+    }
+
+    pub(crate) fn activity(&self) -> String {
+        self.operations.front().map_or("nothing".to_owned(), Operation::words)
+    }
+
+    pub(crate) fn gave_up(&self) -> Option<&str> {
+        self.gave_up.as_deref()
+    }
+
+    pub(crate) const fn last_sdo(&self) -> &Option<Result<Vec<u8>, u32>> {
+        &self.last_sdo
+    }
+
+    pub(crate) fn last_sdo_words(&self) -> String {
+        match &self.last_sdo {
+            None => "no SDO was answered".to_owned(),
+            Some(Ok(value)) if value.is_empty() => "the last SDO was taken".to_owned(),
+            Some(Ok(value)) => format!("the last SDO gave {}", crate::expectation::hex(value)),
+            Some(Err(code)) => format!("the last SDO was refused with {code:#010X}"),
+        }
+    }
+
+    pub(crate) fn emergencies(&self) -> &[u16] {
+        &self.emergencies
+    }
+
+    pub(crate) fn inputs(&self, unit: usize) -> &[u8] {
+        self.process_data.inputs(unit)
+    }
+
+    pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
+        self.process_data.working_counter(unit)
+    }
+
+    /// What it has to tell since the last call.
+    pub(crate) fn take_story(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.story)
+    }
+}
+
+/// States on the way up, the nearest first.
+pub(crate) const WAY_UP: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];

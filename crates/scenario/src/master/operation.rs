@@ -1,0 +1,276 @@
+//! Operations: what one order of the master comes down to, a frame at a time.
+
+use nx_ect101::layout;
+use wire::{AlState, AlStatus, Command, FrameBuilder, Returned};
+
+use super::process_data::logical_address;
+use super::sdo::{Received, SdoMessage};
+use super::slave::Slave;
+use super::{MailboxHabits, WAY_UP};
+use crate::expectation::StateName;
+use crate::orders::FrameKind;
+
+const AL_CONTROL: u16 = 0x0120;
+const AL_STATUS: u16 = 0x0130;
+/// Status of SyncManager 1; bit 3: a message lies in it.
+const MAILBOX_STATUS: u16 = 0x080D;
+
+/// One operation with one unit.
+#[derive(Clone, Debug)]
+pub(crate) struct Operation {
+    unit: usize,
+    what: What,
+    /// It belongs to a larger order.
+    is_part: bool,
+}
+
+#[derive(Clone, Debug)]
+enum What {
+    /// Writes a register until somebody has taken it.
+    Write { offset: u16, data: Vec<u8> },
+    /// Looks where the unit is, and goes on from there.
+    Take(AlState),
+    /// Asks for a state and waits for it.
+    Reach { bits: u16, asked: bool },
+    /// Everything is set for the process data: they begin.
+    Open,
+    /// An SDO.
+    Sdo { message: SdoMessage, phase: Phase },
+    /// Looks into the mailbox, once.
+    Listen { full: bool },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Ask,
+    Wait,
+    Read,
+}
+
+/// What an answer leads to.
+pub(crate) enum Outcome {
+    /// The same frame once more, a little later.
+    Again,
+    /// The next frame of the operation.
+    Next,
+    /// An emergency was read; the operation goes on.
+    Received(u16),
+    /// It is done, and this follows.
+    Done(Vec<Step>),
+    /// It cannot be done.
+    Failed(String),
+}
+
+/// What follows from an operation.
+pub(crate) enum Step {
+    /// A further operation.
+    Do(Operation),
+    /// Process data of a unit begin.
+    Exchange { unit: usize, outputs_bytes: u16, inputs_bytes: u16 },
+    /// Process data of a unit end.
+    Close(usize),
+    /// A unit has a mailbox from now on, or has none any more.
+    Listen { unit: usize, listens: bool },
+    /// An SDO was answered.
+    SdoResult(Result<Vec<u8>, u32>),
+    /// Something to tell.
+    Tell(String),
+}
+
+impl Operation {
+    const fn new(unit: usize, what: What) -> Self {
+        Self { unit, what, is_part: false }
+    }
+
+    pub(crate) const fn take(unit: usize, state: AlState) -> Self {
+        Self::new(unit, What::Take(state))
+    }
+
+    pub(crate) const fn write(unit: usize, offset: u16, data: Vec<u8>) -> Self {
+        Self::new(unit, What::Write { offset, data })
+    }
+
+    pub(crate) fn download(unit: usize, entry: (u16, u8), value: &[u8]) -> Self {
+        Self::new(unit, What::Sdo { message: SdoMessage::download(entry, value), phase: Phase::Ask })
+    }
+
+    pub(crate) fn upload(unit: usize, entry: (u16, u8)) -> Self {
+        Self::new(unit, What::Sdo { message: SdoMessage::upload(entry), phase: Phase::Ask })
+    }
+
+    pub(crate) const fn listen(unit: usize) -> Self {
+        Self::new(unit, What::Listen { full: false })
+    }
+
+    /// The same as a part of a larger order, which it takes with it when it fails.
+    pub(crate) fn within_an_order(self) -> Self {
+        Self { is_part: true, ..self }
+    }
+
+    pub(crate) const fn is_part(&self) -> bool {
+        self.is_part
+    }
+
+    pub(crate) const fn is_listening(&self) -> bool {
+        matches!(self.what, What::Listen { .. })
+    }
+
+    pub(crate) fn words(&self) -> String {
+        let unit = format!("unit {}", self.unit + 1);
+        match &self.what {
+            What::Write { offset, .. } => format!("write to register {offset:#06X} of {unit}"),
+            What::Take(state) => format!("take {unit} to {}", StateName(*state)),
+            What::Reach { bits, .. } => {
+                format!("request {} of {unit}", StateName(AlState::from_bits(*bits & 0x0F)))
+            }
+            What::Open => format!("process data of {unit}"),
+            What::Sdo { message, .. } => format!("{} of {unit}", message.words()),
+            What::Listen { .. } => format!("mailbox of {unit}"),
+        }
+    }
+
+    /// Its next frame.
+    pub(crate) fn frame(&mut self, habits: &mut MailboxHabits) -> (Vec<u8>, FrameKind) {
+        let position = (self.unit as u16).wrapping_neg();
+        let write = |offset, data: &[u8]| {
+            FrameBuilder::new().physical(Command::Apwr, position, offset, data).finish()
+        };
+        let read = |offset, length_bytes: usize| {
+            FrameBuilder::new().physical(Command::Aprd, position, offset, &vec![0; length_bytes]).finish()
+        };
+        match &mut self.what {
+            What::Write { offset, data } => (write(*offset, data), FrameKind::Any),
+            What::Reach { bits, asked: false } => (write(AL_CONTROL, &bits.to_le_bytes()), FrameKind::Any),
+            What::Take(_) | What::Reach { .. } | What::Open => (read(AL_STATUS, 6), FrameKind::Any),
+            What::Sdo { message, phase: Phase::Ask } => {
+                (write(layout::MAILBOX_RECEIVE_START, &message.mailbox(habits)), FrameKind::Mailbox)
+            }
+            What::Sdo { phase: Phase::Read, .. } if habits.reads_nothing() => {
+                (read(MAILBOX_STATUS, 1), FrameKind::Mailbox)
+            }
+            What::Sdo { phase: Phase::Read, .. } | What::Listen { full: true } => {
+                (read(layout::MAILBOX_SEND_START, usize::from(layout::MAILBOX_BYTES)), FrameKind::Mailbox)
+            }
+            What::Sdo { .. } | What::Listen { .. } => (read(MAILBOX_STATUS, 1), FrameKind::Mailbox),
+        }
+    }
+
+    /// What comes back.
+    pub(crate) fn answer(&mut self, answer: &Returned, slaves: &mut [Slave]) -> Outcome {
+        if answer.working_counter == 0 {
+            return Outcome::Again;
+        }
+        let unit = self.unit;
+        match &mut self.what {
+            What::Write { .. } => Outcome::Done(Vec::new()),
+            What::Take(target) => match slaves.get(unit) {
+                Some(slave) => Outcome::Done(way(unit, AlStatus::from_bits(word(answer, 0)), *target, slave)),
+                None => Outcome::Done(Vec::new()),
+            },
+            What::Reach { asked, .. } if !*asked => {
+                *asked = true;
+                Outcome::Next
+            }
+            What::Reach { bits, .. } => reached(unit, *bits, answer),
+            What::Open => Outcome::Done(open(unit, slaves)),
+            What::Sdo { phase, .. } => sdo(phase, answer),
+            What::Listen { full: false } if answer.data.first().is_some_and(|status| status & 0x08 == 0) => {
+                Outcome::Done(Vec::new())
+            }
+            What::Listen { full } if !*full => {
+                *full = true;
+                Outcome::Next
+            }
+            What::Listen { full } => {
+                *full = false;
+                match SdoMessage::received(&answer.data) {
+                    Received::Emergency(code) => Outcome::Received(code),
+                    _ => Outcome::Done(Vec::new()),
+                }
+            }
+        }
+    }
+}
+
+fn word(answer: &Returned, at: usize) -> u16 {
+    answer.data.get(at..at + 2).map_or(0, |bytes| u16::from_le_bytes([bytes[0], bytes[1]]))
+}
+
+/// AL status while a state is waited for. An error indication is a refusal.
+fn reached(unit: usize, bits: u16, answer: &Returned) -> Outcome {
+    let (status, code) = (AlStatus::from_bits(word(answer, 0)), word(answer, 4));
+    let wanted = AlState::from_bits(bits & 0x0F);
+    if status.error {
+        let (shown, wanted) = (StateName(status.state), StateName(wanted));
+        return Outcome::Failed(format!(
+            "unit {} stays in {shown} with {code:#06X}, asked for {wanted}",
+            unit + 1
+        ));
+    }
+    if status.state == wanted { Outcome::Done(Vec::new()) } else { Outcome::Again }
+}
+
+fn sdo(phase: &mut Phase, answer: &Returned) -> Outcome {
+    match phase {
+        Phase::Ask => *phase = Phase::Wait,
+        Phase::Wait if answer.data.first().is_some_and(|status| status & 0x08 != 0) => *phase = Phase::Read,
+        Phase::Read if answer.data.len() > 1 => {
+            return match SdoMessage::received(&answer.data) {
+                Received::Answer(result) => Outcome::Done(vec![Step::SdoResult(result)]),
+                Received::Emergency(code) => {
+                    *phase = Phase::Wait;
+                    Outcome::Received(code)
+                }
+                Received::Other(words) => Outcome::Failed(words),
+            };
+        }
+        Phase::Wait | Phase::Read => return Outcome::Again,
+    }
+    Outcome::Next
+}
+
+/// The way from where a unit is to where it is to be, as a real master goes it.
+fn way(unit: usize, status: AlStatus, target: AlState, slave: &Slave) -> Vec<Step> {
+    let part = |what| Step::Do(Operation::new(unit, what).within_an_order());
+    let reach = |state: AlState| part(What::Reach { bits: state.bits(), asked: false });
+    let floor = |state: AlState| WAY_UP.iter().position(|&step| step == state);
+    let mut steps = Vec::new();
+    let (Some(mut at), Some(goal)) = (floor(status.state), floor(target)) else {
+        return vec![reach(target)];
+    };
+    if status.error {
+        steps.push(part(What::Reach { bits: status.state.bits() | 0x10, asked: false }));
+    }
+    if goal < at {
+        if goal < 2 {
+            steps.push(Step::Close(unit));
+        }
+        steps.push(reach(target));
+    }
+    while at < goal {
+        at += 1;
+        match at {
+            1 => steps.extend(slave.set_mailboxes().into_iter().map(Step::Do)),
+            2 => {
+                steps.extend(slave.startup_sdos().into_iter().map(Step::Do));
+                steps.extend(slave.set_process_data(logical_address(unit)).into_iter().map(Step::Do));
+            }
+            _ => {}
+        }
+        steps.push(reach(WAY_UP[at]));
+        if at == 2 {
+            steps.push(part(What::Open));
+        }
+    }
+    steps.push(Step::Listen { unit, listens: goal > 0 });
+    let name = StateName(target);
+    steps.push(Step::Tell(format!("takes unit {} to {name}", unit + 1)));
+    steps
+}
+
+fn open(unit: usize, slaves: &[Slave]) -> Vec<Step> {
+    let lengths = slaves.get(unit).map(|slave| (slave.outputs_bytes(), slave.inputs_bytes()));
+    let exchange =
+        lengths.map(|(outputs_bytes, inputs_bytes)| Step::Exchange { unit, outputs_bytes, inputs_bytes });
+    exchange.into_iter().collect()
+}

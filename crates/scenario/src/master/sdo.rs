@@ -1,0 +1,117 @@
+//! SDOs of the scripted master: one mailbox message each way.
+
+use nx_ect101::layout;
+use wire::{CoeHeader, CoeService, Emergency, MailboxHeader, MailboxType};
+
+use super::MailboxHabits;
+
+/// An SDO request behind its CoE header.
+#[derive(Clone, Debug)]
+pub(crate) struct SdoMessage {
+    command: u8,
+    index: u16,
+    sub: u8,
+    data: Vec<u8>,
+}
+
+/// What lies in a mailbox.
+pub(crate) enum Received {
+    /// The answer to an SDO.
+    Answer(Result<Vec<u8>, u32>),
+    /// An emergency with this code.
+    Emergency(u16),
+    /// Something else.
+    Other(String),
+}
+
+impl SdoMessage {
+    /// A download; up to four bytes go expedited.
+    pub(crate) fn download((index, sub): (u16, u8), value: &[u8]) -> Self {
+        if (1..=4).contains(&value.len()) {
+            let mut data = value.to_vec();
+            data.resize(4, 0);
+            return Self { command: 0x23 | (4 - value.len() as u8) << 2, index, sub, data };
+        }
+        let data = [&(value.len() as u32).to_le_bytes()[..], value].concat();
+        Self { command: 0x21, index, sub, data }
+    }
+
+    pub(crate) fn upload((index, sub): (u16, u8)) -> Self {
+        Self { command: 0x40, index, sub, data: vec![0; 4] }
+    }
+
+    pub(crate) fn words(&self) -> String {
+        let kind = if self.command == 0x40 { "upload" } else { "download" };
+        format!("SDO {kind} {:04X}:{:02X}", self.index, self.sub)
+    }
+
+    /// The whole mailbox, with the counter that the master's habits give.
+    pub(crate) fn mailbox(&self, habits: &mut MailboxHabits) -> Vec<u8> {
+        let header = MailboxHeader {
+            length_bytes: 6 + self.data.len() as u16,
+            address: 0,
+            channel: 0,
+            priority: 0,
+            mailbox_type: MailboxType::Coe,
+            counter: habits.next_counter(),
+            reserved: false,
+        };
+        let mut message = header.pack().to_vec();
+        message.extend(CoeHeader::new(CoeService::SdoRequest).pack());
+        message.push(self.command);
+        message.extend(self.index.to_le_bytes());
+        message.push(self.sub);
+        message.extend(&self.data);
+        message.resize(usize::from(layout::MAILBOX_BYTES), 0);
+        message
+    }
+
+    /// What the mailbox of the unit holds.
+    pub(crate) fn received(message: &[u8]) -> Received {
+        let body = message.get(MailboxHeader::LENGTH_BYTES..).unwrap_or_default();
+        let Some((coe, data)) = CoeHeader::parse(body) else {
+            return Received::Other("a message too short".to_owned());
+        };
+        match (MailboxHeader::parse(message).map(|header| header.mailbox_type), coe.service) {
+            (Some(MailboxType::Coe), CoeService::Emergency) => {
+                Received::Emergency(Emergency::parse(data).unwrap_or_default().code)
+            }
+            (Some(MailboxType::Coe), CoeService::SdoRequest | CoeService::SdoResponse) => answer(data),
+            (Some(MailboxType::Error), _) => {
+                let code = body.get(2..4).map_or(0, |code| u16::from_le_bytes([code[0], code[1]]));
+                Received::Other(format!("mailbox error {code}"))
+            }
+            _ => Received::Other("a message of another kind".to_owned()),
+        }
+    }
+}
+
+fn answer(data: &[u8]) -> Received {
+    let word = |at: usize| {
+        let bytes = data.get(at..at + 4).and_then(|bytes| bytes.try_into().ok());
+        bytes.map_or(0, u32::from_le_bytes)
+    };
+    match data.first().copied().unwrap_or(0) {
+        0x80 => Received::Answer(Err(word(4))),
+        command if command & 0xE0 == 0x60 => Received::Answer(Ok(Vec::new())),
+        command if command & 2 != 0 => {
+            let length_bytes = 4 - usize::from(command >> 2 & 3);
+            Received::Answer(Ok(data.get(4..4 + length_bytes).unwrap_or_default().to_vec()))
+        }
+        _ => {
+            let length_bytes = word(4) as usize;
+            Received::Answer(Ok(data.get(8..8 + length_bytes).unwrap_or_default().to_vec()))
+        }
+    }
+}
+
+impl MailboxHabits {
+    fn next_counter(&mut self) -> u8 {
+        self.counter = self.counter % 7 + 1;
+        self.stuck_counter.unwrap_or(self.counter) & 7
+    }
+
+    pub(crate) const fn reads_nothing(&self) -> bool {
+        self.reads_nothing
+    }
+}

@@ -1,0 +1,218 @@
+//! Replaying a scenario: steps in their order, expectations as they become due, a verdict.
+
+use time::{Duration, Instant};
+
+use crate::orders::{Expectation, Mode, Order};
+use crate::recording::Recording;
+use crate::scenario::{Scenario, Step, Trigger};
+use crate::world::{QUIET_STEP, World};
+
+/// What a replay came to.
+pub struct Report {
+    /// The seed of its dice.
+    pub seed: u64,
+    /// The first expectation that did not hold; none: the scenario passes.
+    pub failure: Option<Failure>,
+    /// Virtual time that has passed.
+    pub lasted: Duration,
+    /// Process data cycles of the master.
+    pub cycles: u64,
+    /// Trace and capture, where they were wanted.
+    pub recording: Recording,
+}
+
+/// An expectation that did not hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Failure {
+    /// Line of the step in the file, from 1.
+    pub line: usize,
+    /// The words of the step.
+    pub text: String,
+    /// When it failed, from the beginning.
+    pub at: Duration,
+    /// What was seen instead.
+    pub seen: String,
+}
+
+impl Report {
+    /// Whether every expectation held.
+    #[must_use]
+    pub const fn passes(&self) -> bool {
+        self.failure.is_none()
+    }
+}
+
+impl core::fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { line, text, at, seen } = self;
+        write!(formatter, "line {line}: `{text}` does not hold at {at}: {seen}")
+    }
+}
+
+impl Scenario {
+    /// Replays the scenario with this seed. The same seed gives the same bytes.
+    #[must_use]
+    pub fn replay(&self, seed: u64, recording: Recording) -> Report {
+        let world = World::power_on(self, seed, recording);
+        let mut replay = Replay { world, watches: Vec::new(), limit: Instant::ZERO + self.limit };
+        let failure =
+            self.steps.iter().try_for_each(|step| replay.step(step)).and_then(|()| replay.end()).err();
+        let Replay { mut world, .. } = replay;
+        let lasted = world.now().saturating_since(Instant::ZERO);
+        if let Some(failure) = &failure {
+            let now = world.now();
+            world.recording().tell(now, "verdict", &failure.to_string());
+        }
+        let cycles = world.master().cycles();
+        Report { seed, failure, lasted, cycles, recording: world.into_recording() }
+    }
+}
+
+struct Replay<'a> {
+    world: World,
+    /// Expectations that last.
+    watches: Vec<Watch<'a>>,
+    limit: Instant,
+}
+
+/// An expectation that is looked at after everything that happens.
+struct Watch<'a> {
+    step: &'a Step,
+    expectation: &'a Expectation,
+    /// The moment at which it is decided.
+    until: Instant,
+}
+
+/// Whether a watch goes on.
+enum Watched {
+    Open,
+    Satisfied,
+}
+
+type Verdict<T = ()> = Result<T, Failure>;
+
+impl<'a> Replay<'a> {
+    fn step(&mut self, step: &'a Step) -> Verdict {
+        self.wait(step)?;
+        if !matches!(step.order, Order::Expect(_)) {
+            let now = self.world.now();
+            self.world.recording().tell(now, "step", &step.text);
+        }
+        match &step.order {
+            Order::Master(order) => {
+                let now = self.world.now();
+                self.world.master_mut().order(order.clone(), now);
+                self.run_until(now)
+            }
+            Order::Unit(order) => self.then(|world| world.unit_order(order)),
+            Order::Cpu(order) => self.then(|world| world.cpu_order(order)),
+            Order::Line(order) => self.then(|world| world.line_order(order)),
+            Order::Expect(expectation) => self.expect(step, expectation),
+        }
+    }
+
+    fn then(&mut self, act: impl FnOnce(&mut World)) -> Verdict {
+        act(&mut self.world);
+        self.look()
+    }
+
+    /// Until the step is due.
+    fn wait(&mut self, step: &'a Step) -> Verdict {
+        let now = self.world.now();
+        match &step.trigger {
+            Trigger::AtOnce => Ok(()),
+            Trigger::At(at) => self.run_until(Instant::ZERO + *at),
+            Trigger::After(after) => self.run_until(now + *after),
+            Trigger::When(condition) => loop {
+                let seen = match condition.check(&mut self.world) {
+                    Ok(()) => return Ok(()),
+                    Err(seen) => seen,
+                };
+                if self.world.now() >= self.limit {
+                    let seen = format!("`when` waits in vain until the limit: {seen}");
+                    return Err(failure(step, self.world.now(), seen));
+                }
+                self.advance(self.limit)?;
+            },
+        }
+    }
+
+    fn expect(&mut self, step: &'a Step, expectation: &'a Expectation) -> Verdict {
+        let now = self.world.now();
+        let until = match expectation.mode {
+            Mode::Now => {
+                let checked = expectation.condition.check(&mut self.world);
+                return checked.map_err(|seen| failure(step, now, seen));
+            }
+            Mode::Within(limit) => return self.expect_within(step, expectation, now + limit),
+            Mode::For(span) => now + span,
+            Mode::Never => Instant::NEVER,
+        };
+        self.watches.push(Watch { step, expectation, until });
+        if expectation.mode == Mode::Never { self.look() } else { self.run_until(until) }
+    }
+
+    /// Time passes until it holds.
+    fn expect_within(&mut self, step: &'a Step, expectation: &'a Expectation, until: Instant) -> Verdict {
+        loop {
+            let Err(seen) = expectation.condition.check(&mut self.world) else { return Ok(()) };
+            if self.world.now() >= until {
+                return Err(failure(step, self.world.now(), seen));
+            }
+            self.advance(until)?;
+        }
+    }
+
+    /// The scenario is over: what had to hold to the end has.
+    fn end(&mut self) -> Verdict {
+        self.look()
+    }
+
+    fn run_until(&mut self, end: Instant) -> Verdict {
+        loop {
+            if self.world.deadline() > end && self.world.now() >= end {
+                return Ok(());
+            }
+            self.advance(end)?;
+        }
+    }
+
+    /// To the next thing that happens, at most to `end`.
+    fn advance(&mut self, end: Instant) -> Verdict {
+        let quiet = self.world.now() + QUIET_STEP;
+        let next = self.world.deadline().min(end).min(quiet);
+        self.world.advance(next);
+        self.look()
+    }
+
+    /// Looks at the expectations that last.
+    fn look(&mut self) -> Verdict {
+        let mut place = 0;
+        while let Some(watch) = self.watches.get(place) {
+            match watch.look(&mut self.world)? {
+                Watched::Open => place += 1,
+                Watched::Satisfied => drop(self.watches.remove(place)),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Watch<'_> {
+    fn look(&self, world: &mut World) -> Verdict<Watched> {
+        let now = world.now();
+        if now > self.until {
+            return Ok(Watched::Satisfied);
+        }
+        let holds = self.expectation.condition.check(world);
+        match (self.expectation.mode, holds) {
+            (Mode::Never, Ok(())) => Err(failure(self.step, now, "it does hold".to_owned())),
+            (Mode::For(_), Err(seen)) => Err(failure(self.step, now, seen)),
+            _ => Ok(Watched::Open),
+        }
+    }
+}
+
+fn failure(step: &Step, at: Instant, seen: String) -> Failure {
+    Failure { line: step.line, text: step.text.clone(), at: at.saturating_since(Instant::ZERO), seen }
+}

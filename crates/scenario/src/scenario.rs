@@ -1,0 +1,96 @@
+//! A scenario file: units, master, steps.
+
+mod error;
+mod read;
+
+use nx_ect101::unit_file::UnitFile;
+use plc::{Echo, Io, MessageEcho, Program};
+use time::Duration;
+
+use crate::expectation::Condition;
+use crate::orders::Order;
+
+pub use error::{ScenarioError, ScenarioErrors};
+
+/// A scenario, ready to be replayed.
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// What it shows, in one sentence.
+    pub title: String,
+    /// The seed of its dice.
+    pub seed: u64,
+    /// The moment at which it is over, whatever waits.
+    pub limit: Duration,
+    /// The units of the line, the one next to the master first.
+    pub units: Vec<UnitSource>,
+    /// Cycle of the process data.
+    pub cycle: Duration,
+    /// What happens, in this order.
+    pub steps: Vec<Step>,
+}
+
+/// A unit of the line.
+#[derive(Clone, Debug)]
+pub struct UnitSource {
+    /// Its unit file.
+    pub file: UnitFile,
+    /// What its CPU Unit runs.
+    pub program: BuiltinProgram,
+}
+
+/// A user program that needs no file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BuiltinProgram {
+    /// None: the data stay as they are set.
+    None,
+    /// Copies the data back (manual, A-3).
+    Copy,
+    /// Copies data and messages back.
+    Messages,
+}
+
+impl BuiltinProgram {
+    /// The program that a unit file names; none if there is no such program.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        match name {
+            "builtin:copy" => Some(Self::Copy),
+            "builtin:messages" => Some(Self::Messages),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn start(self) -> Box<dyn Program + Send> {
+        match self {
+            Self::None => Box::new(|_: &mut Io| {}),
+            Self::Copy => Box::new(Echo),
+            Self::Messages => Box::new(MessageEcho::default()),
+        }
+    }
+}
+
+/// One step.
+#[derive(Clone, Debug)]
+pub struct Step {
+    /// When it is due.
+    pub trigger: Trigger,
+    /// What it does.
+    pub order: Order,
+    /// Its line in the file, from 1.
+    pub line: usize,
+    /// Its words.
+    pub text: String,
+}
+
+/// When a step is due; never before the step in front of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Trigger {
+    /// At once.
+    AtOnce,
+    /// At this time from the beginning.
+    At(Duration),
+    /// So long after the step in front of it.
+    After(Duration),
+    /// As soon as this holds.
+    When(Condition),
+}

@@ -1,0 +1,248 @@
+//! The places of a sentence: what a word means where a pattern has `{…}`.
+
+use nx_ect101::{EventCode, Fault, Pattern};
+use time::Duration;
+use wire::AlState;
+
+use crate::{FrameKind, UnitSet};
+
+/// What stands in a place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Value {
+    /// `unit 2`, `all units`.
+    Units(UnitSet),
+    /// `unit 2`.
+    Unit(usize),
+    /// `SAFE-OP`.
+    State(AlState),
+    /// `12`, `0x0C`.
+    Number(u64),
+    /// `1.5ms`.
+    Duration(Duration),
+    /// `01 02 0x03`.
+    Bytes(Vec<u8>),
+    /// `10F3:05`.
+    Entry((u16, u8)),
+    /// `7000:01 7000:02`, `7000:01..06`.
+    Entries(Vec<(u16, u8)>),
+    /// `1601 1602`, hexadecimal.
+    Numbers(Vec<u64>),
+    /// `85000000`.
+    Event(EventCode),
+    /// `Processing`.
+    Fault(Fault),
+    /// `blinking`.
+    Pattern(Pattern),
+    /// `RUN`.
+    Indicator(IndicatorName),
+    /// `5 %`.
+    Percent(u8),
+    /// `frames`, `process data frames`, `mailbox frames`.
+    Frames(FrameKind),
+}
+
+/// An indicator of a unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndicatorName {
+    /// RUN.
+    Run,
+    /// ERR.
+    Err,
+    /// L/A IN.
+    LinkIn,
+    /// L/A OUT.
+    LinkOut,
+    /// TS, green.
+    TsGreen,
+    /// TS, red.
+    TsRed,
+}
+
+/// A kind of place.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its name in patterns.
+    pub name: &'static str,
+    /// What can stand there, for the reference.
+    pub meaning: &'static str,
+    read: fn(&[&str]) -> Option<(Value, usize)>,
+}
+
+impl Place {
+    /// The place of this name.
+    ///
+    /// # Panics
+    /// If a pattern names one that does not exist: the patterns are ours.
+    #[must_use]
+    pub fn named(name: &str) -> &'static Self {
+        match PLACES.iter().find(|place| place.name == name) {
+            Some(place) => place,
+            None => panic!("a pattern names the place {{{name}}}, which does not exist"),
+        }
+    }
+
+    /// All kinds of places.
+    #[must_use]
+    pub const fn all() -> &'static [Self] {
+        PLACES
+    }
+
+    pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), String> {
+        (self.read)(words).ok_or_else(|| {
+            let found = words.first().map_or("the end".to_owned(), |word| format!("`{word}`"));
+            format!("expected {}, found {found}", self.meaning)
+        })
+    }
+}
+
+const fn place(
+    name: &'static str,
+    meaning: &'static str,
+    read: fn(&[&str]) -> Option<(Value, usize)>,
+) -> Place {
+    Place { name, meaning, read }
+}
+
+const PLACES: &[Place] = &[
+    place("units", "`all units`, or `unit` and its number", units),
+    place("unit", "`unit` and its number, 1 for the one next to the master", |words| {
+        unit(words).map(|at| (Value::Unit(at), 2))
+    }),
+    place("state", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| one(words, state)),
+    place("number", "a number such as 12 or 0x0C", |words| {
+        one(words, |word| number(word).map(Value::Number))
+    }),
+    place("duration", "a time such as 1.5ms, 20us or 2s", |words| {
+        one(words, |word| word.parse().ok().map(Value::Duration))
+    }),
+    place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
+    place("entry", "an entry of an object such as 10F3:05", |words| {
+        one(words, |word| entry(word).map(Value::Entry))
+    }),
+    place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
+    place("numbers", "numbers such as 1601 1602, hexadecimal", numbers),
+    place("event", "an event code of eight hexadecimal digits such as 85000000", |words| one(words, event)),
+    place("fault", "a fault of a unit such as Processing (the reference lists them)", |words| {
+        one(words, fault)
+    }),
+    place("pattern", "a pattern such as lit, not_lit, blinking", |words| one(words, pattern)),
+    place("indicator", "RUN, ERR, L/A IN, L/A OUT, TS green or TS red", indicator),
+    place("percent", "a number from 1 to 100 and %", percent),
+    place("frames", "`frames`, `process data frames` or `mailbox frames`", frames),
+];
+
+fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
+    read(words.first()?).map(|value| (value, 1))
+}
+
+fn unit(words: &[&str]) -> Option<usize> {
+    let [name, number, ..] = words else { return None };
+    (*name == "unit").then_some(())?;
+    number.parse::<usize>().ok()?.checked_sub(1)
+}
+
+fn units(words: &[&str]) -> Option<(Value, usize)> {
+    match words {
+        ["all", "units", ..] => Some((Value::Units(UnitSet::All), 2)),
+        _ => unit(words).map(|at| (Value::Units(UnitSet::One(at)), 2)),
+    }
+}
+
+fn state(word: &str) -> Option<Value> {
+    let state = match word {
+        "INIT" => AlState::Init,
+        "PRE-OP" => AlState::PreOp,
+        "SAFE-OP" => AlState::SafeOp,
+        "OP" => AlState::Op,
+        "BOOT" => AlState::Boot,
+        _ => AlState::from_bits(u16::try_from(number(word)?).ok().filter(|&bits| bits < 16)?),
+    };
+    Some(Value::State(state))
+}
+
+fn number(word: &str) -> Option<u64> {
+    match word.strip_prefix("0x") {
+        Some(digits) => u64::from_str_radix(digits, 16).ok(),
+        None => word.parse().ok(),
+    }
+}
+
+fn hexadecimal(word: &str, digits: usize) -> Option<u64> {
+    let bare = word.strip_prefix("0x").unwrap_or(word);
+    (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
+}
+
+fn all<T>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<Vec<T>> {
+    (!words.is_empty()).then(|| words.iter().map(|word| read(word)).collect())?
+}
+
+fn bytes(words: &[&str]) -> Option<(Value, usize)> {
+    let bytes = all(words, |word| hexadecimal(word, 2).map(|byte| byte as u8))?;
+    Some((Value::Bytes(bytes), words.len()))
+}
+
+fn numbers(words: &[&str]) -> Option<(Value, usize)> {
+    Some((Value::Numbers(all(words, |word| hexadecimal(word, 8))?), words.len()))
+}
+
+fn entry(word: &str) -> Option<(u16, u8)> {
+    let (index, sub) = word.split_once(':')?;
+    Some((hexadecimal(index, 4)? as u16, hexadecimal(sub, 2)? as u8))
+}
+
+fn entries(words: &[&str]) -> Option<(Value, usize)> {
+    let lists = all(words, |word| match word.split_once("..") {
+        None => entry(word).map(|entry| vec![entry]),
+        Some((first, last)) => {
+            let (index, first) = entry(first)?;
+            let last = hexadecimal(last, 2)? as u8;
+            (first <= last).then(|| (first..=last).map(|sub| (index, sub)).collect())
+        }
+    })?;
+    Some((Value::Entries(lists.concat()), words.len()))
+}
+
+fn event(word: &str) -> Option<Value> {
+    let code = (word.len() == 8).then(|| u32::from_str_radix(word, 16).ok())??;
+    nx_ect101::Event::find(EventCode(code)).map(|event| Value::Event(event.code))
+}
+
+fn fault(word: &str) -> Option<Value> {
+    Fault::ALL.into_iter().find(|fault| format!("{fault:?}") == word).map(Value::Fault)
+}
+
+fn pattern(word: &str) -> Option<Value> {
+    Pattern::ALL.into_iter().find(|pattern| pattern.id() == word).map(Value::Pattern)
+}
+
+fn indicator(words: &[&str]) -> Option<(Value, usize)> {
+    let (name, length) = match words {
+        ["RUN", ..] => (IndicatorName::Run, 1),
+        ["ERR", ..] => (IndicatorName::Err, 1),
+        ["L/A", "IN", ..] => (IndicatorName::LinkIn, 2),
+        ["L/A", "OUT", ..] => (IndicatorName::LinkOut, 2),
+        ["TS", "green", ..] => (IndicatorName::TsGreen, 2),
+        ["TS", "red", ..] => (IndicatorName::TsRed, 2),
+        _ => return None,
+    };
+    Some((Value::Indicator(name), length))
+}
+
+fn percent(words: &[&str]) -> Option<(Value, usize)> {
+    let (digits, length) = match words {
+        [number, "%", ..] => (*number, 2),
+        [word, ..] => (word.strip_suffix('%')?, 1),
+        [] => return None,
+    };
+    let percent = digits.parse::<u8>().ok().filter(|percent| (1..=100).contains(percent))?;
+    Some((Value::Percent(percent), length))
+}
+
+fn frames(words: &[&str]) -> Option<(Value, usize)> {
+    match words {
+        ["frames" | "frame", ..] => Some((Value::Frames(FrameKind::Any), 1)),
+        ["process", "data", "frames" | "frame", ..] => Some((Value::Frames(FrameKind::ProcessData), 3)),
+        ["mailbox", "frames" | "frame", ..] => Some((Value::Frames(FrameKind::Mailbox), 2)),
+        _ => None,
+    }
+}

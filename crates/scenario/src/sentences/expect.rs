@@ -1,0 +1,75 @@
+//! Sentences of conditions: what `expect` asks for, and what `when` waits for.
+
+use crate::expectation::Condition::{self, *};
+use crate::sentence::{Sentence, Values};
+
+const fn row(
+    pattern: &'static str,
+    example: &'static str,
+    meaning: &'static str,
+    build: fn(&Values) -> Condition,
+) -> Sentence<Condition> {
+    Sentence { pattern, example, meaning, build }
+}
+
+/// All of them.
+#[rustfmt::skip]
+pub const CONDITIONS: &[Sentence<Condition>] = &[
+    row("{units} is in {state}", "unit 1 is in OP", "the actual state, without error indication",
+        |v| State { units: v.units(0), state: v.state(1), code: None }),
+    row("{units} are in {state}", "all units are in OP", "the actual state, without error indication",
+        |v| State { units: v.units(0), state: v.state(1), code: None }),
+    row("{units} is in {state} with AL status code {number}", "unit 1 is in SAFE-OP with AL status code 0x001B",
+        "the actual state with the error indication and this code",
+        |v| State { units: v.units(0), state: v.state(1), code: Some(v.number(2) as u16) }),
+    row("{units} has recorded {event}", "unit 1 has recorded 85000000", "at least once since it was switched on, in any log",
+        |v| Recorded { units: v.units(0), event: v.event(1), times: None }),
+    row("{units} has recorded {event} {number} times", "unit 1 has recorded 85000000 2 times", "exactly so often",
+        |v| Recorded { units: v.units(0), event: v.event(1), times: Some(v.number(2)) }),
+    row("{units} has recorded nothing", "unit 1 has recorded nothing", "no event at all", |v| RecordedNothing(v.units(0))),
+    row("{units} has the error {event}", "unit 1 has the error 39170000", "it is in object 2003 or 2004",
+        |v| HasError { units: v.units(0), event: v.event(1) }),
+    row("{units} has no error", "unit 1 has no error", "Sysmac Error Status is 0", |v| HasNoError(v.units(0))),
+    row("{units} has new messages", "unit 1 has new messages", "10F3:04 New Messages Available",
+        |v| NewMessages { units: v.units(0), available: true }),
+    row("{units} has no new messages", "unit 1 has no new messages", "10F3:04 New Messages Available",
+        |v| NewMessages { units: v.units(0), available: false }),
+    row("object {entry} of {unit} is {bytes}", "object 2002:01 of unit 1 is 20",
+        "the value in the dictionary, without an SDO", |v| Object { unit: v.unit(1), entry: v.entry(0), value: v.bytes(2) }),
+    row("register {number} of {unit} is {bytes}", "register 0x0300 of unit 1 is 01",
+        "memory of the ESC, without a frame", |v| Register { unit: v.unit(1), offset: v.number(0) as u16, value: v.bytes(2) }),
+    row("the outputs of {unit} begin with {bytes}", "the outputs of unit 1 begin with 01 02", "as its CPU Unit has them",
+        |v| Outputs { unit: v.unit(0), bytes: v.bytes(1) }),
+    row("the inputs of {unit} begin with {bytes}", "the inputs of unit 1 begin with 17 00", "as the master has them, status included",
+        |v| Inputs { unit: v.unit(0), at: 0, bytes: v.bytes(1) }),
+    row("input byte {number} of {unit} is {bytes}", "input byte 182 of unit 1 is 01", "as the master has it, counted from 0",
+        |v| Inputs { unit: v.unit(1), at: v.number(0) as usize, bytes: v.bytes(2) }),
+    row("the data of {units} is valid", "the data of unit 1 is valid", "both Data … Valid bits of EtherCAT Slave Status are on",
+        |v| DataValid { units: v.units(0), valid: true }),
+    row("the data of {units} is not valid", "the data of unit 1 is not valid", "both Data … Valid bits of EtherCAT Slave Status are off",
+        |v| DataValid { units: v.units(0), valid: false }),
+    row("the I/O data of {units} is active", "the I/O data of unit 1 is active", "NX Unit I/O Data Active Status",
+        |v| IoDataActive { units: v.units(0), active: true }),
+    row("the I/O data of {units} is not active", "the I/O data of unit 1 is not active", "NX Unit I/O Data Active Status",
+        |v| IoDataActive { units: v.units(0), active: false }),
+    row("the CPU Unit of {units} sees an error", "the CPU Unit of unit 1 sees an error", "NX Unit Error Status",
+        |v| UnitError { units: v.units(0), error: true }),
+    row("the CPU Unit of {units} sees no error", "the CPU Unit of unit 1 sees no error", "NX Unit Error Status",
+        |v| UnitError { units: v.units(0), error: false }),
+    row("{indicator} of {units} is {pattern}", "ERR of unit 1 is double_flash", "what the indicator does",
+        |v| Shows { indicator: v.indicator(0), units: v.units(1), pattern: v.pattern(2) }),
+    row("the working counter of {unit} is {number}", "the working counter of unit 1 is 3", "of its last process data that came back",
+        |v| WorkingCounter { unit: v.unit(0), value: v.number(1) as u16 }),
+    row("{number} cycles are done", "100 cycles are done", "process data sent, counted from the beginning",
+        |v| Cycles(v.number(0))),
+    row("the master has nothing to do", "the master has nothing to do", "its orders are done or given up", |_| MasterIdle),
+    row("the master has given up", "the master has given up", "an order of its could not be done", |_| MasterGaveUp),
+    row("the last SDO was refused with {number}", "the last SDO was refused with 0x06090030", "by this abort code",
+        |v| SdoRefused(v.number(0) as u32)),
+    row("the last SDO gave {bytes}", "the last SDO gave 05 00", "the value that was read", |v| SdoGave(v.bytes(0))),
+    row("the last SDO was taken", "the last SDO was taken", "it was answered, and not refused", |_| SdoTaken),
+    row("the master has received emergency {number}", "the master has received emergency 0xFF30", "at least once, from any unit",
+        |v| Emergency { code: v.number(0) as u16, times: None }),
+    row("the master has received emergency {number} {number} times", "the master has received emergency 0xFF30 2 times",
+        "exactly so often", |v| Emergency { code: v.number(0) as u16, times: Some(v.number(1)) }),
+];

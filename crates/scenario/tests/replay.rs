@@ -1,0 +1,75 @@
+//! Small scenarios, replayed: the verdict, the trace, the bytes.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use scenario::{Recording, Report, Scenario};
+
+fn parse(text: &str) -> Scenario {
+    Scenario::parse(text, |_| Err("no files here".to_owned())).expect("a right scenario")
+}
+
+fn replay(text: &str) -> Report {
+    let scenario = parse(text);
+    scenario.replay(scenario.seed, Recording::new(true, true))
+}
+
+fn verdict(text: &str) -> String {
+    let report = replay(text);
+    report.failure.map_or("passes".to_owned(), |failure| failure.to_string())
+}
+
+const WATCHDOG: &str = r#"
+title = "outputs stop in OP: SAFE-OP with 0x001B, one event, recovery on request"
+steps = [
+  { master = "take all units to OP" },
+  { when = "all units are in OP", expect = "unit 1 has recorded nothing" },
+  { after = "20ms", line = "lose all process data frames" },
+  { after = "50ms", expect = "unit 1 is in OP" },
+  { expect = "unit 1 is in SAFE-OP with AL status code 0x001B", within = "60ms" },
+  { expect = "unit 1 has recorded 85000000 1 times" },
+  { expect = "ERR of unit 1 is double_flash" },
+  { line = "be quiet" },
+  { master = "take unit 1 to OP" },
+  { expect = "unit 1 is in OP", within = "100ms" },
+  { expect = "unit 1 has the error 85000000" },
+]
+"#;
+
+#[test]
+fn outputs_that_stop_are_a_watchdog_error() {
+    let report = replay(WATCHDOG);
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
+#[test]
+fn an_expectation_that_fails_says_where_when_and_what_was_seen() {
+    let wrong = WATCHDOG.replace("85000000 1 times", "85000000 2 times");
+    assert_eq!(
+        verdict(&wrong),
+        "line 9: `unit 1 has recorded 85000000 2 times` does not hold at 122ms: unit 1 has recorded it 1 times; \
+         recorded: 85000000"
+    );
+}
+
+#[test]
+fn the_same_scenario_gives_the_same_bytes() {
+    let dice = r#"
+title = "one frame in ten is lost"
+seed = 42
+steps = [
+  { line = "lose 10 % of the frames" },
+  { master = "take all units to OP" },
+  { expect = "all units are in OP", within = "2s" },
+  { after = "1s", expect = "unit 1 has no error" },
+]
+"#;
+    let (first, second) = (replay(dice), replay(dice));
+    assert_eq!(first.failure, None, "{}", first.recording.trace().unwrap_or_default());
+    assert_eq!(first.recording.trace(), second.recording.trace());
+    let (first, second) = (first.recording.into_capture(), second.recording.into_capture());
+    assert!(first.as_ref().is_some_and(|capture| capture.len() > 10_000));
+    assert_eq!(first, second);
+    let other = parse(dice);
+    let other = other.replay(43, Recording::new(true, true));
+    assert_ne!(other.recording.into_capture(), second, "another seed is another run");
+}
