@@ -1,0 +1,49 @@
+//! Every file under `scenarios/` is a test: it is replayed, and has to pass.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use scenario::{Recording, Scenario};
+
+fn main() -> ExitCode {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    let files = scenario_files(&folder);
+    assert!(!files.is_empty(), "no scenarios under {}", folder.display());
+    let trials = files.into_iter().map(|file| {
+        let name = file.strip_prefix(&folder).unwrap_or(&file).display().to_string();
+        Trial::test(name, move || replay(&file))
+    });
+    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit_code()
+}
+
+fn scenario_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+fn replay(file: &Path) -> Result<(), Failed> {
+    let text = fs::read_to_string(file)?;
+    let beside = file.parent().unwrap_or(file);
+    let scenario = Scenario::parse(&text, |unit_file| {
+        fs::read_to_string(beside.join(unit_file)).map_err(|error| error.to_string())
+    })?;
+    let report = scenario.replay(scenario.seed, Recording::new(true, false));
+    match &report.failure {
+        None => Ok(()),
+        Some(failure) => Err(format!("{failure}\n\n{}", report.recording.trace().unwrap_or_default()).into()),
+    }
+}
