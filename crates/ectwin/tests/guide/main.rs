@@ -6,6 +6,7 @@
 mod cpu_unit;
 #[cfg(feature = "ethercrab")]
 mod ethercrab_in_memory;
+mod events;
 mod frames_in_virtual_time;
 mod link_in_memory;
 mod messages;
