@@ -127,6 +127,11 @@ impl CpuUnit {
         self.io_refreshing = io_refreshing;
     }
 
+    /// Sets the system time ahead; a CPU Unit without system time has none to set.
+    pub fn jump_system_time(&mut self, ahead: Duration) {
+        self.system_time_ns = self.system_time_ns.map(|time_ns| time_ns.saturating_add(ahead.as_nanos()));
+    }
+
     /// The I/O as the user program sees it.
     #[must_use]
     pub const fn io(&self) -> &Io {

@@ -8,9 +8,11 @@ mod expectation;
 mod line;
 mod master;
 mod orders;
+mod random;
 mod recording;
 mod replay;
 mod scenario;
+mod search;
 pub mod sentence;
 pub mod sentences;
 mod world;
@@ -23,3 +25,4 @@ pub use orders::{
 pub use recording::Recording;
 pub use replay::{Failure, Report};
 pub use scenario::{BuiltinProgram, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
+pub use search::Found;

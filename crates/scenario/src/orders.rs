@@ -127,6 +127,8 @@ pub enum UnitOrder {
     ClearLog(UnitSet, EventLog),
     /// Turns the ID switch.
     SetIdSwitch(usize, u8),
+    /// Flips every bit of a word of the EEPROM.
+    SpoilSii(usize, u16),
     /// The cause of a fault appears.
     Inject(UnitSet, Fault),
     /// The cause of a fault disappears.
@@ -144,6 +146,8 @@ pub enum CpuOrder {
     SetTaskRunning(UnitSet, bool),
     /// All bytes C to M.
     SetInputs(usize, Vec<u8>),
+    /// The system time jumps ahead.
+    JumpTime(UnitSet, Duration),
 }
 
 /// What happens to the line between the master and the units.

@@ -2,6 +2,7 @@
 
 use time::{Duration, Instant};
 
+use crate::dice::{DICE_OF_STEPS, Dice};
 use crate::orders::{Expectation, Mode, Order};
 use crate::recording::Recording;
 use crate::scenario::{Scenario, Step, Trigger};
@@ -53,10 +54,15 @@ impl Scenario {
     /// Replays the scenario with this seed. The same seed gives the same bytes.
     #[must_use]
     pub fn replay(&self, seed: u64, recording: Recording) -> Report {
+        self.replay_steps(&self.all_steps(seed), seed, recording)
+    }
+
+    /// Replays these steps instead of its own.
+    pub(crate) fn replay_steps(&self, steps: &[Step], seed: u64, recording: Recording) -> Report {
         let world = World::power_on(self, seed, recording);
-        let mut replay = Replay { world, watches: Vec::new(), limit: Instant::ZERO + self.limit };
-        let failure =
-            self.steps.iter().try_for_each(|step| replay.step(step)).and_then(|()| replay.end()).err();
+        let (dice, limit) = (Dice::new(seed ^ DICE_OF_STEPS), Instant::ZERO + self.limit);
+        let mut replay = Replay { world, dice, watches: Vec::new(), limit };
+        let failure = steps.iter().try_for_each(|step| replay.step(step)).and_then(|()| replay.end()).err();
         let Replay { mut world, .. } = replay;
         let lasted = world.now().saturating_since(Instant::ZERO);
         if let Some(failure) = &failure {
@@ -70,6 +76,8 @@ impl Scenario {
 
 struct Replay<'a> {
     world: World,
+    /// For the moments of steps; the line has its own.
+    dice: Dice,
     /// Expectations that last.
     watches: Vec<Watch<'a>>,
     limit: Instant,
@@ -123,6 +131,11 @@ impl<'a> Replay<'a> {
             Trigger::AtOnce => Ok(()),
             Trigger::At(at) => self.run_until(Instant::ZERO + *at),
             Trigger::After(after) => self.run_until(now + *after),
+            Trigger::About(after, jitter) => {
+                let early = Duration::from_nanos(after.as_nanos().saturating_sub(jitter.as_nanos()));
+                let more = self.dice.below(jitter.as_nanos() * 2 + 1);
+                self.run_until(now + early + Duration::from_nanos(more))
+            }
             Trigger::When(condition) => loop {
                 let seen = match condition.check(&mut self.world) {
                     Ok(()) => return Ok(()),

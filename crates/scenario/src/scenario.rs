@@ -27,6 +27,23 @@ pub struct Scenario {
     pub cycle: Duration,
     /// What happens, in this order.
     pub steps: Vec<Step>,
+    /// Where the dice add steps of their own; none: nowhere.
+    pub random: Option<RandomPart>,
+}
+
+/// The part of a scenario that its dice write.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RandomPart {
+    /// In front of which step it goes.
+    pub place: usize,
+    /// How many steps.
+    pub count: usize,
+    /// How long they take together, at most.
+    pub span: Duration,
+    /// Its line in the file, from 1.
+    pub line: usize,
+    /// Its bytes in the file.
+    pub bytes: core::ops::Range<usize>,
 }
 
 /// A unit of the line.
@@ -39,7 +56,7 @@ pub struct UnitSource {
 }
 
 /// A user program that needs no file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum BuiltinProgram {
     /// None: the data stay as they are set.
     None,
@@ -47,6 +64,8 @@ pub enum BuiltinProgram {
     Copy,
     /// Copies data and messages back.
     Messages,
+    /// A program of a test, made anew for each replay.
+    Custom(fn() -> Box<dyn Program + Send>),
 }
 
 impl BuiltinProgram {
@@ -65,6 +84,7 @@ impl BuiltinProgram {
             Self::None => Box::new(|_: &mut Io| {}),
             Self::Copy => Box::new(Echo),
             Self::Messages => Box::new(MessageEcho::default()),
+            Self::Custom(make) => make(),
         }
     }
 }
@@ -91,6 +111,8 @@ pub enum Trigger {
     At(Duration),
     /// So long after the step in front of it.
     After(Duration),
+    /// So long after the step in front of it, earlier or later by at most the second time, as the dice say.
+    About(Duration, Duration),
     /// As soon as this holds.
     When(Condition),
 }

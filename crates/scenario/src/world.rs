@@ -223,6 +223,7 @@ impl World {
             UnitOrder::SetIdSwitch(at, id) => {
                 self.each_unit(crate::UnitSet::One(at), |unit| unit.set_id_switch(id));
             }
+            UnitOrder::SpoilSii(at, word) => self.spoil_sii(at, word),
             UnitOrder::Inject(units, fault) => self.each_unit(units, |unit| unit.inject(fault)),
             UnitOrder::Remove(units, fault) => self.each_unit(units, |unit| unit.remove(fault)),
         }
@@ -237,6 +238,9 @@ impl World {
                 self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
             }
             CpuOrder::SetTaskRunning(units, on) => self.each_cpu(*units, |cpu| cpu.is_running = *on),
+            CpuOrder::JumpTime(units, ahead) => {
+                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*ahead))
+            }
             CpuOrder::SetInputs(at, bytes) => self.each_cpu(crate::UnitSet::One(*at), |cpu| {
                 for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
                     *input = *byte;
@@ -274,6 +278,14 @@ impl World {
     fn each_cpu(&mut self, units: crate::UnitSet, mut order: impl FnMut(&mut Cpu)) {
         let positions = units.positions(self.cpus.len());
         self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
+    }
+
+    fn spoil_sii(&mut self, at: usize, word: u16) {
+        let Some((_, esc)) = self.network.slave_mut(at) else { return };
+        let first = usize::from(word) * 2;
+        if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
+            bytes.iter_mut().for_each(|byte| *byte = !*byte);
+        }
     }
 
     fn power_off(&mut self, at: usize) {

@@ -163,10 +163,12 @@ impl Operation {
         let unit = self.unit;
         match &mut self.what {
             What::Write { .. } => Outcome::Done(Vec::new()),
-            What::Take(target) => match slaves.get(unit) {
-                Some(slave) => Outcome::Done(way(unit, AlStatus::from_bits(word(answer, 0)), *target, slave)),
-                None => Outcome::Done(Vec::new()),
-            },
+            What::Take(target) => {
+                let status = AlStatus::from_bits(word(answer, 0));
+                Outcome::Done(
+                    slaves.get_mut(unit).map_or(Vec::new(), |slave| way(unit, status, *target, slave)),
+                )
+            }
             What::Reach { asked, .. } if !*asked => {
                 *asked = true;
                 Outcome::Next
@@ -230,10 +232,14 @@ fn sdo(phase: &mut Phase, answer: &Returned) -> Outcome {
 }
 
 /// The way from where a unit is to where it is to be, as a real master goes it.
-fn way(unit: usize, status: AlStatus, target: AlState, slave: &Slave) -> Vec<Step> {
+fn way(unit: usize, status: AlStatus, target: AlState, slave: &mut Slave) -> Vec<Step> {
     let part = |what| Step::Do(Operation::new(unit, what).within_an_order());
     let reach = |state: AlState| part(What::Reach { bits: state.bits(), asked: false });
     let floor = |state: AlState| WAY_UP.iter().position(|&step| step == state);
+    if slave.take_reset() {
+        let init = part(What::Reach { bits: AlState::Init.bits() | 0x10, asked: false });
+        return vec![Step::Close(unit), init, part(What::Take(target))];
+    }
     let mut steps = Vec::new();
     let (Some(mut at), Some(goal)) = (floor(status.state), floor(target)) else {
         return vec![reach(target)];

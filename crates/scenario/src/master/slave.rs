@@ -15,6 +15,8 @@ pub(crate) struct Slave {
     startup: Vec<Startup>,
     wrong_lengths: Vec<(u8, u16)>,
     wrong_controls: Vec<(u8, u8)>,
+    /// It was taken to INIT since the master has started.
+    is_reset: bool,
 }
 
 #[derive(Debug)]
@@ -39,7 +41,13 @@ impl Slave {
             startup: Vec::new(),
             wrong_lengths: Vec::new(),
             wrong_controls: Vec::new(),
+            is_reset: false,
         }
+    }
+
+    /// Whether the master has yet to take it to INIT, as it does with every unit that it finds; the first time.
+    pub(crate) const fn take_reset(&mut self) -> bool {
+        !core::mem::replace(&mut self.is_reset, true)
     }
 
     pub(crate) fn map(&mut self, pdo: u16, entries: &[(u16, u8)]) {

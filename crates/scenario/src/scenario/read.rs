@@ -7,7 +7,7 @@ use serde::Deserialize;
 use time::Duration;
 use toml::Spanned;
 
-use super::{BuiltinProgram, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
+use super::{BuiltinProgram, RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
 use crate::expectation::Condition;
 use crate::orders::{CpuOrder, Expectation, LineOrder, MasterOrder, Mode, Order, UnitOrder, UnitSet};
 use crate::sentence;
@@ -17,6 +17,8 @@ use crate::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 const DEFAULT_SEED: u64 = 1;
 const DEFAULT_LIMIT: Duration = Duration::from_secs(60);
 const DEFAULT_CYCLE: Duration = Duration::from_millis(1);
+/// Most repetitions of a step, and most steps of the dice.
+const STEPS_MAX: u64 = 10_000;
 /// The unit of a scenario that names none.
 const DEFAULT_UNIT: &str = "model = \"nx-ect101\"";
 
@@ -53,6 +55,10 @@ struct StepEntry {
     never: Option<Spanned<String>>,
     within: Option<Spanned<String>>,
     r#for: Option<Spanned<String>>,
+    repeat: Option<Spanned<u64>>,
+    every: Option<Spanned<String>>,
+    jitter: Option<Spanned<String>>,
+    random: Option<Spanned<u64>>,
 }
 
 impl Scenario {
@@ -104,15 +110,26 @@ impl Reader<'_> {
         let cycle = file.cycle.and_then(|cycle| self.duration(&cycle)).unwrap_or(DEFAULT_CYCLE);
         let mut steps = Vec::new();
         let mut reached = Duration::ZERO;
+        let mut random = None;
         for entry in file.steps {
             let span = entry.span();
-            if let Some(step) = self.step(entry.into_inner(), span.clone(), count) {
+            let entry = entry.into_inner();
+            if entry.random.is_some() {
+                self.random(&entry, span, steps.len(), &mut random);
+                continue;
+            }
+            let repetition = self.repetition(&entry, span.clone());
+            if let Some(step) = self.step(entry, span.clone(), count) {
                 self.check_order(&step.trigger, &mut reached, limit, span);
+                let again = repetition.map(|(times, trigger)| (0..times).map(move |_| trigger.clone()));
+                let again = again.into_iter().flatten().map(|trigger| Step { trigger, ..step.clone() });
+                let again: Vec<_> = again.collect();
                 steps.push(step);
+                steps.extend(again);
             }
         }
         let seed = file.seed.unwrap_or(DEFAULT_SEED);
-        Scenario { title: file.title.into_inner(), seed, limit, units, cycle, steps }
+        Scenario { title: file.title.into_inner(), seed, limit, units, cycle, steps, random }
     }
 
     /// Times from the beginning that run backwards, or behind the limit, can never be.
@@ -130,13 +147,75 @@ impl Reader<'_> {
                 return self.refuse(span, message, "steps happen in the order of the file");
             }
             Trigger::At(at) => *at,
-            Trigger::After(after) => *reached + *after,
+            Trigger::After(after) | Trigger::About(after, _) => *reached + *after,
             Trigger::AtOnce | Trigger::When(_) => *reached,
         };
         *reached = at;
         if at > limit {
             self.refuse(span, format!("{at} lies behind the limit of {limit}"), "set `limit = \"…\"` higher");
         }
+    }
+
+    /// `{ random = 12, within = "1s" }`: steps that the dice write.
+    fn random(
+        &mut self,
+        entry: &StepEntry,
+        span: Range<usize>,
+        place: usize,
+        random: &mut Option<RandomPart>,
+    ) {
+        let (Some(count), Some(within)) = (&entry.random, &entry.within) else {
+            return self.refuse(
+                span,
+                "`random` needs the time that its steps take together",
+                "such as `within = \"1s\"`",
+            );
+        };
+        if random.is_some() {
+            return self.refuse(span, "a scenario has one `random` step", "");
+        }
+        if !(1..=STEPS_MAX).contains(count.get_ref()) {
+            return self.refuse(count.span(), format!("`random` is 1 to {STEPS_MAX} steps"), "");
+        }
+        let Some(within) = self.duration(within) else { return };
+        let count = *count.get_ref() as usize;
+        *random = Some(RandomPart { place, count, span: within, line: self.line(span.start), bytes: span });
+    }
+
+    /// How often a step happens once more, and when.
+    fn repetition(&mut self, entry: &StepEntry, span: Range<usize>) -> Option<(u64, Trigger)> {
+        match (&entry.repeat, &entry.every) {
+            (None, None) if entry.jitter.is_none() => None,
+            (Some(times), Some(every)) => {
+                if !(1..=STEPS_MAX).contains(times.get_ref()) {
+                    self.refuse(times.span(), format!("`repeat` is 1 to {STEPS_MAX} times"), "");
+                    return None;
+                }
+                let every = self.duration(every)?;
+                let jitter = entry.jitter.as_ref().map(|jitter| self.duration(jitter));
+                let trigger = match jitter.unwrap_or(Some(Duration::ZERO))? {
+                    jitter if jitter > every => {
+                        self.refuse(
+                            span,
+                            format!("a jitter of {jitter} is more than the period of {every}"),
+                            "",
+                        );
+                        return None;
+                    }
+                    Duration::ZERO => Trigger::After(every),
+                    jitter => Trigger::About(every, jitter),
+                };
+                Some((*times.get_ref() - 1, trigger))
+            }
+            _ => {
+                self.refuse(span, "`repeat` and `every` belong together, and `jitter` to both", "");
+                None
+            }
+        }
+    }
+
+    fn line(&self, at: usize) -> usize {
+        self.text.get(..at).unwrap_or_default().matches('\n').count() + 1
     }
 
     fn duration(&mut self, text: &Spanned<String>) -> Option<Duration> {
@@ -221,7 +300,7 @@ impl Reader<'_> {
             self.refuse(span, "`within` and `for` belong to `expect`", "");
             return None;
         }
-        let line = self.text.get(..span.start).unwrap_or_default().matches('\n').count() + 1;
+        let line = self.line(span.start);
         let order = self.order(&text, teller, mode.unwrap_or(Mode::Now), units)?;
         Some(Step { trigger: trigger?, order, line, text: text.into_inner() })
     }
@@ -342,7 +421,7 @@ fn unit_of_unit(order: &UnitOrder) -> UnitSet {
         | UnitOrder::ClearLog(units, _)
         | UnitOrder::Inject(units, _)
         | UnitOrder::Remove(units, _) => *units,
-        UnitOrder::SetIdSwitch(unit, _) => UnitSet::One(*unit),
+        UnitOrder::SetIdSwitch(unit, _) | UnitOrder::SpoilSii(unit, _) => UnitSet::One(*unit),
     }
 }
 
@@ -350,7 +429,8 @@ fn unit_of_cpu(order: &CpuOrder) -> UnitSet {
     match order {
         CpuOrder::SetMode(units, _)
         | CpuOrder::SetIoRefreshing(units, _)
-        | CpuOrder::SetTaskRunning(units, _) => *units,
+        | CpuOrder::SetTaskRunning(units, _)
+        | CpuOrder::JumpTime(units, _) => *units,
         CpuOrder::SetInputs(unit, _) => UnitSet::One(*unit),
     }
 }

@@ -31,4 +31,6 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         |v| SetTaskRunning(v.units(0), true)),
     row("set the inputs of {unit} to {bytes}", "set the inputs of unit 1 to 01 02 03",
         "data to the master from the first byte on, unless the program writes them", |v| SetInputs(v.unit(0), v.bytes(1))),
+    row("let the system time of {units} jump by {duration}", "let the system time of unit 1 jump by 1s",
+        "ahead; object 10F8 and the time stamps follow", |v| JumpTime(v.units(0), v.duration(1))),
 ];

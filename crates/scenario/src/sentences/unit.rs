@@ -31,6 +31,8 @@ pub const UNIT: &[Sentence<UnitOrder>] = &[
         "from the side of the CPU Unit: Event Log Cleared (90400000)", |v| ClearLog(v.units(0), EventLog::Access)),
     row("turn the ID switch of {unit} to {number}", "turn the ID switch of unit 1 to 0x2A",
         "in force when the unit starts", |v| SetIdSwitch(v.unit(0), v.number(1) as u8)),
+    row("spoil word {number} of the SII of {unit}", "spoil word 7 of the SII of unit 1",
+        "flips its bits in the EEPROM; what is loaded at power-on counts from then on", |v| SpoilSii(v.unit(1), v.number(0) as u16)),
     row("break {fault} of {units}", "break Processing of unit 1", "the cause of a fault appears",
         |v| Inject(v.units(1), v.fault(0))),
     row("mend {fault} of {units}", "mend Processing of unit 1",

@@ -1,0 +1,138 @@
+//! Steps that the dice write: faults, hands and orders in any order.
+
+use time::Duration;
+
+use crate::dice::{DICE_OF_STEPS, Dice};
+use crate::orders::Order;
+use crate::scenario::{Scenario, Step, Trigger};
+use crate::sentence;
+use crate::sentences::{CPU, LINE, MASTER, UNIT};
+
+/// Who is told, by the key of the file.
+type Teller = &'static str;
+
+/// What the dice choose from; `#` is a unit, `@` a cable, `~` a small number.
+const POOL: &[(Teller, &str)] = &[
+    ("line", "unplug cable @"),
+    ("line", "plug cable @"),
+    ("line", "lose the next ~ frames"),
+    ("line", "lose the answers of the next ~ frames"),
+    ("line", "lose the next ~ process data frames"),
+    ("line", "delay the next ~ frames by 3ms"),
+    ("line", "duplicate the next ~ frames"),
+    ("line", "corrupt the next ~ frames on cable @"),
+    ("line", "lower the working counter of the next ~ process data frames"),
+    ("line", "be quiet"),
+    ("unit", "restart unit #"),
+    ("unit", "cycle the power of unit #"),
+    ("unit", "power off unit #"),
+    ("unit", "power on unit #"),
+    ("unit", "reset the errors of unit #"),
+    ("unit", "clear the system event log of unit #"),
+    ("unit", "break Processing of unit #"),
+    ("unit", "mend Processing of unit #"),
+    ("unit", "break IoCommunications of unit #"),
+    ("unit", "mend IoCommunications of unit #"),
+    ("unit", "break ClockNotSynchronized of unit #"),
+    ("unit", "mend ClockNotSynchronized of unit #"),
+    ("unit", "break MessageCommunications of unit #"),
+    ("cpu", "set unit # to PROGRAM mode"),
+    ("cpu", "set unit # to RUN mode"),
+    ("cpu", "stop I/O refreshing of unit #"),
+    ("cpu", "start I/O refreshing of unit #"),
+    ("cpu", "stop the task of unit #"),
+    ("cpu", "start the task of unit #"),
+    ("master", "request OP of unit #"),
+    ("master", "request 0x05 of unit #"),
+    ("master", "acknowledge and request PRE-OP of unit #"),
+    ("master", "take unit # to OP"),
+    ("master", "take unit # to INIT"),
+    ("master", "read SDO 10F3:02 of unit #"),
+    ("master", "write SDO 2002:02 of unit # as 01"),
+    ("master", "write SDO 10F3:05 of unit # as 01 00"),
+    ("master", "stop process data"),
+    ("master", "exchange process data every 1ms"),
+];
+
+/// A step of the dice.
+#[derive(Clone, Debug)]
+pub(crate) struct RandomStep {
+    teller: Teller,
+    text: String,
+    after: Duration,
+}
+
+impl RandomStep {
+    /// The same a whole while sooner; none if it cannot be.
+    pub(crate) fn sooner(&self) -> Option<Self> {
+        let millis = self.after.as_nanos() / 1_000_000;
+        (self.after != Duration::from_millis(millis / 2))
+            .then(|| Self { after: Duration::from_millis(millis / 2), ..self.clone() })
+    }
+
+    /// The step as it stands in a file.
+    pub(crate) fn toml(&self) -> String {
+        let Self { teller, text, after } = self;
+        format!("{{ after = \"{after}\", {teller} = \"{text}\" }}")
+    }
+
+    fn step(&self, line: usize) -> Step {
+        let order = match self.teller {
+            "line" => sentence::read(LINE, &self.text).map(Order::Line),
+            "unit" => sentence::read(UNIT, &self.text).map(Order::Unit),
+            "cpu" => sentence::read(CPU, &self.text).map(Order::Cpu),
+            _ => sentence::read(MASTER, &self.text).map(Order::Master),
+        };
+        match order {
+            Ok(order) => Step { trigger: Trigger::After(self.after), order, line, text: self.text.clone() },
+            Err(problem) => panic!("`{}` of the pool: {}", self.text, problem.message),
+        }
+    }
+}
+
+impl Scenario {
+    /// What the dice of this seed write.
+    pub(crate) fn random_steps(&self, seed: u64) -> Vec<RandomStep> {
+        let Some(part) = &self.random else { return Vec::new() };
+        let mut dice = Dice::new(seed ^ DICE_OF_STEPS);
+        let units = self.units.len() as u64;
+        let pause_ns = part.span.as_nanos() / part.count as u64;
+        let step = |_| {
+            let (teller, pattern) = POOL[dice.below(POOL.len() as u64) as usize];
+            let text = pattern
+                .replace('#', &(dice.below(units) + 1).to_string())
+                .replace('@', &(dice.below(units) + 1).to_string())
+                .replace('~', &(dice.below(5) + 1).to_string());
+            let after = Duration::from_micros(dice.below(pause_ns) / 1000);
+            RandomStep { teller, text, after }
+        };
+        (0..part.count).map(step).collect()
+    }
+
+    /// All steps, with those of the dice in their place.
+    pub(crate) fn all_steps(&self, seed: u64) -> Vec<Step> {
+        self.steps_with(&self.random_steps(seed))
+    }
+
+    /// All steps, with these in the place of the dice's.
+    pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<Step> {
+        let Some(part) = &self.random else { return self.steps.clone() };
+        let mut steps = self.steps.clone();
+        steps.splice(part.place..part.place, random.iter().map(|step| step.step(part.line)));
+        steps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sentence_of_the_pool_is_one() {
+        for (teller, pattern) in POOL {
+            let text = pattern.replace(['#', '@', '~'], "1");
+            let step = RandomStep { teller, text: text.clone(), after: Duration::ZERO };
+            assert_eq!(step.step(1).text, text);
+        }
+    }
+}

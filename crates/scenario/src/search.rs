@@ -1,0 +1,103 @@
+//! Search: many seeds, until a replay fails; then the failing steps are cut down to the few that it takes.
+
+use crate::random::RandomStep;
+use crate::recording::Recording;
+use crate::replay::Failure;
+use crate::scenario::Scenario;
+
+/// What a search has found.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The seed that failed.
+    pub seed: u64,
+    /// Steps that its dice had written.
+    pub steps_before: usize,
+    /// Steps that are left.
+    pub steps: usize,
+    /// The expectation that does not hold, with the steps that are left.
+    pub failure: Failure,
+    /// A scenario file that fails as it does, without dice.
+    pub text: String,
+}
+
+impl Scenario {
+    /// Replays seeds from `first` on, `runs` of them, until one fails, and cuts its steps down. `text` is the
+    /// text of the scenario's file. None if all pass.
+    #[must_use]
+    pub fn search(&self, text: &str, first: u64, runs: u64) -> Option<Found> {
+        (first..first.saturating_add(runs)).find_map(|seed| {
+            let steps = self.random_steps(seed);
+            self.fails(&steps, seed)?;
+            Some(self.shrink(text, seed, steps))
+        })
+    }
+
+    fn fails(&self, random: &[RandomStep], seed: u64) -> Option<Failure> {
+        self.replay_steps(&self.steps_with(random), seed, Recording::new(false, false)).failure
+    }
+
+    /// Leaves out what the failure does not need: halves first, then single steps, as long as anything goes; then
+    /// pauses. The failure stays one of the same expectation.
+    fn shrink(&self, text: &str, seed: u64, mut steps: Vec<RandomStep>) -> Found {
+        let steps_before = steps.len();
+        let line = self.fails(&steps, seed).map(|failure| failure.line);
+        let still_fails = |steps: &[RandomStep]| {
+            let failure = self.fails(steps, seed);
+            failure.is_some_and(|failure| Some(failure.line) == line)
+        };
+        let mut chunk = steps.len().div_ceil(2);
+        while chunk > 0 {
+            let mut place = 0;
+            let mut left_out = false;
+            while place < steps.len() {
+                let mut fewer = steps.clone();
+                fewer.drain(place..(place + chunk).min(steps.len()));
+                if still_fails(&fewer) {
+                    steps = fewer;
+                    left_out = true;
+                } else {
+                    place += chunk;
+                }
+            }
+            chunk = if chunk == 1 && left_out { 1 } else { chunk / 2 };
+        }
+        for place in 0..steps.len() {
+            while let Some(sooner) = steps[place].sooner() {
+                let mut quicker = steps.clone();
+                quicker[place] = sooner;
+                if !still_fails(&quicker) {
+                    break;
+                }
+                steps = quicker;
+            }
+        }
+        let failure = self.fails(&steps, seed);
+        let text = self.without_dice(text, seed, &steps);
+        match failure {
+            Some(failure) => Found { seed, steps_before, steps: steps.len(), failure, text },
+            None => unreachable!("only steps that fail are kept"),
+        }
+    }
+
+    /// The file with these steps in the place of `random`.
+    fn without_dice(&self, text: &str, seed: u64, steps: &[RandomStep]) -> String {
+        let Some(part) = &self.random else { return text.to_owned() };
+        let lines: Vec<String> = steps.iter().map(RandomStep::toml).collect();
+        let (before, after) = (text.get(..part.bytes.start), text.get(part.bytes.end..));
+        let (before, after) = (before.unwrap_or_default(), after.unwrap_or_default());
+        let (inside, after) = if lines.is_empty() {
+            (String::new(), after.strip_prefix(',').unwrap_or(after))
+        } else {
+            (lines.join(",\n  "), after)
+        };
+        let seed_line = format!("seed = {seed}\n");
+        let text = format!("{before}{inside}{after}");
+        let kept: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("seed =")).collect();
+        let mut text = kept.join("\n");
+        // Behind the title, in front of the first table or list.
+        let at = text.find("\nsteps").map_or(0, |at| at + 1);
+        text.insert_str(at, &seed_line);
+        text.push('\n');
+        text
+    }
+}
