@@ -30,13 +30,14 @@ MISMATCH = 0x3917_0000
 EMERGENCY = (0xFF30, 0, 0, 0x0000, 0x3917)
 CURRENT_ERROR = struct.pack("<III", MISMATCH, 0x0007_0000, 0)
 MESSAGE_HEAD = struct.pack("<IHH", 0xFF30_E800, 0x0012, 0x3917)
-NO_PARAMETERS = bytes(8)
 
 NO_MEMORY = 0x0002
 UNKNOWN_STATE_REQUESTED = 0x0012
 UNKNOWN_STATE = 0x05
 # The clock of this computer is the one of the CPU Unit; the rest is for a host that does other things too.
 CLOCK_TOLERANCE_NS = 5_000_000_000
+# A host that does other things for a while is no master that has gone.
+WATCHDOG_MS = 5_000
 # Cycles of 1 ms in which an emergency that should not be there would have come.
 STILL_CYCLES = 50
 # More than the history holds, so that it has gone round.
@@ -53,7 +54,7 @@ def told(interface):
         (slave,) = master.slaves
         emergencies = []
         slave.add_emergency_callback(lambda it: emergencies.append((it.error_code, it.error_reg, it.b1, it.w1, it.w2)))
-        bench.on_pre_op_to_safe_op(slave, assign_all_status)
+        bench.on_pre_op_to_safe_op(slave, set_up)
         slave.sdo_write(HISTORY, ENABLE_EMERGENCIES, b"\x01\x00")
         bench.expect(history_flags(slave), [0, 0, 0, 0], "history of a new unit")
         begin_ns = time.time_ns()
@@ -110,7 +111,7 @@ class Told:
         bench.expect(flags, [count, newest, newest, 1], "10F3:01 to :04")
         message = slave.sdo_read(HISTORY, newest)
         bench.expect(message[:8], MESSAGE_HEAD, f"10F3:{newest:02X}: code, flags, text")
-        bench.expect(message[16:], NO_PARAMETERS, f"10F3:{newest:02X}: parameters")
+        bench.expect(message[16:], bytes(8), f"10F3:{newest:02X}: parameters")
         bench.expect(slave.sdo_read(HISTORY, newest + 1), bytes(24), "the message behind the newest")
         expect_time(message[8:16], begin_ns, f"time of 10F3:{newest:02X}")
         expect_time(slave.sdo_read(SYSTEM_TIME, 0), begin_ns, "10F8")
@@ -194,13 +195,14 @@ def request(master, state):
     master.read_state()
 
 
-def assign_all_status(slave):
-    """1BFF behind 1BFE, so that the inputs end with new messages and error status."""
+def set_up(slave):
+    """1BFF behind 1BFE, so that the inputs end with new messages and error status; a patient watchdog."""
     pdos = (0x1A00, 0x1A01, 0x1BFE, 0x1BFF)
     slave.sdo_write(0x1C13, 0, b"\x00")
     for sub, pdo in enumerate(pdos, start=1):
         slave.sdo_write(0x1C13, sub, struct.pack("<H", pdo))
     slave.sdo_write(0x1C13, 0, bytes([len(pdos)]))
+    slave.set_watchdog("processdata", WATCHDOG_MS)
 
 
 def status_of(inputs):
