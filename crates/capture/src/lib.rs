@@ -2,7 +2,11 @@
 //!
 //! One section, one Ethernet interface. The same calls give the same bytes: nothing of the machine goes in.
 
+mod reader;
+
 use std::io::{self, Write};
+
+pub use reader::{NotACapture, Packet, read_packets};
 
 const SECTION_HEADER: u32 = 0x0A0D_0D0A;
 const INTERFACE_DESCRIPTION: u32 = 1;
