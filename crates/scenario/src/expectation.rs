@@ -35,6 +35,8 @@ pub enum Condition {
     SdoGave(Vec<u8>),
     SdoTaken,
     Emergency { code: u16, times: Option<u64> },
+    CaptureReplayed,
+    AnswersDiffer { at_most: u64 },
 }
 
 /// What was seen instead.
@@ -65,6 +67,8 @@ impl Condition {
             | Self::SdoRefused(_)
             | Self::SdoGave(_)
             | Self::SdoTaken
+            | Self::CaptureReplayed
+            | Self::AnswersDiffer { .. }
             | Self::Emergency { .. } => None,
         }
     }
@@ -178,6 +182,16 @@ impl Condition {
                 let all: Vec<String> =
                     master.emergencies().iter().map(|code| format!("{code:04X}")).collect();
                 holds(enough, || format!("it came {seen} times; all that came: [{}]", all.join(", ")))
+            }
+            Self::CaptureReplayed => {
+                holds(world.recorded_master().is_done(), || world.recorded_master().progress())
+            }
+            Self::AnswersDiffer { at_most } => {
+                let differences = world.recorded_master().differences();
+                holds(differences.len() as u64 <= *at_most, || {
+                    let first: Vec<&str> = differences.iter().take(3).map(String::as_str).collect();
+                    format!("{} answers differ; {}", differences.len(), first.join("; "))
+                })
             }
             _ => Ok(()),
         }

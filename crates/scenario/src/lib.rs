@@ -9,6 +9,7 @@ mod line;
 mod master;
 mod orders;
 mod random;
+mod recorded;
 mod recording;
 mod replay;
 mod scenario;
@@ -17,11 +18,13 @@ pub mod sentence;
 pub mod sentences;
 mod world;
 
+pub use capture::NotACapture;
 pub use expectation::Condition;
 pub use orders::{
     Choice, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder, Mode, Order,
     UnitOrder, UnitSet,
 };
+pub use recorded::RecordedFrames;
 pub use recording::Recording;
 pub use replay::{Failure, Report};
 pub use scenario::{BuiltinProgram, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};

@@ -7,8 +7,11 @@ use nx_ect101::unit_file::UnitFile;
 use plc::{Echo, Io, MessageEcho, Program};
 use time::Duration;
 
+use capture::NotACapture;
+
 use crate::expectation::Condition;
 use crate::orders::Order;
+use crate::recorded::RecordedFrames;
 
 pub use error::{ScenarioError, ScenarioErrors};
 
@@ -27,8 +30,23 @@ pub struct Scenario {
     pub cycle: Duration,
     /// What happens, in this order.
     pub steps: Vec<Step>,
+    /// The capture whose frames a recorded master sends, as the file names it.
+    pub capture: Option<String>,
+    /// Its frames, once [`Scenario::load_capture`] has read them.
+    pub(crate) recorded: RecordedFrames,
     /// Where the dice add steps of their own; none: nowhere.
     pub random: Option<RandomPart>,
+}
+
+impl Scenario {
+    /// Takes the bytes of the capture that the file names. Without them nothing of it is sent.
+    ///
+    /// # Errors
+    /// [`NotACapture`].
+    pub fn load_capture(&mut self, bytes: &[u8]) -> Result<(), NotACapture> {
+        self.recorded = RecordedFrames::read(bytes)?;
+        Ok(())
+    }
 }
 
 /// The part of a scenario that its dice write.

@@ -15,13 +15,16 @@ use crate::expectation::{CURRENT, StateName, codes};
 use crate::line::{Delayed, Line};
 use crate::master::{Master, Sent};
 use crate::orders::{CpuOrder, FrameFault, LineOrder, UnitOrder};
+use crate::recorded::Recorded;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, UnitSource};
 use crate::sentence::IndicatorName;
 
 /// The system time of the CPU Units at the beginning: 2026-01-01 00:00:00 UTC.
 pub(crate) const SYSTEM_TIME_NS: u64 = 1_767_225_600_000_000_000;
-/// Length of the FCS, which frames here do not carry, and of a broken frame's last byte.
+/// Marks the frames of the recorded master.
+const RECORDED: u64 = 1 << 63;
+/// Length of a working counter, the end of a frame that is not padded.
 const WORKING_COUNTER_BYTES: usize = 2;
 
 /// Everything that a scenario moves.
@@ -30,6 +33,7 @@ pub(crate) struct World {
     cpus: Vec<Cpu>,
     line: Line,
     master: Master,
+    recorded: Recorded,
     now: Instant,
     /// Cable `n` is in front of the unit at position `n`.
     cables: Vec<bool>,
@@ -71,6 +75,7 @@ impl World {
             cpus,
             line: Line::new(seed),
             master: Master::new(count, scenario.cycle),
+            recorded: Recorded::new(scenario.recorded.clone()),
             now,
             cables,
             watched,
@@ -92,6 +97,10 @@ impl World {
         &self.master
     }
 
+    pub(crate) const fn recorded_master(&self) -> &Recorded {
+        &self.recorded
+    }
+
     pub(crate) fn recording(&mut self) -> &mut Recording {
         &mut self.recording
     }
@@ -104,7 +113,8 @@ impl World {
     pub(crate) fn deadline(&self) -> Instant {
         let cpus = self.cpus.iter().filter(|cpu| cpu.is_running).map(|cpu| cpu.unit.deadline());
         let cpus = cpus.min().unwrap_or(Instant::NEVER);
-        self.network.deadline().min(cpus).min(self.line.deadline()).min(self.master.deadline())
+        let masters = self.master.deadline().min(self.recorded.deadline());
+        self.network.deadline().min(cpus).min(self.line.deadline()).min(masters)
     }
 
     /// Lets time pass to `to`, at which something happens or not.
@@ -125,6 +135,9 @@ impl World {
         }
         for sent in self.master.send(now) {
             self.transmit(sent);
+        }
+        while let Some((number, frame)) = self.recorded.send(now) {
+            self.transmit(Sent { ticket: RECORDED | number as u64, kind: crate::FrameKind::Any, frame });
         }
         self.watch();
     }
@@ -175,7 +188,10 @@ impl World {
             lower_working_counter(frame);
         }
         self.recording.returned(self.now, frame, comment);
-        self.master.receive(ticket, frame, self.now);
+        match ticket & !RECORDED {
+            number if number != ticket => self.recorded.receive(number as usize, frame),
+            _ => self.master.receive(ticket, frame, self.now),
+        }
     }
 
     /// Writes down what has changed.

@@ -10,6 +10,7 @@ use toml::Spanned;
 use super::{BuiltinProgram, RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
 use crate::expectation::Condition;
 use crate::orders::{CpuOrder, Expectation, LineOrder, MasterOrder, Mode, Order, UnitOrder, UnitSet};
+use crate::recorded::RecordedFrames;
 use crate::sentence;
 use crate::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 
@@ -29,6 +30,7 @@ struct File {
     seed: Option<u64>,
     limit: Option<Spanned<String>>,
     cycle: Option<Spanned<String>>,
+    capture: Option<String>,
     #[serde(default)]
     units: Vec<Spanned<UnitEntry>>,
     steps: Vec<Spanned<StepEntry>>,
@@ -129,7 +131,9 @@ impl Reader<'_> {
             }
         }
         let seed = file.seed.unwrap_or(DEFAULT_SEED);
-        Scenario { title: file.title.into_inner(), seed, limit, units, cycle, steps, random }
+        let title = file.title.into_inner();
+        let recorded = RecordedFrames::default();
+        Scenario { title, seed, limit, units, cycle, steps, capture: file.capture, recorded, random }
     }
 
     /// Times from the beginning that run backwards, or behind the limit, can never be.

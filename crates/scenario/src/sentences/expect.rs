@@ -79,4 +79,10 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         |v| Emergency { code: v.number(0) as u16, times: None }),
     row("the master has received emergency {number} {number} times", "the master has received emergency 0xFF30 2 times",
         "exactly so often", |v| Emergency { code: v.number(0) as u16, times: Some(v.number(1)) }),
+    row("the capture is replayed", "the capture is replayed", "every frame of it was sent", |_| CaptureReplayed),
+    row("every answer is as captured", "every answer is as captured",
+        "working counters and data, but for what depends on the moment (states, mailbox status, clocks, process data)",
+        |_| AnswersDiffer { at_most: 0 }),
+    row("at most {number} answers differ", "at most 3 answers differ", "from those of the capture",
+        |v| AnswersDiffer { at_most: v.number(0) }),
 ];

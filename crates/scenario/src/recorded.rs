@@ -1,0 +1,192 @@
+//! A recorded master: the frames of a capture are sent again at their times, and the answers are compared.
+//!
+//! What has to differ between two runs of the same master is passed over: the moment at which a state or a mailbox
+//! changes, times of distributed clocks, error counters, and process data, which depend on the phase of the CPU
+//! Unit. Working counters are compared everywhere.
+
+use capture::{Direction, NotACapture, Packet, read_packets};
+use time::{Duration, Instant};
+use wire::{Command, Returned, returned_datagrams};
+
+use crate::expectation::hex;
+
+/// From power-on to the first frame, so that the unit has started.
+const LEAD: Duration = Duration::from_millis(10);
+/// Bit of a source address that every ESC sets: the frame has passed the units.
+const PASSED: u8 = 0x02;
+/// Where the first byte of the source address lies.
+const SOURCE_ADDRESS: usize = 6;
+
+/// Registers whose values depend on the moment of the look, from the first to the last.
+const PASSED_OVER: &[(u16, u16)] = &[
+    // AL status and code; ECAT and AL events; error counters; watchdog status.
+    (0x0130, 0x0135),
+    (0x0210, 0x0223),
+    (0x0300, 0x0313),
+    (0x0440, 0x0443),
+    // SyncManager status, and distributed clocks.
+    (0x0800, 0x087F),
+    (0x0900, 0x09FF),
+];
+
+/// The frames of a capture, ready to be sent.
+#[derive(Clone, Debug, Default)]
+pub struct RecordedFrames {
+    exchanges: Vec<Exchange>,
+}
+
+#[derive(Clone, Debug)]
+struct Exchange {
+    after: Duration,
+    frame: Vec<u8>,
+    answer: Option<Vec<u8>>,
+}
+
+impl RecordedFrames {
+    /// Reads a capture: frames of a master and the answers that belong to them.
+    ///
+    /// # Errors
+    /// [`NotACapture`].
+    pub fn read(bytes: &[u8]) -> Result<Self, NotACapture> {
+        let mut exchanges: Vec<Exchange> = Vec::new();
+        let mut origin = None;
+        for packet in read_packets(bytes)? {
+            let origin = *origin.get_or_insert(packet.at_nanos);
+            let datagrams = returned_datagrams(&packet.frame);
+            if datagrams.is_empty() {
+                continue;
+            }
+            if is_answer(&packet) {
+                let asked = exchanges
+                    .iter_mut()
+                    .find(|exchange| exchange.answer.is_none() && exchange.is_of(&datagrams));
+                if let Some(exchange) = asked {
+                    exchange.answer = Some(packet.frame);
+                }
+            } else {
+                let after = Duration::from_nanos(packet.at_nanos.saturating_sub(origin));
+                exchanges.push(Exchange { after, frame: packet.frame, answer: None });
+            }
+        }
+        Ok(Self { exchanges })
+    }
+
+    /// How many frames of a master it holds.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.exchanges.len()
+    }
+
+    /// Whether it holds none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.exchanges.is_empty()
+    }
+
+    /// From the first frame to the last.
+    #[must_use]
+    pub fn duration(&self) -> Duration {
+        self.exchanges.last().map_or(Duration::ZERO, |exchange| exchange.after)
+    }
+}
+
+/// By what the capture says, else by the mark that ESCs leave.
+fn is_answer(packet: &Packet) -> bool {
+    match packet.direction {
+        Some(direction) => direction == Direction::Outbound,
+        None => packet.frame.get(SOURCE_ADDRESS).is_some_and(|byte| byte & PASSED != 0),
+    }
+}
+
+impl Exchange {
+    /// Whether these datagrams answer it: the same commands with the same numbers.
+    fn is_of(&self, datagrams: &[Returned]) -> bool {
+        let names = |datagrams: &[Returned]| {
+            let names = datagrams.iter().map(|datagram| (datagram.header.command, datagram.header.index));
+            names.collect::<Vec<_>>()
+        };
+        names(&returned_datagrams(&self.frame)) == names(datagrams)
+    }
+}
+
+/// The recorded master at work.
+#[derive(Debug, Default)]
+pub(crate) struct Recorded {
+    frames: RecordedFrames,
+    sent: usize,
+    answered: usize,
+    differences: Vec<String>,
+}
+
+impl Recorded {
+    pub(crate) const fn new(frames: RecordedFrames) -> Self {
+        Self { frames, sent: 0, answered: 0, differences: Vec::new() }
+    }
+
+    pub(crate) fn deadline(&self) -> Instant {
+        let next = self.frames.exchanges.get(self.sent);
+        next.map_or(Instant::NEVER, |exchange| Instant::ZERO + LEAD + exchange.after)
+    }
+
+    /// The next frame whose time has come, with its number.
+    pub(crate) fn send(&mut self, now: Instant) -> Option<(usize, Vec<u8>)> {
+        if self.deadline() > now {
+            return None;
+        }
+        let number = self.sent;
+        self.sent += 1;
+        self.frames.exchanges.get(number).map(|exchange| (number, exchange.frame.clone()))
+    }
+
+    /// An answer comes back.
+    pub(crate) fn receive(&mut self, number: usize, frame: &[u8]) {
+        self.answered += 1;
+        let Some(captured) = self.frames.exchanges.get(number).and_then(|exchange| exchange.answer.as_ref())
+        else {
+            return;
+        };
+        let (seen, captured) = (returned_datagrams(frame), returned_datagrams(captured));
+        for (place, (seen, captured)) in seen.iter().zip(&captured).enumerate() {
+            if let Some(words) = difference(seen, captured) {
+                self.differences.push(format!("frame {}, datagram {}: {words}", number + 1, place + 1));
+            }
+        }
+    }
+
+    pub(crate) fn is_done(&self) -> bool {
+        self.sent == self.frames.len()
+    }
+
+    pub(crate) fn progress(&self) -> String {
+        format!("{} of {} frames are sent, {} came back", self.sent, self.frames.len(), self.answered)
+    }
+
+    pub(crate) fn differences(&self) -> &[String] {
+        &self.differences
+    }
+}
+
+/// What is not as it was; none if nothing is.
+fn difference(seen: &Returned, captured: &Returned) -> Option<String> {
+    let header = &captured.header;
+    let name = format!("{:?} of {:#06X}", header.command, header.offset);
+    if seen.working_counter != captured.working_counter {
+        let (now, then) = (seen.working_counter, captured.working_counter);
+        return Some(format!("{name}: working counter {now}, captured {then}"));
+    }
+    if is_passed_over(captured) || seen.data == captured.data {
+        return None;
+    }
+    let place = seen.data.iter().zip(&captured.data).position(|(now, then)| now != then).unwrap_or(0);
+    let part = |data: &[u8]| hex(data.get(place..data.len().min(place + 8)).unwrap_or_default());
+    Some(format!("{name}: from byte {place} on {}, captured {}", part(&seen.data), part(&captured.data)))
+}
+
+fn is_passed_over(datagram: &Returned) -> bool {
+    let header = &datagram.header;
+    if matches!(header.command, Command::Lrd | Command::Lwr | Command::Lrw) {
+        return true;
+    }
+    let last = header.offset.saturating_add(header.length_bytes.saturating_sub(1));
+    PASSED_OVER.iter().any(|&(from, to)| header.offset <= to && from <= last)
+}

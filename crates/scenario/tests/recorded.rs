@@ -1,0 +1,58 @@
+//! A capture of a master, sent again: the unit answers as it did; another unit does not.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use scenario::{RecordedFrames, Recording, Scenario};
+
+const LIVE: &str = r#"
+title = "a master takes a unit to OP, reads, and is refused"
+steps = [
+  { master = "take all units to OP" },
+  { when = "the master has nothing to do", master = "read SDO 1018:02 of unit 1" },
+  { master = "write SDO 2002:02 of unit 1 as 07" },
+  { master = "request 0x05 of unit 1" },
+  { after = "50ms", expect = "unit 1 has recorded 350C0000 1 times" },
+]
+"#;
+
+fn capture() -> Vec<u8> {
+    let live = Scenario::parse(LIVE, |_| Err(String::new())).expect("a right scenario");
+    let report = live.replay(1, Recording::new(false, true));
+    assert_eq!(report.failure, None);
+    report.recording.into_capture().expect("a capture")
+}
+
+fn replayed(unit: &str, expectation: &str, capture: &[u8]) -> Option<String> {
+    let text = format!(
+        "title = \"again\"\ncapture = \"live.pcapng\"\nunits = [{{ {unit} }}]\nsteps = [\n\
+         {{ expect = \"the capture is replayed\", within = \"10s\" }},\n\
+         {{ expect = \"{expectation}\" }},\n{{ expect = \"unit 1 has recorded 350C0000 1 times\" }} ]"
+    );
+    let mut scenario = Scenario::parse(&text, |_| Err(String::new())).expect("a right scenario");
+    scenario.load_capture(capture).expect("a capture");
+    scenario.replay(1, Recording::new(false, false)).failure.map(|failure| failure.to_string())
+}
+
+#[test]
+fn a_unit_answers_a_capture_as_it_did() {
+    let capture = capture();
+    assert!(RecordedFrames::read(&capture).expect("a capture").len() > 50);
+    assert_eq!(replayed("model = \"nx-ect101\"", "every answer is as captured", &capture), None);
+}
+
+#[test]
+fn another_unit_does_not_and_the_first_difference_is_told() {
+    let capture = capture();
+    let other = "model = \"nx-ect101\", id_switch = 0x21, serial = 99";
+    assert_eq!(
+        replayed(other, "every answer is as captured", &capture),
+        None,
+        "nobody has read ID or serial number"
+    );
+    let live = LIVE.replace("1018:02", "1018:04");
+    let live = Scenario::parse(&live, |_| Err(String::new())).expect("a right scenario");
+    let capture = live.replay(1, Recording::new(false, true)).recording.into_capture().expect("a capture");
+    let failure = replayed(other, "every answer is as captured", &capture).expect("another serial number");
+    assert!(failure.contains("1 answers differ") && failure.contains("Aprd of 0x1200"), "{failure}");
+    assert_eq!(replayed(other, "at most 1 answers differ", &capture), None);
+}
