@@ -1,9 +1,12 @@
 //! What can stand on the command line.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use link::LinkSpec;
+
+use crate::commands::replay::{PartitionChoice, SeedChoice, SeedRange};
 
 /// The EtherCAT twin: virtual slave units that real EtherCAT masters take for real ones.
 #[derive(Debug, Parser)]
@@ -29,6 +32,10 @@ pub(crate) enum Command {
     Esi(ExportArgs),
     /// Write the SII image (EEPROM) of a unit
     Sii(ExportArgs),
+    /// Replay scenarios in virtual time, and tell which expectations held
+    Replay(ReplayArgs),
+    /// Put the results of all parts of a campaign together; none may be missing
+    Merge(MergeArgs),
     /// Print a table of the model
     #[command(subcommand)]
     List(List),
@@ -74,6 +81,54 @@ pub(crate) struct ExportArgs {
     /// Write to this file instead of stdout
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReplayArgs {
+    /// Scenario files; of a folder all .toml files below it
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) files: Vec<PathBuf>,
+    /// Seed of the dice instead of the one that each file names; `random` draws one and tells it
+    #[arg(long, value_name = "N|random", conflicts_with = "seeds")]
+    pub(crate) seed: Option<SeedChoice>,
+    /// Replay each scenario with all of these seeds: 1..100, or 100 for the same
+    #[arg(long, value_name = "A..B")]
+    pub(crate) seeds: Option<SeedRange>,
+    /// Print what happens and when, below each case
+    #[arg(long)]
+    pub(crate) trace: bool,
+    /// Write a JUnit file, for CI systems
+    #[arg(long, value_name = "OUT")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Write one JSON line for each case, for programs and for `ectwin merge`
+    #[arg(long, value_name = "OUT")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write every frame (pcapng): of one case to a file, of several to a folder, which ends with /
+    #[arg(long, value_name = "OUT")]
+    pub(crate) pcap: Option<PathBuf>,
+    /// Replay only this part of the cases, such as 1/4; `auto` asks the variables of the CI system
+    #[arg(long, value_name = "i/n|auto")]
+    pub(crate) partition: Option<PartitionChoice>,
+    /// Number of threads; left out, as many as the machine runs at once. It changes no result
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
+}
+
+impl ReplayArgs {
+    /// Number of threads.
+    pub(crate) fn jobs(&self) -> NonZeroUsize {
+        self.jobs.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MergeArgs {
+    /// What the parts have written by `ectwin replay --json`
+    #[arg(required = true, value_name = "RESULT")]
+    pub(crate) results: Vec<PathBuf>,
+    /// Write a JUnit file of all cases
+    #[arg(long, value_name = "OUT")]
+    pub(crate) junit: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]

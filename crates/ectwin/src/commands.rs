@@ -10,6 +10,8 @@ mod list_indicators;
 mod list_nx_objects;
 mod list_objects;
 mod list_rules;
+mod merge;
+pub(crate) mod replay;
 mod run;
 
 use crate::cli::{Command, List};
@@ -29,6 +31,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::List(List::NxObjects { json }) => list_nx_objects::run(json),
         Command::List(List::Indicators { json }) => list_indicators::run(json),
         Command::List(List::Rules { json }) => list_rules::run(json),
+        Command::Replay(args) => replay::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Explain { code } => explain::run(&code),
     }
 }

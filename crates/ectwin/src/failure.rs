@@ -19,6 +19,10 @@ pub(crate) enum Failure {
     BadFile(Vec<FileProblem>),
     /// The setting rules are not satisfied. The findings are the command's result, told already.
     RulesBroken,
+    /// A case of a campaign failed. Its story has been told.
+    CasesFailed,
+    /// What was asked for makes no sense together, or with what is there.
+    Refused { message: String, help: String },
     /// A file cannot be read.
     Unreadable { path: PathBuf, source: io::Error },
     /// A file cannot be written.
@@ -37,7 +41,7 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         let (message, help) = self.words();
         let mut text = match self {
-            Self::BadFile(_) | Self::RulesBroken => message,
+            Self::BadFile(_) | Self::RulesBroken | Self::CasesFailed => message,
             _ => format!("error: {message}\n"),
         };
         if let Some(help) = help {
@@ -50,10 +54,10 @@ impl Failure {
 
     const fn exit_code(&self) -> u8 {
         match self {
-            Self::Unexplained(_) | Self::RulesBroken | Self::LinkLost(_) => 1,
+            Self::Unexplained(_) | Self::RulesBroken | Self::CasesFailed | Self::LinkLost(_) => 1,
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
-            Self::BadFile(_) | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
+            Self::BadFile(_) | Self::Refused { .. } | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
             Self::Link(_) => 3,
         }
     }
@@ -62,7 +66,8 @@ impl Failure {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), None),
             Self::BadFile(problems) => (problems.iter().map(|problem| picture(problem)).collect(), None),
-            Self::RulesBroken => (String::new(), None),
+            Self::RulesBroken | Self::CasesFailed => (String::new(), None),
+            Self::Refused { message, help } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(help_to_read(source)))
             }

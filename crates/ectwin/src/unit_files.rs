@@ -43,7 +43,8 @@ pub(crate) struct FileProblem {
     label: String,
     help: Option<String>,
     span: SourceSpan,
-    source: NamedSource<String>,
+    /// None: the file as a whole.
+    source: Option<NamedSource<String>>,
 }
 
 fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
@@ -60,9 +61,23 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
 }
 
 impl FileProblem {
+    /// At a place in the text of a file; an empty help is none.
+    pub(crate) fn in_text(path: &Path, text: &str, span: Range<usize>, message: &str, help: &str) -> Self {
+        let source = NamedSource::new(path.display().to_string(), text.to_owned());
+        let help = (!help.is_empty()).then(|| help.to_owned());
+        let label = "here".to_owned();
+        Self { message: message.to_owned(), label, help, span: span.into(), source: Some(source) }
+    }
+
+    /// Of a file as a whole.
+    pub(crate) fn of_file(message: String, help: &str) -> Self {
+        let help = Some(help.to_owned());
+        Self { message, label: String::new(), help, span: (0..0).into(), source: None }
+    }
+
     fn at(span: Range<usize>, error: &SetupError, label: &str, source: NamedSource<String>) -> Self {
         let (message, label) = (error.to_string(), label.to_owned());
-        Self { message, label, help: None, span: span.into(), source }
+        Self { message, label, help: None, span: span.into(), source: Some(source) }
     }
 
     fn of(error: &UnitFileError, source: NamedSource<String>) -> Self {
@@ -73,7 +88,7 @@ impl FileProblem {
             label: nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned()),
             help: nearest.and(expected),
             span: error.span.clone().into(),
-            source,
+            source: Some(source),
         }
     }
 }
@@ -92,10 +107,11 @@ impl Diagnostic for FileProblem {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.source)
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        self.source.as_ref()?;
         Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), self.span))))
     }
 }

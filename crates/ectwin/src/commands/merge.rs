@@ -1,0 +1,123 @@
+//! `ectwin merge RESULT.jsonl…`: the parts of a campaign as one, if none of its cases is missing or double.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::replay::{CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
+use crate::cli::MergeArgs;
+use crate::failure::Failure;
+use crate::output;
+use crate::unit_files::FileProblem;
+
+/// Cases that one line of a message names.
+const NAMED_CASES: usize = 8;
+
+/// A result and the file that it was read from.
+struct Read<'a> {
+    result: CaseResult,
+    from: &'a Path,
+}
+
+/// Tells the failed cases and the sum of all.
+pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
+    let read = read_all(&args.results)?;
+    let results = complete(read)?;
+    let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);
+    for result in failed.clone() {
+        let told = format!("FAILED  {}: {}\n{}", result.file, result.title, failure_story(result));
+        output::print(told.as_bytes())?;
+    }
+    if let Some(path) = &args.junit {
+        output::write(Some(path), junit_report(&results)?.as_bytes())?;
+    }
+    let (all, failed) = (results.len() as u64, failed.count() as u64);
+    output::print_line(format_args!("{}: {} ok, {failed} failed", case_count(all), all - failed))?;
+    if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
+}
+
+fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
+    let (mut results, mut problems) = (Vec::new(), Vec::new());
+    for path in paths {
+        let unreadable = |source| Failure::Unreadable { path: path.clone(), source };
+        let text = fs::read_to_string(path).map_err(unreadable)?;
+        let mut start = 0;
+        for line in text.split_inclusive('\n') {
+            match serde_json::from_str(line) {
+                Ok(result) => results.push(Read { result, from: path }),
+                Err(error) => {
+                    problems.push(no_result(path, &text, start..start + line.trim_end().len(), &error))
+                }
+            }
+            start += line.len();
+        }
+    }
+    if problems.is_empty() { Ok(results) } else { Err(Failure::BadFile(problems)) }
+}
+
+fn no_result(
+    path: &Path,
+    text: &str,
+    span: std::ops::Range<usize>,
+    error: &serde_json::Error,
+) -> FileProblem {
+    let help = "each line comes from `ectwin replay --json`; a job that was killed may have left half a line";
+    FileProblem::in_text(path, text, span, &format!("this line is no result: {error}"), help)
+}
+
+/// All cases of one campaign, in order.
+fn complete(read: Vec<Read<'_>>) -> Result<Vec<CaseResult>, Failure> {
+    let Some(first) = read.first() else {
+        return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
+    };
+    let (campaign, cases, parts) =
+        (first.result.campaign.clone(), first.result.cases, first.result.partition.count());
+    let first_from = first.from.to_owned();
+    let mut merged: BTreeMap<u64, Read<'_>> = BTreeMap::new();
+    for read in read {
+        let result = &read.result;
+        if (&result.campaign, result.cases, result.partition.count()) != (&campaign, cases, parts) {
+            let message =
+                format!("{} and {} are not of one campaign", first_from.display(), read.from.display());
+            return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
+        }
+        if let Some(other) = merged.get(&result.case) {
+            let (case, from) = (result.case, read.from.display());
+            let message = format!("case {case} is there twice: in {} and in {from}", other.from.display());
+            return Err(refused(&message, "give each part once"));
+        }
+        merged.insert(result.case, read);
+    }
+    let missing: Vec<u64> = (1..=cases).filter(|case| !merged.contains_key(case)).collect();
+    if missing.is_empty() {
+        Ok(merged.into_values().map(|read| read.result).collect())
+    } else {
+        Err(lacking(&missing, cases, parts))
+    }
+}
+
+/// Which parts lack which cases.
+fn lacking(missing: &[u64], cases: u64, parts: u64) -> Failure {
+    let mut by_part: BTreeMap<Partition, Vec<u64>> = BTreeMap::new();
+    for &case in missing {
+        by_part.entry(Partition::of_case(case, parts)).or_default().push(case);
+    }
+    let told: Vec<String> = by_part.iter().map(|(part, lacks)| of_part(*part, lacks, cases)).collect();
+    refused(&told.join("; "), "run the missing parts again, each by its `--partition`")
+}
+
+fn of_part(part: Partition, lacks: &[u64], cases: u64) -> String {
+    let has = (1..=cases).filter(|&case| part.has(case)).count();
+    if lacks.len() == has {
+        return format!("part {part} is missing");
+    }
+    let mut names: Vec<String> = lacks.iter().take(NAMED_CASES).map(u64::to_string).collect();
+    if lacks.len() > NAMED_CASES {
+        names.push("…".to_owned());
+    }
+    format!("part {part} lacks {} of its {has} cases: {}", lacks.len(), names.join(", "))
+}
+
+fn refused(message: &str, help: &str) -> Failure {
+    Failure::Refused { message: message.to_owned(), help: help.to_owned() }
+}

@@ -1,0 +1,68 @@
+//! `ectwin replay FILE…`: scenarios in virtual time, their verdicts, and what is left of them.
+//!
+//! A campaign is scenarios × seeds. Its cases have numbers, so that parts of it can run anywhere and at once: what
+//! is told and written is in the order of the numbers, whatever the threads do.
+
+mod campaign;
+mod captures;
+mod junit;
+mod partition;
+mod result;
+mod results;
+mod seeds;
+mod story;
+mod threads;
+
+use std::fs;
+
+use crate::cli::ReplayArgs;
+use crate::failure::Failure;
+use crate::output;
+
+use campaign::Campaign;
+use captures::Captures;
+use partition::Shard;
+use results::Results;
+
+pub(crate) use junit::report as junit_report;
+pub(crate) use partition::{Partition, PartitionChoice};
+pub(crate) use result::{CaseResult, Verdict};
+pub(crate) use seeds::{SeedChoice, SeedRange};
+pub(crate) use story::{cases as case_count, failure as failure_story};
+
+/// Replays all cases of our part.
+pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
+    let shard = shard(args.partition)?;
+    let campaign = Campaign::read(args)?;
+    let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
+    let captures = Captures::choose(args.pcap.as_deref(), cases.len())?;
+    if let Some(seed) = campaign.drawn_seed() {
+        output::print_line(format_args!("seed {seed}, drawn at random"))?;
+    }
+    let mut results = Results::open(args, captures)?;
+    let wanted = threads::Wanted { trace: args.trace, capture: args.pcap.is_some() };
+    let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
+    threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
+    results.close(shard.partition, campaign.count())
+}
+
+/// Our part of the cases. Only `--partition auto` reads the environment.
+fn shard(choice: Option<PartitionChoice>) -> Result<Shard, Failure> {
+    let partition = match choice {
+        None => Partition::WHOLE,
+        Some(PartitionChoice::Given(partition)) => partition,
+        Some(PartitionChoice::Auto) => return automatic_shard(),
+    };
+    Ok(Shard { partition, status_file: None })
+}
+
+fn automatic_shard() -> Result<Shard, Failure> {
+    let shard = partition::from_environment(&|name| std::env::var(name).ok()).map_err(|message| {
+        let help = "`--partition i/n` says it without variables; docs/user/campaigns.md tells who sets which";
+        Failure::Refused { message: format!("--partition auto: {message}"), help: help.to_owned() }
+    })?;
+    if let Some(path) = &shard.status_file {
+        fs::write(path, []).map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
+    }
+    Ok(shard)
+}

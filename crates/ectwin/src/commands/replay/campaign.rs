@@ -1,0 +1,204 @@
+//! What is to be replayed: scenario files, read and checked, times seeds.
+
+use std::cell::RefCell;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use scenario::Scenario;
+
+use super::partition::Partition;
+use super::seeds::SeedChoice;
+use crate::cli::ReplayArgs;
+use crate::failure::Failure;
+use crate::unit_files::FileProblem;
+
+/// Scenarios × seeds.
+pub(super) struct Campaign {
+    scenarios: Vec<Loaded>,
+    seeds: Seeds,
+    is_drawn: bool,
+    fingerprint: u64,
+}
+
+/// A scenario and its file.
+struct Loaded {
+    path: PathBuf,
+    scenario: Scenario,
+}
+
+/// The seeds of each scenario.
+enum Seeds {
+    /// The one that its file names.
+    Own,
+    /// These.
+    These(Vec<u64>),
+}
+
+/// One scenario with one seed.
+pub(super) struct Case<'a> {
+    /// Its number, from 1.
+    pub(super) number: u64,
+    /// How many there are in all parts.
+    pub(super) count: u64,
+    /// Of the campaign.
+    pub(super) fingerprint: u64,
+    /// The file.
+    pub(super) path: &'a Path,
+    /// What it says.
+    pub(super) scenario: &'a Scenario,
+    /// The seed of its dice.
+    pub(super) seed: u64,
+}
+
+impl Campaign {
+    /// Reads all files.
+    ///
+    /// # Errors
+    /// Everything that is wrong with any of them.
+    pub(super) fn read(args: &ReplayArgs) -> Result<Self, Failure> {
+        let seeds = match (&args.seeds, args.seed) {
+            (Some(range), _) => Seeds::These(range.seeds().collect()),
+            (None, Some(choice)) => Seeds::These(vec![choice.draw()]),
+            (None, None) => Seeds::Own,
+        };
+        let mut fingerprint = Fingerprint::new();
+        fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
+        let (mut scenarios, mut problems) = (Vec::new(), Vec::new());
+        for path in files(&args.files)? {
+            match load(&path, &mut fingerprint) {
+                Ok(scenario) => scenarios.push(Loaded { path, scenario }),
+                Err(found) => problems.extend(found),
+            }
+        }
+        if !problems.is_empty() {
+            return Err(Failure::BadFile(problems));
+        }
+        if let Seeds::These(seeds) = &seeds {
+            seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
+        }
+        let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
+        Ok(Self { scenarios, seeds, is_drawn, fingerprint: fingerprint.0 })
+    }
+
+    /// How many cases there are in all parts.
+    pub(super) fn count(&self) -> u64 {
+        self.scenarios.len() as u64 * self.seeds_each()
+    }
+
+    fn seeds_each(&self) -> u64 {
+        match &self.seeds {
+            Seeds::Own => 1,
+            Seeds::These(seeds) => seeds.len() as u64,
+        }
+    }
+
+    /// The seed, if it was drawn and nobody knows it yet.
+    pub(super) fn drawn_seed(&self) -> Option<u64> {
+        match &self.seeds {
+            Seeds::These(seeds) if self.is_drawn => seeds.first().copied(),
+            _ => None,
+        }
+    }
+
+    /// Numbers of the cases of a part, in order.
+    pub(super) fn cases_of(&self, partition: Partition) -> impl Iterator<Item = u64> {
+        (1..=self.count()).filter(move |&case| partition.has(case))
+    }
+
+    /// The case of this number: all seeds of a scenario, then the next scenario.
+    ///
+    /// # Panics
+    /// If there is no such case: numbers come from [`Self::cases_of`].
+    pub(super) fn case(&self, number: u64) -> Case<'_> {
+        let place = number - 1;
+        let Loaded { path, scenario } = &self.scenarios[(place / self.seeds_each()) as usize];
+        let seed = match &self.seeds {
+            Seeds::Own => scenario.seed,
+            Seeds::These(seeds) => seeds[(place % self.seeds_each()) as usize],
+        };
+        Case { number, count: self.count(), fingerprint: self.fingerprint, path, scenario, seed }
+    }
+}
+
+/// The files that the command line names: of a folder all that end with .toml, in order. Each one once.
+fn files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    for path in named {
+        let found = if path.is_dir() { files_below(path)? } else { vec![path.clone()] };
+        if found.is_empty() {
+            let message = format!("no scenario under {}", path.display());
+            return Err(Failure::Refused {
+                message,
+                help: "a scenario is a file that ends with .toml".to_owned(),
+            });
+        }
+        files.extend(found);
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    files.retain(|file| seen.insert(file.clone()));
+    Ok(files)
+}
+
+fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        let unreadable = |source| Failure::Unreadable { path: folder.clone(), source };
+        for entry in fs::read_dir(&folder).map_err(unreadable)? {
+            let path = entry.map_err(unreadable)?.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "toml") {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// Reads a scenario, and the unit files that it names, seen from its folder.
+fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<FileProblem>> {
+    let text = fs::read_to_string(path).map_err(|error| vec![unreadable(path, &error)])?;
+    fingerprint.add(path.display().to_string().as_bytes());
+    fingerprint.add(text.as_bytes());
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let fingerprint = RefCell::new(fingerprint);
+    let scenario = Scenario::parse(&text, |unit_file| {
+        let text = fs::read_to_string(folder.join(unit_file)).map_err(|error| error.to_string())?;
+        fingerprint.borrow_mut().add(text.as_bytes());
+        Ok(text)
+    });
+    scenario.map_err(|errors| {
+        let problem = |error: &scenario::ScenarioError| {
+            FileProblem::in_text(path, &text, error.span.clone(), &error.message, &error.help)
+        };
+        errors.iter().map(problem).collect()
+    })
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> FileProblem {
+    let help = match error.kind() {
+        io::ErrorKind::NotFound => "give the path of a scenario file, or of a folder of them",
+        io::ErrorKind::InvalidData => "a scenario file is text in UTF-8",
+        _ => "check the path and its permissions",
+    };
+    FileProblem::of_file(format!("cannot read {}: {error}", path.display()), help)
+}
+
+/// Tells campaigns apart, so that results of two are not taken for one (FNV-1a, 64 bits).
+struct Fingerprint(u64);
+
+impl Fingerprint {
+    const fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    fn add(&mut self, bytes: &[u8]) {
+        let length = (bytes.len() as u64).to_le_bytes();
+        for byte in length.iter().chain(bytes) {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01B3);
+        }
+    }
+}

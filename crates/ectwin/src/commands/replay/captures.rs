@@ -1,0 +1,50 @@
+//! Where captures go: one case to a file, several to a folder.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::result::CaseResult;
+use crate::failure::Failure;
+
+/// Where they go.
+pub(super) enum Captures {
+    /// Nobody wants them.
+    None,
+    /// The one case.
+    File(PathBuf),
+    /// Each case to a file of its own, named after its number, scenario and seed.
+    Folder(PathBuf),
+}
+
+impl Captures {
+    /// A path that ends with `/`, or is a folder, is one; else it is a file, and there must be one case.
+    pub(super) fn choose(path: Option<&Path>, cases: usize) -> Result<Self, Failure> {
+        let Some(path) = path else { return Ok(Self::None) };
+        if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+            let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
+            fs::create_dir_all(path).map_err(unwritable)?;
+            return Ok(Self::Folder(path.to_owned()));
+        }
+        if cases > 1 {
+            let message = format!("--pcap {} is one file, and there are {cases} cases", path.display());
+            let help = "end it with `/`, and each case gets a file of its own in that folder".to_owned();
+            return Err(Failure::Refused { message, help });
+        }
+        Ok(Self::File(path.to_owned()))
+    }
+
+    /// Writes the capture of a case.
+    pub(super) fn write(&self, result: &CaseResult, capture: Option<&[u8]>) -> Result<(), Failure> {
+        let path = match (self, capture) {
+            (Self::None, _) | (_, None) => return Ok(()),
+            (Self::File(path), _) => path.clone(),
+            (Self::Folder(folder), _) => folder.join(file_name(result)),
+        };
+        fs::write(&path, capture.unwrap_or_default()).map_err(|source| Failure::Unwritable { path, source })
+    }
+}
+
+fn file_name(result: &CaseResult) -> String {
+    let stem = Path::new(&result.file).file_stem().unwrap_or_default().display().to_string();
+    format!("{:04}-{stem}-seed-{}.pcapng", result.case, result.seed)
+}

@@ -1,0 +1,46 @@
+//! A case for people: one line, and more if it failed.
+
+use time::Duration;
+
+use super::result::{CaseResult, Verdict};
+
+/// One line for a case; of a failure where, what was seen, and how to see it again; then the trace, if wanted.
+pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
+    let lasted = Duration::from_nanos(result.virtual_ns);
+    let word = match result.verdict {
+        Verdict::Passed => "ok    ",
+        Verdict::Failed => "FAILED",
+    };
+    let mut story = format!("{word}  {}: {} ({lasted})\n", result.file, result.title);
+    story.push_str(&failure(result));
+    story.push_str(trace.unwrap_or_default());
+    story
+}
+
+/// What failed; nothing if all is well.
+pub(crate) fn failure(result: &CaseResult) -> String {
+    let Some(failed) = &result.failure else { return String::new() };
+    let at = Duration::from_nanos(failed.at_ns);
+    format!(
+        "        {}:{}: `{}`\n        seen    {}\n        at      {at}\n        seed    {}\n        repeat  {}\n",
+        result.file,
+        failed.line,
+        failed.step,
+        failed.seen,
+        result.seed,
+        repeat(result)
+    )
+}
+
+/// The one command that shows it again.
+fn repeat(result: &CaseResult) -> String {
+    let file = &result.file;
+    let is_plain = file.chars().all(|letter| letter.is_alphanumeric() || "/._-+".contains(letter));
+    let file = if is_plain { file.clone() } else { format!("'{}'", file.replace('\'', r"'\''")) };
+    format!("ectwin replay {file} --seed {}", result.seed)
+}
+
+/// A number of cases.
+pub(crate) fn cases(count: u64) -> String {
+    if count == 1 { "1 case".to_owned() } else { format!("{count} cases") }
+}

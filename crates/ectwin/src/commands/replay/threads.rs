@@ -1,0 +1,84 @@
+//! Cases on several threads, and their results in the order of the cases.
+
+use std::collections::BTreeMap;
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use scenario::Recording;
+
+use super::campaign::Case;
+use super::partition::Partition;
+use super::result::CaseResult;
+use crate::failure::Failure;
+
+/// What a replay has to leave behind.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) trace: bool,
+    pub(super) capture: bool,
+}
+
+/// A case that has been replayed.
+pub(super) struct Ended {
+    pub(super) result: CaseResult,
+    pub(super) trace: Option<String>,
+    pub(super) capture: Option<Vec<u8>>,
+}
+
+impl Ended {
+    /// Replays a case.
+    pub(super) fn replay(case: &Case<'_>, partition: Partition, wanted: Wanted) -> Self {
+        let report = case.scenario.replay(case.seed, Recording::new(wanted.trace, wanted.capture));
+        let result = CaseResult::new(case, partition, &report);
+        let trace = report.recording.trace().map(str::to_owned);
+        Self { result, trace, capture: report.recording.into_capture() }
+    }
+}
+
+/// Replays all cases, and hands on what they came to in their order. Ends early if `take` fails.
+pub(super) fn replay(
+    cases: &[u64],
+    threads: NonZeroUsize,
+    replay: impl Fn(u64) -> Ended + Sync,
+    mut take: impl FnMut(Ended) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let (sender, receiver) = mpsc::channel();
+    thread::scope(|scope| {
+        for _ in 0..threads.get().min(cases.len()) {
+            let sender = sender.clone();
+            let (next, is_over, replay) = (&next, &is_over, &replay);
+            scope.spawn(move || {
+                while !is_over.load(Ordering::Relaxed) {
+                    let place = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(&case) = cases.get(place) else { return };
+                    if sender.send((place, replay(case))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let taken = in_order(receiver.iter(), &mut take);
+        is_over.store(true, Ordering::Relaxed);
+        taken
+    })
+}
+
+/// Keeps what comes too early.
+fn in_order(
+    ended: impl Iterator<Item = (usize, Ended)>,
+    take: &mut impl FnMut(Ended) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let (mut early, mut due) = (BTreeMap::new(), 0);
+    for (place, ended) in ended {
+        early.insert(place, ended);
+        while let Some(ended) = early.remove(&due) {
+            take(ended)?;
+            due += 1;
+        }
+    }
+    Ok(())
+}

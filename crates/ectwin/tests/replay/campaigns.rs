@@ -1,0 +1,139 @@
+//! Campaigns: scenarios × seeds, on threads, in parts, and merged.
+
+use crate::bench::Bench;
+use crate::{WATCHDOG, wrong};
+
+/// Three scenarios, of which one fails and one throws dice.
+fn campaign(name: &str) -> Bench {
+    let bench = Bench::new(name);
+    bench.put("s/1-right.toml", WATCHDOG);
+    bench.put("s/2-wrong.toml", &wrong());
+    let dice = WATCHDOG.replace("\"lose all process data frames\"", "\"lose 20 % of the frames\"");
+    bench.put("s/3-dice.toml", &dice.replace("110ms", "40ms"));
+    bench
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_bytes() {
+    let bench = campaign("threads");
+    let mut told = Vec::new();
+    for jobs in ["1", "2", "2"] {
+        let outputs = ["--jobs", jobs, "--json", "out.jsonl", "--junit", "out.xml", "--pcap", "frames/"];
+        let ended = bench.ectwin(&[&["replay", "s", "--seeds", "1..6", "--trace"], &outputs[..]].concat());
+        assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+        let capture = std::fs::read(bench.folder.join("frames/0018-3-dice-seed-6.pcapng")).unwrap();
+        told.push((ended.stdout, bench.text("out.jsonl"), bench.text("out.xml"), capture));
+    }
+    assert!(told[0] == told[1] && told[1] == told[2]);
+    assert_eq!(bench.json_lines("out.jsonl").len(), 18);
+}
+
+#[test]
+fn a_json_line_says_everything_of_its_case() {
+    let bench = campaign("json");
+    bench.ectwin(&["replay", "s/2-wrong.toml", "--seed", "9", "--json", "out.jsonl"]);
+    let lines = bench.json_lines("out.jsonl");
+    let line = lines[0].as_object().unwrap();
+    let told = |key: &str| line[key].to_string();
+    assert_eq!((told("file"), told("title")), ("\"s/2-wrong.toml\"".into(), "\"outputs stop in OP\"".into()));
+    assert_eq!((told("case"), told("cases"), told("partition")), ("1".into(), "1".into(), "\"1/1\"".into()));
+    assert_eq!((told("seed"), told("verdict")), ("9".into(), "\"failed\"".into()));
+    assert!(line["virtual_ns"].as_u64().unwrap() > 100_000_000 && line["cycles"].as_u64().unwrap() > 100);
+    let failure = line["failure"].as_object().unwrap();
+    assert_eq!((&failure["line"], &failure["at_ns"]), (&6.into(), &line["virtual_ns"]));
+    assert_eq!(failure["step"], "unit 1 has recorded 85000000 2 times");
+    assert_eq!(failure["seen"], "unit 1 has recorded it 1 times; recorded: 85000000");
+}
+
+#[test]
+fn junit_counts_virtual_seconds_and_names_the_line() {
+    let bench = campaign("junit");
+    bench.ectwin(&["replay", "s/1-right.toml", "s/2-wrong.toml", "--junit", "out.xml"]);
+    let xml = bench.text("out.xml");
+    for fragment in [
+        r#"<testsuites name="ectwin replay" tests="2" skipped="0" failures="1" errors="0" time="0.2"#,
+        r#"classname="s/1-right.toml" time="0.1"#,
+        r#"<failure message="s/2-wrong.toml:6: `unit 1 has recorded 85000000 2 times`"#,
+        r#"file="s/2-wrong.toml" line="6""#,
+    ] {
+        assert!(xml.contains(fragment), "`{fragment}` is not in:\n{xml}");
+    }
+    assert!(!xml.contains("timestamp"), "{xml}");
+}
+
+#[test]
+fn the_parts_have_every_case_once_and_merge_to_the_whole() {
+    let bench = campaign("parts");
+    let whole = &["replay", "s", "--seeds", "3"][..];
+    bench.ectwin(&[whole, &["--json", "whole.jsonl", "--junit", "whole.xml"]].concat());
+    let mut cases = Vec::new();
+    for part in ["1", "2", "3", "4"] {
+        let (partition, file) = (format!("{part}/4"), format!("part-{part}.jsonl"));
+        bench.ectwin(&[whole, &["--partition", &partition, "--json", &file]].concat());
+        let lines = bench.json_lines(&file);
+        assert!((2..=3).contains(&lines.len()), "dealt out alike");
+        cases.extend(lines.iter().map(|line| line["case"].as_u64().unwrap()));
+    }
+    cases.sort_unstable();
+    assert_eq!(cases, (1..=9).collect::<Vec<_>>());
+
+    let parts = ["part-3.jsonl", "part-1.jsonl", "part-4.jsonl", "part-2.jsonl"];
+    let merged = bench.ectwin(&[&["merge"], &parts[..], &["--junit", "merged.xml"]].concat());
+    assert_eq!(merged.code, Some(1), "{}", merged.stderr);
+    assert!(merged.stdout.contains("repeat  ectwin replay s/2-wrong.toml --seed 3"), "{}", merged.stdout);
+    assert_eq!(bench.text("merged.xml"), bench.text("whole.xml"));
+    assert_eq!(bench.ectwin(&["merge", "whole.jsonl"]).stdout, merged.stdout);
+}
+
+#[test]
+fn merge_refuses_what_is_not_the_whole() {
+    let bench = campaign("not-whole");
+    for part in ["1/3", "2/3", "3/3"] {
+        let file = format!("part-{}.jsonl", &part[..1]);
+        bench.ectwin(&["replay", "s", "--seeds", "4", "--partition", part, "--json", &file]);
+    }
+    bench.ectwin(&["replay", "s", "--seeds", "5..8", "--partition", "3/3", "--json", "other.jsonl"]);
+    let second = bench.text("part-2.jsonl");
+    let (kept, _) = second.trim_end().rsplit_once('\n').unwrap();
+    bench.put("short-2.jsonl", &format!("{kept}\n"));
+    bench.put("torn-2.jsonl", &second[..second.len() - 30]);
+    bench.put("empty.jsonl", "");
+    for (files, fragment) in [
+        (&["part-1.jsonl", "part-3.jsonl"][..], "part 2/3 is missing"),
+        (&["part-1.jsonl", "short-2.jsonl", "part-3.jsonl"], "part 2/3 lacks 1 of its 4 cases: 11"),
+        (&["part-1.jsonl", "part-2.jsonl", "part-2.jsonl", "part-3.jsonl"], "case 2 is there twice"),
+        (&["part-1.jsonl", "part-2.jsonl", "other.jsonl"], "are not of one campaign"),
+        (&["part-1.jsonl", "torn-2.jsonl", "part-3.jsonl"], "torn-2.jsonl:4:1]"),
+        (&["empty.jsonl"], "there is no result"),
+        (&["gone.jsonl"], "cannot read gone.jsonl"),
+    ] {
+        let ended = bench.ectwin(&[&["merge"], files, &["--junit", "merged.xml"]].concat());
+        assert_eq!(ended.code, Some(2), "{files:?}: {}", ended.stdout);
+        assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
+        assert!(!bench.folder.join("merged.xml").exists(), "half a campaign leaves no report");
+    }
+}
+
+#[test]
+fn a_campaign_of_which_all_pass_merges_to_0() {
+    let bench = campaign("all-pass");
+    for part in ["1/2", "2/2"] {
+        let file = format!("part-{}.jsonl", &part[..1]);
+        let ended = bench.ectwin(&["replay", "s/1-right.toml", "--partition", part, "--json", &file]);
+        assert_eq!(ended.code, Some(0), "a part without a case is no failure");
+    }
+    let ended = bench.ectwin(&["merge", "part-1.jsonl", "part-2.jsonl"]);
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), "1 case: 1 ok, 0 failed\n"));
+}
+
+#[test]
+fn the_variables_of_a_ci_system_choose_the_part_only_if_they_are_asked() {
+    let bench = campaign("automatic");
+    let variables =
+        [("TEST_SHARD_INDEX", "1"), ("TEST_TOTAL_SHARDS", "3"), ("TEST_SHARD_STATUS_FILE", "understood")];
+    let ended = bench.ectwin_with(&variables, &["replay", "s", "--partition", "auto"]);
+    assert!(ended.stdout.ends_with("1 case (part 2/3 of 3 cases): 0 ok, 1 failed\n"), "{}", ended.stdout);
+    assert!(bench.folder.join("understood").exists());
+    let ended = bench.ectwin_with(&variables, &["replay", "s"]);
+    assert!(ended.stdout.contains("3 cases: "), "{}", ended.stdout);
+}

@@ -1,0 +1,30 @@
+//! What Wireshark makes of the captures.
+
+use std::process::Command;
+
+use testbed::{has_program, skip};
+
+use crate::WATCHDOG;
+use crate::bench::Bench;
+
+#[test]
+fn tshark_reads_the_frames_and_sees_the_faults_as_comments() {
+    let bench = Bench::new("tshark");
+    bench.put("watchdog.toml", WATCHDOG);
+    let ended = bench.ectwin(&["replay", "watchdog.toml", "--pcap", "frames.pcapng"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    if !has_program("tshark") {
+        return skip("tshark_reads_the_frames_and_sees_the_faults_as_comments", "tshark is not installed");
+    }
+    let count = |filter: &str| {
+        let mut tshark = Command::new("tshark");
+        tshark.args(["-r", "frames.pcapng", "-Y", filter]).current_dir(&bench.folder);
+        let output = tshark.output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        output.stdout.iter().filter(|&&byte| byte == b'\n').count()
+    };
+    assert!(count("ecat") > 150);
+    assert_eq!(count("_ws.malformed"), 0);
+    let lost = count("frame.comment == \"fault: lost on the way to the units\"");
+    assert!((90..=120).contains(&lost), "{lost} frames that were lost");
+}
