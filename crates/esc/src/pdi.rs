@@ -1,5 +1,6 @@
 //! The face of the application: events, AL status, mailboxes, buffers, SII.
 
+use time::Instant;
 use wire::{AlControl, AlStatus, AlStatusCode};
 
 use crate::esc::Esc;
@@ -175,6 +176,14 @@ impl<'a> Pdi<'a> {
     #[must_use]
     pub fn watchdog_expired(&self) -> bool {
         self.esc.watchdog.is_expired()
+    }
+
+    /// Starts the process data watchdog, if this SyncManager has its trigger and it does not run yet.
+    pub fn start_watchdog(&mut self, index: SmIndex, now: Instant) {
+        let settings = &self.sm(index).settings;
+        if settings.enabled && settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
+            self.esc.watchdog.start(now);
+        }
     }
 
     /// Process data watchdog time register 0x0420; 0 is off.

@@ -8,43 +8,61 @@ use crate::registers::at;
 /// One tick of the divider: 25 MHz.
 const TICK: Duration = Duration::from_nanos(40);
 
-/// Runs from the first complete write to a SyncManager with trigger; before, there is nothing to watch.
+/// Runs from the first complete write to a SyncManager with trigger, or from when the application starts it;
+/// before, there is nothing to watch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watchdog {
     /// None where the time register is 0.
     period: Option<Duration>,
+    /// There is something to watch, be the time register 0 or not.
+    is_watching: bool,
     deadline: Option<Instant>,
     expired: bool,
 }
 
 impl Watchdog {
     pub(crate) fn at_power_on(memory: &Memory) -> Self {
-        Self { period: period(memory), deadline: None, expired: false }
+        Self { period: period(memory), is_watching: false, deadline: None, expired: false }
     }
 
     /// A complete write has come.
     #[inline]
     pub(crate) fn trigger(&mut self, now: Instant) {
-        self.deadline = self.period.map(|period| now + period);
+        self.run(now);
         self.expired = false;
     }
 
-    /// Its registers have been written: a running one starts anew, one that is off is never expired.
+    /// The application wants it to run, whether or not a write has come. What has expired still shows.
+    pub(crate) fn start(&mut self, now: Instant) {
+        if !self.is_watching {
+            self.run(now);
+        }
+    }
+
+    fn run(&mut self, now: Instant) {
+        self.is_watching = true;
+        self.deadline = self.period.map(|period| now + period);
+    }
+
+    /// Its registers have been written: one that has something to watch starts anew, one that is off is never
+    /// expired.
     pub(crate) fn configure(&mut self, memory: &Memory, now: Instant) {
         self.period = period(memory);
-        if self.deadline.is_some() || self.period.is_none() {
-            self.trigger(now);
+        if self.is_watching {
+            self.run(now);
         }
+        self.expired &= self.period.is_some();
     }
 
     /// Nothing will trigger it for now: it does not expire, and what has expired still shows.
     pub(crate) fn disarm(&mut self) {
+        self.is_watching = false;
         self.deadline = None;
     }
 
     /// No SyncManager with trigger is left: there is nothing to watch.
     pub(crate) fn stop(&mut self) {
-        self.deadline = None;
+        self.disarm();
         self.expired = false;
     }
 
@@ -56,7 +74,7 @@ impl Watchdog {
     pub(crate) fn expire(&mut self, memory: &mut Memory, now: Instant) -> bool {
         let expired = self.deadline.is_some_and(|deadline| now >= deadline);
         if expired {
-            self.deadline = None;
+            self.disarm();
             self.expired = true;
             memory.count_up(at::WATCHDOG_COUNTER);
         }

@@ -206,6 +206,42 @@ fn the_process_data_watchdog_expires_after_its_time() {
     assert_eq!(bench.byte(0x0442), 0);
 }
 
+/// C068: time 0 is off; a watchdog that had something to watch goes on when it gets a time again.
+#[test]
+fn a_watchdog_without_time_starts_again_with_one() {
+    let mut bench = Bench::new();
+    bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS);
+    bench.write(0x0420, &[0, 0]);
+    bench.write(0x0420, &[10, 0]);
+    assert_eq!(bench.esc.deadline(), time::Instant::NEVER, "nothing has been triggered yet");
+    bench.write(0x1100, &[1, 2]);
+    bench.write(0x0420, &[0, 0]);
+    bench.write(0x0420, &[10, 0]);
+    assert_eq!(bench.esc.deadline(), bench.now + Duration::from_millis(1));
+}
+
+/// The application starts it before the first write; what has expired shows until a write comes.
+#[test]
+fn the_application_starts_the_watchdog_of_a_trigger() {
+    let mut bench = Bench::new();
+    bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS & !0x40);
+    let outputs = esc::SmIndex::OUTPUTS;
+    bench.esc.pdi().start_watchdog(outputs, bench.now);
+    assert_eq!(bench.esc.deadline(), time::Instant::NEVER, "there is no trigger");
+    bench.write(0x0816, &[0]);
+    bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS);
+    for expired in 1..=2 {
+        bench.esc.pdi().start_watchdog(outputs, bench.now);
+        bench.now += Duration::from_millis(50);
+        bench.esc.pdi().start_watchdog(outputs, bench.now);
+        bench.now += Duration::from_millis(50);
+        bench.esc.advance(bench.now);
+        assert_eq!((bench.word(0x0440), bench.byte(0x0442)), (0, expired));
+    }
+    bench.write(0x1100, &[1, 2]);
+    assert_eq!(bench.word(0x0440), 1);
+}
+
 /// C118: the system time advances; offset and delay show in it.
 #[test]
 fn system_time_is_local_time_with_offset_less_delay() {
