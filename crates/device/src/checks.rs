@@ -73,11 +73,17 @@ fn is_buffered(index: SmIndex, pdi: &Pdi<'_>) -> bool {
 }
 
 /// SyncManagers 2 and 3 in SAFE-OP and OP: they have to stay as they were checked.
-pub(crate) fn watched_process_data(config: &DeviceConfig, areas: ProcessDataAreas, pdi: &Pdi<'_>) -> Verdict {
+pub(crate) fn watched_process_data(
+    config: &DeviceConfig,
+    areas: ProcessDataAreas,
+    pdi: &Pdi<'_>,
+) -> Findings {
     let [outputs_fit, inputs_fit] = process_data_sync_managers(config, areas, pdi);
-    outputs_fit.and(inputs_fit)?;
-    require(is_buffered(SmIndex::OUTPUTS, pdi), AlStatusCode::INVALID_OUTPUT_CONFIGURATION)?;
-    require(is_buffered(SmIndex::INPUTS, pdi), AlStatusCode::INVALID_INPUT_CONFIGURATION)
+    let buffered = |index, otherwise| require(is_buffered(index, pdi), otherwise);
+    all([
+        outputs_fit.and_then(|()| buffered(SmIndex::OUTPUTS, AlStatusCode::INVALID_OUTPUT_CONFIGURATION)),
+        inputs_fit.and_then(|()| buffered(SmIndex::INPUTS, AlStatusCode::INVALID_INPUT_CONFIGURATION)),
+    ])
 }
 
 /// SyncManagers 2 and 3 against the mapping.

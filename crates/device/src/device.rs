@@ -26,6 +26,10 @@ pub struct Device<U> {
     code: AlStatusCode,
     /// The master has asked for OP; outputs have to come before this moment.
     op_deadline: Option<Instant>,
+    /// Outputs have come since the slave left PRE-OP; OP watches over them from its beginning on.
+    outputs_came: bool,
+    /// Emergencies that found no mailbox, or no room in it.
+    emergencies_lost: u64,
     next_refresh: Instant,
     is_off: bool,
 }
@@ -42,6 +46,8 @@ impl<U: Unit> Device<U> {
             status: AlStatus::default(),
             code: AlStatusCode::NO_ERROR,
             op_deadline: None,
+            outputs_came: false,
+            emergencies_lost: 0,
             next_refresh: now,
             is_off: false,
         };
@@ -61,6 +67,7 @@ impl<U: Unit> Device<U> {
         self.status = AlStatus::default();
         self.code = AlStatusCode::NO_ERROR;
         self.op_deadline = None;
+        self.outputs_came = false;
         self.is_off = false;
         if let Some(mailbox) = &mut self.mailbox {
             mailbox.reset();
@@ -142,7 +149,7 @@ impl<U: Unit> Device<U> {
             self.on_al_control(control, &mut pdi, now);
         }
         if pdi.take_watchdog_event() && self.status.state == AlState::Op {
-            self.drop_to(AlState::SafeOp, AlStatusCode::SYNC_MANAGER_WATCHDOG, &mut pdi, now);
+            self.drop_to(AlState::SafeOp, &[AlStatusCode::SYNC_MANAGER_WATCHDOG], &mut pdi, now);
         }
         self.watch_op_request(&mut pdi, now);
         if now >= self.next_refresh {
@@ -154,10 +161,11 @@ impl<U: Unit> Device<U> {
         self.queue_emergencies();
     }
 
-    /// A fault of the unit takes the slave to INIT, whenever it comes.
+    /// A fault of the unit takes the slave to INIT, whenever it comes. An Explicit Device ID in place of the AL
+    /// status code can have the same number, so all that is shown counts.
     fn watch_fault(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         if let Some(code) = self.unit.fault()
-            && (self.status.state, self.code) != (AlState::Init, code)
+            && (self.status, self.code) != (error_status(AlState::Init, code), code)
         {
             self.refuse(AlState::Init, code, pdi, now);
         }
@@ -165,7 +173,8 @@ impl<U: Unit> Device<U> {
 
     fn queue_emergencies(&mut self) {
         while let Some(emergency) = self.unit.take_emergency() {
-            self.queue_emergency(emergency);
+            // Lost ones are counted.
+            let _ = self.queue_emergency(emergency);
         }
     }
 
@@ -182,6 +191,7 @@ impl<U: Unit> Device<U> {
 
     fn exchange(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         let state = self.status.state;
+        self.outputs_came |= pdi.outputs_received(SmIndex::OUTPUTS);
         let valid = state == AlState::Op && pdi.outputs_received(SmIndex::OUTPUTS) && !pdi.watchdog_expired();
         let links = PortLinks { in_port: pdi.link(Port::In), out_port: pdi.link(Port::Out) };
         let unit = &mut self.unit;
@@ -215,11 +225,20 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// Queues an emergency message, if the state has a mailbox; false if it is lost.
+    /// Queues an emergency message, if the state has a mailbox; false if it is lost, which is counted.
     pub fn queue_emergency(&mut self, emergency: wire::Emergency) -> bool {
         let has_mailbox = self.status.state != AlState::Init;
         let mailbox = self.mailbox.as_mut().filter(|_| has_mailbox);
-        mailbox.is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok())
+        let is_queued = mailbox.is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok());
+        self.emergencies_lost += u64::from(!is_queued);
+        is_queued
+    }
+
+    /// How many emergencies have found no room in the unit, no mailbox in their state, or no room in it, since
+    /// power-on. Those that waited when the slave went to INIT are not among them.
+    #[must_use]
+    pub fn emergencies_lost(&self) -> u64 {
+        self.emergencies_lost + self.unit.emergencies_lost()
     }
 
     /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
@@ -291,10 +310,16 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The stack itself has a reason to leave the state.
-    fn drop_to(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        let code = self.unit.al_error(now, code);
-        self.fall_back(state, code, pdi, now);
+    /// The stack itself has reasons to leave the state, if any: the unit hears of all, the first one is shown.
+    fn drop_to(&mut self, state: AlState, found: &[AlStatusCode], pdi: &mut Pdi<'_>, now: Instant) {
+        let mut first = None;
+        for &code in found {
+            let code = self.unit.al_error(now, code);
+            first.get_or_insert(code);
+        }
+        if let Some(code) = first {
+            self.fall_back(state, code, pdi, now);
+        }
     }
 
     /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
@@ -317,7 +342,13 @@ impl<U: Unit> Device<U> {
         if state == before {
             return;
         }
+        // Here, because a fall-back closes the outputs and forgets that some have come.
+        let had_process_data = matches!(before, AlState::SafeOp | AlState::Op);
+        self.outputs_came = had_process_data && (self.outputs_came || pdi.outputs_received(SmIndex::OUTPUTS));
         self.open_sync_managers(pdi);
+        if state == AlState::Op && self.outputs_came {
+            pdi.start_watchdog(SmIndex::OUTPUTS, now);
+        }
         if (before == AlState::Init || state == AlState::Init)
             && let Some(mailbox) = &mut self.mailbox
         {
@@ -342,10 +373,8 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// Without a code there is no error indication.
     fn show_error(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>) {
-        let error = code != AlStatusCode::NO_ERROR;
-        self.show(AlStatus { state, error, device_id_loaded: false }, code, pdi);
+        self.show(error_status(state, code), code, pdi);
     }
 
     fn show(&mut self, status: AlStatus, code: AlStatusCode, pdi: &mut Pdi<'_>) {
@@ -362,13 +391,11 @@ impl<U: Unit> Device<U> {
         }
         let mailbox = self.config.mailbox.as_ref();
         if let Some(Err(code)) = mailbox.map(|mailbox| checks::mailbox_sync_managers(mailbox, pdi)) {
-            return self.drop_to(AlState::Init, code, pdi, now);
+            return self.drop_to(AlState::Init, &[code], pdi, now);
         }
-        let areas = self.unit.process_data();
-        if matches!(state, AlState::SafeOp | AlState::Op)
-            && let Err(code) = checks::watched_process_data(&self.config, areas, pdi)
-        {
-            self.drop_to(AlState::PreOp, code, pdi, now);
+        if matches!(state, AlState::SafeOp | AlState::Op) {
+            let found = checks::watched_process_data(&self.config, self.unit.process_data(), pdi);
+            self.drop_to(AlState::PreOp, &found, pdi, now);
         }
     }
 
@@ -384,6 +411,11 @@ impl<U: Unit> Device<U> {
             self.refuse(AlState::SafeOp, code, pdi, now);
         }
     }
+}
+
+/// AL status with an error in `state`; without a code there is no error indication.
+fn error_status(state: AlState, code: AlStatusCode) -> AlStatus {
+    AlStatus { state, error: code != AlStatusCode::NO_ERROR, device_id_loaded: false }
 }
 
 /// When a transition that may happen happens.

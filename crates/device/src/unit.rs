@@ -100,6 +100,11 @@ pub trait Unit {
         None
     }
 
+    /// How many emergency messages the unit itself had no room for, since power-on.
+    fn emergencies_lost(&self) -> u64 {
+        0
+    }
+
     /// The state machine has arrived in `state`.
     fn entered(&mut self, _now: Instant, _state: AlState) {}
 

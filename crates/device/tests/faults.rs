@@ -49,6 +49,25 @@ fn a_fault_without_code_refuses_without_an_error_indication() {
     }
 }
 
+/// Explicit Device ID 5 is shown in the place of the code; the fault has the same number.
+#[test]
+fn a_device_id_does_not_hide_a_fault() {
+    let mut bench = Bench::in_state(Init);
+    bench.request(0x21);
+    assert_eq!(bench.status(), (0x21, 5));
+    unit(&mut bench).fault = Some(AlStatusCode(5));
+    bench.run_for(Duration::from_millis(1));
+    assert_eq!(bench.status(), (0x11, 5));
+}
+
+#[test]
+fn the_unit_hears_of_each_sync_manager_that_goes() {
+    let mut bench = Bench::in_state(Op);
+    bench.write(0x0814, &[0x66, 0, 0, 0, 0x00, 0x11, 1, 0, 0x20, 0, 0, 0]);
+    assert_eq!(bench.status(), (0x12, 0x1D));
+    assert_eq!(unit(&mut bench).told, [0x1D, 0x1E].map(AlStatusCode));
+}
+
 #[test]
 fn a_restart_shows_what_the_unit_says_until_it_is_acknowledged() {
     for (start, status) in

@@ -49,6 +49,50 @@ fn outputs_end_with_the_watchdog() {
     assert_eq!(unit(&mut bench).outputs, None);
 }
 
+/// Outputs have come since PRE-OP, so that OP watches over them from its beginning on.
+#[test]
+fn op_without_new_outputs_ends_with_the_watchdog() {
+    let mut bench = Bench::in_state(SafeOp);
+    bench.cycle(1);
+    bench.run_for(Duration::from_millis(150));
+    for request in [0x08, 0x18] {
+        bench.request(request);
+        assert_eq!(bench.status(), (0x08, 0));
+        bench.run_for(Duration::from_millis(99));
+        assert_eq!((bench.status().0, unit(&mut bench).outputs), (0x08, None), "the old ones are not valid");
+        bench.run_for(Duration::from_millis(2));
+        assert_eq!(bench.status(), (0x14, 0x1B));
+    }
+}
+
+/// They came in an earlier SAFE-OP: the next OP waits for its first ones.
+#[test]
+fn op_waits_for_its_first_outputs() {
+    let mut bench = Bench::in_state(SafeOp);
+    bench.cycle(1);
+    bench.request(PreOp.bits());
+    bench.request(SafeOp.bits());
+    bench.request(Op.bits());
+    bench.run_for(Duration::from_secs(1));
+    assert_eq!(bench.status(), (0x08, 0));
+    bench.cycle(1);
+    bench.run_for(Duration::from_millis(101));
+    assert_eq!(bench.status(), (0x14, 0x1B));
+}
+
+#[test]
+fn op_without_a_trigger_has_no_watchdog() {
+    let mut bench = Bench::in_state(PreOp);
+    bench.set_process_data();
+    bench.write(0x0816, &[0]);
+    bench.write(0x0810, &[0x00, 0x10, 1, 0, 0x24, 0, 1, 0]);
+    bench.request(SafeOp.bits());
+    bench.cycle(1);
+    bench.request(Op.bits());
+    bench.run_for(Duration::from_secs(1));
+    assert_eq!(bench.status(), (0x08, 0));
+}
+
 #[test]
 fn the_unit_is_told_each_state_once() {
     let mut bench = Bench::in_state(Op);
