@@ -12,14 +12,19 @@ use crate::description::description;
 use crate::settings::UnitSettings;
 
 pub use codec::Damage;
+pub(crate) use error_log::FIRST_RECORD;
 pub use error_log::{ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, LogRecord, SYSTEM_RECORDS_MAX};
 
 /// Bytes of SII word 4, the station alias.
 const ALIAS: core::ops::Range<usize> = 8..10;
 /// Low byte of SII word 7, the checksum of words 0 to 6.
 const CHECKSUM: usize = 14;
+/// Bytes of SII words 8 to 0x0D: vendor, product, revision.
+const IDENTITY: core::ops::Range<usize> = 16..28;
 /// Bytes of SII words 0x0E and 0x0F, the serial number.
 const SERIAL: core::ops::Range<usize> = 28..32;
+
+pub(crate) const IDENTITY_BYTES: usize = IDENTITY.end - IDENTITY.start;
 
 /// What outlives power-off.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,6 +89,17 @@ impl NonVolatileMemory {
     pub fn serial(&self) -> u32 {
         let bytes = self.sii_image.get(SERIAL).and_then(|bytes| bytes.try_into().ok());
         bytes.map_or(0, u32::from_le_bytes)
+    }
+
+    /// Vendor, product and revision in the SII; none where the image is too short to have them.
+    pub(crate) fn identity(&self) -> Option<[u8; IDENTITY_BYTES]> {
+        self.sii_image.get(IDENTITY).and_then(|bytes| bytes.try_into().ok())
+    }
+
+    /// The bytes of a memory with full logs, at most: for who sets room aside.
+    #[must_use]
+    pub fn encoded_bytes_max(&self) -> usize {
+        codec::encoded_bytes_max(self.sii_image.len())
     }
 
     /// Gets the memory ready for a start with these settings: a unit file with a new serial number gives it to

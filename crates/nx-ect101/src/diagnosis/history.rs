@@ -1,12 +1,10 @@
 //! The diagnosis history, object 10F3: records as a ring, and the bytes of a diagnosis message (manual, A-6-4).
 
 use crate::events::{Event, EventLevel};
-use crate::memory::{ErrorLog, LogRecord, SYSTEM_RECORDS_MAX};
+use crate::memory::{ErrorLog, FIRST_RECORD, LogRecord, SYSTEM_RECORDS_MAX};
 
 /// Length of a diagnosis message in bytes.
 pub const DIAGNOSIS_MESSAGE_BYTES: usize = 24;
-/// Subindex of the first message.
-const FIRST_MESSAGE: u8 = 0x06;
 /// Low word of the diagnosis code: the high word is an emergency error code.
 const CODE_IS_EMERGENCY: u32 = 0xE800;
 /// Flags: the time stamp is object 10F8.
@@ -20,7 +18,7 @@ const PARAMETERS_BYTES: usize = DIAGNOSIS_MESSAGE_BYTES - PARAMETERS;
 impl ErrorLog {
     /// Adds a record to the diagnosis history; the 33rd takes the place of the oldest.
     pub(crate) fn add(&mut self, record: LogRecord) {
-        let place = match self.newest.checked_sub(FIRST_MESSAGE) {
+        let place = match self.newest.checked_sub(FIRST_RECORD) {
             None => 0,
             Some(newest) => (usize::from(newest) + 1) % SYSTEM_RECORDS_MAX,
         };
@@ -28,7 +26,7 @@ impl ErrorLog {
             Some(oldest) => *oldest = record,
             None => self.system.push(record),
         }
-        self.newest = FIRST_MESSAGE + place as u8;
+        self.newest = FIRST_RECORD + place as u8;
         self.acknowledged = false;
     }
 
@@ -50,12 +48,12 @@ impl ErrorLog {
     /// The record at a subindex of 10F3; none where none was stored.
     #[must_use]
     pub fn record_at(&self, sub: u8) -> Option<&LogRecord> {
-        self.system.get(usize::from(sub.checked_sub(FIRST_MESSAGE)?))
+        self.system.get(usize::from(sub.checked_sub(FIRST_RECORD)?))
     }
 
     /// The records of the diagnosis history, the oldest first.
     pub fn history(&self) -> impl Iterator<Item = &LogRecord> {
-        let newest = usize::from(self.newest.saturating_sub(FIRST_MESSAGE));
+        let newest = usize::from(self.newest.saturating_sub(FIRST_RECORD));
         let oldest = if self.system.is_full() { (newest + 1) % SYSTEM_RECORDS_MAX } else { 0 };
         let (new, old) = self.system.split_at(oldest.min(self.system.len()));
         old.iter().chain(new)

@@ -5,16 +5,22 @@ use core::fmt;
 use arrayvec::ArrayVec;
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use super::{ErrorLog, LogRecord, NonVolatileMemory};
-use crate::events::{EventCode, EventLevel};
+use super::{
+    ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, FIRST_RECORD, LogRecord, NonVolatileMemory, SYSTEM_RECORDS_MAX,
+};
+use crate::events::{Event, EventCode, EventLevel, EventLog};
 
 const MAGIC: &[u8; 8] = b"ectwnvm\0";
 const VERSION: u16 = 1;
 const CHECKSUM_BYTES: usize = 4;
 /// Largest EEPROM that an SII size word can tell.
 const SII_BYTES_MAX: usize = 8 << 20;
-/// First subindex of object 10F3 that is a record.
-const FIRST_RECORD: u8 = 0x06;
+/// Magic, version, length, serial number, software ID, length of the EEPROM.
+const HEAD_BYTES: usize = 8 + 2 + 4 + 4 + 2 + 4;
+/// Newest record, acknowledged, numbers of records.
+const LOG_HEAD_BYTES: usize = 4;
+/// Event, time, level, number of details, details.
+const RECORD_BYTES_MAX: usize = 4 + 8 + 1 + 1 + 4 * DETAILS_MAX;
 
 static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
@@ -99,6 +105,12 @@ impl NonVolatileMemory {
     }
 }
 
+/// The length of a memory with an EEPROM of this length, at most.
+pub(super) const fn encoded_bytes_max(sii_bytes: usize) -> usize {
+    let records_max = SYSTEM_RECORDS_MAX + ACCESS_RECORDS_MAX;
+    HEAD_BYTES + sii_bytes + LOG_HEAD_BYTES + records_max * RECORD_BYTES_MAX + CHECKSUM_BYTES
+}
+
 fn put_log(log: &ErrorLog, bytes: &mut Vec<u8>) {
     bytes.extend_from_slice(&[log.newest, u8::from(log.acknowledged), log.system.len() as u8]);
     log.system.iter().for_each(|record| put_record(record, bytes));
@@ -135,9 +147,7 @@ impl Reader<'_> {
         let newest = self.u8()?;
         let acknowledged = self.bool()?;
         let log = ErrorLog { newest, acknowledged, system: self.records()?, access: self.records()? };
-        let is_record =
-            newest.checked_sub(FIRST_RECORD).is_some_and(|place| usize::from(place) < log.system.len());
-        (newest == 0 && log.system.is_empty() || is_record).then_some(log)
+        is_possible(&log).then_some(log)
     }
 
     fn records<const MAX: usize>(&mut self) -> Option<ArrayVec<LogRecord, MAX>> {
@@ -189,4 +199,21 @@ impl Reader<'_> {
         self.0 = rest;
         Some(*bytes)
     }
+}
+
+/// Whether a unit can have such a log: until it is full the newest record is the last, and each event is one that
+/// goes there.
+fn is_possible(log: &ErrorLog) -> bool {
+    let place = log.newest.checked_sub(FIRST_RECORD).map(usize::from);
+    let newest_is_right = match log.system.len() {
+        0 => log.newest == 0,
+        SYSTEM_RECORDS_MAX => place.is_some_and(|place| place < SYSTEM_RECORDS_MAX),
+        count => place.is_some_and(|place| place + 1 == count),
+    };
+    let all_are = |records: &[LogRecord], goes_there: fn(&Event) -> bool| {
+        records.iter().all(|record| Event::find(record.event).is_some_and(goes_there))
+    };
+    newest_is_right
+        && all_are(&log.system, |event| event.logged)
+        && all_are(&log.access, |event| event.event_log == EventLog::Access)
 }

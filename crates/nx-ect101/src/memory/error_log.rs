@@ -11,6 +11,9 @@ pub const ACCESS_RECORDS_MAX: usize = 5;
 /// Pieces of attached information of one event.
 pub const DETAILS_MAX: usize = 4;
 
+/// Subindex of object 10F3 that shows the first record.
+pub(crate) const FIRST_RECORD: u8 = 0x06;
+
 /// One event that occurred.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LogRecord {

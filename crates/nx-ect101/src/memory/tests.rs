@@ -5,7 +5,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 use super::*;
-use crate::events::{EventCode, EventLevel};
+use crate::events::{Event, EventCode, EventLevel, EventLog};
 
 fn encoded(memory: &NonVolatileMemory) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -13,15 +13,18 @@ fn encoded(memory: &NonVolatileMemory) -> Vec<u8> {
     bytes
 }
 
-fn record() -> impl Strategy<Value = LogRecord> {
+/// A record of an event that goes there.
+fn record(goes_there: fn(&Event) -> bool) -> impl Strategy<Value = LogRecord> {
+    let events: Vec<_> =
+        Event::all().iter().filter(|event| goes_there(event)).map(|event| event.code).collect();
     let level = prop_oneof![
         Just(EventLevel::MinorFault),
         Just(EventLevel::Observation),
         Just(EventLevel::Information)
     ];
-    (any::<u32>(), level, any::<u64>(), vec(any::<u32>(), 0..=DETAILS_MAX)).prop_map(
+    (prop::sample::select(events), level, any::<u64>(), vec(any::<u32>(), 0..=DETAILS_MAX)).prop_map(
         |(event, level, time_ns, details)| LogRecord {
-            event: EventCode(event),
+            event,
             level,
             time_ns,
             details: details.into_iter().collect(),
@@ -30,9 +33,14 @@ fn record() -> impl Strategy<Value = LogRecord> {
 }
 
 fn log() -> impl Strategy<Value = ErrorLog> {
-    let records = (vec(record(), 0..=SYSTEM_RECORDS_MAX), vec(record(), 0..=ACCESS_RECORDS_MAX));
-    (records, any::<u8>(), any::<bool>()).prop_map(|((system, access), newest, acknowledged)| {
-        let newest = if system.is_empty() { 0 } else { 6 + newest % system.len() as u8 };
+    let system = vec(record(|event| event.logged), 0..=SYSTEM_RECORDS_MAX);
+    let access = vec(record(|event| event.event_log == EventLog::Access), 0..=ACCESS_RECORDS_MAX);
+    ((system, access), any::<u8>(), any::<bool>()).prop_map(|((system, access), newest, acknowledged)| {
+        let newest = match system.len() {
+            0 => 0,
+            SYSTEM_RECORDS_MAX => 6 + newest % SYSTEM_RECORDS_MAX as u8,
+            count => 5 + count as u8,
+        };
         let (system, access) = (ArrayVec::from_iter(system), ArrayVec::from_iter(access));
         ErrorLog { system, newest, acknowledged, access }
     })
@@ -75,6 +83,58 @@ proptest! {
     fn any_bytes_are_no_panic(bytes in vec(any::<u8>(), 0..300)) {
         prop_assert!(NonVolatileMemory::decode(&bytes).is_err());
     }
+}
+
+fn record_of(event: u32) -> LogRecord {
+    LogRecord { event: EventCode(event), level: EventLevel::MinorFault, time_ns: 0, details: ArrayVec::new() }
+}
+
+/// A memory with this log, written and read.
+fn after_storage(system: &[u32], newest: u8, access: &[u32]) -> Result<(), Damage> {
+    let records = |codes: &[u32]| codes.iter().copied().map(record_of).collect::<Vec<_>>();
+    let mut memory = NonVolatileMemory::factory(&UnitSettings::default());
+    memory.error_log.system.extend(records(system));
+    memory.error_log.access.extend(records(access));
+    memory.error_log.newest = newest;
+    NonVolatileMemory::decode(&encoded(&memory)).map(drop)
+}
+
+#[test]
+fn a_log_that_no_unit_can_have_is_damage() {
+    const WATCHDOG: u32 = 0x8500_0000;
+    const RESTART: u32 = 0x94B8_0000;
+    for (newest, is_right) in [(0, false), (5, false), (6, false), (7, true), (8, false), (0x25, false)] {
+        let expected = if is_right { Ok(()) } else { Err(Damage::Contents) };
+        assert_eq!(after_storage(&[WATCHDOG; 2], newest, &[RESTART]), expected, "{newest:02X}");
+    }
+    for newest in 0..=0xFF {
+        let expected = if (6..=0x25).contains(&newest) { Ok(()) } else { Err(Damage::Contents) };
+        assert_eq!(after_storage(&[WATCHDOG; 32], newest, &[]), expected, "{newest:02X}");
+    }
+    assert_eq!(after_storage(&[], 0, &[]), Ok(()));
+    assert_eq!(after_storage(&[], 6, &[]), Err(Damage::Contents));
+    for not_logged in [0x0020_0000, RESTART, 0xDEAD_0000] {
+        assert_eq!(after_storage(&[not_logged], 6, &[]), Err(Damage::Contents), "{not_logged:08X}");
+    }
+    for no_access in [WATCHDOG, 0x0020_0000, 0xDEAD_0000] {
+        assert_eq!(after_storage(&[], 0, &[no_access]), Err(Damage::Contents), "{no_access:08X}");
+    }
+}
+
+proptest! {
+    #[test]
+    fn no_memory_is_longer_than_the_room_for_it(memory in memory()) {
+        prop_assert!(encoded(&memory).len() <= memory.encoded_bytes_max());
+    }
+}
+
+#[test]
+fn the_room_is_that_of_full_logs_with_all_details() {
+    let mut memory = NonVolatileMemory::factory(&UnitSettings::default());
+    let full = LogRecord { details: [0; DETAILS_MAX].into(), ..record_of(0x8500_0000) };
+    memory.error_log.system.extend(core::iter::repeat_n(full.clone(), SYSTEM_RECORDS_MAX));
+    memory.error_log.access.extend(core::iter::repeat_n(full, ACCESS_RECORDS_MAX));
+    assert_eq!(encoded(&memory).len(), memory.encoded_bytes_max());
 }
 
 #[test]
