@@ -41,6 +41,10 @@ impl EventCode {
     pub const SII_VERIFICATION_ERROR: Self = Self(0x0946_0000);
     /// Control Parameter Error in Master.
     pub const CONTROL_PARAMETER_ERROR: Self = Self(0x1041_0000);
+    /// Data Size Mismatched between PDO Entry and I/O Entry C to M.
+    pub const MISMATCH_C_TO_M: Self = Self(0x3916_0000);
+    /// Data Size Mismatched between PDO Entry and I/O Entry M to C.
+    pub const MISMATCH_M_TO_C: Self = Self(0x3917_0000);
     /// SM Event Mode Setting Error.
     pub const SM_EVENT_MODE_SETTING_ERROR: Self = Self(0x3932_0000);
     /// NX Unit Processing Error.
@@ -180,6 +184,8 @@ mod tests {
             (EventCode::ESC_ERROR, "ESC Error"),
             (EventCode::SII_VERIFICATION_ERROR, "SII Verification Error"),
             (EventCode::CONTROL_PARAMETER_ERROR, "Control Parameter Error in Master"),
+            (EventCode::MISMATCH_C_TO_M, "Data Size Mismatched between PDO Entry and I/O Entry C to M"),
+            (EventCode::MISMATCH_M_TO_C, "Data Size Mismatched between PDO Entry and I/O Entry M to C"),
             (EventCode::SM_EVENT_MODE_SETTING_ERROR, "SM Event Mode Setting Error"),
             (EventCode::PROCESSING_ERROR, "NX Unit Processing Error"),
             (EventCode::IO_COMMUNICATIONS_ERROR, "NX Unit I/O Communications Error"),

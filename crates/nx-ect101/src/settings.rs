@@ -1,7 +1,5 @@
 //! How a unit is set up, before it gets power.
 
-use std::collections::BTreeMap;
-
 use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
@@ -39,8 +37,13 @@ pub enum NewestAcknowledged {
 }
 
 /// The Event Level Settings (manual, 6-5-1), in force from the start of the unit on.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct EventLevels(BTreeMap<EventCode, EventLevel>);
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EventLevels {
+    /// Of 39160000, where a user has set it.
+    mismatch_c_to_m: Option<EventLevel>,
+    /// Of 39170000.
+    mismatch_m_to_c: Option<EventLevel>,
+}
 
 /// The level of this event cannot be changed, or not to that level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,30 +55,41 @@ impl EventLevels {
     /// # Errors
     /// [`LevelNotChangeable`]: the manual lets users change 39160000 and 39170000, to minor fault and observation.
     pub fn set(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
-        let changeable = Event::find(code).is_some_and(|event| event.changeable_level);
-        if !changeable || level == EventLevel::Information {
+        if level == EventLevel::Information {
             return Err(LevelNotChangeable);
         }
-        self.0.insert(code, level);
+        let place = match code {
+            EventCode::MISMATCH_C_TO_M => &mut self.mismatch_c_to_m,
+            EventCode::MISMATCH_M_TO_C => &mut self.mismatch_m_to_c,
+            _ => return Err(LevelNotChangeable),
+        };
+        *place = Some(level);
         Ok(())
     }
 
     /// The level of an event.
     #[must_use]
-    pub fn of(&self, event: &Event) -> EventLevel {
-        self.0.get(&event.code).copied().unwrap_or(event.level)
+    pub fn of(self, event: &Event) -> EventLevel {
+        let changed = match event.code {
+            EventCode::MISMATCH_C_TO_M => self.mismatch_c_to_m,
+            EventCode::MISMATCH_M_TO_C => self.mismatch_m_to_c,
+            _ => None,
+        };
+        changed.unwrap_or(event.level)
     }
 
     /// The reader of unit files has refused what cannot be changed.
     fn from_unit_file(file: &UnitFile) -> Self {
-        let levels = file.event_levels.iter().map(|changed| {
+        let mut levels = Self::default();
+        for changed in &file.event_levels {
             let level = match changed.level.value {
                 ChangedLevel::Observation => EventLevel::Observation,
                 ChangedLevel::MinorFault => EventLevel::MinorFault,
             };
-            (EventCode(changed.event_code.value), level)
-        });
-        Self(levels.collect())
+            let taken = levels.set(EventCode(changed.event_code.value), level);
+            debug_assert_eq!(taken, Ok(()), "{:08X}", changed.event_code.value);
+        }
+        levels
     }
 }
 
@@ -113,6 +127,22 @@ impl Default for UnitSettings {
             io_allocation: IoAllocation::factory(),
             event_levels: EventLevels::default(),
             newest_acknowledged: NewestAcknowledged::default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_levels_that_can_be_changed_are_those_of_the_table() {
+        for event in Event::all() {
+            let mut levels = EventLevels::default();
+            let changed = levels.set(event.code, EventLevel::Observation).is_ok();
+            assert_eq!(changed, event.changeable_level, "{}", event.code);
+            let level = if changed { EventLevel::Observation } else { event.level };
+            assert_eq!(levels.of(event), level, "{}", event.code);
         }
     }
 }
