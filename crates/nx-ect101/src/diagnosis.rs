@@ -49,13 +49,16 @@ pub(crate) struct Diagnosis {
     /// Those of them that the start has found and not told yet.
     untold: FaultSet,
     emergencies: ArrayVec<Emergency, EMERGENCIES_MAX>,
+    /// Those that found no room, since power-on.
+    emergencies_lost: u64,
     /// What has occurred since someone looked.
     occurred: ArrayVec<EventCode, OCCURRED_MAX>,
     /// 10F3:05.
     emergencies_enabled: bool,
     /// What a master has written to 10F3:03 last, since the start.
-    acknowledged: u8,
-    newest_acknowledged: NewestAcknowledged,
+    last_acknowledged: u8,
+    /// What 10F3:03 reads.
+    acknowledged_reads: NewestAcknowledged,
     levels: EventLevels,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0: not known.
     time_ns: u64,
@@ -69,13 +72,13 @@ impl Diagnosis {
 
     /// The unit starts: what only lasted until then is gone, and the faults of its hardware are looked for.
     /// They are told with [`Diagnosis::tell_start`], when the time is known.
-    pub(crate) fn start(&mut self, levels: EventLevels, newest_acknowledged: NewestAcknowledged) {
+    pub(crate) fn start(&mut self, levels: EventLevels, acknowledged_reads: NewestAcknowledged) {
         self.current.clear();
         self.standing.clear();
         self.emergencies.clear();
         self.emergencies_enabled = false;
-        self.acknowledged = 0;
-        self.newest_acknowledged = newest_acknowledged;
+        self.last_acknowledged = 0;
+        self.acknowledged_reads = acknowledged_reads;
         self.levels = levels;
         self.find_at_start();
     }
@@ -97,11 +100,17 @@ impl Diagnosis {
         // Whoever watches takes them with every step; for nobody the first ones are kept.
         let _ = self.occurred.try_push(event.code);
         self.record(event, level, &occurrence);
-        if event.reported_as_current_error && level != EventLevel::Information {
-            self.current.add(level, CurrentError::new(event.code, occurrence.details.first().copied()));
-        }
+        self.list(event, &occurrence);
         if self.emergencies_enabled && event.emergency_notified == Notified::Possible {
             self.send_emergency(event);
+        }
+    }
+
+    /// The error exists, if it is one.
+    fn list(&mut self, event: &Event, occurrence: &Occurrence) {
+        let level = self.levels.of(event);
+        if event.reported_as_current_error && level != EventLevel::Information {
+            self.current.add(level, CurrentError::new(event.code, occurrence.details.first().copied()));
         }
     }
 
@@ -133,13 +142,14 @@ impl Diagnosis {
         }
     }
 
-    /// An emergency that finds the queue full is lost; the slave stack empties it with every step.
+    /// An emergency that finds the queue full is lost and counted; the slave stack empties it with every step.
     fn send_emergency(&mut self, event: &Event) {
         if let Some(code) = event.emergency_code {
             let [a, b, c, d] = event.code.0.to_le_bytes();
             // Manual, 8-4-1: two reserved bytes, then the event code.
             let emergency = Emergency { code, error_register: 0, manufacturer: [0, a, b, c, d] };
-            let _ = self.emergencies.try_push(emergency);
+            let is_lost = self.emergencies.try_push(emergency).is_err();
+            self.emergencies_lost += u64::from(is_lost);
         }
     }
 
@@ -153,16 +163,15 @@ impl Diagnosis {
         self.emergencies.pop_at(0)
     }
 
+    /// How many found no room.
+    pub(crate) const fn emergencies_lost(&self) -> u64 {
+        self.emergencies_lost
+    }
+
     /// Resets the current errors (manual, 8-6). An error whose cause is still there occurs again at once.
     pub(crate) fn reset_errors(&mut self) {
         self.current.clear();
-        for fault in self.found.iter() {
-            if fault.goes_with_reset() && !self.is_present(fault) {
-                self.forget(fault);
-            } else if !self.untold.contains(fault) {
-                self.raise(Occurrence::of_fault(fault));
-            }
-        }
+        self.reset_faults();
         let standing = core::mem::take(&mut self.standing);
         standing.iter().for_each(|occurrence| self.raise(occurrence.clone()));
         self.standing = standing;
@@ -214,9 +223,9 @@ impl Diagnosis {
 
     /// 10F3:03 as it is read.
     pub(crate) const fn newest_acknowledged(&self) -> u8 {
-        match self.newest_acknowledged {
+        match self.acknowledged_reads {
             NewestAcknowledged::NewestRecord => self.log.newest,
-            NewestAcknowledged::LastAcknowledged => self.acknowledged,
+            NewestAcknowledged::LastAcknowledged => self.last_acknowledged,
         }
     }
 
@@ -227,7 +236,7 @@ impl Diagnosis {
             return Ok(());
         }
         self.log.record_at(sub).ok_or(SdoAbort::VALUE_OUT_OF_RANGE)?;
-        self.acknowledged = sub;
+        self.last_acknowledged = sub;
         if sub == self.log.newest && !self.log.acknowledged {
             self.log.acknowledged = true;
             self.log_changed = true;
@@ -238,7 +247,7 @@ impl Diagnosis {
     /// Clears the diagnosis history (10F3:03, 2100). The current errors stay (A53), and no event tells it (A54).
     pub(crate) fn clear_history(&mut self) {
         self.log.clear_system();
-        self.acknowledged = 0;
+        self.last_acknowledged = 0;
         self.log_changed = true;
     }
 

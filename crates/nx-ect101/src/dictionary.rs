@@ -25,8 +25,8 @@ pub(crate) struct UnitObjects {
     pub(crate) identification: Identification,
     pub(crate) messages: Messages,
     pub(crate) diagnosis: Diagnosis,
-    /// A message was read or written since [`UnitObjects::take_message_change`].
-    message_changed: bool,
+    /// What a refresh tells has changed since [`UnitObjects::take_status_change`].
+    status_changed: bool,
     pub(crate) state: AlState,
     /// Time between two refreshes.
     period: Duration,
@@ -51,7 +51,7 @@ impl UnitObjects {
             identification,
             messages: Messages::default(),
             diagnosis,
-            message_changed: false,
+            status_changed: false,
             state: AlState::Init,
             period,
         }
@@ -63,9 +63,10 @@ impl UnitObjects {
         *self = Self::start(serial, identification, self.period, diagnosis);
     }
 
-    /// Whether a master has read or written a message since the last call.
-    pub(crate) const fn take_message_change(&mut self) -> bool {
-        core::mem::replace(&mut self.message_changed, false)
+    /// Whether a master has changed what a refresh tells since the last call: it has read or written a message,
+    /// acknowledged or cleared messages of the history, reset errors.
+    pub(crate) const fn take_status_change(&mut self) -> bool {
+        core::mem::replace(&mut self.status_changed, false)
     }
 
     /// Reads an entry of the diagnosis objects; none if it only keeps a value.
@@ -104,7 +105,7 @@ impl UnitObjects {
     /// Reads 3000:01 or 3001:01.
     fn read_message(&mut self, index: ObjectIndex, value: &mut [u8]) {
         let message = if index.0 == 0x3000 {
-            self.message_changed |= self.messages.c_to_m.has_new();
+            self.status_changed |= self.messages.c_to_m.has_new();
             self.messages.c_to_m.read()
         } else {
             self.messages.m_to_c.written()
@@ -118,7 +119,7 @@ impl UnitObjects {
     fn write_message(&mut self, value: &[u8]) -> Result<(), SdoAbort> {
         let message: &Message = value.try_into().map_err(|_| SdoAbort::LENGTH_MISMATCH)?;
         self.messages.m_to_c.write(message)?;
-        self.message_changed = true;
+        self.status_changed = true;
         Ok(())
     }
 
@@ -180,17 +181,22 @@ impl ObjectServer for UnitObjects {
             (0x10E0, 1) => self.identification.set_software(word(value)?),
             (0x10E0, 3) => self.identification.reload_switch(word(value)?),
             (0x3001, 1) => self.write_message(value),
-            (0x10F3, 3) => self.diagnosis.acknowledge(value.first().copied().unwrap_or(0)),
+            (0x10F3, 3) => {
+                self.status_changed = true;
+                self.diagnosis.acknowledge(value.first().copied().unwrap_or(0))
+            }
             (0x10F3, 5) => {
                 self.diagnosis.enable_emergencies(word(value)? & 1 != 0);
                 Ok(())
             }
             // Commands, whose one value the table has checked; they read 0 ever after (manual, A-6-7).
             (0x2002, 2) => {
+                self.status_changed = true;
                 self.diagnosis.reset_errors();
                 Ok(())
             }
             (0x2100, 0) => {
+                self.status_changed = true;
                 self.diagnosis.clear_history();
                 Ok(())
             }

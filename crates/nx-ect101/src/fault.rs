@@ -1,6 +1,8 @@
 //! Faults that can be injected into a unit: what breaks in hardware and on the NX bus, as an input of the core.
 
-use crate::events::{DetectionTiming, Event, EventCode, IoRefreshEffect};
+use wire::AlStatusCode;
+
+use crate::events::{DetectionTiming, Event, EventCode, IoRefreshEffect, Recovery};
 
 /// The cause of an event that no setting and no master brings about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,7 +63,13 @@ impl Fault {
         Self::ALL.into_iter().find(|fault| fault.event() == code)
     }
 
-    fn row(self) -> &'static Event {
+    /// The AL status code that the master reads; none if the event sets none.
+    #[must_use]
+    pub fn al_status_code(self) -> Option<AlStatusCode> {
+        self.row().al_status_code
+    }
+
+    pub(crate) fn row(self) -> &'static Event {
         match Event::find(self.event()) {
             Some(event) => event,
             None => panic!("tables/events.toml: no row {}", self.event()),
@@ -73,14 +81,14 @@ impl Fault {
         self.row().detection_timing == DetectionTiming::NxUnitPowerOn
     }
 
-    /// Whether it is found the moment that it comes.
-    pub(crate) const fn is_found_at_once(self) -> bool {
-        matches!(self, Self::Processing | Self::IoCommunications | Self::ClockNotSynchronized)
+    /// Whether it is found the moment that it comes. NX Unit I/O Communications Error has no timing in the manual.
+    pub(crate) fn is_found_at_once(self) -> bool {
+        matches!(self.row().detection_timing, DetectionTiming::Continuous | DetectionTiming::Unspecified)
     }
 
     /// Whether an error reset gets rid of it, once its cause is gone; the others last until the unit starts.
-    pub(crate) const fn goes_with_reset(self) -> bool {
-        matches!(self, Self::IoCommunications)
+    pub(crate) fn goes_with_reset(self) -> bool {
+        self.row().recovery == Recovery::ResetErrorByFailsoft
     }
 
     /// Whether I/O is refreshed no more, or does not begin to be.
@@ -134,6 +142,17 @@ mod tests {
         assert_eq!(events.len(), Fault::ALL.len());
         assert!(events.iter().all(|&code| Event::find(code).is_some()));
         assert!(Fault::ALL.into_iter().all(|fault| Fault::of_event(fault.event()) == Some(fault)));
+    }
+
+    #[test]
+    fn the_table_says_when_a_fault_is_found_and_how_it_goes() {
+        let those =
+            |is: fn(Fault) -> bool| Fault::ALL.into_iter().filter(|&fault| is(fault)).collect::<Vec<_>>();
+        let at_once = [Fault::Processing, Fault::ClockNotSynchronized, Fault::IoCommunications];
+        assert_eq!(those(Fault::is_found_at_once), at_once);
+        let at_start = [Fault::NonVolatileMemory, Fault::Esc, Fault::ControlParameters];
+        assert_eq!(those(Fault::is_found_at_start), at_start);
+        assert_eq!(those(Fault::goes_with_reset), [Fault::IoCommunications]);
     }
 
     #[test]

@@ -13,11 +13,14 @@ use crate::allocation::ImageLayout;
 use crate::data_sets::Direction;
 use crate::diagnosis::Diagnosis;
 use crate::dictionary::UnitObjects;
+use crate::events::Event;
 use crate::exchange::{self, ExchangePlan, StatusToMaster};
 use crate::fault::Fault;
 use crate::finding::Finding;
+use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
 use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd, UnitHeader};
+use crate::nx_objects::NxObject;
 use crate::nx_server;
 use crate::pdo_settings::PdoSettings;
 use crate::rules;
@@ -49,8 +52,8 @@ pub struct NxEct101 {
     period: Duration,
     status: SlaveStatus,
     nx_unit_status: NxUnitStatus,
-    /// Why the unit has started, until it has told what the start has found.
-    started: Option<Start>,
+    /// The unit has not told yet what its start has found.
+    is_starting: bool,
     /// Whether the CPU Unit did I/O refreshing when last looked.
     cpu_refreshing: bool,
     /// It has done so since the unit started.
@@ -70,14 +73,15 @@ impl NxEct101 {
     /// from [`NxEct101::memory`]. All memory that the unit ever uses is allocated here.
     #[must_use]
     pub fn power_on_with(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, CpuEnd) {
+        read_tables();
         let (bus, cpu_end) = nx_bus::connect(&settings.io_allocation);
         let is_damaged = memory == MemoryAtPowerOn::Damaged;
         let (memory, identification) = KeptMemory::power_on(settings, memory);
         let mut diagnosis = Diagnosis::new(memory.contents().error_log().clone());
         if is_damaged {
-            diagnosis.inject(Fault::NonVolatileMemory);
+            diagnosis.see_before_start(Fault::NonVolatileMemory);
         }
-        diagnosis.start(settings.event_levels.clone(), settings.newest_acknowledged);
+        diagnosis.start(settings.event_levels, settings.newest_acknowledged);
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let mut io_findings = Vec::new();
@@ -96,7 +100,7 @@ impl NxEct101 {
             period,
             status: SlaveStatus::default(),
             nx_unit_status: NxUnitStatus::default(),
-            started: Some(Start::PowerOn),
+            is_starting: true,
             cpu_refreshing: false,
             is_initialized: false,
             io_communications_lost: false,
@@ -190,6 +194,11 @@ impl NxEct101 {
     }
 }
 
+/// Reads the tables that are made of text when they are first asked for: now, and not with the first event.
+fn read_tables() {
+    let _ = (Event::all(), Indicator::all(), NxObject::all());
+}
+
 impl Unit for NxEct101 {
     fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
         Some(&mut self.objects)
@@ -226,13 +235,10 @@ impl Unit for NxEct101 {
 
     fn restart(&mut self, _now: Instant, start: Start, sii_image: &mut [u8]) -> Option<AlStatusCode> {
         let identification = self.memory.restart(&self.settings, self.objects.identification, sii_image);
-        self.objects.diagnosis.start(self.settings.event_levels.clone(), self.settings.newest_acknowledged);
         self.objects.restart(self.memory.contents().serial(), identification);
         self.pdo_findings.clear();
         self.m_to_c.fill(0);
-        self.started = Some(start);
-        self.is_initialized = false;
-        self.code_after(start)
+        self.restart_diagnosis(start)
     }
 
     /// The CPU Unit misses the unit: its I/O data is not active, and that is an error.
@@ -245,6 +251,10 @@ impl Unit for NxEct101 {
 
     fn take_emergency(&mut self) -> Option<Emergency> {
         self.objects.diagnosis.take_emergency()
+    }
+
+    fn emergencies_lost(&self) -> u64 {
+        self.objects.diagnosis.emergencies_lost()
     }
 
     fn entered(&mut self, _now: Instant, state: AlState) {
@@ -272,7 +282,7 @@ impl Unit for NxEct101 {
     }
 
     fn take_status_change(&mut self) -> bool {
-        self.objects.take_message_change()
+        self.objects.take_status_change()
     }
 
     fn explicit_device_id(&self) -> Option<u16> {

@@ -1,5 +1,7 @@
 //! Faults: their causes, and what the unit has found of them.
 
+use wire::AlStatusCode;
+
 use super::{Diagnosis, NX_BUS, Occurrence};
 use crate::fault::Fault;
 
@@ -10,6 +12,7 @@ impl Diagnosis {
         if fault == Fault::MessageCommunications {
             return self.raise(Occurrence::new(fault.event(), [0, NX_BUS]));
         }
+        self.forget_bygone(fault);
         self.injected.insert(fault);
         if fault.is_found_at_once() {
             self.find(fault);
@@ -23,8 +26,21 @@ impl Diagnosis {
 
     /// The unit itself sees the cause of a fault, beside what is injected.
     pub(crate) fn see(&mut self, fault: Fault) {
+        self.forget_bygone(fault);
         self.seen.insert(fault);
         self.find(fault);
+    }
+
+    /// The unit itself sees the cause of a fault before it starts, which finds it.
+    pub(crate) const fn see_before_start(&mut self, fault: Fault) {
+        self.seen.insert(fault);
+    }
+
+    /// A fault that a reset would end is over with its cause: it occurs anew when that comes again.
+    fn forget_bygone(&mut self, fault: Fault) {
+        if fault.goes_with_reset() && !self.is_present(fault) {
+            self.forget(fault);
+        }
     }
 
     /// The unit itself sees it no more.
@@ -67,6 +83,19 @@ impl Diagnosis {
         }
     }
 
+    /// The errors are reset. A fault whose cause is gone and that lasts until the start stays an error and does
+    /// not occur again.
+    pub(super) fn reset_faults(&mut self) {
+        for fault in self.found.iter() {
+            match (self.is_present(fault), fault.goes_with_reset()) {
+                (false, true) => self.forget(fault),
+                _ if self.untold.contains(fault) => {}
+                (true, _) => self.raise(Occurrence::of_fault(fault)),
+                (false, false) => self.list(fault.row(), &Occurrence::of_fault(fault)),
+            }
+        }
+    }
+
     /// A fault is recovered from.
     pub(super) const fn forget(&mut self, fault: Fault) {
         self.found.remove(fault);
@@ -78,9 +107,12 @@ impl Diagnosis {
         self.found.iter().any(Fault::stops_io)
     }
 
-    /// The first of the faults that keep the unit in INIT.
-    pub(crate) fn stop_in_init(&self) -> Option<Fault> {
-        self.found.iter().find(|fault| fault.stops_in_init())
+    /// The AL status code of the faults that keep the unit in INIT: of the first that has one;
+    /// [`AlStatusCode::NO_ERROR`] where none has.
+    pub(crate) fn stop_in_init(&self) -> Option<AlStatusCode> {
+        let mut stopping = self.found.iter().filter(|fault| fault.stops_in_init()).peekable();
+        stopping.peek()?;
+        Some(stopping.find_map(Fault::al_status_code).unwrap_or(AlStatusCode::NO_ERROR))
     }
 
     /// The faults that were found.

@@ -12,13 +12,24 @@ use crate::unit::NxEct101;
 impl NxEct101 {
     /// INIT to PRE-OP.
     pub(super) fn check_mailbox(&mut self, found: &[AlStatusCode]) -> Result<(), AlStatusCode> {
-        let diagnosis = &mut self.objects.diagnosis;
-        if found.contains(&AlStatusCode::EEPROM_ERROR) || diagnosis.is_present(Fault::SiiVerification) {
-            diagnosis.find(Fault::SiiVerification);
-            return Err(self.stop_in_init().unwrap_or(AlStatusCode::NO_VALID_FIRMWARE));
-        }
-        self.raise_all(found);
+        let sii_is_right = self.verify_sii(found.contains(&AlStatusCode::EEPROM_ERROR));
+        self.raise_all(found.iter().copied());
+        sii_is_right?;
         found.first().map_or(Ok(()), |&code| Err(code))
+    }
+
+    /// The controller could load the SII, and it tells vendor, product and revision of the unit.
+    fn verify_sii(&mut self, has_eeprom_error: bool) -> Result<(), AlStatusCode> {
+        let diagnosis = &mut self.objects.diagnosis;
+        let fault = Fault::SiiVerification;
+        if has_eeprom_error || !self.memory.sii_is_own() {
+            diagnosis.see(fault);
+        } else if diagnosis.is_present(fault) {
+            diagnosis.find(fault);
+        } else {
+            return Ok(());
+        }
+        Err(self.stop_in_init().unwrap_or(AlStatusCode::NO_VALID_FIRMWARE))
     }
 
     /// PRE-OP to SAFE-OP. Everything that is wrong is recorded, the first finding tells the master: the mapping,
@@ -27,12 +38,13 @@ impl NxEct101 {
     pub(super) fn check_process_data(&mut self, found: &[AlStatusCode]) -> Result<(), AlStatusCode> {
         self.read_pdo_rules();
         let mapping = self.raise_broken_rules();
-        let (sync_managers, others) = found.split_at(found.iter().take_while(is_sync_manager).count());
-        self.raise_all(sync_managers);
+        let found = found.iter().copied();
+        let sync_managers = found.clone().filter(is_sync_manager);
+        let others = found.filter(|code| !is_sync_manager(code));
+        self.raise_all(sync_managers.clone());
         let sync_mode = self.check_sync_mode();
-        self.raise_all(others);
-        let codes = sync_managers.iter().copied().chain(sync_mode).chain(others.iter().copied());
-        let first = mapping.or_else(|| codes.into_iter().next());
+        self.raise_all(others.clone());
+        let first = mapping.or_else(|| sync_managers.chain(sync_mode).chain(others).next());
         self.raise_mismatches();
         if let Some(code) = first {
             self.settle_mismatches();
@@ -72,7 +84,7 @@ impl NxEct101 {
             return None;
         }
         self.objects.diagnosis.raise(Occurrence::of_fault(fault));
-        Event::find(fault.event()).and_then(|event| event.al_status_code)
+        fault.al_status_code()
     }
 
     /// Sizes that do not match stand as long as data are exchanged.
@@ -85,15 +97,12 @@ impl NxEct101 {
 
     /// No data are exchanged any more, so that nothing does not match.
     pub(super) fn settle_mismatches(&mut self) {
-        let findings = &self.pdo_findings;
-        let is_mismatch = |code: EventCode| {
-            findings.iter().any(|finding| finding.event == code && finding.al_status_code().is_none())
-        };
+        let is_mismatch = |code| matches!(code, EventCode::MISMATCH_C_TO_M | EventCode::MISMATCH_M_TO_C);
         self.objects.diagnosis.settle(is_mismatch);
     }
 
-    fn raise_all(&mut self, codes: &[AlStatusCode]) {
-        for &code in codes {
+    fn raise_all(&mut self, codes: impl IntoIterator<Item = AlStatusCode>) {
+        for code in codes {
             self.raise_al_error(code);
         }
     }
@@ -112,6 +121,6 @@ impl NxEct101 {
     }
 }
 
-fn is_sync_manager(code: &&AlStatusCode) -> bool {
-    matches!(**code, AlStatusCode::INVALID_OUTPUT_CONFIGURATION | AlStatusCode::INVALID_INPUT_CONFIGURATION)
+fn is_sync_manager(code: &AlStatusCode) -> bool {
+    matches!(*code, AlStatusCode::INVALID_OUTPUT_CONFIGURATION | AlStatusCode::INVALID_INPUT_CONFIGURATION)
 }

@@ -90,34 +90,47 @@ impl NxEct101 {
     pub fn nx_condition(&self) -> NxCondition {
         let faults = self.faults().map(Fault::event);
         let errors = faults.chain(self.io_findings.iter().map(|finding| finding.event));
-        let condition = match (self.started, self.is_initialized) {
-            (Some(_), _) => NxCondition::WaitingForInitialization,
-            (None, false) => NxCondition::Initializing,
-            (None, true) => NxCondition::Normal,
+        let condition = match (self.is_starting, self.is_initialized) {
+            (true, _) => NxCondition::WaitingForInitialization,
+            (false, false) => NxCondition::Initializing,
+            (false, true) => NxCondition::Normal,
         };
         errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
     }
 
     /// The AL status code of the fault that keeps the unit in INIT.
     pub(super) fn stop_in_init(&self) -> Option<AlStatusCode> {
-        let fault = self.objects.diagnosis.stop_in_init()?;
-        let code = Event::find(fault.event()).and_then(|event| event.al_status_code);
-        Some(code.unwrap_or(AlStatusCode::NO_ERROR))
+        self.objects.diagnosis.stop_in_init()
     }
 
-    /// What the master finds when the unit has started again.
-    pub(super) fn code_after(&self, start: Start) -> Option<AlStatusCode> {
-        let restarted = Event::find(EventCode::UNIT_RESTART).filter(|_| start == Start::Restart);
-        restarted.and_then(|event| event.al_status_code)
+    /// The unit starts again; the AL status code that the master finds then. A reset of the ESC is no start of the
+    /// unit: its errors stay (manual, 8-6).
+    pub(super) fn restart_diagnosis(&mut self, start: Start) -> Option<AlStatusCode> {
+        if start == Start::EscReset {
+            return None;
+        }
+        let diagnosis = &mut self.objects.diagnosis;
+        diagnosis.see_no_more(Fault::SiiVerification);
+        if start == Start::PowerOn {
+            // A memory that could not be read has been replaced by a new one.
+            diagnosis.see_no_more(Fault::NonVolatileMemory);
+        }
+        diagnosis.start(self.settings.event_levels, self.settings.newest_acknowledged);
+        self.is_starting = true;
+        self.is_initialized = false;
+        if start == Start::PowerOn {
+            return None;
+        }
+        diagnosis.raise(Occurrence::bare(EventCode::UNIT_RESTART));
+        Event::find(EventCode::UNIT_RESTART).and_then(|event| event.al_status_code)
     }
 
     /// Tells what the start has found, once. It waits for the first refresh, which knows the time.
     pub(super) fn tell_start(&mut self) {
-        let Some(start) = self.started.take() else { return };
-        let diagnosis = &mut self.objects.diagnosis;
-        if start == Start::Restart {
-            diagnosis.raise(Occurrence::bare(EventCode::UNIT_RESTART));
+        if !core::mem::take(&mut self.is_starting) {
+            return;
         }
+        let diagnosis = &mut self.objects.diagnosis;
         diagnosis.tell_start();
         for finding in &self.io_findings {
             diagnosis.raise_standing(Occurrence::of_finding(finding));

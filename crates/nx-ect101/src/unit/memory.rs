@@ -3,7 +3,7 @@
 use crate::diagnosis::Diagnosis;
 use crate::fault::Fault;
 use crate::identification::Identification;
-use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
+use crate::memory::{IDENTITY_BYTES, MemoryAtPowerOn, NonVolatileMemory};
 use crate::settings::UnitSettings;
 use crate::unit::NxEct101;
 
@@ -15,17 +15,22 @@ pub(super) struct KeptMemory {
     is_unsaved: bool,
     /// The EEPROM writes of the wire that `contents` knows of.
     sii_words_seen: u32,
+    /// Vendor, product and revision of the unit, as its SII has to tell them.
+    identity: Option<[u8; IDENTITY_BYTES]>,
+    /// The SII was the unit's own when the unit started.
+    sii_is_own: bool,
 }
 
 impl KeptMemory {
     /// Reads the memory and samples the ID.
     pub(super) fn power_on(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, Identification) {
-        let is_unsaved = memory == MemoryAtPowerOn::Factory;
-        let contents = match memory {
-            MemoryAtPowerOn::Stored(contents) => *contents,
-            MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => NonVolatileMemory::factory(settings),
+        let factory = NonVolatileMemory::factory(settings);
+        let identity = factory.identity();
+        let (contents, is_unsaved) = match memory {
+            MemoryAtPowerOn::Stored(contents) => (*contents, false),
+            MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => (factory, true),
         };
-        let mut kept = Self { contents, is_unsaved, sii_words_seen: 0 };
+        let mut kept = Self { contents, is_unsaved, sii_words_seen: 0, identity, sii_is_own: true };
         let identification = kept.start(settings);
         (kept, identification)
     }
@@ -51,6 +56,7 @@ impl KeptMemory {
         let before = self.contents.clone();
         self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
         self.is_unsaved |= before != self.contents;
+        self.sii_is_own = self.contents.identity() == self.identity;
         identification
     }
 
@@ -66,6 +72,11 @@ impl KeptMemory {
             self.contents.set_software_id(identification.software());
             self.is_unsaved = true;
         }
+    }
+
+    /// Whether the SII that was loaded at the start tells vendor, product and revision of this unit.
+    pub(super) const fn sii_is_own(&self) -> bool {
+        self.sii_is_own
     }
 
     pub(super) const fn contents(&self) -> &NonVolatileMemory {
@@ -90,7 +101,8 @@ impl NxEct101 {
 
     /// Takes over what has changed since the last call: the EEPROM of the controller, of which the wire has
     /// written `sii_words_written` words so far, and the ID that was set by software. Tells whether
-    /// [`NxEct101::memory`] is to be stored now: never while it is damaged.
+    /// [`NxEct101::memory`] is to be stored now: never while it is broken. What changes until then is stored with
+    /// the first call after that.
     pub fn take_memory_change(&mut self, sii_image: &[u8], sii_words_written: u32) -> bool {
         let memory = &mut self.memory;
         let written = sii_words_written != memory.sii_words_seen;
@@ -98,6 +110,6 @@ impl NxEct101 {
         memory.take_over(&mut self.objects.identification, written.then_some(sii_image));
         memory.take_over_log(&mut self.objects.diagnosis);
         let is_broken = self.objects.diagnosis.found().any(|fault| fault == Fault::NonVolatileMemory);
-        core::mem::replace(&mut memory.is_unsaved, false) && !is_broken
+        !is_broken && core::mem::take(&mut memory.is_unsaved)
     }
 }

@@ -83,6 +83,10 @@ impl Bench {
         self.unit.fault().map(|code| code.0)
     }
 
+    pub(crate) fn emergencies_lost(&self) -> u64 {
+        self.unit.emergencies_lost()
+    }
+
     pub(crate) fn enter(&mut self, state: AlState) {
         self.unit.entered(NOW, state);
         self.state = state;

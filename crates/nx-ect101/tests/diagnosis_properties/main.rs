@@ -31,7 +31,7 @@ const SEQUENCES: u32 = 5_000;
 fn random_sequences_come_by_every_event_and_every_corner() {
     let mut runner = TestRunner::deterministic();
     let mut seen = BTreeSet::new();
-    for _ in 0..400 {
+    for _ in 0..1_600 {
         let (setup, sequence) = (setups(), sequences()).new_tree(&mut runner).unwrap().current();
         let mut run = Run::power_on(&setup);
         sequence.iter().for_each(|operation| run.step(operation).unwrap());
@@ -49,6 +49,8 @@ fn random_sequences_come_by_every_event_and_every_corner() {
         Situation::EmptySlotAcknowledged,
         Situation::RecordedWhileMemoryBroken,
         Situation::OneOfTwoIoCausesGone,
+        Situation::IoCauseCameAgain,
+        Situation::CauseGoneBeforeReset,
     ];
     let events = Event::all().iter().map(|event| Situation::Event(event.code.0));
     let missing: Vec<Situation> =

@@ -32,6 +32,8 @@ pub(crate) enum Situation {
     EmptySlotAcknowledged,
     RecordedWhileMemoryBroken,
     OneOfTwoIoCausesGone,
+    IoCauseCameAgain,
+    CauseGoneBeforeReset,
 }
 
 /// An error that exists.
@@ -64,14 +66,19 @@ pub(crate) struct Model {
     standing: Vec<(u32, Vec<u32>)>,
     /// Causes by injection.
     injected: BTreeSet<Fault>,
+    /// The bytes of the memory could not be read at power-on.
+    memory_damaged: bool,
+    /// The controller could not load the SII.
+    sii_not_loaded: bool,
     /// The CPU Unit did refresh I/O and does no more.
     cpu_stopped: bool,
     cpu_refreshing: bool,
     found: BTreeSet<Fault>,
     /// What the start has found and the first refresh will tell.
     untold: BTreeSet<Fault>,
-    started: Option<Start>,
+    is_starting: bool,
     pub(crate) emergencies: Vec<[u8; 8]>,
+    pub(crate) emergencies_lost: u64,
     pub(crate) emergencies_enabled: bool,
     pub(crate) last_acknowledged: u8,
     /// Mismatch levels as set, and as in force since the start.
@@ -97,12 +104,15 @@ impl Model {
             error_status: 0,
             standing: Vec::new(),
             injected: BTreeSet::new(),
+            memory_damaged: false,
+            sii_not_loaded: false,
             cpu_stopped: false,
             cpu_refreshing: false,
             found: BTreeSet::new(),
             untold: BTreeSet::new(),
-            started: Some(Start::PowerOn),
+            is_starting: true,
             emergencies: Vec::new(),
+            emergencies_lost: 0,
             emergencies_enabled: false,
             last_acknowledged: 0,
             set_levels: levels.clone(),
@@ -118,22 +128,39 @@ impl Model {
     /// Power goes and comes. Only what was stored is left, if it can be read.
     pub(crate) fn cycle_power(&mut self, damaged: bool) {
         self.log = if damaged { Log::default() } else { self.stored.clone() };
+        // A new memory is to be stored as soon as it is sound.
+        self.log_changed = damaged;
         self.injected.clear();
-        self.injected.extend(damaged.then_some(Fault::NonVolatileMemory));
+        self.memory_damaged = damaged;
+        self.sii_not_loaded = false;
         (self.cpu_stopped, self.cpu_refreshing) = (false, false);
         self.time_ns = 0;
-        self.start(Start::PowerOn);
+        self.emergencies_lost = 0;
+        self.start();
+    }
+
+    /// The unit is started again, and keeps its voltage or not; or its controller alone is reset.
+    pub(crate) fn restart(&mut self, start: Start) {
+        if start == Start::EscReset {
+            return self.enter(AlState::Init);
+        }
+        self.memory_damaged &= start != Start::PowerOn;
+        self.sii_not_loaded = false;
+        self.start();
+        if start == Start::Restart {
+            self.occurs(rows::RESTARTED, Vec::new());
+        }
     }
 
     /// The unit starts (8-6): the current errors are gone, the logs stay.
-    pub(crate) fn start(&mut self, start: Start) {
+    fn start(&mut self) {
         self.clear_errors();
         self.standing.clear();
         self.emergencies.clear();
         self.emergencies_enabled = false;
         self.last_acknowledged = 0;
         self.levels.clone_from(&self.set_levels);
-        self.started = Some(start);
+        self.is_starting = true;
         self.state = AlState::Init;
         let lasting = |row: &&rows::FaultRow| matches!(row.found, Found::AtStart | Found::AtOnce);
         let found = FAULTS.iter().filter(lasting).map(|row| row.fault);
@@ -143,19 +170,24 @@ impl Model {
 
     /// Whether the cause of a fault is there.
     fn is_present(&self, fault: Fault) -> bool {
-        self.injected.contains(&fault) || fault == Fault::IoCommunications && self.cpu_stopped
+        let is_seen = match fault {
+            Fault::NonVolatileMemory => self.memory_damaged,
+            Fault::SiiVerification => self.sii_not_loaded,
+            Fault::IoCommunications => self.cpu_stopped,
+            _ => false,
+        };
+        is_seen || self.injected.contains(&fault)
     }
 
     /// What is stored follows the log. What changes while the memory is broken is stored with the first change
     /// after that.
     pub(crate) fn store(&mut self) {
         let broken = self.found.contains(&Fault::NonVolatileMemory);
-        if core::mem::take(&mut self.log_changed) {
-            if broken {
-                self.seen.insert(Situation::RecordedWhileMemoryBroken);
-            } else {
-                self.stored = self.log.clone();
-            }
+        if self.log_changed && broken {
+            self.seen.insert(Situation::RecordedWhileMemoryBroken);
+        } else if self.log_changed {
+            self.log_changed = false;
+            self.stored = self.log.clone();
         }
     }
 
@@ -164,9 +196,11 @@ impl Model {
         self.error_status != 0 || self.found.contains(&Fault::NonVolatileMemory)
     }
 
-    /// What keeps the unit in INIT: the AL status code of the fault that counts.
+    /// What keeps the unit in INIT: the AL status code of the first fault that has one, else 0.
     pub(crate) fn fault(&self) -> Option<u16> {
-        FAULTS.iter().filter(|row| self.found.contains(&row.fault)).find_map(|row| row.stops_in_init)
+        let found = FAULTS.iter().filter(|row| self.found.contains(&row.fault));
+        let codes: Vec<u16> = found.filter_map(|row| row.stops_in_init).collect();
+        codes.iter().copied().find(|&code| code != 0).or(codes.first().copied())
     }
 
     /// An event occurs.
@@ -238,6 +272,7 @@ impl Model {
         if self.emergencies.len() < WAITING {
             self.emergencies.push([a, b, 0, 0, e, f, g, h]);
         } else {
+            self.emergencies_lost += 1;
             self.seen.insert(Situation::EmergencyLost);
         }
     }

@@ -68,6 +68,7 @@ impl Run {
             _ => self.do_outside(operation)?,
         }
         prop_assert_eq!(self.bench.fault(), self.model.fault());
+        prop_assert_eq!(self.bench.emergencies_lost(), self.model.emergencies_lost);
         if self.model.fault().is_some() && self.model.state != AlState::Init {
             self.enter(AlState::Init);
         }
@@ -113,7 +114,7 @@ impl Run {
         match operation {
             Operation::Restart(start) => {
                 let expected = (*start == Start::Restart).then_some(0x0060);
-                model.start(*start);
+                model.restart(*start);
                 prop_assert_eq!(bench.restart(*start), expected);
             }
             Operation::PowerCycle { damaged } => {

@@ -1,10 +1,9 @@
 //! What is done to the unit: by the hardware, the CPU Unit, a user and the master.
 
-use device::Start;
 use nx_ect101::Fault;
 use wire::AlState;
 
-use super::{Model, Situation};
+use super::{Error, Model, Situation};
 use crate::rows::{self, FAULTS, Found, MINOR_FAULT, MISMATCH_C_TO_M, MISMATCH_M_TO_C, OBSERVATION};
 use crate::settings::PdoSetting;
 
@@ -21,6 +20,7 @@ impl Model {
             // System information, of which there is none, and the NX bus.
             Found::Passing => self.occurs(row.event, vec![0, 0]),
             Found::AtOnce => {
+                self.forget_bygone(fault);
                 self.injected.insert(fault);
                 self.find(fault);
             }
@@ -32,6 +32,14 @@ impl Model {
         self.injected.remove(&fault);
         if self.is_present(fault) {
             self.seen.insert(Situation::OneOfTwoIoCausesGone);
+        }
+    }
+
+    /// An I/O communications error is over with its cause, even if nobody resets it.
+    fn forget_bygone(&mut self, fault: Fault) {
+        if fault == Fault::IoCommunications && !self.is_present(fault) && self.found.remove(&fault) {
+            self.untold.remove(&fault);
+            self.seen.insert(Situation::IoCauseCameAgain);
         }
     }
 
@@ -50,10 +58,7 @@ impl Model {
     /// A refresh, with the system time of the CPU Unit. The first one tells what the start has found.
     pub(crate) fn refresh(&mut self, time_ns: u64, refreshing: bool) {
         self.time_ns = time_ns;
-        if let Some(start) = self.started.take() {
-            if start == Start::Restart {
-                self.occurs(rows::RESTARTED, Vec::new());
-            }
+        if core::mem::take(&mut self.is_starting) {
             let untold = core::mem::take(&mut self.untold);
             for row in FAULTS.iter().filter(|row| untold.contains(&row.fault)) {
                 self.tell_fault(row.fault);
@@ -62,9 +67,12 @@ impl Model {
                 self.stands(event, detail.into_iter().collect());
             }
         }
-        self.cpu_stopped = !refreshing && (self.cpu_stopped || self.cpu_refreshing);
-        self.cpu_refreshing = refreshing;
-        if self.cpu_stopped {
+        let stopped = !refreshing && (self.cpu_stopped || self.cpu_refreshing);
+        if stopped {
+            self.forget_bygone(Fault::IoCommunications);
+        }
+        (self.cpu_stopped, self.cpu_refreshing) = (stopped, refreshing);
+        if stopped {
             self.find(Fault::IoCommunications);
         } else if self.injected.contains(&Fault::IoCommunications) {
             self.seen.insert(Situation::OneOfTwoIoCausesGone);
@@ -91,8 +99,16 @@ impl Model {
             self.untold.remove(&io);
         }
         for row in FAULTS {
-            if self.found.contains(&row.fault) && !self.untold.contains(&row.fault) {
+            if !self.found.contains(&row.fault) || self.untold.contains(&row.fault) {
+                continue;
+            }
+            if self.is_present(row.fault) {
                 self.tell_fault(row.fault);
+            } else if row.event != rows::MEMORY_BROKEN {
+                // It stays until the unit starts.
+                self.seen.insert(Situation::CauseGoneBeforeReset);
+                let detail = (row.fault == Fault::Processing).then_some(0);
+                self.exists(Error { level: MINOR_FAULT, event: row.event, detail });
             }
         }
         for (event, details) in self.standing.clone() {
@@ -196,14 +212,16 @@ impl Model {
 
     /// INIT to PRE-OP.
     pub(crate) fn check_mailbox(&mut self, found: &[u16]) -> Result<(), u16> {
-        if found.contains(&0x0051) || self.is_present(Fault::SiiVerification) {
+        self.sii_not_loaded |= found.contains(&0x0051);
+        let sii_is_wrong = self.is_present(Fault::SiiVerification);
+        if sii_is_wrong {
             self.find(Fault::SiiVerification);
-            return Err(0x0014);
         }
         for &code in found {
             self.al_error(code);
         }
-        found.first().map_or(Ok(()), |&code| Err(code))
+        let first = if sii_is_wrong { Some(&0x0014) } else { found.first() };
+        first.map_or(Ok(()), |&code| Err(code))
     }
 
     /// PRE-OP to SAFE-OP: everything that is wrong is told, the first of it stops the unit.
