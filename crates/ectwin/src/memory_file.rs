@@ -4,13 +4,13 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use device::Network;
-use nx_ect101::{MemoryAtPowerOn, NonVolatileMemory, NxEct101};
+use nx_ect101::{MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
 
 /// What a unit has found in its file, and who keeps the file from now on.
 #[derive(Debug)]
 pub(crate) struct MemoryFile {
     found: MemoryAtPowerOn,
-    /// None for a damaged memory: it stores nothing.
+    /// None for memory only.
     writer: Option<storage::Writer>,
 }
 
@@ -21,7 +21,7 @@ impl MemoryFile {
     }
 
     /// Reads the file. One that is damaged gets another name and is left alone; the unit starts with the fault
-    /// that the manual names.
+    /// that the manual names, and stores a new memory once its power was cycled.
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
         let found = match storage::read(path)? {
             None => MemoryAtPowerOn::Factory,
@@ -30,16 +30,27 @@ impl MemoryFile {
                 Err(damage) => {
                     let aside = storage::set_aside(path)?;
                     tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
-                    return Ok(Self { found: MemoryAtPowerOn::Damaged, writer: None });
+                    MemoryAtPowerOn::Damaged
                 }
             },
         };
-        Ok(Self { found, writer: Some(storage::Writer::start(PathBuf::from(path))?) })
+        let writer = storage::Writer::start(PathBuf::from(path), room_bytes(&found))?;
+        Ok(Self { found, writer: Some(writer) })
     }
 
     /// What was found, and who writes.
     pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, Option<storage::Writer>) {
         (self.found, self.writer)
+    }
+}
+
+/// Room for the memory with full logs, so that storing it allocates nothing.
+fn room_bytes(found: &MemoryAtPowerOn) -> usize {
+    match found {
+        MemoryAtPowerOn::Stored(memory) => memory.encoded_bytes_max(),
+        MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => {
+            NonVolatileMemory::factory(&UnitSettings::default()).encoded_bytes_max()
+        }
     }
 }
 

@@ -134,6 +134,20 @@ impl Line {
     ) -> UnitSide<'a> {
         UnitSide::of(&mut self.network, cpus, position, now)
     }
+
+    /// Stores the memories that have changed.
+    fn keep(&mut self) {
+        for keeper in &mut self.keepers {
+            keeper.keep(&mut self.network);
+        }
+    }
+}
+
+/// What was done to a unit since the line was polled last is stored too.
+impl Drop for Line {
+    fn drop(&mut self) {
+        self.keep();
+    }
 }
 
 impl Responder for Line {
@@ -143,9 +157,7 @@ impl Responder for Line {
 
     fn poll(&mut self, now: Instant) {
         self.network.poll(now);
-        for keeper in &mut self.keepers {
-            keeper.keep(&mut self.network);
-        }
+        self.keep();
     }
 
     fn deadline(&self) -> Instant {

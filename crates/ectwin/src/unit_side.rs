@@ -127,6 +127,12 @@ impl UnitSide<'_> {
         self.unit().error_status()
     }
 
+    /// How many emergency messages were lost since power-on: they found no room, or no mailbox.
+    #[must_use]
+    pub fn emergencies_lost(&self) -> u64 {
+        self.device().emergencies_lost()
+    }
+
     /// The system event log, which is the diagnosis history 10F3, and the access event log.
     #[must_use]
     pub fn error_log(&self) -> &ErrorLog {

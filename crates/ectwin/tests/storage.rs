@@ -8,7 +8,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use ectwin::{Setup, SetupError, Twin};
+use ectwin::{Duration, EventLog, Fault, Setup, SetupError, Twin};
 use nx_ect101::NonVolatileMemory;
 use wire::{Command as Datagram, FrameBuilder, returned_datagrams};
 
@@ -104,6 +104,65 @@ fn a_damaged_file_is_a_fault_and_is_kept_aside() {
 
     let mut twin = start(&folder);
     assert_eq!(al_status(&mut twin), (0x01, 0x0000), "new memory");
+}
+
+/// The system events that are in the file.
+fn stored_events(folder: &Path) -> Vec<String> {
+    let memory = stored(folder).expect("stored");
+    memory.error_log().history().map(|record| record.event.to_string()).collect()
+}
+
+#[test]
+fn what_happens_right_before_power_off_is_stored() {
+    let folder = folder_of("before_power_off");
+    let mut twin = start(&folder);
+    twin.unit(0).inject(Fault::IoCommunications);
+    drop(twin);
+    assert_eq!(stored_events(&folder), ["80200000"]);
+
+    let (near, far) = ectwin::link::memory::pair();
+    let live = start(&folder).serve(far).expect("threads");
+    live.look(0, |unit| unit.inject(Fault::IoCommunications));
+    drop((live, near));
+    assert_eq!(stored_events(&folder), ["80200000"; 2]);
+}
+
+#[test]
+fn what_changes_while_the_memory_is_broken_is_stored_once_it_is_sound() {
+    let folder = folder_of("broken");
+    let mut twin = start(&folder);
+    twin.unit(0).inject(Fault::IoCommunications);
+    twin.unit(0).inject(Fault::NonVolatileMemory);
+    twin.unit(0).cycle_power();
+    twin.run_for(Duration::from_millis(2));
+    twin.unit(0).clear_event_log(EventLog::System);
+    twin.run_for(Duration::from_millis(2));
+    twin.unit(0).remove(Fault::IoCommunications);
+    twin.unit(0).remove(Fault::NonVolatileMemory);
+    twin.unit(0).cycle_power();
+    let in_use = twin.unit(0).error_log().clone();
+    drop(twin);
+    assert_eq!(stored(&folder).expect("stored").error_log(), &in_use);
+    assert_eq!(stored_events(&folder).last().map(String::as_str), Some("90400000"));
+}
+
+#[test]
+fn a_damaged_memory_is_new_when_the_power_was_cycled() {
+    let folder = folder_of("new");
+    let path = folder.join("N1.nvm");
+    fs::write(&path, b"rubbish").expect("writable");
+    let mut twin = start(&folder);
+    twin.unit(0).remove(Fault::NonVolatileMemory);
+    twin.unit(0).restart();
+    assert_eq!(al_status(&mut twin), (0x11, 0x0002), "a restart does not mend it, nor is it injected");
+    twin.run_for(Duration::from_millis(2));
+    assert!(!path.exists(), "nothing is stored in a broken memory");
+    twin.unit(0).cycle_power();
+    assert_eq!(al_status(&mut twin), (0x01, 0x0000));
+    twin.unit(0).inject(Fault::IoCommunications);
+    drop(twin);
+    assert_eq!(stored_events(&folder), ["80200000"]);
+    assert_eq!(fs::read(folder.join("N1.nvm.damaged-1")).expect("kept"), b"rubbish");
 }
 
 #[test]

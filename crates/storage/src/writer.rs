@@ -22,12 +22,13 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Starts the thread. Nothing is written before the first [`Writer::store`].
+    /// Starts the thread. Nothing is written before the first [`Writer::store`], which allocates nothing as long
+    /// as the contents have at most `room_bytes`.
     ///
     /// # Errors
     /// There is no thread to be had.
-    pub fn start(path: PathBuf) -> io::Result<Self> {
-        let (newest, contents) = triple_buffer(&Vec::new());
+    pub fn start(path: PathBuf, room_bytes: usize) -> io::Result<Self> {
+        let (newest, contents) = triple_buffer(&vec![0; room_bytes]);
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
         let thread = thread::Builder::new().name("storage".to_owned());
@@ -91,7 +92,7 @@ mod tests {
     fn the_newest_contents_are_stored_when_the_writer_is_dropped() {
         let folder = Folder::of_test("writer");
         let path = folder.file("N1.nvm");
-        let mut writer = Writer::start(path.clone()).expect("a thread");
+        let mut writer = Writer::start(path.clone(), 64).expect("a thread");
         for generation in 0..=200_u8 {
             writer.store(|bytes| {
                 bytes.clear();
@@ -106,7 +107,7 @@ mod tests {
     fn without_contents_nothing_is_written() {
         let folder = Folder::of_test("nothing");
         let path = folder.file("N1.nvm");
-        drop(Writer::start(path.clone()).expect("a thread"));
+        drop(Writer::start(path.clone(), 64).expect("a thread"));
         assert_eq!(file::read(&path).expect("readable"), None);
     }
 }
