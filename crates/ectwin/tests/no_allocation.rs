@@ -1,7 +1,7 @@
 //! After power-on nothing is allocated: not for frames, not for refresh and CPU Unit, not for SDOs.
 
 use allocation_counter::measure;
-use ectwin::{AlState, Duration, FrameFate, Twin};
+use ectwin::{AlState, Duration, EventLog, Fault, FrameFate, Setup, Twin};
 use wire::{Command, FrameBuilder};
 
 const UNIT: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
@@ -108,4 +108,38 @@ fn sdos_allocate_nothing() {
     });
     assert_eq!(replies, 1_000);
     assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+}
+
+/// Events on every channel, and their storing. Nothing has occurred in this process before.
+#[test]
+fn events_allocate_nothing() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_allocation");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for temporary files");
+    let setup = Setup::from_toml(&format!("storage = \"N1.nvm\"\n{UNIT}")).expect("the unit file is good");
+    let mut twin = Twin::power_on([setup.with_storage(&folder).expect("a usable folder")]);
+    to_op(&mut twin);
+    let mut buffer = [0; 1518];
+    let outputs = FrameBuilder::new().logical(Command::Lrw, 0, &[1; 183]).finish();
+    let requests = [[0x05, 0], [0x13, 0], [0x18, 0]].map(|request| apwr(0x0120, &request));
+    let counted = measure(|| {
+        for _ in 0..60 {
+            send(&mut twin, &outputs, &mut buffer);
+            // The watchdog, then a state that does not exist, one that is not there, and back to OP.
+            twin.run_for(Duration::from_millis(150));
+            for request in &requests {
+                send(&mut twin, request, &mut buffer);
+                twin.run_for(Duration::from_millis(1));
+            }
+            let mut unit = twin.unit(0);
+            unit.inject(Fault::MessageCommunications);
+            unit.inject(Fault::IoCommunications);
+            unit.remove(Fault::IoCommunications);
+            unit.reset_errors();
+            unit.clear_event_log(EventLog::Access);
+        }
+    });
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+    assert_eq!(twin.unit(0).error_log().system.len(), 32);
+    assert_eq!(twin.unit(0).state(), AlState::Op);
 }

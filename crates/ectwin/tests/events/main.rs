@@ -5,6 +5,7 @@
 
 mod cases;
 mod causes;
+mod combinations;
 mod expectations;
 mod recovery;
 mod stage;
