@@ -7,6 +7,7 @@ mod cases;
 mod causes;
 mod combinations;
 mod expectations;
+mod hostile;
 mod recovery;
 mod stage;
 
