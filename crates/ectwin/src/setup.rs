@@ -6,19 +6,14 @@ use std::path::Path;
 
 use nx_ect101::unit_file::{UnitFile, UnitFileErrors};
 use nx_ect101::{NxEct101, Timing, UnitSettings, device_config_with};
-use plc::{CpuSettings, CpuUnit, Echo, Io, MessageEcho, Program};
+use plc::{Builtin, CpuSettings, CpuUnit, Io, Program};
 use time::Instant;
 
 use crate::memory_file::MemoryFile;
 
-/// Name of the built-in user program that copies what comes from the master back to it, in place of a path.
-const COPY_PROGRAM: &str = "builtin:copy";
-/// Name of the built-in user program that sends messages back besides.
-const MESSAGES_PROGRAM: &str = "builtin:messages";
-
 /// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
-/// `builtin:copy`, which copies what comes from the master back to it ([`Echo`], the manual's example A-3); or
-/// `builtin:messages`, which does so with messages too ([`MessageEcho`]).
+/// `builtin:copy`, which copies what comes from the master back to it ([`plc::Echo`], the manual's example A-3); or
+/// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
@@ -113,14 +108,11 @@ pub(crate) struct Powered {
 }
 
 fn named_program(file: &UnitFile) -> Result<Box<dyn Program + Send>, SetupError> {
-    match &file.cpu.program {
-        None => Ok(Box::new(|_: &mut Io| {})),
-        Some(name) if name.value.as_os_str() == COPY_PROGRAM => Ok(Box::new(Echo)),
-        Some(name) if name.value.as_os_str() == MESSAGES_PROGRAM => Ok(Box::new(MessageEcho::default())),
-        Some(name) => Err(SetupError::Program {
-            path: name.value.display().to_string(),
-            span: name.span.clone().unwrap_or_default(),
-        }),
+    let Some(name) = &file.cpu.program else { return Ok(Box::new(|_: &mut Io| {})) };
+    let path = name.value.display().to_string();
+    match Builtin::named(&path) {
+        Some(builtin) => Ok(builtin.program()),
+        None => Err(SetupError::Program { path, span: name.span.clone().unwrap_or_default() }),
     }
 }
 
@@ -154,8 +146,10 @@ impl fmt::Display for SetupError {
             Self::Program { path, .. } => write!(
                 formatter,
                 "the user program {path} cannot be read: programs in files are not supported yet; \
-                 `{COPY_PROGRAM}` copies the data from the master back to it, `{MESSAGES_PROGRAM}` the messages \
-                 too, and without `program` there is none"
+                 `{}` copies the data from the master back to it, `{}` the messages too, and without \
+                 `program` there is none",
+                Builtin::Copy.name(),
+                Builtin::Messages.name(),
             ),
             Self::Storage { path, reason, .. } => {
                 write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")

@@ -3,12 +3,14 @@
 //! [`CpuUnit`] does no I/O and asks no clock: its owner calls [`CpuUnit::cycle`] when
 //! [`CpuUnit::deadline`] has come. A user program is a [`Program`] that sees [`Io`] and nothing else.
 
+mod builtin;
 mod cpu_unit;
 mod echo;
 mod io;
 mod message_echo;
 mod nx_object_client;
 
+pub use builtin::Builtin;
 pub use cpu_unit::{CpuSettings, CpuUnit, OperatingMode};
 pub use echo::Echo;
 pub use io::{Io, Program};

@@ -28,5 +28,8 @@ fn main() {
     });
     let Some((elapsed, cycles)) = best.min() else { return };
     let seconds = elapsed.as_secs_f64();
-    println!("1 h of virtual time, {cycles} cycles: {seconds:.2} s, {:.0} times as fast as reality", 3600.0 / seconds);
+    println!(
+        "1 h of virtual time, {cycles} cycles: {seconds:.2} s, {:.0} times as fast as reality",
+        3600.0 / seconds
+    );
 }

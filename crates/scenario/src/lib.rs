@@ -27,5 +27,7 @@ pub use orders::{
 pub use recorded::RecordedFrames;
 pub use recording::Recording;
 pub use replay::{Failure, Report};
-pub use scenario::{BuiltinProgram, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
+pub use scenario::{
+    RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram,
+};
 pub use search::Found;

@@ -4,7 +4,7 @@ mod error;
 mod read;
 
 use nx_ect101::unit_file::UnitFile;
-use plc::{Echo, Io, MessageEcho, Program};
+use plc::{Builtin, Io, Program};
 use time::Duration;
 
 use capture::NotACapture;
@@ -70,38 +70,25 @@ pub struct UnitSource {
     /// Its unit file.
     pub file: UnitFile,
     /// What its CPU Unit runs.
-    pub program: BuiltinProgram,
+    pub program: UserProgram,
 }
 
-/// A user program that needs no file.
+/// What a CPU Unit runs.
 #[derive(Clone, Copy, Debug)]
-pub enum BuiltinProgram {
-    /// None: the data stay as they are set.
+pub enum UserProgram {
+    /// Nothing: the data stay as they are set.
     None,
-    /// Copies the data back (manual, A-3).
-    Copy,
-    /// Copies data and messages back.
-    Messages,
+    /// A program that needs no file.
+    Builtin(Builtin),
     /// A program of a test, made anew for each replay.
     Custom(fn() -> Box<dyn Program + Send>),
 }
 
-impl BuiltinProgram {
-    /// The program that a unit file names; none if there is no such program.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        match name {
-            "builtin:copy" => Some(Self::Copy),
-            "builtin:messages" => Some(Self::Messages),
-            _ => None,
-        }
-    }
-
+impl UserProgram {
     pub(crate) fn start(self) -> Box<dyn Program + Send> {
         match self {
             Self::None => Box::new(|_: &mut Io| {}),
-            Self::Copy => Box::new(Echo),
-            Self::Messages => Box::new(MessageEcho::default()),
+            Self::Builtin(builtin) => builtin.program(),
             Self::Custom(make) => make(),
         }
     }

@@ -3,7 +3,7 @@
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use plc::{Io, Program};
-use scenario::{BuiltinProgram, Recording, Scenario};
+use scenario::{Recording, Scenario, UserProgram};
 
 const INVARIANT: &str = r#"title = "whatever happens, the program echoes again in the end"
 limit = "120s"
@@ -56,7 +56,7 @@ impl Program for Echoing {
 
 fn scenario(program: fn() -> Box<dyn Program + Send>) -> Scenario {
     let mut scenario = Scenario::parse(INVARIANT, |_| Err(String::new())).expect("a right scenario");
-    scenario.units[0].program = BuiltinProgram::Custom(program);
+    scenario.units[0].program = UserProgram::Custom(program);
     scenario
 }
 
@@ -71,9 +71,9 @@ fn a_planted_bug_is_found_and_cut_down() {
     let mut written = Scenario::parse(&found.text, |_| Err(String::new())).expect("a right scenario");
     assert!(written.random.is_none() && written.seed == found.seed);
     let run = |scenario: &Scenario| scenario.replay(scenario.seed, Recording::new(false, false)).failure;
-    written.units[0].program = BuiltinProgram::Custom(|| Box::new(Sulking::default()));
+    written.units[0].program = UserProgram::Custom(|| Box::new(Sulking::default()));
     assert!(run(&written).is_some(), "{}", found.text);
-    written.units[0].program = BuiltinProgram::Custom(|| Box::new(Echoing));
+    written.units[0].program = UserProgram::Custom(|| Box::new(Echoing));
     assert_eq!(run(&written), None, "{}", found.text);
 }
 

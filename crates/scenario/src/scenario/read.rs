@@ -3,11 +3,12 @@
 use core::ops::Range;
 
 use nx_ect101::unit_file::UnitFile;
+use plc::Builtin;
 use serde::Deserialize;
 use time::Duration;
 use toml::Spanned;
 
-use super::{BuiltinProgram, RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource};
+use super::{RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram};
 use crate::expectation::Condition;
 use crate::orders::{CpuOrder, Expectation, LineOrder, MasterOrder, Mode, Order, UnitOrder, UnitSet};
 use crate::recorded::RecordedFrames;
@@ -262,11 +263,11 @@ impl Reader<'_> {
             }
         };
         let program = match &file.cpu.program {
-            None => BuiltinProgram::None,
-            Some(path) => match BuiltinProgram::named(&path.value.display().to_string()) {
-                Some(program) => program,
+            None => UserProgram::None,
+            Some(path) => match Builtin::named(&path.value.display().to_string()) {
+                Some(builtin) => UserProgram::Builtin(builtin),
                 None => {
-                    let help = "`builtin:copy`, `builtin:messages`, or none at all";
+                    let help = format!("{}, or none at all", Builtin::ALL.map(Builtin::name).join(", "));
                     self.refuse(
                         span,
                         format!("{name}: the program {} is not known", path.value.display()),

@@ -1,0 +1,42 @@
+//! User programs that need no file, by their names.
+
+use crate::io::Program;
+use crate::{Echo, MessageEcho};
+
+/// A user program that a unit file names in place of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Builtin {
+    /// `builtin:copy`: copies what comes from the master back to it ([`Echo`]).
+    Copy,
+    /// `builtin:messages`: sends messages back besides ([`MessageEcho`]).
+    Messages,
+}
+
+impl Builtin {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Copy, Self::Messages];
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Copy => "builtin:copy",
+            Self::Messages => "builtin:messages",
+        }
+    }
+
+    /// The program of this name; none if there is no such program.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|builtin| builtin.name() == name)
+    }
+
+    /// The program, at its beginning.
+    #[must_use]
+    pub fn program(self) -> Box<dyn Program + Send> {
+        match self {
+            Self::Copy => Box::new(Echo),
+            Self::Messages => Box::new(MessageEcho::default()),
+        }
+    }
+}

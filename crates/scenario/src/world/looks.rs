@@ -1,0 +1,118 @@
+//! What conditions look at.
+
+use device::{Device, Unit};
+use esc::Port;
+use nx_ect101::{EventCode, IndicatorCauses, Indicators, NxEct101, Pattern, PortCondition};
+use plc::Io;
+use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
+
+use super::{World, state_words};
+use crate::expectation::{CURRENT, codes};
+use crate::sentence::IndicatorName;
+
+impl World {
+    /// The unit at a position that the scenario has been checked for.
+    pub(crate) fn unit(&self, at: usize) -> &NxEct101 {
+        self.device(at).unit()
+    }
+
+    fn device(&self, at: usize) -> &Device<NxEct101> {
+        match self.network.device(at) {
+            Some(device) => device,
+            None => panic!("the scenario names unit {}, and was checked", at + 1),
+        }
+    }
+
+    pub(crate) fn io(&self, at: usize) -> &Io {
+        self.cpus[at].unit.io()
+    }
+
+    pub(crate) fn al_status(&self, at: usize) -> (AlStatus, AlStatusCode) {
+        (self.device(at).al_status(), self.device(at).al_status_code())
+    }
+
+    pub(crate) fn state_words(&self, at: usize) -> String {
+        let (status, code) = self.al_status(at);
+        state_words(status, code)
+    }
+
+    pub(crate) fn recorded(&self, at: usize) -> &[EventCode] {
+        &self.watched[at].recorded
+    }
+
+    pub(crate) fn recorded_words(&self, at: usize) -> String {
+        let recorded = self.recorded(at);
+        if recorded.is_empty() {
+            "nothing is recorded".to_owned()
+        } else {
+            format!("recorded: {}", codes(recorded))
+        }
+    }
+
+    pub(crate) fn current_errors(&self, at: usize) -> Vec<EventCode> {
+        let unit = self.unit(at);
+        CURRENT.iter().flat_map(|&level| unit.current_errors(level)).map(|error| error.event).collect()
+    }
+
+    pub(crate) fn object(
+        &mut self,
+        at: usize,
+        index: ObjectIndex,
+        sub: SubIndex,
+    ) -> Result<Vec<u8>, SdoAbort> {
+        let missing = SdoAbort::OBJECT_DOES_NOT_EXIST;
+        let objects =
+            self.network.device_mut(at).and_then(|device| device.unit_mut().objects()).ok_or(missing)?;
+        let entry = objects.table().entry(index, sub).ok_or(missing)?;
+        let mut value = vec![0; entry.size_bytes()];
+        objects.read(index, sub, &mut value).map(|()| value)
+    }
+
+    pub(crate) fn registers(&self, at: usize, offset: u16, length_bytes: usize) -> Vec<u8> {
+        let mut bytes = vec![0; length_bytes];
+        if let Some(esc) = self.network.esc(at) {
+            esc.look(offset, &mut bytes);
+        }
+        bytes
+    }
+
+    pub(crate) fn inputs(&self, at: usize) -> &[u8] {
+        self.master.inputs(at)
+    }
+
+    pub(crate) fn working_counter(&self, at: usize) -> Option<u16> {
+        self.master.working_counter(at)
+    }
+
+    pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Pattern {
+        let indicators = self.indicators(at);
+        match name {
+            IndicatorName::Run => indicators.run,
+            IndicatorName::Err => indicators.err,
+            IndicatorName::LinkIn => indicators.la_in,
+            IndicatorName::LinkOut => indicators.la_out,
+            IndicatorName::TsGreen => indicators.ts_green,
+            IndicatorName::TsRed => indicators.ts_red,
+        }
+    }
+
+    fn indicators(&self, at: usize) -> Indicators {
+        let (status, code) = self.al_status(at);
+        let unit = self.unit(at);
+        let port = |port| {
+            let activity = self.network.segment().port_activity(at, port);
+            activity.map_or(PortCondition::NoLink, |activity| {
+                PortCondition::new(activity.link, activity.is_active(self.now))
+            })
+        };
+        Indicators::of(&IndicatorCauses {
+            power: !self.watched[at].is_off,
+            nx: unit.nx_condition(),
+            state: status.state,
+            al_error: status.error.then_some(code),
+            esc_error: unit.faults().any(|fault| fault == nx_ect101::Fault::Esc),
+            in_port: port(Port::In),
+            out_port: port(Port::Out),
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! What steps do to units, CPU Units and the line.
+
+use device::Start;
+use nx_ect101::NxEct101;
+
+use super::{Cpu, World};
+use crate::UnitSet;
+use crate::master::Master;
+use crate::orders::{CpuOrder, LineOrder, UnitOrder};
+
+impl World {
+    pub(crate) fn master_mut(&mut self) -> &mut Master {
+        &mut self.master
+    }
+
+    pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
+        match *order {
+            UnitOrder::Restart(units) => self.each(units, |world, at| world.start(at, Start::Restart)),
+            UnitOrder::CyclePower(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::PowerOff(units) => self.each(units, Self::power_off),
+            UnitOrder::PowerOn(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::ResetErrors(units) => self.each_unit(units, NxEct101::reset_errors),
+            UnitOrder::ClearLog(units, log) => self.each_unit(units, |unit| unit.clear_event_log(log)),
+            UnitOrder::SetIdSwitch(at, id) => {
+                self.each_unit(UnitSet::One(at), |unit| unit.set_id_switch(id));
+            }
+            UnitOrder::SpoilSii(at, word) => self.spoil_sii(at, word),
+            UnitOrder::Inject(units, fault) => self.each_unit(units, |unit| unit.inject(fault)),
+            UnitOrder::Remove(units, fault) => self.each_unit(units, |unit| unit.remove(fault)),
+        }
+        self.happen();
+    }
+
+    pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
+        let now = self.now;
+        match order {
+            CpuOrder::SetMode(units, mode) => self.each_cpu(*units, |cpu| cpu.unit.set_mode(*mode)),
+            CpuOrder::SetIoRefreshing(units, on) => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
+            }
+            CpuOrder::SetTaskRunning(units, on) => self.each_cpu(*units, |cpu| cpu.is_running = *on),
+            CpuOrder::JumpTime(units, ahead) => {
+                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*ahead))
+            }
+            CpuOrder::SetInputs(at, bytes) => self.each_cpu(UnitSet::One(*at), |cpu| {
+                for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
+                    *input = *byte;
+                }
+            }),
+        }
+        self.advance(now);
+    }
+
+    pub(crate) fn line_order(&mut self, order: &LineOrder) {
+        match *order {
+            LineOrder::Disturb(disturbance) => self.line.disturb(disturbance),
+            LineOrder::Quiet => self.line.quiet(),
+            LineOrder::Cable { number, plugged } => {
+                if let Some(cable) = self.cables.get_mut(number) {
+                    *cable = plugged;
+                    self.connect(number);
+                }
+            }
+        }
+    }
+
+    fn each(&mut self, units: UnitSet, order: impl Fn(&mut Self, usize)) {
+        units.positions(self.count()).for_each(|at| order(self, at));
+    }
+
+    fn each_unit(&mut self, units: UnitSet, mut order: impl FnMut(&mut NxEct101)) {
+        for at in units.positions(self.count()) {
+            if let Some(device) = self.network.device_mut(at) {
+                order(device.unit_mut());
+            }
+        }
+    }
+
+    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
+        let positions = units.positions(self.cpus.len());
+        self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
+    }
+
+    fn spoil_sii(&mut self, at: usize, word: u16) {
+        let Some((_, esc)) = self.network.slave_mut(at) else { return };
+        let first = usize::from(word) * 2;
+        if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
+            bytes.iter_mut().for_each(|byte| *byte = !*byte);
+        }
+    }
+
+    fn power_off(&mut self, at: usize) {
+        self.network.power_off(at, self.now);
+        self.watched[at].is_off = true;
+        self.recording.tell(self.now, &format!("unit {}", at + 1), "is switched off");
+    }
+
+    fn start(&mut self, at: usize, start: Start) {
+        self.watched[at].is_off = false;
+        self.network.restart(at, self.now, start);
+        self.connect(at);
+        self.connect(at + 1);
+    }
+
+    /// A cable carries frames if it is plugged in and both its ends have power.
+    fn connect(&mut self, cable: usize) {
+        let is_on =
+            |at: Option<usize>| at.and_then(|at| self.watched.get(at)).is_none_or(|unit| !unit.is_off);
+        let plugged = self.cables.get(cable).copied().unwrap_or(false);
+        let carries = plugged && is_on(Some(cable)) && is_on(cable.checked_sub(1));
+        self.network.segment_mut().set_cable(cable, carries);
+    }
+}
