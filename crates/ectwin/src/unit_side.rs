@@ -3,8 +3,8 @@
 use device::{Device, Network, Start};
 use esc::Port;
 use nx_ect101::{
-    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, IndicatorCauses, Indicators,
-    LevelNotChangeable, NxEct101, PortCondition,
+    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, NxEct101,
+    PortCondition,
 };
 use plc::{CpuUnit, Io};
 use time::Instant;
@@ -163,17 +163,9 @@ impl UnitSide<'_> {
     /// What each indicator does now (manual, 3-2). [`Indicators::lights`] tells which of them are lit at a moment.
     #[must_use]
     pub fn indicators(&self) -> Indicators {
-        let (device, unit) = (self.device(), self.unit());
-        let status = device.al_status();
-        Indicators::of(&IndicatorCauses {
-            power: true,
-            nx: unit.nx_condition(),
-            state: status.state,
-            al_error: status.error.then(|| device.al_status_code()),
-            esc_error: unit.faults().any(|fault| fault == Fault::Esc),
-            in_port: self.port(Port::In),
-            out_port: self.port(Port::Out),
-        })
+        let device = self.device();
+        let ports = [self.port(Port::In), self.port(Port::Out)];
+        self.unit().indicators(device.al_status(), device.al_status_code(), ports)
     }
 
     fn port(&self, port: Port) -> PortCondition {

@@ -2,12 +2,12 @@
 
 use arrayvec::ArrayVec;
 use device::Start;
-use wire::AlStatusCode;
+use wire::{AlStatus, AlStatusCode};
 
 use crate::diagnosis::{CurrentError, OCCURRED_MAX, Occurrence};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
-use crate::indicators::NxCondition;
+use crate::indicators::{IndicatorCauses, Indicators, NxCondition, PortCondition};
 use crate::memory::ErrorLog;
 use crate::settings::LevelNotChangeable;
 use crate::unit::NxEct101;
@@ -82,6 +82,21 @@ impl NxEct101 {
     /// broken memory, counts.
     pub(super) fn has_error(&self) -> bool {
         self.error_status() != 0 || self.objects.diagnosis.found().next().is_some()
+    }
+
+    /// What the indicators show, for the AL status that the stack shows and the ports IN and OUT; the unit has power.
+    #[must_use]
+    pub fn indicators(&self, status: AlStatus, code: AlStatusCode, ports: [PortCondition; 2]) -> Indicators {
+        let [in_port, out_port] = ports;
+        Indicators::of(&IndicatorCauses {
+            power: true,
+            nx: self.nx_condition(),
+            state: status.state,
+            al_error: status.error.then_some(code),
+            esc_error: self.faults().any(|fault| fault == Fault::Esc),
+            in_port,
+            out_port,
+        })
     }
 
     /// What the TS indicator tells: how the unit stands as an NX Unit. It is initialized when the CPU Unit begins

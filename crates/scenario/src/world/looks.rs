@@ -2,7 +2,7 @@
 
 use device::{Device, Unit};
 use esc::Port;
-use nx_ect101::{EventCode, IndicatorCauses, Indicators, NxEct101, Pattern, PortCondition};
+use nx_ect101::{EventCode, Indicators, NxEct101, Pattern, PortCondition};
 use plc::Io;
 use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
@@ -97,22 +97,17 @@ impl World {
     }
 
     fn indicators(&self, at: usize) -> Indicators {
+        if self.watched[at].is_off {
+            return Indicators::DARK;
+        }
         let (status, code) = self.al_status(at);
-        let unit = self.unit(at);
-        let port = |port| {
-            let activity = self.network.segment().port_activity(at, port);
-            activity.map_or(PortCondition::NoLink, |activity| {
-                PortCondition::new(activity.link, activity.is_active(self.now))
-            })
-        };
-        Indicators::of(&IndicatorCauses {
-            power: !self.watched[at].is_off,
-            nx: unit.nx_condition(),
-            state: status.state,
-            al_error: status.error.then_some(code),
-            esc_error: unit.faults().any(|fault| fault == nx_ect101::Fault::Esc),
-            in_port: port(Port::In),
-            out_port: port(Port::Out),
+        self.unit(at).indicators(status, code, [Port::In, Port::Out].map(|port| self.port(at, port)))
+    }
+
+    fn port(&self, at: usize, port: Port) -> PortCondition {
+        let activity = self.network.segment().port_activity(at, port);
+        activity.map_or(PortCondition::NoLink, |activity| {
+            PortCondition::new(activity.link, activity.is_active(self.now))
         })
     }
 }
