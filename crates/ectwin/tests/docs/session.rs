@@ -11,7 +11,7 @@ use crate::pages::top_folder;
 /// In an expected output: any text. Alone on its line: any lines.
 const ANYTHING: &str = "…";
 /// What the pages use of the checkout.
-const FOLDERS: [&str; 2] = ["units", "tests"];
+const FOLDERS: [&str; 3] = ["scenarios", "tests", "units"];
 
 /// One page being followed, in a folder of its own.
 pub(crate) struct Session {

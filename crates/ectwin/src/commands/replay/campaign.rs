@@ -1,6 +1,5 @@
 //! What is to be replayed: scenario files, read and checked, times seeds.
 
-use std::cell::RefCell;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -158,24 +157,43 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
-/// Reads a scenario, and the unit files that it names, seen from its folder.
+/// Reads one scenario, and the files that it names, seen from its folder.
+pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
+    load(path, &mut Fingerprint::new()).map_err(Failure::BadFile)
+}
+
+/// Reads a scenario, and the files that it names, seen from its folder.
 fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<FileProblem>> {
     let text = fs::read_to_string(path).map_err(|error| vec![unreadable(path, &error)])?;
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
     let folder = path.parent().unwrap_or(Path::new(""));
-    let fingerprint = RefCell::new(fingerprint);
-    let scenario = Scenario::parse(&text, |unit_file| {
+    let parsed = Scenario::parse(&text, |unit_file| {
         let text = fs::read_to_string(folder.join(unit_file)).map_err(|error| error.to_string())?;
-        fingerprint.borrow_mut().add(text.as_bytes());
+        fingerprint.add(text.as_bytes());
         Ok(text)
     });
-    scenario.map_err(|errors| {
+    let mut scenario = parsed.map_err(|errors| -> Vec<_> {
         let problem = |error: &scenario::ScenarioError| {
             FileProblem::in_text(path, &text, error.span.clone(), &error.message, &error.help)
         };
         errors.iter().map(problem).collect()
-    })
+    })?;
+    if let Some(name) = scenario.capture.clone() {
+        load_capture(&mut scenario, &folder.join(&name), fingerprint).map_err(|reason| {
+            let at = text.find(&name).unwrap_or_default();
+            let help =
+                "a capture by `ectwin run --pcap` or `ectwin replay --pcap`, seen from this file's folder";
+            vec![FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)]
+        })?;
+    }
+    Ok(scenario)
+}
+
+fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerprint) -> Result<(), String> {
+    let bytes = fs::read(path).map_err(|error| format!("the capture cannot be read: {error}"))?;
+    fingerprint.add(&bytes);
+    scenario.load_capture(&bytes).map_err(|error| format!("the capture cannot be read: {error}"))
 }
 
 fn unreadable(path: &Path, error: &io::Error) -> FileProblem {
