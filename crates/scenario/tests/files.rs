@@ -1,0 +1,100 @@
+//! Scenario files: what repeats, and what is refused, with its place and the way out.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use scenario::{Recording, Scenario};
+
+fn errors(text: &str) -> String {
+    match Scenario::parse(text, |path| Err(format!("{path} is not there"))) {
+        Ok(_) => panic!("it was taken: {text}"),
+        Err(errors) => errors.to_string(),
+    }
+}
+
+fn step(step: &str) -> String {
+    errors(&format!("title = \"t\"\nsteps = [\n  {step},\n]\n"))
+}
+
+#[test]
+fn a_step_can_repeat_and_jitter_follows_the_seed() {
+    let text = r#"
+title = "resets, again and again"
+steps = [
+  { unit = "break IoCommunications of unit 1" },
+  { after = "5ms", unit = "reset the errors of unit 1", repeat = 10, every = "10ms", jitter = "3ms" },
+  { after = "1ms", expect = "unit 1 has recorded 80200000 11 times" },
+]
+"#;
+    let scenario = Scenario::parse(text, |_| Err(String::new())).expect("a right scenario");
+    let trace = |seed| {
+        let report = scenario.replay(seed, Recording::new(true, false));
+        assert_eq!(report.failure, None);
+        report.recording.trace().unwrap_or_default().to_owned()
+    };
+    assert_eq!(trace(1), trace(1));
+    assert_ne!(trace(1), trace(2), "other moments");
+}
+
+#[test]
+fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
+    let cases = [
+        ("{ master = \"tke unit 1 to OP\" }", "line 3, column 14", "did you mean `take all units to OP`?"),
+        ("{ master = \"take unit 2 to OP\" }", "line 3, column 14", "the line has 1 unit, counted from 1"),
+        (
+            "{ expect = \"unit 1 is in SAVE-OP\" }",
+            "found `SAVE-OP`",
+            "the sentence is `{units} is in {state}`",
+        ),
+        ("{ line = \"unplug cable 3\" }", "names a unit or a cable that is not there", "1 unit"),
+        ("{ line = \"lose the next 3\" }", "found the end", "lose the next {number} {frames}"),
+        ("{ at = \"20\", line = \"be quiet\" }", "not a duration", "units s, ms, us, ns"),
+        ("{ at = \"5ms\", after = \"5ms\", line = \"be quiet\" }", "one of at, after and when", ""),
+        ("{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }", "this one 2", "one of master, unit"),
+        ("{ after = \"1ms\" }", "this one 0", ""),
+        ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
+        ("{ expect = \"unit 1 is in OP\", within = \"1ms\", for = \"1ms\" }", "contradict", ""),
+        ("{ line = \"be quiet\", repeat = 3 }", "`repeat` and `every` belong together", ""),
+        ("{ line = \"be quiet\", repeat = 0, every = \"1ms\" }", "1 to 10000 times", ""),
+        (
+            "{ line = \"be quiet\", repeat = 2, every = \"1ms\", jitter = \"2ms\" }",
+            "more than the period",
+            "",
+        ),
+        ("{ random = 3 }", "needs the time", "within = \"1s\""),
+        ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
+        ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
+        ("{ lines = \"be quiet\" }", "unknown field `lines`", "expected one of"),
+    ];
+    for (text, message, help) in cases {
+        let errors = step(text);
+        let limit = message.replace("1m", "60s");
+        assert!(errors.contains(&limit) && errors.contains(help), "{text}\n{errors}");
+    }
+}
+
+#[test]
+fn everything_that_is_wrong_is_told_at_once() {
+    let errors = errors(
+        "title = \"t\"\nunits = [\"a.toml\", { model = \"nx-ect102\" }]\nsteps = [\n\
+         { at = \"9ms\", line = \"be quiet\" },\n{ at = \"5ms\", line = \"be loud\" },\n{ at = \"5ms\", line = \"be quiet\" },\n]",
+    );
+    for part in [
+        "line 2, column 10",
+        "a.toml is not there",
+        "nx-ect102",
+        "line 5",
+        "be loud",
+        "line 6",
+        "lies before the step",
+    ] {
+        assert!(errors.contains(part), "{part}:\n{errors}");
+    }
+}
+
+#[test]
+fn a_program_that_is_no_builtin_is_refused() {
+    let text =
+        "title = \"t\"\nunits = [{ model = \"nx-ect101\", cpu = { program = \"echo.st\" } }]\nsteps = []";
+    let errors = errors(text);
+    assert!(errors.contains("echo.st is not known") && errors.contains("builtin:copy"), "{errors}");
+}
