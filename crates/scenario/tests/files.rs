@@ -83,7 +83,7 @@ fn everything_that_is_wrong_is_told_at_once() {
         "a.toml is not there",
         "nx-ect102",
         "line 5",
-        "be loud",
+        "found `loud`",
         "line 6",
         "lies before the step",
     ] {
