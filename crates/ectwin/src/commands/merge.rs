@@ -39,8 +39,14 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
 fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
     let (mut results, mut problems) = (Vec::new(), Vec::new());
     for path in paths {
-        let unreadable = |source| Failure::Unreadable { path: path.clone(), source };
-        let text = fs::read_to_string(path).map_err(unreadable)?;
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) => {
+                let help = "give the files that the parts have written by `ectwin replay --json`";
+                problems.push(FileProblem::of_file(format!("cannot read {}: {error}", path.display()), help));
+                continue;
+            }
+        };
         let mut start = 0;
         for line in text.split_inclusive('\n') {
             match serde_json::from_str(line) {

@@ -24,11 +24,12 @@ use captures::Captures;
 use partition::Shard;
 use results::Results;
 
+pub(crate) use campaign::read_scenario;
 pub(crate) use junit::report as junit_report;
 pub(crate) use partition::{Partition, PartitionChoice};
 pub(crate) use result::{CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
-pub(crate) use story::{cases as case_count, failure as failure_story};
+pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 
 /// Replays all cases of our part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {

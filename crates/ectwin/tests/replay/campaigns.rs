@@ -105,7 +105,8 @@ fn merge_refuses_what_is_not_the_whole() {
         (&["part-1.jsonl", "part-2.jsonl", "other.jsonl"], "are not of one campaign"),
         (&["part-1.jsonl", "torn-2.jsonl", "part-3.jsonl"], "torn-2.jsonl:4:1]"),
         (&["empty.jsonl"], "there is no result"),
-        (&["gone.jsonl"], "cannot read gone.jsonl"),
+        (&["gone.jsonl", "torn-2.jsonl"], "cannot read gone.jsonl"),
+        (&["gone.jsonl", "torn-2.jsonl"], "by `ectwin replay --json`"),
     ] {
         let ended = bench.ectwin(&[&["merge"], files, &["--junit", "merged.xml"]].concat());
         assert_eq!(ended.code, Some(2), "{files:?}: {}", ended.stdout);

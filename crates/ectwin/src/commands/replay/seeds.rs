@@ -4,6 +4,9 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
+/// Most seeds of one campaign: their list is kept in memory.
+const SEEDS_MAX: u64 = 1_000_000;
+
 /// What `--seed` asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SeedChoice {
@@ -55,6 +58,9 @@ impl FromStr for SeedRange {
             None => seed(text).map(|count| 1..=count),
         };
         let range = range.filter(|range| !range.is_empty());
+        if range.as_ref().is_some_and(|range| range.end() - range.start() >= SEEDS_MAX) {
+            return Err(format!("expected at most {SEEDS_MAX} seeds; the next campaign goes on behind them"));
+        }
         range.map(Self).ok_or_else(|| {
             "expected a number of seeds such as 100, or first and last such as 5..8".to_owned()
         })
@@ -74,7 +80,8 @@ mod tests {
         let seeds = |text: &str| text.parse::<SeedRange>().map(|range| range.seeds().collect::<Vec<_>>());
         assert_eq!(seeds("3"), Ok(vec![1, 2, 3]));
         assert_eq!(seeds("5..8"), Ok(vec![5, 6, 7, 8]));
-        for wrong in ["0", "8..5", "a", "1..", "..", "-1"] {
+        assert!("1000000".parse::<SeedRange>().is_ok() && "5..1000004".parse::<SeedRange>().is_ok());
+        for wrong in ["1000001", "0..18446744073709551615", "0", "8..5", "a", "1..", "..", "-1"] {
             assert!(seeds(wrong).is_err(), "{wrong}");
         }
     }

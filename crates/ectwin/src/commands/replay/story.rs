@@ -34,10 +34,13 @@ pub(crate) fn failure(result: &CaseResult) -> String {
 
 /// The one command that shows it again.
 fn repeat(result: &CaseResult) -> String {
-    let file = &result.file;
-    let is_plain = file.chars().all(|letter| letter.is_alphanumeric() || "/._-+".contains(letter));
-    let file = if is_plain { file.clone() } else { format!("'{}'", file.replace('\'', r"'\''")) };
-    format!("ectwin replay {file} --seed {}", result.seed)
+    format!("ectwin replay {} --seed {}", quoted(&result.file), result.seed)
+}
+
+/// A path as a shell takes it.
+pub(crate) fn quoted(path: &str) -> String {
+    let is_plain = path.chars().all(|letter| letter.is_alphanumeric() || "/._-+".contains(letter));
+    if is_plain { path.to_owned() } else { format!("'{}'", path.replace('\'', r"'\''")) }
 }
 
 /// A number of cases.

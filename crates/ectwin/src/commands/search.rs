@@ -1,0 +1,136 @@
+//! `ectwin search FILE`: seeds, until a replay fails; what is left of it is a scenario file of a few steps.
+
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use scenario::{Found, Recording, Scenario};
+use time::Duration;
+
+use super::replay::{quoted, read_scenario};
+use crate::cli::SearchArgs;
+use crate::failure::Failure;
+use crate::output;
+
+/// Replays seed after seed; the first that fails is cut down and written.
+pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
+    let path = &args.scenario;
+    let scenario = read_scenario(path)?;
+    let text =
+        fs::read_to_string(path).map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
+    if scenario.random.is_none() {
+        return Err(without_dice(path));
+    }
+    if let Some(output) = &args.output {
+        refuse_existing(output)?;
+        refuse_elsewhere(path, &text, output)?;
+    }
+    let (found, lasted) = search(&scenario, &text, args);
+    match found {
+        None => tell_nothing(args, lasted),
+        Some(found) => tell_found(args, &scenario, &found),
+    }
+}
+
+/// The first seed that fails, cut down, and the virtual time of all replays up to it.
+fn search(scenario: &Scenario, text: &str, args: &SearchArgs) -> (Option<Found>, Duration) {
+    let mut lasted = Duration::ZERO;
+    for seed in args.seed..args.seed.saturating_add(args.runs.get()) {
+        let report = scenario.replay(seed, Recording::new(false, false));
+        lasted = lasted + report.lasted;
+        if report.failure.is_some() {
+            return (scenario.search(text, seed, 1), lasted);
+        }
+    }
+    (None, lasted)
+}
+
+fn tell_nothing(args: &SearchArgs, lasted: Duration) -> Result<(), Failure> {
+    let (path, runs) = (args.scenario.display(), args.runs);
+    let runs = if runs.get() == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
+    output::print_line(format_args!(
+        "{path}: nothing found in {runs} from seed {} on, {lasted} of virtual time",
+        args.seed
+    ))
+}
+
+/// The failure as the written file shows it: its lines are not those of the file with the dice.
+fn tell_found(args: &SearchArgs, scenario: &Scenario, found: &Found) -> Result<(), Failure> {
+    let output = args.output.clone().unwrap_or_else(|| beside(&args.scenario, found.seed));
+    write_new(&output, &found.text)?;
+    let failure = read_scenario(&output)?.replay(found.seed, Recording::new(false, false)).failure;
+    let failure = failure.as_ref().unwrap_or(&found.failure);
+    let Found { seed, steps, steps_before, .. } = found;
+    let title = scenario.title.split_whitespace().collect::<Vec<_>>().join(" ");
+    output::print_line(format_args!(
+        "FAILED  {}: {title}\n        {}:{}: `{}`\n        seen    {}\n        at      {}\n        \
+         seed    {seed}\n        steps   {steps} of {steps_before} are left\n        \
+         repeat  ectwin replay {}",
+        args.scenario.display(),
+        output.display(),
+        failure.line,
+        failure.text,
+        failure.seen,
+        failure.at,
+        quoted(&output.display().to_string())
+    ))?;
+    Err(Failure::CasesFailed)
+}
+
+/// `whatever-happens.toml` and seed 7: `whatever-happens-7.toml` in the same folder.
+fn beside(path: &Path, seed: u64) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().display();
+    path.with_file_name(format!("{stem}-{seed}.toml"))
+}
+
+/// Writes a file that is not there yet.
+pub(super) fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
+    refuse_existing(path)?;
+    let file = OpenOptions::new().write(true).create_new(true).open(path);
+    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
+    written.map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+}
+
+/// What somebody has written may be worth more than what we write.
+fn refuse_existing(path: &Path) -> Result<(), Failure> {
+    if !path.exists() {
+        return Ok(());
+    }
+    let message = format!("{} is there already", path.display());
+    let help = "give another path with -o, or take it away first".to_owned();
+    Err(Failure::Refused { message, help })
+}
+
+/// The written file names the same files as the one that was searched, seen from its own folder.
+fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failure> {
+    let (folder, other) = (folder_of(path), folder_of(output));
+    let mut names = Vec::new();
+    let parsed = Scenario::parse(text, |name| {
+        names.push(name.to_owned());
+        fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
+    });
+    names.extend(parsed.ok().and_then(|scenario| scenario.capture));
+    let is_same = |name: &String| {
+        let (one, another) = (folder.join(name).canonicalize(), other.join(name).canonicalize());
+        matches!((one, another), (Ok(one), Ok(another)) if one == another)
+    };
+    match names.iter().find(|name| !is_same(name)) {
+        None => Ok(()),
+        Some(name) => Err(Failure::Refused {
+            message: format!("{} names {name}, which is not seen from {}", path.display(), output.display()),
+            help: format!("write into the folder {}", folder.display()),
+        }),
+    }
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn without_dice(path: &Path) -> Failure {
+    Failure::Refused {
+        message: format!("{} has no step that the dice write, so every seed is the same", path.display()),
+        help: "add one, such as `{ random = 30, within = \"3s\" }`, in front of what has to hold in the end"
+            .to_owned(),
+    }
+}
