@@ -1,13 +1,14 @@
 //! One slave: the stack around a unit, on one ESC.
 
+mod requests;
+mod watch;
+
 use esc::{AlEvents, Esc, Pdi, Port, SmIndex};
 use time::{Duration, Instant};
-use wire::{AlControl, AlState, AlStatus, AlStatusCode};
+use wire::{AlState, AlStatus, AlStatusCode};
 
-use crate::checks;
-use crate::config::{DeviceConfig, OutputsBeforeOp, RefusedInOp};
+use crate::config::DeviceConfig;
 use crate::mailbox_service::MailboxService;
-use crate::state_machine::{Check, refusal, transition};
 use crate::unit::{Exchange, PortLinks, Start, Unit};
 
 /// What the stack listens to. Process data are not among it: the refresh runs freely.
@@ -161,16 +162,6 @@ impl<U: Unit> Device<U> {
         self.queue_emergencies();
     }
 
-    /// A fault of the unit takes the slave to INIT, whenever it comes. An Explicit Device ID in place of the AL
-    /// status code can have the same number, so all that is shown counts.
-    fn watch_fault(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        if let Some(code) = self.unit.fault()
-            && (self.status, self.code) != (error_status(AlState::Init, code), code)
-        {
-            self.refuse(AlState::Init, code, pdi, now);
-        }
-    }
-
     fn queue_emergencies(&mut self) {
         while let Some(emergency) = self.unit.take_emergency() {
             // Lost ones are counted.
@@ -241,99 +232,6 @@ impl<U: Unit> Device<U> {
         self.emergencies_lost + self.unit.emergencies_lost()
     }
 
-    /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
-    fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
-        if let Some(code) = self.unit.fault() {
-            return self.refuse(AlState::Init, code, pdi, now);
-        }
-        if self.status.error && !control.acknowledge && control.state != AlState::Init {
-            return;
-        }
-        self.op_deadline = None;
-        self.open_sync_managers(pdi);
-        let from = self.status.state;
-        match transition(from, control.state) {
-            None => {
-                let code = self.unit.al_error(now, refusal(from, control.state));
-                let drops = from == AlState::Op && self.config.refused_in_op == RefusedInOp::DropToSafeOp;
-                self.refuse(if drops { AlState::SafeOp } else { from }, code, pdi, now);
-            }
-            Some(row) => match self.check(row.check, pdi, now) {
-                Err(code) => self.refuse(from, code, pdi, now),
-                Ok(Answer::Later(deadline)) => {
-                    self.op_deadline = Some(deadline);
-                    self.show(AlStatus { state: from, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
-                }
-                Ok(Answer::Now) => {
-                    self.enter(control.state, pdi, now);
-                    self.confirm(control, pdi);
-                }
-            },
-        }
-    }
-
-    fn check(&mut self, check: Check, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
-        match check {
-            Check::Nothing => {}
-            Check::Mailbox => {
-                let found = checks::mailbox(&self.config, pdi);
-                self.unit.check_transition(now, check, &found)?;
-            }
-            Check::ProcessData => {
-                let found = checks::process_data(&self.config, self.unit.process_data(), pdi);
-                self.unit.check_transition(now, check, &found)?;
-            }
-            Check::Outputs => {
-                let waits =
-                    self.unit.process_data().outputs_bytes > 0 && !pdi.outputs_received(SmIndex::OUTPUTS);
-                if let (OutputsBeforeOp::Within(limit), true) = (self.config.outputs_before_op, waits) {
-                    return Ok(Answer::Later(now + limit));
-                }
-            }
-        }
-        Ok(Answer::Now)
-    }
-
-    /// The state is reached: no error, and the Explicit Device ID where it is asked for.
-    fn confirm(&mut self, control: AlControl, pdi: &mut Pdi<'_>) {
-        let device_id = self.unit.explicit_device_id().filter(|_| control.device_id_request);
-        let status = AlStatus { state: control.state, error: false, device_id_loaded: device_id.is_some() };
-        self.show(status, AlStatusCode(device_id.unwrap_or(0)), pdi);
-    }
-
-    /// A refused request: the error is shown in `state`, which differs from the current one where OP drops.
-    fn refuse(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        if state == self.status.state {
-            self.show_error(state, code, pdi);
-        } else {
-            self.fall_back(state, code, pdi, now);
-        }
-    }
-
-    /// The stack itself has reasons to leave the state, if any: the unit hears of all, the first one is shown.
-    fn drop_to(&mut self, state: AlState, found: &[AlStatusCode], pdi: &mut Pdi<'_>, now: Instant) {
-        let mut first = None;
-        for &code in found {
-            let code = self.unit.al_error(now, code);
-            first.get_or_insert(code);
-        }
-        if let Some(code) = first {
-            self.fall_back(state, code, pdi, now);
-        }
-    }
-
-    /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
-    /// are closed until the master acknowledges, so that it sees the working counter drop (reference 5.5, C063).
-    fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        self.op_deadline = None;
-        self.enter(state, pdi, now);
-        if state == AlState::SafeOp {
-            let has_outputs = self.unit.process_data().outputs_bytes > 0;
-            pdi.set_deactivated(if has_outputs { SmIndex::OUTPUTS } else { SmIndex::INPUTS }, true);
-        }
-        self.show_error(state, code, pdi);
-    }
-
     /// Changes the state inside; what the wire sees follows by [`Device::show`], so that the inputs of
     /// SAFE-OP are there before AL status says so.
     fn enter(&mut self, state: AlState, pdi: &mut Pdi<'_>, now: Instant) {
@@ -382,45 +280,9 @@ impl<U: Unit> Device<U> {
         self.code = code;
         pdi.set_al_status(status, code);
     }
-
-    /// SyncManagers that become invalid take the slave down (reference 5.5).
-    fn watch_sync_managers(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let state = self.status.state;
-        if state == AlState::Init {
-            return;
-        }
-        let mailbox = self.config.mailbox.as_ref();
-        if let Some(Err(code)) = mailbox.map(|mailbox| checks::mailbox_sync_managers(mailbox, pdi)) {
-            return self.drop_to(AlState::Init, &[code], pdi, now);
-        }
-        if matches!(state, AlState::SafeOp | AlState::Op) {
-            let found = checks::watched_process_data(&self.config, self.unit.process_data(), pdi);
-            self.drop_to(AlState::PreOp, &found, pdi, now);
-        }
-    }
-
-    fn watch_op_request(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let Some(deadline) = self.op_deadline else { return };
-        if pdi.outputs_received(SmIndex::OUTPUTS) {
-            self.op_deadline = None;
-            self.enter(AlState::Op, pdi, now);
-            self.show(AlStatus { state: AlState::Op, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
-        } else if now >= deadline {
-            self.op_deadline = None;
-            let code = self.unit.al_error(now, AlStatusCode::SYNC_MANAGER_WATCHDOG);
-            self.refuse(AlState::SafeOp, code, pdi, now);
-        }
-    }
 }
 
 /// AL status with an error in `state`; without a code there is no error indication.
 fn error_status(state: AlState, code: AlStatusCode) -> AlStatus {
     AlStatus { state, error: code != AlStatusCode::NO_ERROR, device_id_loaded: false }
-}
-
-/// When a transition that may happen happens.
-enum Answer {
-    Now,
-    /// As soon as outputs come, at the latest then.
-    Later(Instant),
 }
