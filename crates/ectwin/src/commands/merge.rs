@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::replay::{CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
+use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::output;
@@ -49,10 +49,11 @@ fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
         };
         let mut start = 0;
         for line in text.split_inclusive('\n') {
-            match serde_json::from_str(line) {
+            match result_of(line) {
                 Ok(result) => results.push(Read { result, from: path }),
-                Err(error) => {
-                    problems.push(no_result(path, &text, start..start + line.trim_end().len(), &error))
+                Err(reason) => {
+                    let span = start..start + line.trim_end().len();
+                    problems.push(no_result(path, &text, span, &reason));
                 }
             }
             start += line.len();
@@ -61,14 +62,19 @@ fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
     if problems.is_empty() { Ok(results) } else { Err(Failure::BadFile(problems)) }
 }
 
-fn no_result(
-    path: &Path,
-    text: &str,
-    span: std::ops::Range<usize>,
-    error: &serde_json::Error,
-) -> FileProblem {
+fn result_of(line: &str) -> Result<CaseResult, String> {
+    let result: CaseResult = serde_json::from_str(line).map_err(|error| error.to_string())?;
+    let is_case = (1..=result.cases).contains(&result.case) && result.cases <= CASES_MAX;
+    if is_case && result.partition.has(result.case) {
+        Ok(result)
+    } else {
+        Err(format!("case {} of {} in part {} cannot be", result.case, result.cases, result.partition))
+    }
+}
+
+fn no_result(path: &Path, text: &str, span: std::ops::Range<usize>, reason: &str) -> FileProblem {
     let help = "each line comes from `ectwin replay --json`; a job that was killed may have left half a line";
-    FileProblem::in_text(path, text, span, &format!("this line is no result: {error}"), help)
+    FileProblem::in_text(path, text, span, &format!("this line is no result: {reason}"), help)
 }
 
 /// All cases of one campaign, in order.
@@ -76,23 +82,19 @@ fn complete(read: Vec<Read<'_>>) -> Result<Vec<CaseResult>, Failure> {
     let Some(first) = read.first() else {
         return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
     };
-    let (campaign, cases, parts) =
-        (first.result.campaign.clone(), first.result.cases, first.result.partition.count());
-    let first_from = first.from.to_owned();
+    if let Some(other) = read.iter().find(|read| campaign(&read.result) != campaign(&first.result)) {
+        let message =
+            format!("{} and {} are not of one campaign", first.from.display(), other.from.display());
+        return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
+    }
+    let (_, cases, parts) = campaign(&first.result);
     let mut merged: BTreeMap<u64, Read<'_>> = BTreeMap::new();
     for read in read {
-        let result = &read.result;
-        if (&result.campaign, result.cases, result.partition.count()) != (&campaign, cases, parts) {
-            let message =
-                format!("{} and {} are not of one campaign", first_from.display(), read.from.display());
-            return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
-        }
-        if let Some(other) = merged.get(&result.case) {
-            let (case, from) = (result.case, read.from.display());
+        let (case, from) = (read.result.case, read.from.display());
+        if let Some(other) = merged.insert(case, read) {
             let message = format!("case {case} is there twice: in {} and in {from}", other.from.display());
             return Err(refused(&message, "give each part once"));
         }
-        merged.insert(result.case, read);
     }
     let missing: Vec<u64> = (1..=cases).filter(|case| !merged.contains_key(case)).collect();
     if missing.is_empty() {
@@ -100,6 +102,11 @@ fn complete(read: Vec<Read<'_>>) -> Result<Vec<CaseResult>, Failure> {
     } else {
         Err(lacking(&missing, cases, parts))
     }
+}
+
+/// What all parts of a campaign have in common: its fingerprint, the number of its cases and of its parts.
+fn campaign(result: &CaseResult) -> (&str, u64, u64) {
+    (&result.campaign, result.cases, result.partition.count())
 }
 
 /// Which parts lack which cases.
@@ -113,8 +120,8 @@ fn lacking(missing: &[u64], cases: u64, parts: u64) -> Failure {
 }
 
 fn of_part(part: Partition, lacks: &[u64], cases: u64) -> String {
-    let has = (1..=cases).filter(|&case| part.has(case)).count();
-    if lacks.len() == has {
+    let has = part.cases_of(cases);
+    if lacks.len() as u64 == has {
         return format!("part {part} is missing");
     }
     let mut names: Vec<String> = lacks.iter().take(NAMED_CASES).map(u64::to_string).collect();

@@ -27,7 +27,7 @@ use results::Results;
 pub(crate) use campaign::read_scenario;
 pub(crate) use junit::report as junit_report;
 pub(crate) use partition::{Partition, PartitionChoice};
-pub(crate) use result::{CaseResult, Verdict};
+pub(crate) use result::{CASES_MAX, CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 

@@ -88,6 +88,7 @@ fn what_makes_no_sense_is_refused_with_a_way_out() {
     for (arguments, fragment) in [
         (&["empty"][..], "no scenario under empty"),
         (&["a.toml", "--seeds", "3", "--pcap", "out.pcapng"], "end it with `/`"),
+        (&["a.toml", "--seeds", "1000001"], "at most 1000000 seeds"),
         (&["a.toml", "--seed", "1", "--seeds", "3"], "cannot be used with"),
         (&["a.toml", "--partition", "4/3"], "such as 1/4"),
         (&["a.toml", "--partition", "auto"], "none of the variables TEST_SHARD_INDEX"),

@@ -98,12 +98,16 @@ fn merge_refuses_what_is_not_the_whole() {
     bench.put("short-2.jsonl", &format!("{kept}\n"));
     bench.put("torn-2.jsonl", &second[..second.len() - 30]);
     bench.put("empty.jsonl", "");
+    bench.put("huge.jsonl", &second.replace("\"cases\":12", "\"cases\":18446744073709551615"));
+    bench.put("other-part.jsonl", &second.replace("\"partition\":\"2/3\"", "\"partition\":\"1/3\""));
     for (files, fragment) in [
         (&["part-1.jsonl", "part-3.jsonl"][..], "part 2/3 is missing"),
         (&["part-1.jsonl", "short-2.jsonl", "part-3.jsonl"], "part 2/3 lacks 1 of its 4 cases: 11"),
         (&["part-1.jsonl", "part-2.jsonl", "part-2.jsonl", "part-3.jsonl"], "case 2 is there twice"),
         (&["part-1.jsonl", "part-2.jsonl", "other.jsonl"], "are not of one campaign"),
         (&["part-1.jsonl", "torn-2.jsonl", "part-3.jsonl"], "torn-2.jsonl:4:1]"),
+        (&["huge.jsonl"], "case 2 of 18446744073709551615 in part 2/3 cannot be"),
+        (&["part-1.jsonl", "other-part.jsonl"], "case 2 of 12 in part 1/3 cannot be"),
         (&["empty.jsonl"], "there is no result"),
         (&["gone.jsonl", "torn-2.jsonl"], "cannot read gone.jsonl"),
         (&["gone.jsonl", "torn-2.jsonl"], "by `ectwin replay --json`"),

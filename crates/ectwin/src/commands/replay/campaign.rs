@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use scenario::Scenario;
 
 use super::partition::Partition;
+use super::result::CASES_MAX;
 use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
@@ -77,7 +78,14 @@ impl Campaign {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
         }
         let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
-        Ok(Self { scenarios, seeds, is_drawn, fingerprint: fingerprint.0 })
+        let campaign = Self { scenarios, seeds, is_drawn, fingerprint: fingerprint.0 };
+        match campaign.count() {
+            0..=CASES_MAX => Ok(campaign),
+            count => Err(Failure::Refused {
+                message: format!("{count} cases are more than the {CASES_MAX} of one campaign"),
+                help: "give fewer seeds; the next campaign goes on behind them".to_owned(),
+            }),
+        }
     }
 
     /// How many cases there are in all parts.

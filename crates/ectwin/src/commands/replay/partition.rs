@@ -50,6 +50,11 @@ impl Partition {
         Self { number: case.saturating_sub(1) % count + 1, count }
     }
 
+    /// How many of so many cases are in it.
+    pub(crate) const fn cases_of(self, cases: u64) -> u64 {
+        cases / self.count + (self.number <= cases % self.count) as u64
+    }
+
     /// Whether this case, counted from 1, is in it.
     pub(crate) fn has(self, case: u64) -> bool {
         Self::of_case(case, self.count) == self
@@ -232,6 +237,8 @@ mod tests {
                 assert_eq!(parts.filter(|part| part.has(case)).count(), 1, "case {case} of {count}");
             }
         }
+        let thirds = [1, 2, 3].map(|number| Partition::new(number, 3).map(|part| part.cases_of(8)));
+        assert_eq!(thirds, [Some(3), Some(3), Some(2)]);
         for wrong in ["0/3", "4/3", "1", "1/0", "a/b"] {
             assert!(wrong.parse::<PartitionChoice>().is_err(), "{wrong}");
         }
