@@ -35,6 +35,16 @@ enum Seeds {
     These(Vec<u64>),
 }
 
+impl Seeds {
+    fn wanted(args: &ReplayArgs) -> Self {
+        match (&args.seeds, args.seed) {
+            (Some(range), _) => Self::These(range.seeds().collect()),
+            (None, Some(choice)) => Self::These(vec![choice.draw()]),
+            (None, None) => Self::Own,
+        }
+    }
+}
+
 /// One scenario with one seed.
 pub(super) struct Case<'a> {
     /// Its number, from 1.
@@ -57,11 +67,7 @@ impl Campaign {
     /// # Errors
     /// Everything that is wrong with any of them.
     pub(super) fn read(args: &ReplayArgs) -> Result<Self, Failure> {
-        let seeds = match (&args.seeds, args.seed) {
-            (Some(range), _) => Seeds::These(range.seeds().collect()),
-            (None, Some(choice)) => Seeds::These(vec![choice.draw()]),
-            (None, None) => Seeds::Own,
-        };
+        let seeds = Seeds::wanted(args);
         let mut fingerprint = Fingerprint::new();
         fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
         let (mut scenarios, mut problems) = (Vec::new(), Vec::new());
