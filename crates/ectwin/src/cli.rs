@@ -1,6 +1,6 @@
 //! What can stand on the command line.
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Sii(ExportArgs),
     /// Replay scenarios in virtual time, and tell which expectations held
     Replay(ReplayArgs),
+    /// Let the dice write steps, seed after seed, until an expectation fails; then cut the steps down
+    Search(SearchArgs),
     /// Put the results of all parts of a campaign together; none may be missing
     Merge(MergeArgs),
     /// Print a table of the model
@@ -119,6 +121,22 @@ impl ReplayArgs {
     pub(crate) fn jobs(&self) -> NonZeroUsize {
         self.jobs.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SearchArgs {
+    /// A scenario file with a `random` step
+    #[arg(value_name = "FILE")]
+    pub(crate) scenario: PathBuf,
+    /// Number of seeds
+    #[arg(long, value_name = "N", default_value = "1000")]
+    pub(crate) runs: NonZeroU64,
+    /// The first seed
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(crate) seed: u64,
+    /// Write what is left of a failure to this file; left out, beside FILE with the seed in its name
+    #[arg(short, long, value_name = "OUT")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

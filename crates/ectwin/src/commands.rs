@@ -13,6 +13,7 @@ mod list_rules;
 mod merge;
 pub(crate) mod replay;
 mod run;
+mod search;
 
 use crate::cli::{Command, List};
 use crate::failure::Failure;
@@ -32,6 +33,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::List(List::Indicators { json }) => list_indicators::run(json),
         Command::List(List::Rules { json }) => list_rules::run(json),
         Command::Replay(args) => replay::run(&args),
+        Command::Search(args) => search::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Explain { code } => explain::run(&code),
     }
