@@ -34,6 +34,8 @@ pub(crate) enum Command {
     Sii(ExportArgs),
     /// Replay scenarios in virtual time, and tell which expectations held
     Replay(ReplayArgs),
+    /// Make a scenario of a capture: the master's frames are sent again, and the answers compared
+    Import(ImportArgs),
     /// Let the dice write steps, seed after seed, until an expectation fails; then cut the steps down
     Search(SearchArgs),
     /// Put the results of all parts of a campaign together; none may be missing
@@ -121,6 +123,19 @@ impl ReplayArgs {
     pub(crate) fn jobs(&self) -> NonZeroUsize {
         self.jobs.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
     }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ImportArgs {
+    /// A capture (pcapng) of a master and its units
+    #[arg(value_name = "CAPTURE")]
+    pub(crate) capture: PathBuf,
+    /// Unit files, in chain order; left out, as many default units as the capture shows
+    #[arg(long = "unit", value_name = "FILE")]
+    pub(crate) units: Vec<PathBuf>,
+    /// The scenario file to be written
+    #[arg(short, long, value_name = "SCENARIO")]
+    pub(crate) output: PathBuf,
 }
 
 #[derive(Debug, Args)]

@@ -5,6 +5,7 @@ mod check;
 mod demo;
 mod explain;
 mod export;
+mod import;
 mod list_events;
 mod list_indicators;
 mod list_nx_objects;
@@ -33,6 +34,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::List(List::Indicators { json }) => list_indicators::run(json),
         Command::List(List::Rules { json }) => list_rules::run(json),
         Command::Replay(args) => replay::run(&args),
+        Command::Import(args) => import::run(&args),
         Command::Search(args) => search::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Explain { code } => explain::run(&code),

@@ -83,6 +83,26 @@ impl RecordedFrames {
         self.exchanges.is_empty()
     }
 
+    /// How many of them have come back.
+    #[must_use]
+    pub fn answers(&self) -> usize {
+        self.exchanges.iter().filter(|exchange| exchange.answer.is_some()).count()
+    }
+
+    /// How many units the longest line had: each adds 1 to the address of a datagram that passes by position.
+    #[must_use]
+    pub fn units(&self) -> usize {
+        let answered = self.exchanges.iter().filter_map(|exchange| {
+            let answer = exchange.answer.as_deref()?;
+            Some((returned_datagrams(&exchange.frame), returned_datagrams(answer)))
+        });
+        let pairs = answered.flat_map(|(asked, answered)| asked.into_iter().zip(answered));
+        let by_position =
+            pairs.filter(|(asked, _)| matches!(asked.header.command, Command::Aprd | Command::Brd));
+        let passed = by_position.map(|(asked, seen)| seen.header.address.wrapping_sub(asked.header.address));
+        usize::from(passed.max().unwrap_or(0))
+    }
+
     /// From the first frame to the last.
     #[must_use]
     pub fn duration(&self) -> Duration {

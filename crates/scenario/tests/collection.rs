@@ -38,9 +38,13 @@ fn scenario_files(folder: &Path) -> Vec<PathBuf> {
 fn replay(file: &Path) -> Result<(), Failed> {
     let text = fs::read_to_string(file)?;
     let beside = file.parent().unwrap_or(file);
-    let scenario = Scenario::parse(&text, |unit_file| {
+    let mut scenario = Scenario::parse(&text, |unit_file| {
         fs::read_to_string(beside.join(unit_file)).map_err(|error| error.to_string())
     })?;
+    if let Some(capture) = &scenario.capture {
+        let bytes = fs::read(beside.join(capture))?;
+        scenario.load_capture(&bytes)?;
+    }
     let report = scenario.replay(scenario.seed, Recording::new(true, false));
     match &report.failure {
         None => Ok(()),

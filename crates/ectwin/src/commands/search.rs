@@ -92,7 +92,7 @@ pub(super) fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 /// What somebody has written may be worth more than what we write.
-fn refuse_existing(path: &Path) -> Result<(), Failure> {
+pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
     if !path.exists() {
         return Ok(());
     }
@@ -123,7 +123,8 @@ fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failur
     }
 }
 
-fn folder_of(path: &Path) -> &Path {
+/// The folder of a file; that of the process if its path names none.
+pub(super) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 

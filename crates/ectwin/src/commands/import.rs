@@ -1,0 +1,111 @@
+//! `ectwin import CAPTURE`: a scenario that sends the frames of a capture again and compares the answers.
+
+use std::fs;
+use std::path::{Component, Path, PathBuf};
+
+use scenario::RecordedFrames;
+use time::Duration;
+
+use super::search::{folder_of, refuse_existing, write_new};
+use crate::cli::ImportArgs;
+use crate::failure::Failure;
+use crate::{output, unit_files};
+
+/// Writes the scenario, and tells what is in it.
+pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
+    refuse_existing(&args.output)?;
+    let frames = read(&args.capture)?;
+    for unit in &args.units {
+        unit_files::read(unit)?;
+    }
+    write_new(&args.output, &text(args, &frames)?)?;
+    output::print_line(format_args!(
+        "{}: {} frames, {} of them answered, in {}",
+        args.output.display(),
+        frames.len(),
+        frames.answers(),
+        frames.duration()
+    ))?;
+    let (given, seen) = (args.units.len(), frames.units());
+    if given > 0 && given != seen {
+        tracing::warn!("the capture shows a line of {seen} units, and {given} are given");
+    }
+    Ok(())
+}
+
+/// The frames of a capture; one without a master, or without an answer, shows nothing.
+fn read(path: &Path) -> Result<RecordedFrames, Failure> {
+    let refused = |reason: String| Failure::Refused {
+        message: format!("{}: {reason}", path.display()),
+        help: "give a capture of master and units, by `ectwin run --pcap` or Wireshark".to_owned(),
+    };
+    let bytes = fs::read(path).map_err(|error| refused(format!("the capture cannot be read: {error}")))?;
+    let frames = RecordedFrames::read(&bytes).map_err(|error| refused(error.to_string()))?;
+    match (frames.len(), frames.answers()) {
+        (0, _) => Err(refused("it holds no EtherCAT frame of a master".to_owned())),
+        (_, 0) => Err(refused("it holds no answer to a frame".to_owned())),
+        _ => Ok(frames),
+    }
+}
+
+fn text(args: &ImportArgs, frames: &RecordedFrames) -> Result<String, Failure> {
+    let folder = folder_of(&args.output);
+    let units = match args.units.as_slice() {
+        [] => vec!["{ model = \"nx-ect101\" }".to_owned(); frames.units().max(1)],
+        units => units.iter().map(|unit| seen_from(folder, unit)).collect::<Result<_, _>>()?,
+    };
+    let whole_seconds = frames.duration().as_nanos().div_ceil(1_000_000_000);
+    let (within, limit) = (Duration::from_secs(whole_seconds + 1), Duration::from_secs(whole_seconds + 2));
+    let name = args.capture.file_name().unwrap_or_default().display();
+    Ok(format!(
+        "title = {}\ncapture = {}\nlimit = \"{limit}\"\nunits = [{}]\nsteps = [\n  \
+         {{ expect = \"the capture is replayed\", within = \"{within}\" }},\n  \
+         {{ expect = \"every answer is as captured\" }},\n]\n",
+        toml_string(&format!("the answers are those of {name}")),
+        seen_from(folder, &args.capture)?,
+        units.join(", ")
+    ))
+}
+
+/// The path of a file from a folder, as a string of TOML.
+fn seen_from(folder: &Path, path: &Path) -> Result<String, Failure> {
+    let whole = |path: &Path| {
+        path.canonicalize().map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+    };
+    let (folder, path) = (whole(folder)?, whole(path)?);
+    Ok(toml_string(&relative(&folder, &path).display().to_string()))
+}
+
+/// The way from a folder to a file, both of them from the root.
+fn relative(folder: &Path, path: &Path) -> PathBuf {
+    let same = folder.components().zip(path.components()).take_while(|(one, other)| one == other).count();
+    let up = folder.components().skip(same).map(|_| Component::ParentDir);
+    up.chain(path.components().skip(same)).collect()
+}
+
+/// JSON writes a string as TOML does.
+fn toml_string(text: &str) -> String {
+    serde_json::Value::from(text).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_leads_up_and_down() {
+        for (folder, path, expected) in [
+            ("/a/b", "/a/b/c.pcapng", "c.pcapng"),
+            ("/a/b", "/a/c/d.pcapng", "../c/d.pcapng"),
+            ("/", "/a", "a"),
+            ("/a/b/c", "/d", "../../../d"),
+        ] {
+            assert_eq!(relative(Path::new(folder), Path::new(path)), Path::new(expected));
+        }
+    }
+
+    #[test]
+    fn strings_are_escaped() {
+        assert_eq!(toml_string("a \"b\"\\\n"), r#""a \"b\"\\\n""#);
+    }
+}

@@ -1,0 +1,89 @@
+//! `ectwin import`: a capture becomes a scenario, which `ectwin replay` takes.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+#[path = "replay/bench.rs"]
+#[expect(dead_code, reason = "each test uses a part of the bench")]
+mod bench;
+
+use bench::Bench;
+
+const LIVE: &str = r#"title = "three units go to OP, and the serial number of the second is read"
+units = ["unit.toml", "unit.toml", "unit.toml"]
+steps = [
+  { master = "take all units to OP" },
+  { when = "all units are in OP", master = "read SDO 1018:04 of unit 2" },
+  { after = "50ms", expect = "the last SDO gave 4D 00 00 00" },
+]
+"#;
+
+/// A bench with `captures/live.pcapng`.
+fn with_capture(name: &str) -> Bench {
+    let bench = Bench::new(name);
+    bench.put("units/unit.toml", "model = \"nx-ect101\"\nserial = 77\n");
+    bench.put("units/other.toml", "model = \"nx-ect101\"\nserial = 78\n");
+    bench.put("units/live.toml", LIVE);
+    bench.put("captures/readme.md", "");
+    let ended = bench.ectwin(&["replay", "units/live.toml", "--pcap", "captures/live.pcapng"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+    bench
+}
+
+#[test]
+fn the_same_units_answer_as_captured_and_another_one_does_not() {
+    let bench = with_capture("import");
+    let unit = |name: &'static str| ["--unit", name];
+    let same = [unit("units/unit.toml"); 3].concat();
+    let other = [unit("units/unit.toml"), unit("units/other.toml"), unit("units/unit.toml")].concat();
+    for (units, output, code) in [(same, "units/same.toml", 0), (other, "units/other-line.toml", 1)] {
+        let ended =
+            bench.ectwin(&[&["import", "captures/live.pcapng", "-o", output], units.as_slice()].concat());
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{}", ended.stdout);
+        assert!(ended.stdout.starts_with(&format!("{output}: ")), "{}", ended.stdout);
+        let ended = bench.ectwin(&["replay", output]);
+        assert_eq!(ended.code, Some(code), "{}{}", ended.stdout, ended.stderr);
+        assert_eq!(ended.stdout.contains("`every answer is as captured`"), code == 1, "{}", ended.stdout);
+    }
+    let written = bench.text("units/same.toml");
+    assert!(written.contains("capture = \"../captures/live.pcapng\""), "{written}");
+    assert!(written.contains("units = [\"unit.toml\", \"unit.toml\", \"unit.toml\"]"), "{written}");
+}
+
+#[test]
+fn without_unit_files_there_are_as_many_units_as_have_answered() {
+    let bench = with_capture("import-default");
+    assert_eq!(bench.ectwin(&["import", "captures/live.pcapng", "-o", "again.toml"]).code, Some(0));
+    let written = bench.text("again.toml");
+    assert_eq!(written.matches("{ model = \"nx-ect101\" }").count(), 3, "{written}");
+
+    let told =
+        bench.ectwin(&["import", "captures/live.pcapng", "-o", "one.toml", "--unit", "units/unit.toml"]);
+    assert_eq!(told.code, Some(0));
+    assert!(told.stderr.contains("the capture shows a line of 3 units, and 1 are given"), "{}", told.stderr);
+}
+
+#[test]
+fn what_is_no_capture_is_refused_with_a_way_out() {
+    let bench = with_capture("import-refused");
+    bench.put("text.pcapng", "no capture");
+    bench.put("old.toml", "");
+    // A section and nothing in it.
+    let mut empty = vec![0x0A, 0x0D, 0x0D, 0x0A, 28, 0, 0, 0, 0x4D, 0x3C, 0x2B, 0x1A, 1, 0, 0, 0];
+    empty.extend([0xFF; 8]);
+    empty.extend([28, 0, 0, 0]);
+    std::fs::write(bench.folder.join("empty.pcapng"), empty).unwrap();
+    for (arguments, fragment) in [
+        (&["gone.pcapng", "-o", "x.toml"][..], "gone.pcapng: the capture cannot be read"),
+        (&["text.pcapng", "-o", "x.toml"], "no pcapng capture"),
+        (&["empty.pcapng", "-o", "x.toml"], "it holds no EtherCAT frame of a master"),
+        (&["captures/live.pcapng", "-o", "old.toml"], "old.toml is there already"),
+        (&["captures/live.pcapng", "-o", "no/such/x.toml"], "cannot write no/such"),
+        (&["captures/live.pcapng", "-o", "x.toml", "--unit", "gone.toml"], "cannot read gone.toml"),
+        (&["captures/live.pcapng"], "--output"),
+    ] {
+        let ended = bench.ectwin(&[&["import"], arguments].concat());
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}");
+        assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
+    }
+    assert!(!bench.folder.join("x.toml").exists());
+}
