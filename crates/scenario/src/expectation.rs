@@ -23,7 +23,9 @@ pub enum Condition {
     Register { unit: usize, offset: u16, value: Vec<u8> },
     Outputs { unit: usize, bytes: Vec<u8> },
     Inputs { unit: usize, at: usize, bytes: Vec<u8> },
+    OutputsFrom { unit: usize, at: usize, bytes: Vec<u8> },
     DataValid { units: UnitSet, valid: bool },
+    DirectionValid { units: UnitSet, m_to_c: bool, valid: bool },
     IoDataActive { units: UnitSet, active: bool },
     UnitError { units: UnitSet, error: bool },
     Shows { indicator: IndicatorName, units: UnitSet, pattern: Pattern },
@@ -53,12 +55,14 @@ impl Condition {
             | Self::HasNoError(units)
             | Self::NewMessages { units, .. }
             | Self::DataValid { units, .. }
+            | Self::DirectionValid { units, .. }
             | Self::IoDataActive { units, .. }
             | Self::UnitError { units, .. }
             | Self::Shows { units, .. } => Some(*units),
             Self::Object { unit, .. }
             | Self::Register { unit, .. }
             | Self::Outputs { unit, .. }
+            | Self::OutputsFrom { unit, .. }
             | Self::Inputs { unit, .. }
             | Self::WorkingCounter { unit, .. } => Some(UnitSet::One(*unit)),
             Self::Cycles(_)
@@ -122,6 +126,14 @@ impl Condition {
                 holds(seen == *value, || format!("it is {}", hex(&seen)))
             }
             Self::Outputs { bytes, .. } => begins(world.io(at).m_to_c(), bytes),
+            Self::OutputsFrom { at: first, bytes, .. } => {
+                begins(world.io(at).m_to_c().get(*first..).unwrap_or_default(), bytes)
+            }
+            Self::DirectionValid { m_to_c, valid, .. } => {
+                let status = world.io(at).status();
+                let seen = if *m_to_c { status.m_to_c_valid } else { status.c_to_m_valid };
+                holds(seen == *valid, || format!("{name}: it is {}", truth(seen)))
+            }
             Self::Inputs { at: first, bytes, .. } => {
                 begins(world.inputs(at).get(*first..).unwrap_or_default(), bytes)
             }

@@ -46,6 +46,14 @@ impl Line {
                 Choice::All => true,
                 Choice::Percent(percent) => dice.hits(*percent),
                 Choice::Next(0) => false,
+                Choice::Behind(0) => {
+                    disturbance.choice = Choice::Next(0);
+                    true
+                }
+                Choice::Behind(left) => {
+                    *left -= 1;
+                    false
+                }
                 Choice::Next(left) => {
                     *left -= 1;
                     true

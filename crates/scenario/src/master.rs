@@ -112,7 +112,7 @@ impl Master {
             }
             MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
             MasterOrder::StopExchange => self.process_data.stop(),
-            MasterOrder::SetOutputs(unit, bytes) => self.process_data.set_outputs(unit, &bytes),
+            MasterOrder::SetOutputs(unit, at, bytes) => self.process_data.set_outputs(unit, at, &bytes),
             MasterOrder::Map(unit, pdo, entries) => self.with_slave(unit, |slave| slave.map(pdo, &entries)),
             MasterOrder::Assign(unit, index, pdos) => {
                 self.with_slave(unit, |slave| slave.assign(index, &pdos))

@@ -70,8 +70,8 @@ pub enum MasterOrder {
     Exchange(Duration),
     /// Sends no process data any more.
     StopExchange,
-    /// All output bytes of a unit.
-    SetOutputs(usize, Vec<u8>),
+    /// Output bytes of a unit, from this place on.
+    SetOutputs(usize, usize, Vec<u8>),
     /// Entries of a PDO, in force the next time that PRE-OP is passed.
     Map(usize, u16, Vec<(u16, u8)>),
     /// PDOs of an assignment object, in force the next time that PRE-OP is passed.
@@ -201,6 +201,8 @@ pub struct Disturbance {
 pub enum Choice {
     /// So many, beginning with the next one.
     Next(u64),
+    /// The one behind so many others.
+    Behind(u64),
     /// All from now on.
     All,
     /// Each with this probability, in per cent.

@@ -58,7 +58,7 @@ impl Recording {
 
     /// A frame gets lost.
     pub(crate) fn lost(&mut self, now: Instant, frame: &[u8], comment: &str) {
-        self.note(now, &format!("a frame is {comment}"));
+        self.note(now, comment);
         self.packet(now, Direction::Inbound, frame, Some(&format!("fault: {comment}")));
     }
 

@@ -214,7 +214,7 @@ impl<'a> Replay<'a> {
 impl Watch<'_> {
     fn look(&self, world: &mut World) -> Verdict<Watched> {
         let now = world.now();
-        if now > self.until {
+        if now >= self.until {
             return Ok(Watched::Satisfied);
         }
         let holds = self.expectation.condition.check(world);

@@ -146,7 +146,7 @@ impl World {
         for fault in &faults {
             match *fault {
                 FrameFault::Lose => {
-                    return self.recording.lost(self.now, &frame, "lost on the way to the units");
+                    return self.recording.lost(self.now, &frame, "a frame is lost on the way to the units");
                 }
                 FrameFault::Delay(duration) => {
                     self.recording.note(self.now, &format!("a frame is delayed by {duration}"));
@@ -180,7 +180,11 @@ impl World {
             return;
         }
         if faults.contains(&FrameFault::LoseAnswer) {
-            return self.recording.lost(self.now, frame, "its answer is lost on the way to the master");
+            return self.recording.lost(
+                self.now,
+                frame,
+                "the answer of a frame is lost on the way to the master",
+            );
         }
         if faults.contains(&FrameFault::WorkingCounter) {
             lower_working_counter(frame);

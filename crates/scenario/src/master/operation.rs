@@ -4,7 +4,7 @@ use nx_ect101::layout;
 use wire::{AlState, AlStatus, Command, FrameBuilder, Returned};
 
 use super::process_data::logical_address;
-use super::sdo::{Received, SdoMessage};
+use super::sdo::{Phase, Received, SdoMessage};
 use super::slave::Slave;
 use super::{MailboxHabits, WAY_UP};
 use crate::expectation::StateName;
@@ -14,6 +14,8 @@ const AL_CONTROL: u16 = 0x0120;
 const AL_STATUS: u16 = 0x0130;
 /// Status of SyncManager 1; bit 3: a message lies in it.
 const MAILBOX_STATUS: u16 = 0x080D;
+/// Activate of SyncManager 1.
+const MAILBOX_ACTIVATE: u16 = 0x080E;
 
 /// One operation with one unit.
 #[derive(Clone, Debug)]
@@ -38,13 +40,6 @@ enum What {
     Sdo { message: SdoMessage, phase: Phase },
     /// Looks into the mailbox, once.
     Listen { full: bool },
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Phase {
-    Ask,
-    Wait,
-    Read,
 }
 
 /// What an answer leads to.
@@ -142,7 +137,8 @@ impl Operation {
             What::Write { offset, data } => (write(*offset, data), FrameKind::Any),
             What::Reach { bits, asked: false } => (write(AL_CONTROL, &bits.to_le_bytes()), FrameKind::Any),
             What::Take(_) | What::Reach { .. } | What::Open => (read(AL_STATUS, 6), FrameKind::Any),
-            What::Sdo { message, phase: Phase::Ask } => {
+            What::Sdo { message, phase: phase @ (Phase::Ask | Phase::Asked | Phase::AskedAgain) } => {
+                *phase = if *phase == Phase::Ask { Phase::Asked } else { Phase::AskedAgain };
                 (write(layout::MAILBOX_RECEIVE_START, &message.mailbox(habits)), FrameKind::Mailbox)
             }
             What::Sdo { phase: Phase::Read, .. } if habits.reads_nothing() => {
@@ -151,6 +147,10 @@ impl Operation {
             What::Sdo { phase: Phase::Read, .. } | What::Listen { full: true } => {
                 (read(layout::MAILBOX_SEND_START, usize::from(layout::MAILBOX_BYTES)), FrameKind::Mailbox)
             }
+            What::Sdo { phase: Phase::LookAtRepeat, .. } => (read(MAILBOX_ACTIVATE, 1), FrameKind::Mailbox),
+            What::Sdo { phase: Phase::AskToRepeat(activate), .. } => {
+                (write(MAILBOX_ACTIVATE, &[*activate]), FrameKind::Mailbox)
+            }
             What::Sdo { .. } | What::Listen { .. } => (read(MAILBOX_STATUS, 1), FrameKind::Mailbox),
         }
     }
@@ -158,6 +158,9 @@ impl Operation {
     /// What comes back.
     pub(crate) fn answer(&mut self, answer: &Returned, slaves: &mut [Slave]) -> Outcome {
         if answer.working_counter == 0 {
+            if let What::Sdo { phase, .. } = &mut self.what {
+                phase.not_taken();
+            }
             return Outcome::Again;
         }
         let unit = self.unit;
@@ -175,7 +178,7 @@ impl Operation {
             }
             What::Reach { bits, .. } => reached(unit, *bits, answer),
             What::Open => Outcome::Done(open(unit, slaves)),
-            What::Sdo { phase, .. } => sdo(phase, answer),
+            What::Sdo { phase, .. } => phase.answer(answer),
             What::Listen { full: false } if answer.data.first().is_some_and(|status| status & 0x08 == 0) => {
                 Outcome::Done(Vec::new())
             }
@@ -210,25 +213,6 @@ fn reached(unit: usize, bits: u16, answer: &Returned) -> Outcome {
         ));
     }
     if status.state == wanted { Outcome::Done(Vec::new()) } else { Outcome::Again }
-}
-
-fn sdo(phase: &mut Phase, answer: &Returned) -> Outcome {
-    match phase {
-        Phase::Ask => *phase = Phase::Wait,
-        Phase::Wait if answer.data.first().is_some_and(|status| status & 0x08 != 0) => *phase = Phase::Read,
-        Phase::Read if answer.data.len() > 1 => {
-            return match SdoMessage::received(&answer.data) {
-                Received::Answer(result) => Outcome::Done(vec![Step::SdoResult(result)]),
-                Received::Emergency(code) => {
-                    *phase = Phase::Wait;
-                    Outcome::Received(code)
-                }
-                Received::Other(words) => Outcome::Failed(words),
-            };
-        }
-        Phase::Wait | Phase::Read => return Outcome::Again,
-    }
-    Outcome::Next
 }
 
 /// The way from where a unit is to where it is to be, as a real master goes it.

@@ -1,4 +1,6 @@
-//! The cyclic exchange: one LRW for each unit that has process data.
+//! The cyclic exchange: one LRW for each unit that has process data, or LWR and LRD where one frame is too short.
+
+use core::ops::Range;
 
 use time::{Duration, Instant};
 use wire::{Command, FrameBuilder, Returned};
@@ -8,6 +10,11 @@ use crate::orders::FrameKind;
 
 /// Logical addresses between one unit and the next.
 const UNIT_BYTES: u32 = 0x1000;
+/// Longest data of the one datagram of a frame: 1,514 bytes less its headers and working counter.
+const DATAGRAM_BYTES_MAX: usize = 1_486;
+
+/// Most output bytes that a unit can have.
+const OUTPUTS_MAX: usize = 1200;
 
 /// Where the process data of a unit begin.
 pub(crate) const fn logical_address(unit: usize) -> u32 {
@@ -32,8 +39,19 @@ struct Image {
     bytes: Vec<u8>,
     /// Outputs as the scenario sets them, of any length.
     outputs: Vec<u8>,
-    ticket: Option<u64>,
+    /// Frames of this cycle that have not come back.
+    awaited: Vec<Awaited>,
+    /// Sum of the working counters of this cycle, so far.
+    counted: u16,
+    /// The same, of the last cycle of which something has come back.
     working_counter: Option<u16>,
+}
+
+/// A frame that has not come back, and the bytes that it carries.
+#[derive(Clone, Debug)]
+struct Awaited {
+    ticket: u64,
+    bytes: Range<usize>,
 }
 
 impl ProcessData {
@@ -75,10 +93,13 @@ impl ProcessData {
         }
     }
 
-    pub(crate) fn set_outputs(&mut self, unit: usize, bytes: &[u8]) {
+    pub(crate) fn set_outputs(&mut self, unit: usize, at: usize, bytes: &[u8]) {
+        let end = at.saturating_add(bytes.len()).min(OUTPUTS_MAX);
         let Some(image) = self.units.get_mut(unit) else { return };
-        image.outputs.resize(image.outputs.len().max(bytes.len()), 0);
-        image.outputs[..bytes.len()].copy_from_slice(bytes);
+        image.outputs.resize(image.outputs.len().max(end), 0);
+        for (output, byte) in image.outputs.iter_mut().skip(at).zip(bytes) {
+            *output = *byte;
+        }
         image.fill_outputs();
     }
 
@@ -91,29 +112,12 @@ impl ProcessData {
         self.cycles += 1;
         self.next = now + self.cycle;
         let open = self.units.iter_mut().enumerate().filter(|(_, image)| image.is_open);
-        open.map(|(unit, image)| {
-            *ticket += 1;
-            image.ticket = Some(*ticket);
-            let frame =
-                FrameBuilder::new().logical(Command::Lrw, logical_address(unit), &image.bytes).finish();
-            Sent { ticket: *ticket, kind: FrameKind::ProcessData, frame }
-        })
-        .collect()
+        open.flat_map(|(unit, image)| image.send(logical_address(unit), ticket)).collect()
     }
 
     /// Takes what comes back; false if it is no frame of this exchange.
     pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
-        let Some(image) = self.units.iter_mut().find(|image| image.ticket == Some(ticket)) else {
-            return false;
-        };
-        image.ticket = None;
-        let Some(answer) = datagrams.first() else { return true };
-        image.working_counter = Some(answer.working_counter);
-        if answer.data.len() == image.bytes.len() {
-            let at = image.outputs_bytes;
-            image.bytes[at..].copy_from_slice(&answer.data[at..]);
-        }
-        true
+        self.units.iter_mut().any(|image| image.receive(ticket, datagrams))
     }
 
     pub(crate) const fn cycles(&self) -> u64 {
@@ -130,6 +134,43 @@ impl ProcessData {
 }
 
 impl Image {
+    fn send(&mut self, logical: u32, ticket: &mut u64) -> Vec<Sent> {
+        let all = 0..self.bytes.len();
+        let parts = if all.len() <= DATAGRAM_BYTES_MAX {
+            vec![(Command::Lrw, all)]
+        } else {
+            vec![(Command::Lwr, 0..self.outputs_bytes), (Command::Lrd, self.outputs_bytes..all.end)]
+        };
+        self.awaited.clear();
+        self.counted = 0;
+        let sent = parts.into_iter().map(|(command, bytes)| {
+            *ticket += 1;
+            let data = self.bytes.get(bytes.clone()).unwrap_or_default();
+            let frame = FrameBuilder::new().logical(command, logical + bytes.start as u32, data).finish();
+            self.awaited.push(Awaited { ticket: *ticket, bytes });
+            Sent { ticket: *ticket, kind: FrameKind::ProcessData, frame }
+        });
+        sent.collect()
+    }
+
+    fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
+        let Some(place) = self.awaited.iter().position(|awaited| awaited.ticket == ticket) else {
+            return false;
+        };
+        let Awaited { bytes, .. } = self.awaited.remove(place);
+        let Some(answer) = datagrams.first() else { return true };
+        self.counted = self.counted.saturating_add(answer.working_counter);
+        self.working_counter = Some(self.counted);
+        // Outputs come back as they went; only inputs are news.
+        let first = bytes.start.max(self.outputs_bytes);
+        let news = answer.data.get(first.saturating_sub(bytes.start)..).unwrap_or_default();
+        if let Some(inputs) = self.bytes.get_mut(first..bytes.end).filter(|inputs| inputs.len() == news.len())
+        {
+            inputs.copy_from_slice(news);
+        }
+        true
+    }
+
     fn fill_outputs(&mut self) {
         let length_bytes = self.outputs.len().min(self.outputs_bytes).min(self.bytes.len());
         self.bytes[..length_bytes].copy_from_slice(&self.outputs[..length_bytes]);

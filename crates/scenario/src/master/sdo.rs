@@ -1,9 +1,13 @@
 //! SDOs of the scripted master: one mailbox message each way.
 
 use nx_ect101::layout;
-use wire::{CoeHeader, CoeService, Emergency, MailboxHeader, MailboxType};
+use wire::{CoeHeader, CoeService, Emergency, MailboxHeader, MailboxType, Returned};
 
 use super::MailboxHabits;
+use super::operation::{Outcome, Step};
+
+/// Bit 1 of the activate byte: its change asks for the last message once more.
+const REPEAT_REQUEST: u8 = 0x02;
 
 /// An SDO request behind its CoE header.
 #[derive(Clone, Debug)]
@@ -12,6 +16,8 @@ pub(crate) struct SdoMessage {
     index: u16,
     sub: u8,
     data: Vec<u8>,
+    /// Counter of the mailbox header; the same when it is sent once more.
+    counter: Option<u8>,
 }
 
 /// What lies in a mailbox.
@@ -24,20 +30,73 @@ pub(crate) enum Received {
     Other(String),
 }
 
+/// How far an SDO is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Phase {
+    Ask,
+    /// The request is on its way, or got lost, or its answer did.
+    Asked,
+    /// It was sent once more without an answer to the first time: if nobody takes it, the unit may have it.
+    AskedAgain,
+    Wait,
+    Read,
+    /// The answer got lost on its way: looks at the activate byte, and writes it with the repeat request changed.
+    LookAtRepeat,
+    AskToRepeat(u8),
+}
+
+impl Phase {
+    /// Nobody has taken the frame. A mailbox that was full and is empty was read by a frame that got lost.
+    pub(crate) const fn not_taken(&mut self) {
+        *self = match *self {
+            Self::Read => Self::LookAtRepeat,
+            Self::Asked => Self::Ask,
+            Self::AskedAgain => Self::Wait,
+            other => other,
+        };
+    }
+
+    /// What the answer to its last frame leads to.
+    pub(crate) fn answer(&mut self, answer: &Returned) -> Outcome {
+        match self {
+            Phase::Ask | Phase::Asked | Phase::AskedAgain => *self = Phase::Wait,
+            Phase::Wait if answer.data.first().is_some_and(|status| status & 0x08 != 0) => {
+                *self = Phase::Read
+            }
+            Phase::Read if answer.data.len() > 1 => {
+                return match SdoMessage::received(&answer.data) {
+                    Received::Answer(result) => Outcome::Done(vec![Step::SdoResult(result)]),
+                    Received::Emergency(code) => {
+                        *self = Phase::Wait;
+                        Outcome::Received(code)
+                    }
+                    Received::Other(words) => Outcome::Failed(words),
+                };
+            }
+            Phase::LookAtRepeat => {
+                *self = Phase::AskToRepeat(answer.data.first().copied().unwrap_or(1) ^ REPEAT_REQUEST);
+            }
+            Phase::AskToRepeat(_) => *self = Phase::Wait,
+            Phase::Wait | Phase::Read => return Outcome::Again,
+        }
+        Outcome::Next
+    }
+}
+
 impl SdoMessage {
     /// A download; up to four bytes go expedited.
     pub(crate) fn download((index, sub): (u16, u8), value: &[u8]) -> Self {
         if (1..=4).contains(&value.len()) {
             let mut data = value.to_vec();
             data.resize(4, 0);
-            return Self { command: 0x23 | (4 - value.len() as u8) << 2, index, sub, data };
+            return Self { command: 0x23 | (4 - value.len() as u8) << 2, index, sub, data, counter: None };
         }
         let data = [&(value.len() as u32).to_le_bytes()[..], value].concat();
-        Self { command: 0x21, index, sub, data }
+        Self { command: 0x21, index, sub, data, counter: None }
     }
 
     pub(crate) fn upload((index, sub): (u16, u8)) -> Self {
-        Self { command: 0x40, index, sub, data: vec![0; 4] }
+        Self { command: 0x40, index, sub, data: vec![0; 4], counter: None }
     }
 
     pub(crate) fn words(&self) -> String {
@@ -46,14 +105,14 @@ impl SdoMessage {
     }
 
     /// The whole mailbox, with the counter that the master's habits give.
-    pub(crate) fn mailbox(&self, habits: &mut MailboxHabits) -> Vec<u8> {
+    pub(crate) fn mailbox(&mut self, habits: &mut MailboxHabits) -> Vec<u8> {
         let header = MailboxHeader {
             length_bytes: 6 + self.data.len() as u16,
             address: 0,
             channel: 0,
             priority: 0,
             mailbox_type: MailboxType::Coe,
-            counter: habits.next_counter(),
+            counter: *self.counter.get_or_insert_with(|| habits.next_counter()),
             reserved: false,
         };
         let mut message = header.pack().to_vec();

@@ -404,7 +404,7 @@ impl UnitSet {
 fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
     match order {
         MasterOrder::Take(units, _) | MasterOrder::Request { units, .. } => Some(*units),
-        MasterOrder::SetOutputs(unit, _)
+        MasterOrder::SetOutputs(unit, ..)
         | MasterOrder::Map(unit, ..)
         | MasterOrder::Assign(unit, ..)
         | MasterOrder::SyncManagerLength { unit, .. }

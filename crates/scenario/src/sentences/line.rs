@@ -1,6 +1,6 @@
 //! Sentences of the line: cables, and what happens to frames.
 
-use crate::orders::Choice::{All, Next, Percent};
+use crate::orders::Choice::{All, Behind, Next, Percent};
 use crate::orders::{Choice, Disturbance, FrameFault, FrameKind, LineOrder};
 use crate::sentence::{Sentence, Values};
 
@@ -26,6 +26,8 @@ pub const LINE: &[Sentence<LineOrder>] = &[
         |v| LineOrder::Cable { number: v.number(0).saturating_sub(1) as usize, plugged: true }),
     row("lose the next {number} {frames}", "lose the next 3 frames", "they do not come to the units",
         |v| disturb(FrameFault::Lose, v.frames(1), Next(v.number(0)))),
+    row("lose number {number} of the {frames}", "lose number 100 of the process data frames",
+        "this one, counted from now", |v| disturb(FrameFault::Lose, v.frames(1), Behind(v.number(0).saturating_sub(1)))),
     row("lose all {frames}", "lose all process data frames", "until the line is quiet again",
         |v| disturb(FrameFault::Lose, v.frames(0), All)),
     row("lose {percent} of the {frames}", "lose 5 % of the frames", "each by the scenario's dice",
