@@ -1,7 +1,5 @@
 //! Scenario files: what repeats, and what is refused, with its place and the way out.
 
-#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
-
 use scenario::{Recording, Scenario};
 
 fn errors(text: &str) -> String {
