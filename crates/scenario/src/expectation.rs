@@ -199,10 +199,11 @@ impl Condition {
                 holds(world.recorded_master().is_done(), || world.recorded_master().progress())
             }
             Self::AnswersDiffer { at_most } => {
-                let differences = world.recorded_master().differences();
-                holds(differences.len() as u64 <= *at_most, || {
-                    let first: Vec<&str> = differences.iter().take(3).map(String::as_str).collect();
-                    format!("{} answers differ; {}", differences.len(), first.join("; "))
+                let recorded = world.recorded_master();
+                let count = recorded.difference_count();
+                holds(count as u64 <= *at_most, || {
+                    let first: Vec<String> = recorded.differences().into_iter().take(3).collect();
+                    format!("{count} answers differ; {}", first.join("; "))
                 })
             }
             _ => Ok(()),

@@ -4,6 +4,8 @@
 //! changes, times of distributed clocks, error counters, and process data, which depend on the phase of the CPU
 //! Unit. Working counters are compared everywhere.
 
+use std::collections::BTreeSet;
+
 use capture::{Direction, NotACapture, Packet, read_packets};
 use time::{Duration, Instant};
 use wire::{Command, Returned, returned_datagrams};
@@ -57,8 +59,10 @@ impl RecordedFrames {
                 continue;
             }
             if is_answer(&packet) {
+                // The newest: numbers come again, and an older frame may have been lost.
                 let asked = exchanges
                     .iter_mut()
+                    .rev()
                     .find(|exchange| exchange.answer.is_none() && exchange.is_of(&datagrams));
                 if let Some(exchange) = asked {
                     exchange.answer = Some(packet.frame);
@@ -135,12 +139,14 @@ pub(crate) struct Recorded {
     frames: RecordedFrames,
     sent: usize,
     answered: usize,
+    /// Numbers of frames that are on their way, or lost, and were answered in the capture.
+    missing: BTreeSet<usize>,
     differences: Vec<String>,
 }
 
 impl Recorded {
     pub(crate) const fn new(frames: RecordedFrames) -> Self {
-        Self { frames, sent: 0, answered: 0, differences: Vec::new() }
+        Self { frames, sent: 0, answered: 0, missing: BTreeSet::new(), differences: Vec::new() }
     }
 
     pub(crate) fn deadline(&self) -> Instant {
@@ -155,12 +161,17 @@ impl Recorded {
         }
         let number = self.sent;
         self.sent += 1;
-        self.frames.exchanges.get(number).map(|exchange| (number, exchange.frame.clone()))
+        let exchange = self.frames.exchanges.get(number)?;
+        if exchange.answer.is_some() {
+            self.missing.insert(number);
+        }
+        Some((number, exchange.frame.clone()))
     }
 
     /// An answer comes back.
     pub(crate) fn receive(&mut self, number: usize, frame: &[u8]) {
         self.answered += 1;
+        self.missing.remove(&number);
         let Some(captured) = self.frames.exchanges.get(number).and_then(|exchange| exchange.answer.as_ref())
         else {
             return;
@@ -181,8 +192,14 @@ impl Recorded {
         format!("{} of {} frames are sent, {} came back", self.sent, self.frames.len(), self.answered)
     }
 
-    pub(crate) fn differences(&self) -> &[String] {
-        &self.differences
+    /// What was answered in another way, then what has not come back.
+    pub(crate) fn differences(&self) -> Vec<String> {
+        let missing = self.missing.iter().map(|number| format!("frame {}: no answer comes back", number + 1));
+        self.differences.iter().cloned().chain(missing).collect()
+    }
+
+    pub(crate) fn difference_count(&self) -> usize {
+        self.differences.len() + self.missing.len()
     }
 }
 

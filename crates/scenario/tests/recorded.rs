@@ -56,3 +56,14 @@ fn another_unit_does_not_and_the_first_difference_is_told() {
     assert!(failure.contains("1 answers differ") && failure.contains("Aprd of 0x1200"), "{failure}");
     assert_eq!(replayed(other, "at most 1 answers differ", &capture), None);
 }
+
+#[test]
+fn an_answer_that_does_not_come_back_is_a_difference() {
+    let text = "title = \"again\"\ncapture = \"live.pcapng\"\nsteps = [ { line = \"lose the next 2 frames\" },\n\
+                { expect = \"the capture is replayed\", within = \"10s\" },\n\
+                { expect = \"every answer is as captured\" } ]";
+    let mut scenario = Scenario::parse(text, |_| Err(String::new())).expect("a right scenario");
+    scenario.load_capture(&capture()).expect("a capture");
+    let failure = scenario.replay(1, Recording::new(false, false)).failure.expect("lost frames");
+    assert!(failure.seen.contains("frame 1: no answer comes back; frame 2: no answer"), "{failure}");
+}

@@ -37,7 +37,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
 fn read(path: &Path) -> Result<RecordedFrames, Failure> {
     let refused = |reason: String| Failure::Refused {
         message: format!("{}: {reason}", path.display()),
-        help: "give a capture of master and units, by `ectwin run --pcap` or Wireshark".to_owned(),
+        help: "give a capture of master and units, as `ectwin run --pcap` writes it".to_owned(),
     };
     let bytes = fs::read(path).map_err(|error| refused(format!("the capture cannot be read: {error}")))?;
     let frames = RecordedFrames::read(&bytes).map_err(|error| refused(error.to_string()))?;
