@@ -19,6 +19,12 @@ impl Recording {
         Self { trace: trace.then(String::new), capture }
     }
 
+    /// Records the trace too.
+    pub(crate) fn with_trace(mut self) -> Self {
+        self.trace.get_or_insert_default();
+        self
+    }
+
     /// The trace, line by line; none if none was wanted.
     #[must_use]
     pub fn trace(&self) -> Option<&str> {

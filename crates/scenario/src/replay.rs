@@ -54,7 +54,19 @@ impl Scenario {
     /// Replays the scenario with this seed. The same seed gives the same bytes.
     #[must_use]
     pub fn replay(&self, seed: u64, recording: Recording) -> Report {
-        self.replay_steps(&self.all_steps(seed), seed, recording)
+        let golden = self.golden_trace.as_deref().filter(|_| seed == self.seed);
+        let recording = if golden.is_some() { recording.with_trace() } else { recording };
+        let mut report = self.replay_steps(&self.all_steps(seed), seed, recording);
+        if let (None, Some(golden)) = (&report.failure, golden) {
+            let seen = golden_difference(golden, report.recording.trace().unwrap_or_default());
+            report.failure = seen.map(|seen| Failure {
+                line: 1,
+                text: "the trace is the golden one".to_owned(),
+                at: report.lasted,
+                seen,
+            });
+        }
+        report
     }
 
     /// Replays these steps instead of its own.
@@ -224,6 +236,20 @@ impl Watch<'_> {
             _ => Ok(Watched::Open),
         }
     }
+}
+
+/// The first line that is not as the golden trace has it.
+fn golden_difference(golden: &str, seen: &str) -> Option<String> {
+    if golden == seen {
+        return None;
+    }
+    let (mut then, mut now) = (golden.lines(), seen.lines());
+    (1..).find_map(|number| {
+        let (then, now) = (then.next(), now.next());
+        let line = |line: Option<&str>| line.map_or("the end".to_owned(), |line| format!("`{}`", line.trim()));
+        let differs = then != now || then.is_none();
+        differs.then(|| format!("line {number} of the trace is {}, golden {}", line(now), line(then)))
+    })
 }
 
 fn failure(step: &Step, at: Instant, seen: String) -> Failure {

@@ -34,6 +34,8 @@ pub struct Scenario {
     pub capture: Option<String>,
     /// Its frames, once [`Scenario::load_capture`] has read them.
     pub(crate) recorded: RecordedFrames,
+    /// The trace that the scenario's own seed has to give, byte for byte; none: any.
+    pub golden_trace: Option<String>,
     /// Where the dice add steps of their own; none: nowhere.
     pub random: Option<RandomPart>,
 }

@@ -45,6 +45,7 @@ fn replay(file: &Path) -> Result<(), Failed> {
         let bytes = fs::read(beside.join(capture))?;
         scenario.load_capture(&bytes)?;
     }
+    scenario.golden_trace = fs::read_to_string(file.with_extension("trace")).ok();
     let report = scenario.replay(scenario.seed, Recording::new(true, false));
     match &report.failure {
         None => Ok(()),

@@ -58,6 +58,12 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "more than the period",
             "",
         ),
+        ("{ line = \"unplug cable 0\" }", "expected a cable, 1 for", "unplug cable {cable}"),
+        ("{ line = \"corrupt the next 1 frames on cable 2\" }", "not there", "1 unit"),
+        ("{ master = \"exchange process data every 0s\" }", "expected a time above 0", ""),
+        ("{ master = \"use mailbox counter 8\" }", "from 0 to 7", ""),
+        ("{ unit = \"turn the ID switch of unit 1 to 256\" }", "from 0 to 255", ""),
+        ("{ master = \"let unit 1 map 0x11601 as 7000:01\" }", "from 0 to 65535", ""),
         ("{ random = 3 }", "needs the time", "within = \"1s\""),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
         ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
@@ -87,6 +93,11 @@ fn everything_that_is_wrong_is_told_at_once() {
     ] {
         assert!(errors.contains(part), "{part}:\n{errors}");
     }
+}
+
+#[test]
+fn a_cycle_that_never_ends_is_refused() {
+    assert!(errors("title = \"t\"\ncycle = \"0s\"\nsteps = []").contains("a cycle of 0 never ends"));
 }
 
 #[test]

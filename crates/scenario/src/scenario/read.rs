@@ -10,7 +10,9 @@ use toml::Spanned;
 
 use super::{RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram};
 use crate::expectation::Condition;
-use crate::orders::{CpuOrder, Expectation, LineOrder, MasterOrder, Mode, Order, UnitOrder, UnitSet};
+use crate::orders::{
+    CpuOrder, Expectation, FrameFault, LineOrder, MasterOrder, Mode, Order, UnitOrder, UnitSet,
+};
 use crate::recorded::RecordedFrames;
 use crate::sentence;
 use crate::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
@@ -110,7 +112,7 @@ impl Reader<'_> {
         }
         let count = units.len();
         let limit = file.limit.and_then(|limit| self.duration(&limit)).unwrap_or(DEFAULT_LIMIT);
-        let cycle = file.cycle.and_then(|cycle| self.duration(&cycle)).unwrap_or(DEFAULT_CYCLE);
+        let cycle = file.cycle.and_then(|cycle| self.cycle(&cycle)).unwrap_or(DEFAULT_CYCLE);
         let mut steps = Vec::new();
         let mut reached = Duration::ZERO;
         let mut random = None;
@@ -134,7 +136,8 @@ impl Reader<'_> {
         let seed = file.seed.unwrap_or(DEFAULT_SEED);
         let title = file.title.into_inner();
         let recorded = RecordedFrames::default();
-        Scenario { title, seed, limit, units, cycle, steps, capture: file.capture, recorded, random }
+        let (capture, golden_trace) = (file.capture, None);
+        Scenario { title, seed, limit, units, cycle, steps, capture, recorded, golden_trace, random }
     }
 
     /// Times from the beginning that run backwards, or behind the limit, can never be.
@@ -221,6 +224,14 @@ impl Reader<'_> {
 
     fn line(&self, at: usize) -> usize {
         self.text.get(..at).unwrap_or_default().matches('\n').count() + 1
+    }
+
+    fn cycle(&mut self, text: &Spanned<String>) -> Option<Duration> {
+        let cycle = self.duration(text)?;
+        if cycle.is_zero() {
+            self.refuse(text.span(), "a cycle of 0 never ends", "such as `cycle = \"1ms\"`");
+        }
+        Some(cycle)
     }
 
     fn duration(&mut self, text: &Spanned<String>) -> Option<Duration> {
@@ -352,6 +363,10 @@ impl Reader<'_> {
             Order::Unit(order) => unit_of_unit(order).exists(units),
             Order::Cpu(order) => unit_of_cpu(order).exists(units),
             Order::Line(LineOrder::Cable { number, .. }) => *number <= units,
+            Order::Line(LineOrder::Disturb(disturbance)) => match disturbance.fault {
+                FrameFault::Corrupt(cable) => cable < units,
+                _ => true,
+            },
             Order::Line(_) | Order::Expect(_) => true,
         };
         if !exists {

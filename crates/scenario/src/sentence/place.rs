@@ -112,6 +112,17 @@ const PLACES: &[Place] = &[
     place("number", "a number such as 12 or 0x0C", |words| {
         one(words, |word| number(word).map(Value::Number))
     }),
+    place("byte", "a number from 0 to 255 such as 0x2A", |words| limited(words, 0, 0xFF)),
+    place("word", "a number from 0 to 65535 such as 0x0120", |words| limited(words, 0, 0xFFFF)),
+    place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),
+    place("counter", "a mailbox counter from 0 to 7", |words| limited(words, 0, 7)),
+    place("channel", "a SyncManager from 0 to 7", |words| limited(words, 0, 7)),
+    place("cable", "a cable, 1 for the one to the master", |words| limited(words, 1, 0xFFFF)),
+    place("period", "a time above 0 such as 1ms", |words| {
+        one(words, |word| {
+            word.parse().ok().filter(|period: &Duration| !period.is_zero()).map(Value::Duration)
+        })
+    }),
     place("duration", "a time such as 1.5ms, 20us or 2s", |words| {
         one(words, |word| word.parse().ok().map(Value::Duration))
     }),
@@ -120,7 +131,7 @@ const PLACES: &[Place] = &[
         one(words, |word| entry(word).map(Value::Entry))
     }),
     place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
-    place("numbers", "numbers such as 1601 1602, hexadecimal", numbers),
+    place("numbers", "PDO numbers such as 1601 1602, hexadecimal", numbers),
     place("event", "an event code of eight hexadecimal digits such as 85000000", |words| one(words, event)),
     place("fault", "a fault of a unit such as Processing (the reference lists them)", |words| {
         one(words, fault)
@@ -167,6 +178,10 @@ fn number(word: &str) -> Option<u64> {
     }
 }
 
+fn limited(words: &[&str], least: u64, most: u64) -> Option<(Value, usize)> {
+    one(words, |word| number(word).filter(|number| (least..=most).contains(number)).map(Value::Number))
+}
+
 fn hexadecimal(word: &str, digits: usize) -> Option<u64> {
     let bare = word.strip_prefix("0x").unwrap_or(word);
     (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
@@ -182,7 +197,7 @@ fn bytes(words: &[&str]) -> Option<(Value, usize)> {
 }
 
 fn numbers(words: &[&str]) -> Option<(Value, usize)> {
-    Some((Value::Numbers(all(words, |word| hexadecimal(word, 8))?), words.len()))
+    Some((Value::Numbers(all(words, |word| hexadecimal(word, 4))?), words.len()))
 }
 
 fn entry(word: &str) -> Option<(u16, u8)> {

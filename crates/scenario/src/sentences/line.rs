@@ -20,9 +20,9 @@ fn disturb(fault: FrameFault, kind: FrameKind, choice: Choice) -> LineOrder {
 /// All of them.
 #[rustfmt::skip]
 pub const LINE: &[Sentence<LineOrder>] = &[
-    row("unplug cable {number}", "unplug cable 1", "the cable in front of a unit, 1 for the one to the master",
+    row("unplug cable {cable}", "unplug cable 1", "the cable in front of a unit, 1 for the one to the master",
         |v| LineOrder::Cable { number: v.number(0).saturating_sub(1) as usize, plugged: false }),
-    row("plug cable {number}", "plug cable 1", "the cable in front of a unit, 1 for the one to the master",
+    row("plug cable {cable}", "plug cable 1", "the cable in front of a unit, 1 for the one to the master",
         |v| LineOrder::Cable { number: v.number(0).saturating_sub(1) as usize, plugged: true }),
     row("lose the next {number} {frames}", "lose the next 3 frames", "they do not come to the units",
         |v| disturb(FrameFault::Lose, v.frames(1), Next(v.number(0)))),
@@ -44,9 +44,9 @@ pub const LINE: &[Sentence<LineOrder>] = &[
         |v| disturb(FrameFault::Duplicate, v.frames(1), Next(v.number(0)))),
     row("duplicate {percent} of the {frames}", "duplicate 5 % of the frames", "each by the scenario's dice",
         |v| disturb(FrameFault::Duplicate, v.frames(1), Percent(v.percent(0)))),
-    row("cut the next {number} {frames} to {number} bytes", "cut the next 1 frames to 40 bytes",
+    row("cut the next {number} {frames} to {word} bytes", "cut the next 1 frames to 40 bytes",
         "they end early, so that no unit takes them", |v| disturb(FrameFault::Truncate(v.number(2) as usize), v.frames(1), Next(v.number(0)))),
-    row("corrupt the next {number} {frames} on cable {number}", "corrupt the next 1 frames on cable 1",
+    row("corrupt the next {number} {frames} on cable {cable}", "corrupt the next 1 frames on cable 1",
         "a bit error: the unit behind the cable counts an invalid frame, those behind it forwarded errors; nobody takes it",
         |v| disturb(FrameFault::Corrupt(v.number(2).saturating_sub(1) as usize), v.frames(1), Next(v.number(0)))),
     row("lower the working counter of the next {number} {frames}", "lower the working counter of the next 1 process data frames",
