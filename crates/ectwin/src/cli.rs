@@ -98,6 +98,9 @@ pub(crate) struct ReplayArgs {
     /// Replay each scenario with all of these seeds: 1..100, or 100 for the same
     #[arg(long, value_name = "A..B")]
     pub(crate) seeds: Option<SeedRange>,
+    /// Write the golden traces beside the files that have one, and beside those that are named, and end
+    #[arg(long, conflicts_with_all = ["seed", "seeds", "partition"])]
+    pub(crate) bless: bool,
     /// Print what happens and when, below each case
     #[arg(long)]
     pub(crate) trace: bool,

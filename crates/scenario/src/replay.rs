@@ -246,7 +246,8 @@ fn golden_difference(golden: &str, seen: &str) -> Option<String> {
     let (mut then, mut now) = (golden.lines(), seen.lines());
     (1..).find_map(|number| {
         let (then, now) = (then.next(), now.next());
-        let line = |line: Option<&str>| line.map_or("the end".to_owned(), |line| format!("`{}`", line.trim()));
+        let line =
+            |line: Option<&str>| line.map_or("the end".to_owned(), |line| format!("`{}`", line.trim()));
         let differs = then != now || then.is_none();
         differs.then(|| format!("line {number} of the trace is {}, golden {}", line(now), line(then)))
     })

@@ -34,7 +34,10 @@ pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 /// Replays all cases of our part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let shard = shard(args.partition)?;
-    let campaign = Campaign::read(args)?;
+    let mut campaign = Campaign::read(args)?;
+    if args.bless {
+        return campaign.bless(&args.files);
+    }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
     let captures = Captures::choose(args.pcap.as_deref(), cases.len())?;
     if let Some(seed) = campaign.drawn_seed() {

@@ -4,13 +4,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use scenario::Scenario;
+use scenario::{Recording, Scenario};
 
 use super::partition::Partition;
 use super::result::CASES_MAX;
 use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
+use crate::output;
 use crate::unit_files::FileProblem;
 
 /// Scenarios × seeds.
@@ -92,6 +93,27 @@ impl Campaign {
                 help: "give fewer seeds; the next campaign goes on behind them".to_owned(),
             }),
         }
+    }
+
+    /// Writes the golden traces that are there, and those of files that are named.
+    ///
+    /// # Errors
+    /// A scenario fails in another way, or a trace cannot be written.
+    pub(super) fn bless(&mut self, named: &[PathBuf]) -> Result<(), Failure> {
+        for Loaded { path, scenario } in &mut self.scenarios {
+            if scenario.golden_trace.take().is_none() && !named.contains(path) {
+                continue;
+            }
+            let report = scenario.replay(scenario.seed, Recording::new(true, false));
+            if let Some(failure) = &report.failure {
+                let help = "only a scenario that passes has a golden trace".to_owned();
+                return Err(Failure::Refused { message: format!("{}: {failure}", path.display()), help });
+            }
+            let trace = path.with_extension("trace");
+            output::write(Some(&trace), report.recording.trace().unwrap_or_default().as_bytes())?;
+            output::print_line(format_args!("blessed {}", trace.display()))?;
+        }
+        Ok(())
     }
 
     /// How many cases there are in all parts.
@@ -200,6 +222,11 @@ fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<File
                 "a capture by `ectwin run --pcap` or `ectwin replay --pcap`, seen from this file's folder";
             vec![FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)]
         })?;
+    }
+    // Beside the file, if at all.
+    if let Ok(trace) = fs::read_to_string(path.with_extension("trace")) {
+        fingerprint.add(trace.as_bytes());
+        scenario.golden_trace = Some(trace);
     }
     Ok(scenario)
 }

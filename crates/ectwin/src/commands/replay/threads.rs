@@ -32,7 +32,7 @@ impl Ended {
     pub(super) fn replay(case: &Case<'_>, partition: Partition, wanted: Wanted) -> Self {
         let report = case.scenario.replay(case.seed, Recording::new(wanted.trace, wanted.capture));
         let result = CaseResult::new(case, partition, &report);
-        let trace = report.recording.trace().map(str::to_owned);
+        let trace = report.recording.trace().filter(|_| wanted.trace).map(str::to_owned);
         Self { result, trace, capture: report.recording.into_capture() }
     }
 }
