@@ -25,7 +25,7 @@ fn tshark_reads_the_frames_and_sees_the_faults_as_comments() {
     };
     assert!(count("ecat") > 150);
     assert_eq!(count("_ws.malformed"), 0);
-    let lost = count("frame.comment == \"fault: lost on the way to the units\"");
+    let lost = count("frame.comment == \"fault: a frame is lost on the way to the units\"");
     assert!((90..=120).contains(&lost), "{lost} frames that were lost");
 }
 
