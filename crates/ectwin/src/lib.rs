@@ -44,6 +44,7 @@ pub use plc::{
     Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,
     OperatingMode, Program, SubIndex,
 };
+pub use scenario;
 pub use setup::{Setup, SetupError};
 pub use time::{Duration, Instant};
 pub use twin::Twin;

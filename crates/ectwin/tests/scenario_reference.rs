@@ -54,6 +54,7 @@ How long an `expect` has, and how often a step happens:
 |---|---|
 | `within` | the condition has to hold at some moment before this time has passed; the next step comes at that moment |
 | `for` | it has to hold at every moment until this time has passed |
+| `until` | it has to hold at every moment until this condition does; `never` takes it too |
 | `repeat`, `every` | the step happens so many times in all, one so long after the other |
 | `jitter` | each repetition comes earlier or later by at most this time, as the dice say |
 

@@ -3,6 +3,7 @@
 //! A file says what happens and what must follow; a replay is the same on every machine. Nothing here reads a
 //! clock or a file: who does gives texts in and takes bytes out.
 
+mod builder;
 mod dice;
 mod expectation;
 mod line;
@@ -18,6 +19,7 @@ pub mod sentence;
 pub mod sentences;
 mod world;
 
+pub use builder::ScenarioBuilder;
 pub use capture::NotACapture;
 pub use expectation::Condition;
 pub use orders::{

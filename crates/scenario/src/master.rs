@@ -104,6 +104,16 @@ impl Master {
             MasterOrder::WriteRegister(unit, offset, bytes) => {
                 self.queue_for(UnitSet::One(unit), now, |unit| Operation::write(unit, offset, bytes.clone()));
             }
+            MasterOrder::WriteInHalves(unit, offset, bytes) => {
+                let (first, second) = bytes.split_at(bytes.len().div_ceil(2));
+                let behind = offset.wrapping_add(first.len() as u16);
+                for (offset, half) in [(offset, first), (behind, second)] {
+                    let half = half.to_vec();
+                    self.queue_for(UnitSet::One(unit), now, |unit| {
+                        Operation::write(unit, offset, half.clone())
+                    });
+                }
+            }
             MasterOrder::WriteSdo(unit, entry, bytes) => {
                 self.queue_for(UnitSet::One(unit), now, |unit| Operation::download(unit, entry, &bytes));
             }

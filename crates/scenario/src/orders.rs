@@ -100,6 +100,8 @@ pub enum MasterOrder {
     ReadSdo(usize, (u16, u8)),
     /// A write to the ESC.
     WriteRegister(usize, u16, Vec<u8>),
+    /// A write to the ESC in two frames, one for each half.
+    WriteInHalves(usize, u16, Vec<u8>),
     /// Uses this mailbox counter from now on, instead of counting.
     MailboxCounter(u8),
     /// Lets the answers lie in the mailboxes.
@@ -219,7 +221,7 @@ pub struct Expectation {
 }
 
 /// When an expectation has to hold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Now.
     Now,
@@ -229,4 +231,8 @@ pub enum Mode {
     Never,
     /// At every moment until this time has passed.
     For(Duration),
+    /// At every moment until this holds.
+    Until(Condition),
+    /// At no moment until this holds.
+    NeverUntil(Condition),
 }

@@ -3,6 +3,7 @@
 use time::{Duration, Instant};
 
 use crate::dice::{DICE_OF_STEPS, Dice};
+use crate::expectation::Condition;
 use crate::orders::{Expectation, Mode, Order};
 use crate::recording::Recording;
 use crate::scenario::{Scenario, Step, Trigger};
@@ -164,14 +165,16 @@ impl<'a> Replay<'a> {
 
     fn expect(&mut self, step: &'a Step, expectation: &'a Expectation) -> Verdict {
         let now = self.world.now();
-        let until = match expectation.mode {
+        let until = match &expectation.mode {
             Mode::Now => {
                 let checked = expectation.condition.check(&mut self.world);
                 return checked.map_err(|seen| failure(step, now, seen));
             }
-            Mode::Within(limit) => return self.expect_within(step, expectation, now + limit),
-            Mode::For(span) => now + span,
+            Mode::Within(limit) => return self.expect_within(step, expectation, now + *limit),
+            Mode::For(span) => now + *span,
             Mode::Never => Instant::NEVER,
+            Mode::Until(until) => return self.expect_until(step, &expectation.condition, until, true),
+            Mode::NeverUntil(until) => return self.expect_until(step, &expectation.condition, until, false),
         };
         self.watches.push(Watch { step, expectation, until });
         if expectation.mode == Mode::Never { self.look() } else { self.run_until(until) }
@@ -185,6 +188,29 @@ impl<'a> Replay<'a> {
                 return Err(failure(step, self.world.now(), seen));
             }
             self.advance(until)?;
+        }
+    }
+
+    /// Time passes until `until` holds; so long the condition has to hold, or must not.
+    fn expect_until(
+        &mut self,
+        step: &'a Step,
+        condition: &Condition,
+        until: &Condition,
+        wanted: bool,
+    ) -> Verdict {
+        loop {
+            let Err(waiting) = until.check(&mut self.world) else { return Ok(()) };
+            let now = self.world.now();
+            match (condition.check(&mut self.world), wanted) {
+                (Err(seen), true) => return Err(failure(step, now, seen)),
+                (Ok(()), false) => return Err(failure(step, now, "it does hold".to_owned())),
+                _ => {}
+            }
+            if now >= self.limit {
+                return Err(failure(step, now, format!("`until` waits in vain until the limit: {waiting}")));
+            }
+            self.advance(self.limit)?;
         }
     }
 
@@ -230,7 +256,7 @@ impl Watch<'_> {
             return Ok(Watched::Satisfied);
         }
         let holds = self.expectation.condition.check(world);
-        match (self.expectation.mode, holds) {
+        match (&self.expectation.mode, holds) {
             (Mode::Never, Ok(())) => Err(failure(self.step, now, "it does hold".to_owned())),
             (Mode::For(_), Err(seen)) => Err(failure(self.step, now, seen)),
             _ => Ok(Watched::Open),

@@ -92,7 +92,7 @@ impl Scenario {
         };
         let seed_line = format!("seed = {seed}\n");
         let text = format!("{before}{inside}{after}");
-        let kept: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("seed =")).collect();
+        let kept: Vec<&str> = text.lines().filter(|line| !is_seed(line)).collect();
         let mut text = kept.join("\n");
         // Behind the title, in front of the first table or list.
         let at = text.find("\nsteps").map_or(0, |at| at + 1);
@@ -100,4 +100,9 @@ impl Scenario {
         text.push('\n');
         text
     }
+}
+
+/// Whether a line of the file sets the seed.
+fn is_seed(line: &str) -> bool {
+    line.trim_start().strip_prefix("seed").is_some_and(|rest| rest.trim_start().starts_with('='))
 }

@@ -48,6 +48,8 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ at = \"20\", line = \"be quiet\" }", "not a duration", "units s, ms, us, ns"),
         ("{ at = \"5ms\", after = \"5ms\", line = \"be quiet\" }", "one of at, after and when", ""),
         ("{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }", "this one 2", "one of master, unit"),
+        ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "no sentence", "did you mean"),
+        ("{ master = \"behave\", until = \"unit 1 is in OP\" }", "`until` to `expect` and `never`", ""),
         ("{ after = \"1ms\" }", "this one 0", ""),
         ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
         ("{ expect = \"unit 1 is in OP\", within = \"1ms\", for = \"1ms\" }", "contradict", ""),
@@ -93,6 +95,24 @@ fn everything_that_is_wrong_is_told_at_once() {
     ] {
         assert!(errors.contains(part), "{part}:\n{errors}");
     }
+}
+
+#[test]
+fn until_holds_as_long_as_it_takes() {
+    let verdict = |expectation: &str| {
+        let text = format!(
+            "title = \"t\"\nlimit = \"1s\"\nsteps = [\n{{ master = \"take all units to OP\" }},\n{expectation}\n]"
+        );
+        let scenario = Scenario::parse(&text, |_| Err(String::new())).map_err(|errors| errors.to_string())?;
+        let failure = scenario.replay(1, Recording::new(false, false)).failure;
+        failure.map_or(Ok(()), |failure| Err(failure.to_string()))
+    };
+    assert_eq!(verdict("{ expect = \"unit 1 has no error\", until = \"unit 1 is in OP\" }"), Ok(()));
+    assert_eq!(verdict("{ never = \"unit 1 has recorded 85000000\", until = \"unit 1 is in OP\" }"), Ok(()));
+    let early = verdict("{ never = \"unit 1 is in PRE-OP\", until = \"unit 1 is in OP\" }");
+    assert!(early.as_ref().is_err_and(|failure| failure.contains("it does hold")), "{early:?}");
+    let vain = verdict("{ expect = \"unit 1 has no error\", until = \"unit 1 has recorded 85000000\" }");
+    assert!(vain.as_ref().is_err_and(|failure| failure.contains("waits in vain")), "{vain:?}");
 }
 
 #[test]

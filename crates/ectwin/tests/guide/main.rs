@@ -10,3 +10,4 @@ mod events;
 mod frames_in_virtual_time;
 mod link_in_memory;
 mod messages;
+mod scenario;

@@ -60,6 +60,7 @@ struct StepEntry {
     never: Option<Spanned<String>>,
     within: Option<Spanned<String>>,
     r#for: Option<Spanned<String>>,
+    until: Option<Spanned<String>>,
     repeat: Option<Spanned<u64>>,
     every: Option<Spanned<String>>,
     jitter: Option<Spanned<String>>,
@@ -293,7 +294,7 @@ impl Reader<'_> {
 
     fn step(&mut self, entry: StepEntry, span: Range<usize>, units: usize) -> Option<Step> {
         let trigger = self.trigger(&entry, span.clone(), units);
-        let mode = self.mode(&entry);
+        let mode = self.mode(&entry, units);
         let tellers = [
             entry.master.map(|text| (text, Teller::Master)),
             entry.unit.map(|text| (text, Teller::Unit)),
@@ -312,8 +313,12 @@ impl Reader<'_> {
             return None;
         }
         let (text, teller) = told.remove(0);
-        if mode.is_some() && teller != Teller::Expect {
-            self.refuse(span, "`within` and `for` belong to `expect`", "");
+        let fits = match (&mode, teller) {
+            (None, _) | (Some(_), Teller::Expect) | (Some(Mode::Until(_)), Teller::Never) => true,
+            (Some(_), _) => false,
+        };
+        if !fits {
+            self.refuse(span, "`within` and `for` belong to `expect`, `until` to `expect` and `never`", "");
             return None;
         }
         let line = self.line(span.start);
@@ -334,15 +339,23 @@ impl Reader<'_> {
         }
     }
 
-    fn mode(&mut self, entry: &StepEntry) -> Option<Mode> {
-        match (&entry.within, &entry.r#for) {
-            (Some(within), None) => self.duration(within).map(Mode::Within),
-            (None, Some(span)) => self.duration(span).map(Mode::For),
-            (Some(within), Some(_)) => {
-                self.refuse(within.span(), "`within` and `for` contradict each other", "");
+    /// What the step says of when an expectation has to hold.
+    fn mode(&mut self, entry: &StepEntry, units: usize) -> Option<Mode> {
+        match (&entry.within, &entry.r#for, &entry.until) {
+            (Some(within), None, None) => self.duration(within).map(Mode::Within),
+            (None, Some(span), None) => self.duration(span).map(Mode::For),
+            (None, None, Some(until)) => self.condition(until, units).map(Mode::Until),
+            (None, None, None) => None,
+            (first, second, third) => {
+                let span = [first, second, third]
+                    .into_iter()
+                    .flatten()
+                    .map(Spanned::span)
+                    .next()
+                    .unwrap_or_default();
+                self.refuse(span, "`within`, `for` and `until` contradict each other", "");
                 None
             }
-            (None, None) => None,
         }
     }
 
@@ -354,7 +367,11 @@ impl Reader<'_> {
             Teller::Line => self.sentence(LINE, text).map(Order::Line),
             Teller::Expect | Teller::Never => {
                 let condition = self.condition(text, units)?;
-                let mode = if teller == Teller::Never { Mode::Never } else { mode };
+                let mode = match (teller, mode) {
+                    (Teller::Never, Mode::Until(until)) => Mode::NeverUntil(until),
+                    (Teller::Never, _) => Mode::Never,
+                    (_, mode) => mode,
+                };
                 Some(Order::Expect(Expectation { condition, mode }))
             }
         }?;
@@ -426,6 +443,7 @@ fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
         | MasterOrder::SyncManagerControl { unit, .. }
         | MasterOrder::WriteSdo(unit, ..)
         | MasterOrder::ReadSdo(unit, _)
+        | MasterOrder::WriteInHalves(unit, ..)
         | MasterOrder::WriteRegister(unit, ..) => Some(UnitSet::One(*unit)),
         _ => None,
     }
