@@ -20,6 +20,7 @@ pub enum Condition {
     HasNoError(UnitSet),
     NewMessages { units: UnitSet, available: bool },
     Object { unit: usize, entry: (u16, u8), value: Vec<u8> },
+    Variable { name: String, bytes: Vec<u8> },
     Register { unit: usize, offset: u16, value: Vec<u8> },
     Outputs { unit: usize, bytes: Vec<u8> },
     Inputs { unit: usize, at: usize, bytes: Vec<u8> },
@@ -71,6 +72,7 @@ impl Condition {
             | Self::SdoRefused(_)
             | Self::SdoGave(_)
             | Self::SdoTaken
+            | Self::Variable { .. }
             | Self::CaptureReplayed
             | Self::AnswersDiffer { .. }
             | Self::Emergency { .. } => None,
@@ -169,7 +171,11 @@ impl Condition {
         }
     }
 
-    fn check_master(&self, world: &World) -> Result<(), Seen> {
+    fn check_master(&self, world: &mut World) -> Result<(), Seen> {
+        if let Self::Variable { name, bytes } = self {
+            return begins(&world.variable(name).unwrap_or_default(), bytes);
+        }
+        let world = &*world;
         let master = world.master();
         match self {
             Self::Cycles(cycles) => {

@@ -46,12 +46,12 @@ impl Line {
                 Choice::All => true,
                 Choice::Percent(percent) => dice.hits(*percent),
                 Choice::Next(0) => false,
-                Choice::Behind(0) => {
-                    disturbance.choice = Choice::Next(0);
+                Choice::Behind { skip: 0, count } => {
+                    disturbance.choice = Choice::Next(count.saturating_sub(1));
                     true
                 }
-                Choice::Behind(left) => {
-                    *left -= 1;
+                Choice::Behind { skip, .. } => {
+                    *skip -= 1;
                     false
                 }
                 Choice::Next(left) => {

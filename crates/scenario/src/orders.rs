@@ -203,8 +203,13 @@ pub struct Disturbance {
 pub enum Choice {
     /// So many, beginning with the next one.
     Next(u64),
-    /// The one behind so many others.
-    Behind(u64),
+    /// So many, behind so many others.
+    Behind {
+        /// Frames that are left alone first.
+        skip: u64,
+        /// Frames that meet the fault then.
+        count: u64,
+    },
     /// All from now on.
     All,
     /// Each with this probability, in per cent.

@@ -86,7 +86,8 @@ fn fit(pattern: &str, words: &[&str]) -> Result<Values, (usize, Problem)> {
                 return Err((at, Problem(format!("expected `{part}`, found {found}"))));
             }
             Some(name) => {
-                let (value, length) = Place::named(name).read(rest).map_err(|why| (at, Problem(why)))?;
+                let (value, length) =
+                    Place::named(name).read(rest).map_err(|(fitting, why)| (at + fitting, Problem(why)))?;
                 values.push(value);
                 at += length;
             }
@@ -148,8 +149,10 @@ value! {
     indicator: Indicator -> place::IndicatorName;
     /// Per cent.
     percent: Percent -> u8;
-    /// Which frames.
-    frames: Frames -> crate::FrameKind;
+    /// Which frames, and of which kind.
+    frames: Frames -> (crate::Choice, crate::FrameKind);
+    /// The name of a device variable.
+    variable: Variable -> String;
 }
 
 pub use place::IndicatorName;

@@ -2,6 +2,7 @@
 
 mod looks;
 mod orders;
+mod variables;
 
 use device::Network;
 use nx_ect101::{EventCode, NxEct101, UnitSettings, device_config_with};
@@ -18,6 +19,8 @@ use crate::recorded::Recorded;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, UnitSource};
 
+pub(crate) use variables::Variable;
+
 /// The system time of the CPU Units at the beginning: 2026-01-01 00:00:00 UTC.
 pub(crate) const SYSTEM_TIME_NS: u64 = 1_767_225_600_000_000_000;
 /// Marks the frames of the recorded master.
@@ -29,6 +32,8 @@ const WORKING_COUNTER_BYTES: usize = 2;
 pub(crate) struct World {
     network: Network<NxEct101>,
     cpus: Vec<Cpu>,
+    /// Device names of the units on their NX buses.
+    names: Vec<String>,
     line: Line,
     master: Master,
     recorded: Recorded,
@@ -71,6 +76,7 @@ impl World {
         let mut world = Self {
             network,
             cpus,
+            names: scenario.units.iter().map(|source| source.file.name.value.clone()).collect(),
             line: Line::new(seed),
             master: Master::new(count, scenario.cycle),
             recorded: Recorded::new(scenario.recorded.clone()),

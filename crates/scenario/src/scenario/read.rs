@@ -16,6 +16,7 @@ use crate::orders::{
 use crate::recorded::RecordedFrames;
 use crate::sentence;
 use crate::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
+use crate::world::Variable;
 
 /// Seed of a scenario that names none.
 const DEFAULT_SEED: u64 = 1;
@@ -81,7 +82,7 @@ impl Scenario {
             let span = error.span().unwrap_or_default();
             ScenarioErrors(vec![ScenarioError::new(text, span, error.message().to_owned(), String::new())])
         })?;
-        let mut reader = Reader { text, errors: Vec::new() };
+        let mut reader = Reader { text, names: Vec::new(), errors: Vec::new() };
         let scenario = reader.scenario(file, unit_file);
         if reader.errors.is_empty() {
             return Ok(scenario);
@@ -93,6 +94,8 @@ impl Scenario {
 
 struct Reader<'a> {
     text: &'a str,
+    /// Device names of the units.
+    names: Vec<String>,
     errors: Vec<ScenarioError>,
 }
 
@@ -111,6 +114,7 @@ impl Reader<'_> {
         if units.is_empty() && self.errors.is_empty() {
             units.extend(self.unit_text(DEFAULT_UNIT, 0..0, "the default unit"));
         }
+        self.names = units.iter().map(|unit| unit.file.name.value.clone()).collect();
         let count = units.len();
         let limit = file.limit.and_then(|limit| self.duration(&limit)).unwrap_or(DEFAULT_LIMIT);
         let cycle = file.cycle.and_then(|cycle| self.cycle(&cycle)).unwrap_or(DEFAULT_CYCLE);
@@ -394,6 +398,13 @@ impl Reader<'_> {
 
     fn condition(&mut self, text: &Spanned<String>, units: usize) -> Option<Condition> {
         let condition = self.sentence(CONDITIONS, text)?;
+        if let Condition::Variable { name, .. } = &condition
+            && !self.names.iter().any(|unit| Variable::named(name, unit).is_some())
+        {
+            let help = format!("the units are named {}", self.names.join(", "));
+            self.refuse(text.span(), format!("no unit has the device variable {name}"), help);
+            return None;
+        }
         let exists = condition.units().is_none_or(|set| set.exists(units));
         if !exists {
             self.refuse(text.span(), "it names a unit that is not there", line_of(units));

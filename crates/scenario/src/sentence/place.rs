@@ -4,7 +4,7 @@ use nx_ect101::{EventCode, Fault, Pattern};
 use time::Duration;
 use wire::AlState;
 
-use crate::{FrameKind, UnitSet};
+use crate::{Choice, FrameKind, UnitSet};
 
 /// What stands in a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,8 +37,10 @@ pub enum Value {
     Indicator(IndicatorName),
     /// `5 %`.
     Percent(u8),
-    /// `frames`, `process data frames`, `mailbox frames`.
-    Frames(FrameKind),
+    /// `the next 3 frames`, `5 % of the mailbox frames`.
+    Frames((Choice, FrameKind)),
+    /// `N1_UINTs_01_M_to_C`.
+    Variable(String),
 }
 
 /// An indicator of a unit.
@@ -87,10 +89,13 @@ impl Place {
         PLACES
     }
 
-    pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), String> {
+    /// What the words mean, and how many they are; else how many of them fit, and what is expected.
+    pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), (usize, String)> {
         (self.read)(words).ok_or_else(|| {
-            let found = words.first().map_or("the end".to_owned(), |word| format!("`{word}`"));
-            format!("expected {}, found {found}", self.meaning)
+            let fitting =
+                if self.name == "frames" { choice(words).map_or(0, |(_, length)| length) } else { 0 };
+            let found = words.get(fitting).map_or("the end".to_owned(), |word| format!("`{word}`"));
+            (fitting, format!("expected {}, found {found}", self.meaning))
         })
     }
 }
@@ -139,7 +144,15 @@ const PLACES: &[Place] = &[
     place("pattern", "a pattern such as lit, not_lit, blinking", |words| one(words, pattern)),
     place("indicator", "RUN, ERR, L/A IN, L/A OUT, TS green or TS red", indicator),
     place("percent", "a number from 1 to 100 and %", percent),
-    place("frames", "`frames`, `process data frames` or `mailbox frames`", frames),
+    place(
+        "frames",
+        "`the next 3`, `all`, `5 % of the`, `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
+         `process data frames` or `mailbox frames`",
+        frames,
+    ),
+    place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
+        one(words, |word| word.contains('_').then(|| Value::Variable(word.to_owned())))
+    }),
 ];
 
 fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
@@ -253,11 +266,35 @@ fn percent(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Percent(percent), length))
 }
 
+/// Which frames, and of which kind.
 fn frames(words: &[&str]) -> Option<(Value, usize)> {
+    let (choice, length) = choice(words)?;
+    let (kind, more) = match words.get(length..)? {
+        ["frames" | "frame", ..] => (FrameKind::Any, 1),
+        ["process", "data", "frames" | "frame", ..] => (FrameKind::ProcessData, 3),
+        ["mailbox", "frames" | "frame", ..] => (FrameKind::Mailbox, 2),
+        _ => return None,
+    };
+    Some((Value::Frames((choice, kind)), length + more))
+}
+
+/// Numbers count from 1, the next frame.
+fn choice(words: &[&str]) -> Option<(Choice, usize)> {
     match words {
-        ["frames" | "frame", ..] => Some((Value::Frames(FrameKind::Any), 1)),
-        ["process", "data", "frames" | "frame", ..] => Some((Value::Frames(FrameKind::ProcessData), 3)),
-        ["mailbox", "frames" | "frame", ..] => Some((Value::Frames(FrameKind::Mailbox), 2)),
-        _ => None,
+        ["all", ..] => Some((Choice::All, 1)),
+        ["the", "next", count, ..] => Some((Choice::Next(number(count)?), 3)),
+        ["number", nth, "of", "the", ..] => {
+            Some((Choice::Behind { skip: number(nth)?.checked_sub(1)?, count: 1 }, 4))
+        }
+        ["numbers", first, "to", last, "of", "the", ..] => {
+            let (first, last) = (number(first)?, number(last)?);
+            let count = last.checked_sub(first)? + 1;
+            Some((Choice::Behind { skip: first.checked_sub(1)?, count }, 6))
+        }
+        _ => match percent(words)? {
+            (Value::Percent(percent), length) => (words.get(length..length + 2)? == ["of", "the"])
+                .then_some((Choice::Percent(percent), length + 2)),
+            _ => None,
+        },
     }
 }

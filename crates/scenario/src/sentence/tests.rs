@@ -57,3 +57,25 @@ fn places_read_what_they_name() {
     assert!(one("state", &["0x15"]).is_err());
     assert!(one("event", &["12345678"]).is_err(), "an event of the table");
 }
+
+#[test]
+fn frames_are_chosen_in_five_ways() {
+    use crate::{Choice, FrameKind};
+    let read = |text: &str| {
+        let words: Vec<&str> = text.split_whitespace().collect();
+        Place::named("frames").read(&words).map(|(value, _)| value)
+    };
+    let frames = |choice, kind| Ok(Value::Frames((choice, kind)));
+    assert_eq!(read("all frames"), frames(Choice::All, FrameKind::Any));
+    assert_eq!(read("the next 3 mailbox frames"), frames(Choice::Next(3), FrameKind::Mailbox));
+    assert_eq!(read("5 % of the process data frames"), frames(Choice::Percent(5), FrameKind::ProcessData));
+    assert_eq!(read("number 1 of the frames"), frames(Choice::Behind { skip: 0, count: 1 }, FrameKind::Any));
+    assert_eq!(
+        read("numbers 3 to 9 of the frames"),
+        frames(Choice::Behind { skip: 2, count: 7 }, FrameKind::Any)
+    );
+    for wrong in ["number 0 of the frames", "numbers 5 to 4 of the frames", "some frames", "the next frames"]
+    {
+        assert!(read(wrong).is_err(), "{wrong}");
+    }
+}
