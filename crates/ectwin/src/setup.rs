@@ -13,7 +13,8 @@ use crate::memory_file::MemoryFile;
 
 /// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
 /// `builtin:copy`, which copies what comes from the master back to it ([`plc::Echo`], the manual's example A-3); or
-/// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]).
+/// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]); or `builtin:pulse`, which counts
+/// ([`plc::Pulse`], A-4).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,

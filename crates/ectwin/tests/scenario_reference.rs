@@ -25,7 +25,7 @@ Every key, sentence, place and fault of a scenario file. [Write a scenario](writ
 | `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |
 | `steps` | list of steps | refused: every file needs it |
 
-Paths are seen from the scenario file. A unit may run the programs `"builtin:copy"` and `"builtin:messages"`.
+Paths are seen from the scenario file. A unit may run the programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`.
 
 ## Steps
 A step is a table, and happens behind the step in front of it. It tells one of these:

@@ -1,26 +1,29 @@
 //! User programs that need no file, by their names.
 
 use crate::io::Program;
-use crate::{Echo, MessageEcho};
+use crate::{Echo, MessageEcho, Pulse};
 
 /// A user program that a unit file names in place of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
     /// `builtin:copy`: copies what comes from the master back to it ([`Echo`]).
     Copy,
+    /// `builtin:pulse`: counts in the first byte to the master ([`Pulse`]).
+    Pulse,
     /// `builtin:messages`: sends messages back besides ([`MessageEcho`]).
     Messages,
 }
 
 impl Builtin {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Copy, Self::Messages];
+    pub const ALL: [Self; 3] = [Self::Copy, Self::Pulse, Self::Messages];
 
     /// Its name.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Copy => "builtin:copy",
+            Self::Pulse => "builtin:pulse",
             Self::Messages => "builtin:messages",
         }
     }
@@ -36,6 +39,7 @@ impl Builtin {
     pub fn program(self) -> Box<dyn Program + Send> {
         match self {
             Self::Copy => Box::new(Echo),
+            Self::Pulse => Box::new(Pulse),
             Self::Messages => Box::new(MessageEcho::default()),
         }
     }

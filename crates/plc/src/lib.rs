@@ -9,6 +9,7 @@ mod echo;
 mod io;
 mod message_echo;
 mod nx_object_client;
+mod pulse;
 
 pub use builtin::Builtin;
 pub use cpu_unit::{CpuSettings, CpuUnit, OperatingMode};
@@ -18,3 +19,4 @@ pub use message_echo::MessageEcho;
 pub use nx_ect101::nx_bus::{NxMessageError, NxValue};
 pub use nx_ect101::{ObjectIndex, SubIndex};
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
+pub use pulse::Pulse;

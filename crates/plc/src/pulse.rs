@@ -1,0 +1,16 @@
+//! The pulse program of the manual's example: as long as it comes, the CPU Unit is in RUN mode.
+
+use crate::io::{Io, Program};
+
+/// Counts in the first byte C to M, one up with every task period. In PROGRAM mode it stands, which a master
+/// notices when it has not changed for longer than the I/O response time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pulse;
+
+impl Program for Pulse {
+    fn scan(&mut self, io: &mut Io) {
+        if let Some(first) = io.c_to_m_mut().first_mut() {
+            *first = first.wrapping_add(1);
+        }
+    }
+}
