@@ -19,7 +19,7 @@ Every key, sentence, place and fault of a scenario file. [Write a scenario](writ
 |---|---|---|
 | `title` | what the scenario shows, as a sentence | refused: every file needs it |
 | `seed` | seed of the dice, a number | 1 |
-| `limit` | the moment at which a `when` waits in vain | `"60s"` |
+| `limit` | the moment behind which nothing goes on: who still waits then has waited in vain | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table | one unit at its factory setting |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |

@@ -74,7 +74,7 @@ impl Scenario {
     pub(crate) fn replay_steps(&self, steps: &[Step], seed: u64, recording: Recording) -> Report {
         let world = World::power_on(self, seed, recording);
         let (dice, limit) = (Dice::new(seed ^ DICE_OF_STEPS), Instant::ZERO + self.limit);
-        let mut replay = Replay { world, dice, watches: Vec::new(), limit };
+        let mut replay = Replay { world, dice, watches: Vec::new(), current: None, limit };
         let failure = steps.iter().try_for_each(|step| replay.step(step)).and_then(|()| replay.end()).err();
         let Replay { mut world, .. } = replay;
         let lasted = world.now().saturating_since(Instant::ZERO);
@@ -93,6 +93,8 @@ struct Replay<'a> {
     dice: Dice,
     /// Expectations that last.
     watches: Vec<Watch<'a>>,
+    /// The step that is being done.
+    current: Option<&'a Step>,
     limit: Instant,
 }
 
@@ -114,6 +116,7 @@ type Verdict<T = ()> = Result<T, Failure>;
 
 impl<'a> Replay<'a> {
     fn step(&mut self, step: &'a Step) -> Verdict {
+        self.current = Some(step);
         self.wait(step)?;
         if !matches!(step.order, Order::Expect(_)) {
             let now = self.world.now();
@@ -230,6 +233,10 @@ impl<'a> Replay<'a> {
 
     /// To the next thing that happens, at most to `end`.
     fn advance(&mut self, end: Instant) -> Verdict {
+        if let Some(step) = self.current.filter(|_| self.world.now() > self.limit) {
+            let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
+            return Err(failure(step, self.world.now(), words));
+        }
         let quiet = self.world.now() + QUIET_STEP;
         let next = self.world.deadline().min(end).min(quiet);
         self.world.advance(next);

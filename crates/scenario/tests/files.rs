@@ -117,6 +117,21 @@ fn until_holds_as_long_as_it_takes() {
 }
 
 #[test]
+fn nothing_goes_on_behind_the_limit() {
+    for step in [
+        "{ expect = \"unit 1 is in INIT\", for = \"9000000000s\" }",
+        "{ line = \"be quiet\", repeat = 10000, every = \"1s\" }",
+        "{ when = \"unit 1 is in INIT\", expect = \"unit 1 is in OP\", within = \"9000000000s\" }",
+    ] {
+        let text = format!("title = \"t\"\nlimit = \"2s\"\nsteps = [\n{step}\n]");
+        let scenario =
+            Scenario::parse(&text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+        let failure = scenario.replay(1, Recording::new(false, false)).failure;
+        assert!(failure.is_some_and(|failure| failure.seen.contains("limit")), "{step}");
+    }
+}
+
+#[test]
 fn a_cycle_that_never_ends_is_refused() {
     assert!(errors("title = \"t\"\ncycle = \"0s\"\nsteps = []").contains("a cycle of 0 never ends"));
 }
