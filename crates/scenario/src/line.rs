@@ -3,6 +3,7 @@
 use time::Instant;
 
 use crate::dice::Dice;
+use crate::master::Ticket;
 use crate::orders::{Choice, Disturbance, FrameFault, FrameKind};
 
 /// The faults of the line, seeded.
@@ -17,8 +18,10 @@ pub(crate) struct Line {
 #[derive(Debug)]
 pub(crate) struct Delayed {
     pub(crate) at: Instant,
-    pub(crate) ticket: u64,
+    pub(crate) ticket: Ticket,
     pub(crate) frame: Vec<u8>,
+    /// All that it meets, the delay included.
+    pub(crate) faults: Vec<FrameFault>,
 }
 
 impl Line {

@@ -64,9 +64,18 @@ pub(crate) struct MailboxHabits {
     reads_nothing: bool,
 }
 
-/// A frame that the master sends.
+/// Whose frame it is, and which one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ticket {
+    /// The scripted master's.
+    Scripted(u64),
+    /// The recorded master's.
+    Recorded(usize),
+}
+
+/// A frame that a master sends.
 pub(crate) struct Sent {
-    pub(crate) ticket: u64,
+    pub(crate) ticket: Ticket,
     pub(crate) kind: FrameKind,
     pub(crate) frame: Vec<u8>,
 }
@@ -208,7 +217,7 @@ impl Master {
         self.waiting.ticket = Some(self.ticket);
         // Without an answer by then the frame is sent once more.
         self.waiting.at = now + ANSWER_PATIENCE;
-        Some(Sent { ticket: self.ticket, kind, frame })
+        Some(Sent { ticket: Ticket::Scripted(self.ticket), kind, frame })
     }
 
     /// A frame comes back. What nobody waits for any more is passed over, as a master does.

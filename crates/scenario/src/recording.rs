@@ -62,14 +62,16 @@ impl Recording {
         self.packet(now, Direction::Outbound, frame, comment);
     }
 
-    /// A frame gets lost.
-    pub(crate) fn lost(&mut self, now: Instant, frame: &[u8], comment: &str) {
+    /// A frame gets lost on its way.
+    pub(crate) fn lost(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: &str) {
         self.note(now, comment);
-        self.packet(now, Direction::Inbound, frame, Some(&format!("fault: {comment}")));
+        self.packet(now, direction, frame, Some(comment));
     }
 
     fn packet(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: Option<&str>) {
         if let Some(capture) = &mut self.capture {
+            let comment = comment.map(|comment| format!("fault: {comment}"));
+            let comment = comment.as_deref();
             // A vector takes every byte.
             let _ = capture.packet(SYSTEM_TIME_NS + now.as_nanos(), direction, frame, comment);
         }

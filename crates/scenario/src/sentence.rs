@@ -19,6 +19,16 @@ pub struct Sentence<T> {
     pub build: fn(&Values) -> T,
 }
 
+/// A row of a table.
+pub(crate) const fn row<T>(
+    pattern: &'static str,
+    example: &'static str,
+    meaning: &'static str,
+    build: fn(&Values) -> T,
+) -> Sentence<T> {
+    Sentence { pattern, example, meaning, build }
+}
+
 /// The values of the places of one sentence.
 #[derive(Debug, Default)]
 pub struct Values(Vec<Value>);

@@ -1,5 +1,6 @@
 //! The world of a scenario: units, CPU Units, line and master in virtual time, and who watches them.
 
+mod frames;
 mod looks;
 mod orders;
 mod variables;
@@ -7,14 +8,12 @@ mod variables;
 use device::Network;
 use nx_ect101::{EventCode, NxEct101, UnitSettings, device_config_with};
 use plc::{CpuSettings, CpuUnit};
-use segment::FrameFate;
 use time::{Duration, Instant};
 use wire::{AlStatus, AlStatusCode};
 
 use crate::expectation::StateName;
-use crate::line::{Delayed, Line};
-use crate::master::{Master, Sent};
-use crate::orders::FrameFault;
+use crate::line::Line;
+use crate::master::{Master, Sent, Ticket};
 use crate::recorded::Recorded;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, UnitSource};
@@ -23,11 +22,6 @@ pub(crate) use variables::Variable;
 
 /// The system time of the CPU Units at the beginning: 2026-01-01 00:00:00 UTC.
 pub(crate) const SYSTEM_TIME_NS: u64 = 1_767_225_600_000_000_000;
-/// Marks the frames of the recorded master.
-const RECORDED: u64 = 1 << 63;
-/// Length of a working counter, the end of a frame that is not padded.
-const WORKING_COUNTER_BYTES: usize = 2;
-
 /// Everything that a scenario moves.
 pub(crate) struct World {
     network: Network<NxEct101>,
@@ -134,72 +128,16 @@ impl World {
             cpu.unit.cycle(now);
         }
         self.network.poll(now);
-        while let Some(Delayed { ticket, mut frame, .. }) = self.line.due(now) {
-            self.pass(ticket, &mut frame, &[]);
+        while let Some(delayed) = self.line.due(now) {
+            self.pass(delayed.ticket, delayed.frame, &delayed.faults);
         }
         for sent in self.master.send(now) {
             self.transmit(sent);
         }
         while let Some((number, frame)) = self.recorded.send(now) {
-            self.transmit(Sent { ticket: RECORDED | number as u64, kind: crate::FrameKind::Any, frame });
+            self.transmit(Sent { ticket: Ticket::Recorded(number), kind: crate::FrameKind::Any, frame });
         }
         self.watch();
-    }
-
-    fn transmit(&mut self, sent: Sent) {
-        let Sent { ticket, kind, mut frame } = sent;
-        let faults = self.line.faults(kind);
-        for fault in &faults {
-            match *fault {
-                FrameFault::Lose => {
-                    return self.recording.lost(self.now, &frame, "a frame is lost on the way to the units");
-                }
-                FrameFault::Delay(duration) => {
-                    self.recording.note(self.now, &format!("a frame is delayed by {duration}"));
-                    return self.line.delay(Delayed { at: self.now + duration, ticket, frame });
-                }
-                FrameFault::Truncate(length_bytes) => frame.truncate(length_bytes.max(14)),
-                _ => {}
-            }
-        }
-        if faults.contains(&FrameFault::Duplicate) {
-            let mut first = frame.clone();
-            self.pass(ticket, &mut first, &[]);
-        }
-        self.pass(ticket, &mut frame, &faults);
-    }
-
-    /// A frame passes the units, and its answer comes back, if it does.
-    fn pass(&mut self, ticket: u64, frame: &mut [u8], faults: &[FrameFault]) {
-        let comment = comment(faults);
-        self.recording.sent(self.now, frame, comment);
-        let corrupted = faults.iter().find_map(|fault| match fault {
-            FrameFault::Corrupt(cable) => Some(*cable),
-            _ => None,
-        });
-        let fate = match corrupted {
-            Some(cable) => self.network.segment_mut().corrupted_frame(self.now, frame, cable),
-            None => self.network.frame(self.now, frame),
-        };
-        self.network.poll(self.now);
-        if fate != FrameFate::Returned {
-            return;
-        }
-        if faults.contains(&FrameFault::LoseAnswer) {
-            return self.recording.lost(
-                self.now,
-                frame,
-                "the answer of a frame is lost on the way to the master",
-            );
-        }
-        if faults.contains(&FrameFault::WorkingCounter) {
-            lower_working_counter(frame);
-        }
-        self.recording.returned(self.now, frame, comment);
-        match ticket & !RECORDED {
-            number if number != ticket => self.recorded.receive(number as usize, frame),
-            _ => self.master.receive(ticket, frame, self.now),
-        }
     }
 
     /// Writes down what has changed.
@@ -244,27 +182,6 @@ fn powered(source: &UnitSource, now: Instant) -> (device::DeviceConfig, NxEct101
 pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {
     let state = StateName(status.state);
     if status.error { format!("{state} with AL status code {:#06X}", code.0) } else { state.to_string() }
-}
-
-/// What a capture says beside a frame.
-fn comment(faults: &[FrameFault]) -> Option<&'static str> {
-    faults.first().map(|fault| match fault {
-        FrameFault::Lose => "lost",
-        FrameFault::LoseAnswer => "fault: its answer gets lost",
-        FrameFault::Delay(_) => "fault: delayed",
-        FrameFault::Duplicate => "fault: it comes twice",
-        FrameFault::Truncate(_) => "fault: it is cut short",
-        FrameFault::Corrupt(_) => "fault: a bit error on its way",
-        FrameFault::WorkingCounter => "fault: the working counter of its answer is one too low",
-    })
-}
-
-fn lower_working_counter(frame: &mut [u8]) {
-    let Some(at) = frame.len().checked_sub(WORKING_COUNTER_BYTES) else { return };
-    if let Some([low, high]) = frame.get_mut(at..) {
-        let lowered = u16::from_le_bytes([*low, *high]).saturating_sub(1);
-        [*low, *high] = lowered.to_le_bytes();
-    }
 }
 
 /// Longest pause in which nothing at all happens.

@@ -5,7 +5,7 @@ use core::ops::Range;
 use time::{Duration, Instant};
 use wire::{Command, FrameBuilder, Returned};
 
-use super::Sent;
+use super::{Sent, Ticket};
 use crate::orders::FrameKind;
 
 /// Logical addresses between one unit and the next.
@@ -148,7 +148,7 @@ impl Image {
             let data = self.bytes.get(bytes.clone()).unwrap_or_default();
             let frame = FrameBuilder::new().logical(command, logical + bytes.start as u32, data).finish();
             self.awaited.push(Awaited { ticket: *ticket, bytes });
-            Sent { ticket: *ticket, kind: FrameKind::ProcessData, frame }
+            Sent { ticket: Ticket::Scripted(*ticket), kind: FrameKind::ProcessData, frame }
         });
         sent.collect()
     }

@@ -68,6 +68,8 @@ pub struct Place {
     /// What can stand there, for the reference.
     pub meaning: &'static str,
     read: fn(&[&str]) -> Option<(Value, usize)>,
+    /// How many words of one that cannot be read would fit.
+    fitting: fn(&[&str]) -> usize,
 }
 
 impl Place {
@@ -92,8 +94,7 @@ impl Place {
     /// What the words mean, and how many they are; else how many of them fit, and what is expected.
     pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), (usize, String)> {
         (self.read)(words).ok_or_else(|| {
-            let fitting =
-                if self.name == "frames" { choice(words).map_or(0, |(_, length)| length) } else { 0 };
+            let fitting = (self.fitting)(words);
             let found = words.get(fitting).map_or("the end".to_owned(), |word| format!("`{word}`"));
             (fitting, format!("expected {}, found {found}", self.meaning))
         })
@@ -105,7 +106,7 @@ const fn place(
     meaning: &'static str,
     read: fn(&[&str]) -> Option<(Value, usize)>,
 ) -> Place {
-    Place { name, meaning, read }
+    Place { name, meaning, read, fitting: |_| 0 }
 }
 
 const PLACES: &[Place] = &[
@@ -144,12 +145,13 @@ const PLACES: &[Place] = &[
     place("pattern", "a pattern such as lit, not_lit, blinking", |words| one(words, pattern)),
     place("indicator", "RUN, ERR, L/A IN, L/A OUT, TS green or TS red", indicator),
     place("percent", "a number from 1 to 100 and %", percent),
-    place(
-        "frames",
-        "`the next 3`, `all`, `5 % of the`, `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
-         `process data frames` or `mailbox frames`",
-        frames,
-    ),
+    Place {
+        name: "frames",
+        meaning: "`the next 3`, `all`, `5 % of the`, `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
+                  `process data frames` or `mailbox frames`",
+        read: frames,
+        fitting: |words| choice(words).map_or(0, |(_, length)| length),
+    },
     place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
         one(words, |word| word.contains('_').then(|| Value::Variable(word.to_owned())))
     }),

@@ -3,16 +3,7 @@
 use plc::OperatingMode;
 
 use crate::orders::CpuOrder::{self, *};
-use crate::sentence::{Sentence, Values};
-
-const fn row(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&Values) -> CpuOrder,
-) -> Sentence<CpuOrder> {
-    Sentence { pattern, example, meaning, build }
-}
+use crate::sentence::{Sentence, row};
 
 /// All of them.
 #[rustfmt::skip]

@@ -1,16 +1,7 @@
 //! Sentences of conditions: what `expect` asks for, and what `when` waits for.
 
 use crate::expectation::Condition::{self, *};
-use crate::sentence::{Sentence, Values};
-
-const fn row(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&Values) -> Condition,
-) -> Sentence<Condition> {
-    Sentence { pattern, example, meaning, build }
-}
+use crate::sentence::{Sentence, row};
 
 /// All of them.
 #[rustfmt::skip]

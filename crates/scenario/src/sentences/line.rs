@@ -1,16 +1,7 @@
 //! Sentences of the line: cables, and what happens to frames.
 
 use crate::orders::{Choice, Disturbance, FrameFault, FrameKind, LineOrder};
-use crate::sentence::{Sentence, Values};
-
-const fn row(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&Values) -> LineOrder,
-) -> Sentence<LineOrder> {
-    Sentence { pattern, example, meaning, build }
-}
+use crate::sentence::{Sentence, row};
 
 fn disturb(fault: FrameFault, (choice, kind): (Choice, FrameKind)) -> LineOrder {
     LineOrder::Disturb(Disturbance { fault, kind, choice })

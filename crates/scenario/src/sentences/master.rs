@@ -1,16 +1,7 @@
 //! Sentences of the scripted master.
 
 use crate::orders::MasterOrder::{self, *};
-use crate::sentence::Sentence;
-
-const fn row(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&crate::sentence::Values) -> MasterOrder,
-) -> Sentence<MasterOrder> {
-    Sentence { pattern, example, meaning, build }
-}
+use crate::sentence::{Sentence, row};
 
 /// All of them.
 #[rustfmt::skip]

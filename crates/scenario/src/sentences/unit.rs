@@ -3,16 +3,7 @@
 use nx_ect101::EventLog;
 
 use crate::orders::UnitOrder::{self, *};
-use crate::sentence::{Sentence, Values};
-
-const fn row(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&Values) -> UnitOrder,
-) -> Sentence<UnitOrder> {
-    Sentence { pattern, example, meaning, build }
-}
+use crate::sentence::{Sentence, row};
 
 /// All of them.
 #[rustfmt::skip]
