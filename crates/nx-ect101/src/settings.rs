@@ -4,7 +4,7 @@ use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
 use crate::timing::Timing;
-use crate::unit_file::{ChangedLevel, UnitFile};
+use crate::unit_file::UnitFile;
 
 /// How one unit is set up, on its case and by its support software.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -82,12 +82,9 @@ impl EventLevels {
     fn from_unit_file(file: &UnitFile) -> Self {
         let mut levels = Self::default();
         for changed in &file.event_levels {
-            let level = match changed.level.value {
-                ChangedLevel::Observation => EventLevel::Observation,
-                ChangedLevel::MinorFault => EventLevel::MinorFault,
-            };
-            let taken = levels.set(EventCode(changed.event_code.value), level);
-            debug_assert_eq!(taken, Ok(()), "{:08X}", changed.event_code.value);
+            let code = changed.event_code.value;
+            let taken = levels.set(code, changed.level.value);
+            debug_assert_eq!(taken, Ok(()), "{code}");
         }
         levels
     }

@@ -18,6 +18,7 @@ use std::path::PathBuf;
 use time::Duration;
 
 use crate::allocation::IoAllocation;
+use crate::events::{EventCode, EventLevel};
 use crate::timing::Timing;
 
 pub use entries::{DataSetEntries, Entries, EntryAddress, IoAllocationSection, MappingEntries, PdoSection};
@@ -41,22 +42,13 @@ pub enum CpuMode {
     Program,
 }
 
-/// Level that a user gives to an event whose level can be changed (manual, 8-3-4).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChangedLevel {
-    /// `observation`.
-    Observation,
-    /// `minor_fault`.
-    MinorFault,
-}
-
-/// The level of one event.
+/// The level that a user gives to an event whose level can be changed (manual, 8-3-4).
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct EventLevel {
+pub struct ChangedLevel {
     /// Code of the event.
-    pub event_code: Located<u32>,
-    /// Its level.
-    pub level: Located<ChangedLevel>,
+    pub event_code: Located<EventCode>,
+    /// Its level: observation or minor fault.
+    pub level: Located<EventLevel>,
 }
 
 /// Section `[cpu]`: the CPU Unit.
@@ -92,7 +84,7 @@ pub struct UnitFile {
     /// What a check takes the master to set; the factory setting when left out.
     pub pdo: Option<Located<PdoSection>>,
     /// Changed event levels, in the order of their codes.
-    pub event_levels: Vec<EventLevel>,
+    pub event_levels: Vec<ChangedLevel>,
     /// The CPU Unit.
     pub cpu: CpuSection,
 }

@@ -8,8 +8,9 @@ use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntrie
 use super::error::Problem;
 use super::located::Located;
 use super::reader::{Reader, Section, Value, wrong_type};
-use super::{ChangedLevel, CpuMode, CpuSection, EventLevel, Model, UnitFile, values};
+use super::{ChangedLevel, CpuMode, CpuSection, Model, UnitFile, values};
 use crate::data_sets::{DataSet, DataSetKind};
+use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
 
 const UNIT_KEYS: [&str; 11] = [
@@ -27,8 +28,6 @@ const UNIT_KEYS: [&str; 11] = [
 ];
 const DATA_SET_KEYS: [(&str, DataSetKind); 3] =
     [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
-/// Events whose level a user may change (manual, 8-3-4).
-const CHANGEABLE_EVENTS: [&str; 2] = ["39160000", "39170000"];
 
 /// The whole file; none when it does not name its model.
 pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
@@ -170,28 +169,29 @@ fn refuse_mapping_key(reader: &mut Reader<'_>, place: &str, key: Located<&str>) 
     reader.refuse(key.span.unwrap_or_default(), problem);
 }
 
-fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<EventLevel> {
+fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<ChangedLevel> {
     let Some(section) = reader.section(file, "event_levels") else { return Vec::new() };
+    let changeable = Event::all().iter().filter(|event| event.changeable_level).map(|event| event.code);
     let mut levels = Vec::new();
     for (key, value) in section.entries() {
-        let code = values::hexadecimal(key.value, 8).filter(|_| CHANGEABLE_EVENTS.contains(&key.value));
-        let Some(code) = code else {
+        let Some(code) = changeable.clone().find(|code| code.to_string() == key.value) else {
             let message =
                 format!("`event_levels`: no event `{}` whose level can be changed", values::shown(key.value));
-            let problem = Problem::unknown(message, key.value, &CHANGEABLE_EVENTS);
-            reader.refuse(key.span.unwrap_or_default(), problem);
+            let names: Vec<String> = changeable.clone().map(|code| code.to_string()).collect();
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            reader.refuse(key.span.unwrap_or_default(), Problem::unknown(message, key.value, &names));
             continue;
         };
         if let Some(level) = reader.read(&section.place_of(key.value), value, level) {
-            levels.push(EventLevel { event_code: Located { value: code, span: key.span }, level });
+            levels.push(ChangedLevel { event_code: Located { value: code, span: key.span }, level });
         }
     }
     levels.sort_by_key(|level| level.event_code.value);
     levels
 }
 
-fn level(place: &str, value: &DeValue<'_>) -> Result<ChangedLevel, Problem> {
-    let choices = [("observation", ChangedLevel::Observation), ("minor_fault", ChangedLevel::MinorFault)];
+fn level(place: &str, value: &DeValue<'_>) -> Result<EventLevel, Problem> {
+    let choices = [("observation", EventLevel::Observation), ("minor_fault", EventLevel::MinorFault)];
     values::choice(place, value, &choices)
 }
 

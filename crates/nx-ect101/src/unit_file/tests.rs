@@ -46,7 +46,7 @@ fn a_file_with_every_key_reads_as_written() {
     assert_eq!(file.timing.value, Timing::Exact);
     assert_eq!(file.storage.unwrap().value, PathBuf::from("N1.nvm"));
     let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
-    assert_eq!((level.event_code.value, level.level.value), (0x3917_0000, ChangedLevel::Observation));
+    assert_eq!((level.event_code.value.0, level.level.value), (0x3917_0000, EventLevel::Observation));
     assert_eq!(file.cpu.task_period.value, Duration::from_millis(1));
     assert_eq!(file.cpu.mode.value, CpuMode::Run);
     assert_eq!(file.cpu.program.unwrap().value, PathBuf::from("echo.st"));
