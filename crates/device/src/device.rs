@@ -79,7 +79,13 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The slave loses its power: it does nothing until [`Device::restart`]. Its cables are the segment's.
+    /// Whether the slave has no power.
+    #[must_use]
+    pub const fn is_off(&self) -> bool {
+        self.is_off
+    }
+
+    /// The slave loses its power: it does nothing until [`Device::restart`]. Its cables are the network's.
     pub(crate) fn power_off(&mut self, now: Instant) {
         self.is_off = true;
         self.unit.power_off(now);

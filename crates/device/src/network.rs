@@ -16,6 +16,8 @@ use crate::unit::{Start, Unit};
 pub struct Network<U> {
     segment: Segment,
     devices: Vec<Device<U>>,
+    /// Whether a cable is plugged in: in front of the device of its number, the last one behind the far end.
+    cables: Vec<bool>,
 }
 
 impl<U: Unit> Network<U> {
@@ -24,7 +26,9 @@ impl<U: Unit> Network<U> {
     pub fn power_on(units: impl IntoIterator<Item = (DeviceConfig, U)>, now: Instant) -> Self {
         let powered = units.into_iter().map(|(config, unit)| Device::power_on(config, unit, now));
         let (devices, escs): (Vec<_>, Vec<_>) = powered.unzip();
-        Self { segment: Segment::new(escs), devices }
+        let mut cables = vec![true; devices.len()];
+        cables.push(false);
+        Self { segment: Segment::new(escs), devices, cables }
     }
 
     /// A frame comes from the master; it is answered in place.
@@ -98,26 +102,50 @@ impl<U: Unit> Network<U> {
         &self.segment
     }
 
-    /// The line itself: cables, ESCs.
+    /// The line itself. Cables are those of [`Network::set_cable`].
     pub const fn segment_mut(&mut self) -> &mut Segment {
         &mut self.segment
     }
 
-    /// Takes the power from one slave: no frame passes it any more. [`Network::restart`] gives it back; the cables
-    /// on both sides are to be plugged in again then. A position without slave is nothing.
+    /// Plugs or pulls a cable: the one in front of the slave at `number`, or behind the far end. It carries frames
+    /// while both its ends have power.
+    pub fn set_cable(&mut self, number: usize, plugged: bool) {
+        if let Some(cable) = self.cables.get_mut(number) {
+            *cable = plugged;
+            self.connect(number);
+        }
+    }
+
+    /// Takes the power from one slave: no frame passes it until [`Network::restart`] gives it back. A position
+    /// without slave is nothing.
     pub fn power_off(&mut self, position: usize, now: Instant) {
         if let Some(device) = self.devices.get_mut(position) {
             device.power_off(now);
-            self.segment.set_cable(position, false);
-            self.segment.set_cable(position + 1, false);
+            self.connect(position);
+            self.connect(position + 1);
         }
+    }
+
+    fn connect(&mut self, cable: usize) {
+        let has_power = |end: Option<usize>| {
+            end.and_then(|end| self.devices.get(end)).is_none_or(|device| !device.is_off())
+        };
+        let carries = self.cables.get(cable).is_some_and(|&plugged| plugged)
+            && has_power(Some(cable))
+            && has_power(cable.checked_sub(1));
+        self.segment.set_cable(cable, carries);
     }
 
     /// Starts one slave again; a position without slave is nothing.
     pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
+            let was_off = device.is_off();
             device.restart(esc, now, start);
             self.segment.follow_changed_ports();
+            if was_off {
+                self.connect(position);
+                self.connect(position + 1);
+            }
         }
     }
 }

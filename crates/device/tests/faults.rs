@@ -5,10 +5,10 @@
 mod bench;
 
 use bench::{Bench, Digital8, config};
-use device::{DeviceConfig, RefusedInOp, Start};
+use device::{DeviceConfig, Network, RefusedInOp, Start};
 use time::Duration;
 use wire::AlState::{Init, Op, PreOp, SafeOp};
-use wire::{AlState, AlStatusCode};
+use wire::{AlState, AlStatusCode, Command, FrameBuilder, returned_datagrams};
 
 fn unit(bench: &mut Bench) -> &mut Digital8 {
     bench.network.device_mut(0).expect("a unit").unit_mut()
@@ -121,4 +121,28 @@ fn the_unit_hears_why_it_leaves_a_state() {
         [0x1B, 0x12].map(AlStatusCode),
         "an error has to be acknowledged first"
     );
+}
+
+#[test]
+fn a_slave_without_power_closes_the_line_in_front_of_it_and_a_cable_needs_power_at_both_ends() {
+    let count = |bench: &mut Bench| {
+        let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0, 0]).finish();
+        bench.network.frame(bench.now, &mut frame);
+        returned_datagrams(&frame).first().map_or(0, |datagram| datagram.working_counter)
+    };
+    let mut bench = Bench::new();
+    bench.network = Network::power_on((0..3).map(|_| (config(), Digital8::default())), bench.now);
+    assert_eq!(count(&mut bench), 3);
+    bench.network.power_off(1, bench.now);
+    bench.run_for(Duration::from_secs(1));
+    assert_eq!(count(&mut bench), 1);
+    bench.network.set_cable(2, false);
+    bench.network.restart(1, bench.now, Start::PowerOn);
+    assert_eq!(count(&mut bench), 2, "a cable that was pulled meanwhile stays so");
+    bench.network.set_cable(2, true);
+    assert_eq!(count(&mut bench), 3);
+    bench.network.power_off(1, bench.now);
+    bench.network.set_cable(1, false);
+    bench.network.set_cable(1, true);
+    assert_eq!(count(&mut bench), 1, "a cable without power at its end carries nothing");
 }

@@ -32,8 +32,6 @@ pub(crate) struct World {
     master: Master,
     recorded: Recorded,
     now: Instant,
-    /// Cable `n` is in front of the unit at position `n`.
-    cables: Vec<bool>,
     watched: Vec<Watched>,
     recording: Recording,
 }
@@ -49,7 +47,6 @@ struct Watched {
     status: AlStatus,
     code: AlStatusCode,
     recorded: Vec<EventCode>,
-    is_off: bool,
 }
 
 impl World {
@@ -65,8 +62,6 @@ impl World {
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
         let watched = (0..count).map(|_| Watched::default()).collect();
-        let mut cables = vec![true; count];
-        cables.push(false);
         let mut world = Self {
             network,
             cpus,
@@ -75,7 +70,6 @@ impl World {
             master: Master::new(count, scenario.cycle),
             recorded: Recorded::new(scenario.recorded.clone()),
             now,
-            cables,
             watched,
             recording,
         };

@@ -97,7 +97,7 @@ impl World {
     }
 
     fn indicators(&self, at: usize) -> Indicators {
-        if self.watched[at].is_off {
+        if self.device(at).is_off() {
             return Indicators::DARK;
         }
         let (status, code) = self.al_status(at);

@@ -55,12 +55,7 @@ impl World {
         match *order {
             LineOrder::Disturb(disturbance) => self.line.disturb(disturbance),
             LineOrder::Quiet => self.line.quiet(),
-            LineOrder::Cable { number, plugged } => {
-                if let Some(cable) = self.cables.get_mut(number) {
-                    *cable = plugged;
-                    self.connect(number);
-                }
-            }
+            LineOrder::Cable { number, plugged } => self.network.set_cable(number, plugged),
         }
     }
 
@@ -91,23 +86,10 @@ impl World {
 
     fn power_off(&mut self, at: usize) {
         self.network.power_off(at, self.now);
-        self.watched[at].is_off = true;
         self.recording.tell(self.now, &format!("unit {}", at + 1), "is switched off");
     }
 
     fn start(&mut self, at: usize, start: Start) {
-        self.watched[at].is_off = false;
         self.network.restart(at, self.now, start);
-        self.connect(at);
-        self.connect(at + 1);
-    }
-
-    /// A cable carries frames if it is plugged in and both its ends have power.
-    fn connect(&mut self, cable: usize) {
-        let is_on =
-            |at: Option<usize>| at.and_then(|at| self.watched.get(at)).is_none_or(|unit| !unit.is_off);
-        let plugged = self.cables.get(cable).copied().unwrap_or(false);
-        let carries = plugged && is_on(Some(cable)) && is_on(cable.checked_sub(1));
-        self.network.segment_mut().set_cable(cable, carries);
     }
 }
