@@ -3,14 +3,17 @@
 #![cfg(feature = "ethercrab")]
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
+mod patient_master;
+
 use std::net::UdpSocket;
 use std::thread;
 use std::time::Duration;
 
 use ectwin::{AlState, EthercrabPort, Io, Live, Setup, Twin};
+use ethercrab::PduLoop;
 use ethercrab::std::ethercat_now;
-use ethercrab::{MainDevice, MainDeviceConfig, PduLoop, PduStorage, Timeouts};
 use link::{FRAME_BUFFER_BYTES, FramePort};
+use patient_master::FRAME_DATA_BYTES;
 use testbed::{add_veth_pair, in_network_namespace};
 
 const UNIT: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
@@ -20,28 +23,8 @@ const INPUTS_BYTES: usize = 183;
 const STATUS_BYTES: usize = 2;
 const CYCLES: u16 = 300;
 
-/// Process data of one frame; more of it is cut into several.
-const FRAME_DATA_BYTES: usize = 1100;
-
-type Storage = PduStorage<16, { PduStorage::element_size(FRAME_DATA_BYTES) }>;
-
 fn units(count: usize) -> Twin {
     Twin::power_on((0..count).map(|_| Setup::from_toml(UNIT).unwrap()))
-}
-
-/// Patient time-outs: the machine may be busy with other tests.
-fn master(pdu_loop: PduLoop<'static>) -> MainDevice<'static> {
-    let patience = Duration::from_secs(5);
-    let timeouts = Timeouts {
-        pdu: patience,
-        eeprom: patience,
-        state_transition: patience,
-        mailbox_echo: patience,
-        mailbox_response: patience,
-        ..Timeouts::default()
-    };
-    let config = MainDeviceConfig { dc_static_sync_iterations: 10, ..MainDeviceConfig::default() };
-    MainDevice::new(pdu_loop, timeouts, config)
 }
 
 /// What the LRWs of one cycle count: the logical memory has all inputs, then all outputs. A unit whose data lies
@@ -60,7 +43,7 @@ fn working_counter(units: usize) -> u16 {
 
 /// Takes `units` to OP, gives each a pattern of its own in each cycle, and expects the newest ones back.
 async fn exchange(pdu_loop: PduLoop<'static>, units: u16) {
-    let master = master(pdu_loop);
+    let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<16, 4096>(ethercat_now).await.unwrap();
     assert_eq!(group.len(), usize::from(units));
     let group = group.into_op(&master).await.unwrap();
@@ -98,8 +81,7 @@ async fn exchange(pdu_loop: PduLoop<'static>, units: u16) {
 
 #[tokio::test]
 async fn eight_units_in_memory() {
-    static STORAGE: Storage = PduStorage::new();
-    let (tx, rx, pdu_loop) = STORAGE.try_split().unwrap();
+    let (tx, rx, pdu_loop) = patient_master::frames();
     let live = units(8).serve_ethercrab(tx, rx).unwrap();
     exchange(pdu_loop, 8).await;
     assert!((0..8).all(|position| live.look(position, |unit| unit.state()) == AlState::SafeOp));
@@ -108,14 +90,13 @@ async fn eight_units_in_memory() {
 
 #[tokio::test]
 async fn a_test_sets_inputs_and_sees_outputs_at_the_units_side() {
-    static STORAGE: Storage = PduStorage::new();
-    let (tx, rx, pdu_loop) = STORAGE.try_split().unwrap();
+    let (tx, rx, pdu_loop) = patient_master::frames();
     // No copy program: the inputs are what the test sets.
     let setup = Setup::from_toml(UNIT).unwrap().program(|_: &mut Io| {}).fast();
     let live = Twin::power_on([setup]).serve_ethercrab(tx, rx).unwrap();
     live.look(0, |unit| unit.io_mut().set_uints(1, [0x1234; 15]));
 
-    let master = master(pdu_loop);
+    let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<2, 512>(ethercat_now).await.unwrap();
     assert_eq!(live.look(0, |unit| unit.state()), AlState::PreOp);
     let group = group.into_op(&master).await.unwrap();
@@ -155,8 +136,7 @@ fn carry_over_udp(mut port: EthercrabPort<'_>, socket: &UdpSocket) {
 
 #[tokio::test]
 async fn a_unit_over_udp() {
-    static STORAGE: Storage = PduStorage::new();
-    let (tx, rx, pdu_loop) = STORAGE.try_split().unwrap();
+    let (tx, rx, pdu_loop) = patient_master::frames();
     let address = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let live = units(1).serve(link::open(&link::LinkSpec::Udp(address)).unwrap()).unwrap();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -169,9 +149,8 @@ async fn a_unit_over_udp() {
 #[test]
 fn two_units_over_a_raw_link() {
     in_network_namespace("two_units_over_a_raw_link", || {
-        static STORAGE: Storage = PduStorage::new();
         add_veth_pair("veth0", "veth1");
-        let (tx, rx, pdu_loop) = STORAGE.try_split().unwrap();
+        let (tx, rx, pdu_loop) = patient_master::frames();
         let live = units(2).serve(link::open(&"raw:veth1".parse().unwrap()).unwrap()).unwrap();
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(async {

@@ -3,6 +3,8 @@
 #![cfg(feature = "ethercrab")]
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
+#[path = "../patient_master/mod.rs"]
+mod patient_master;
 mod stage;
 
 use ectwin::{AlState, EventCode, Fault};

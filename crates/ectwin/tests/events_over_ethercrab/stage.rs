@@ -7,7 +7,9 @@ use std::time::Duration;
 use ectwin::{EventCode, Io, Live, Setup, Twin};
 use ethercrab::std::ethercat_now;
 use ethercrab::subdevice_group::{Op, PreOp};
-use ethercrab::{Command, DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, Timeouts};
+use ethercrab::{Command, DefaultLock, MainDevice, SubDeviceGroup};
+
+use crate::patient_master;
 
 const AL_STATUS: u16 = 0x0130;
 const AL_STATUS_CODE: u16 = 0x0134;
@@ -22,7 +24,6 @@ const PATIENCE_TICKS: usize = 1000;
 /// Ticks of 1 ms in which what must not happen would have happened.
 const STILL_TICKS: usize = 50;
 
-type Storage = PduStorage<16, { PduStorage::element_size(1100) }>;
 pub(crate) type Group<S> = SubDeviceGroup<2, 512, DefaultLock, S>;
 
 /// An emergency message: its error code, error register and event.
@@ -48,22 +49,10 @@ pub(crate) struct Stage {
 impl Stage {
     /// A unit at its factory setting, whose CPU Unit runs no program.
     pub(crate) fn power_on() -> Self {
-        // A master keeps its frames for as long as the process runs.
-        let storage: &'static Storage = Box::leak(Box::new(Storage::new()));
-        let (frames_tx, frames_rx, pdu_loop) = storage.try_split().unwrap();
+        let (frames_tx, frames_rx, pdu_loop) = patient_master::frames();
         let setup = Setup::from_toml("model = \"nx-ect101\"").unwrap().program(|_: &mut Io| {});
         let live = Twin::power_on([setup]).serve_ethercrab(frames_tx, frames_rx).unwrap();
-        let patience = Duration::from_secs(5);
-        let timeouts = Timeouts {
-            pdu: patience,
-            eeprom: patience,
-            state_transition: patience,
-            mailbox_echo: patience,
-            mailbox_response: patience,
-            ..Timeouts::default()
-        };
-        let config = MainDeviceConfig { dc_static_sync_iterations: 0, ..MainDeviceConfig::default() };
-        let master = MainDevice::new(pdu_loop, timeouts, config);
+        let master = patient_master::master(pdu_loop, 0);
         Self { master, live, inputs: RefCell::default(), cycles: Cell::default() }
     }
 

@@ -5,7 +5,9 @@ use std::time::Duration;
 use ectwin::{Io, Live, Setup, Twin};
 use ethercrab::std::ethercat_now;
 use ethercrab::subdevice_group::{Op, PreOp};
-use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduStorage, SubDeviceGroup, Timeouts};
+use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup};
+
+use crate::patient_master;
 
 /// 0x1A00 in front of the data sets.
 const STATUS_BYTES: usize = 2;
@@ -18,7 +20,6 @@ const PATIENCE_CYCLES: usize = 1000;
 /// Cycles of 1 ms in which what must not happen would have happened: an I/O response takes some 10.
 const STILL_CYCLES: usize = 100;
 
-type Storage = PduStorage<16, { PduStorage::element_size(1100) }>;
 pub(crate) type Group<S> = SubDeviceGroup<2, 4096, DefaultLock, S>;
 
 /// An object that a master writes whole: 0 to subindex 0, the elements, their number.
@@ -100,22 +101,10 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(crate) fn power_on(unit: &str) -> Self {
-        // A master keeps its frames for as long as the process runs.
-        let storage: &'static Storage = Box::leak(Box::new(Storage::new()));
-        let (frames_tx, frames_rx, pdu_loop) = storage.try_split().unwrap();
+        let (frames_tx, frames_rx, pdu_loop) = patient_master::frames();
         let setup = Setup::from_toml(unit).unwrap().program(|_: &mut Io| {}).fast();
         let live = Twin::power_on([setup]).serve_ethercrab(frames_tx, frames_rx).unwrap();
-        let patience = Duration::from_secs(5);
-        let timeouts = Timeouts {
-            pdu: patience,
-            eeprom: patience,
-            state_transition: patience,
-            mailbox_echo: patience,
-            mailbox_response: patience,
-            ..Timeouts::default()
-        };
-        let config = MainDeviceConfig { dc_static_sync_iterations: 10, ..MainDeviceConfig::default() };
-        Self { master: MainDevice::new(pdu_loop, timeouts, config), live }
+        Self { master: patient_master::master(pdu_loop, 10), live }
     }
 
     /// Takes the unit to PRE-OP by INIT, which acknowledges an error, and writes the settings.

@@ -7,6 +7,8 @@
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
 mod bench;
+#[path = "../patient_master/mod.rs"]
+mod patient_master;
 
 use ectwin::AlState;
 use ethercrab::error::{CoeAbortCode, Error, MailboxError};

@@ -1,0 +1,31 @@
+//! The ethercrab master of these tests: patient, because the machine may be busy with other tests.
+
+use std::time::Duration;
+
+use ethercrab::{MainDevice, MainDeviceConfig, PduLoop, PduRx, PduStorage, PduTx, Timeouts};
+
+/// Process data of one frame; more of it is cut into several.
+pub(crate) const FRAME_DATA_BYTES: usize = 1100;
+
+type Storage = PduStorage<16, { PduStorage::element_size(FRAME_DATA_BYTES) }>;
+
+/// The ends of a master's frames, which it keeps for as long as the process runs.
+pub(crate) fn frames() -> (PduTx<'static>, PduRx<'static>, PduLoop<'static>) {
+    let storage: &'static Storage = Box::leak(Box::new(Storage::new()));
+    storage.try_split().unwrap()
+}
+
+/// A master on these frames that reads the clocks of the units so often when it starts.
+pub(crate) fn master(pdu_loop: PduLoop<'static>, dc_static_sync_iterations: u32) -> MainDevice<'static> {
+    let patience = Duration::from_secs(5);
+    let timeouts = Timeouts {
+        pdu: patience,
+        eeprom: patience,
+        state_transition: patience,
+        mailbox_echo: patience,
+        mailbox_response: patience,
+        ..Timeouts::default()
+    };
+    let config = MainDeviceConfig { dc_static_sync_iterations, ..MainDeviceConfig::default() };
+    MainDevice::new(pdu_loop, timeouts, config)
+}
