@@ -125,11 +125,9 @@ impl ObjectRow {
 
 impl EntryRow {
     fn entries(&self, index: u16) -> impl Iterator<Item = NxEntry> + '_ {
-        let subs = match (self.sub, self.from, self.to) {
-            (Some(sub), None, None) => sub..=sub,
-            (None, Some(from), Some(to)) if from < to => from..=to,
-            _ => panic!("tables/nx_objects.toml: {index:04X}: an entry has sub, or from and to"),
-        };
+        let subs = tables::subs([self.sub, self.from, self.to]).unwrap_or_else(|| {
+            panic!("tables/nx_objects.toml: {index:04X}: an entry has sub, or from and to")
+        });
         (1..).zip(subs).map(|(place, sub)| NxEntry {
             sub: SubIndex(sub),
             name: expand(&self.name, place),

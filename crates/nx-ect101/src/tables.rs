@@ -131,11 +131,8 @@ impl ObjectRow {
 
 impl EntryRow {
     fn entries(&self, index: ObjectIndex) -> impl Iterator<Item = Entry> + '_ {
-        let subs = match (self.sub, self.from, self.to) {
-            (Some(sub), None, None) => sub..=sub,
-            (None, Some(from), Some(to)) if from < to => from..=to,
-            _ => panic!("tables/coe_objects.toml: {index}: an entry has sub, or from and to"),
-        };
+        let subs = subs([self.sub, self.from, self.to])
+            .unwrap_or_else(|| panic!("tables/coe_objects.toml: {index}: an entry has sub, or from and to"));
         let from = *subs.start();
         subs.map(move |sub| self.entry(index, sub, sub - from + 1))
     }
@@ -205,6 +202,15 @@ impl PdoRow {
             Self::Rx => AccessRights::RX_PDO,
             Self::Tx => AccessRights::TX_PDO,
         }
+    }
+}
+
+/// The subindexes of a row: `sub`, or `from` and `to`; none if it has neither or both.
+pub(crate) fn subs([sub, from, to]: [Option<u8>; 3]) -> Option<RangeInclusive<u8>> {
+    match (sub, from, to) {
+        (Some(sub), None, None) => Some(sub..=sub),
+        (None, Some(from), Some(to)) if from < to => Some(from..=to),
+        _ => None,
     }
 }
 

@@ -67,3 +67,24 @@ fn an_answer_that_does_not_come_back_is_a_difference() {
     let failure = scenario.replay(1, Recording::new(false, false)).failure.expect("lost frames");
     assert!(failure.seen.contains("frame 1: no answer comes back; frame 2: no answer"), "{failure}");
 }
+
+#[test]
+fn an_answer_belongs_to_the_newest_frame_of_its_kind() {
+    use capture::{Direction, PcapngWriter};
+    use wire::{Command, FrameBuilder};
+    // Both frames look alike; the first one was lost.
+    let frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
+    let mut writer = PcapngWriter::new(Vec::new(), "x").expect("a capture");
+    for (at_nanos, direction) in
+        [(0, Direction::Inbound), (1000, Direction::Inbound), (2000, Direction::Outbound)]
+    {
+        writer.packet(at_nanos, direction, &frame, None).expect("a packet");
+    }
+    let capture = writer.finish().expect("a capture");
+    let frames = RecordedFrames::read(&capture).expect("a capture");
+    assert_eq!((frames.len(), frames.answers()), (2, 1));
+    // The unit answers both; only the second has an answer to be compared with, whose working counter is 0.
+    let failure =
+        replayed("model = \"nx-ect101\"", "every answer is as captured", &capture).expect("a difference");
+    assert!(failure.contains("1 answers differ; frame 2, datagram 1"), "{failure}");
+}

@@ -26,18 +26,19 @@ impl UnitFileError {
         let Problem { message, expected, nearest } = problem;
         Self { span, line, column, message, expected, nearest }
     }
+
+    /// What it prints without the place, for a unit file that stands in another file.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let expected = if self.expected.is_empty() { "" } else { ", expected " };
+        let nearest = self.nearest.as_ref().map(|name| format!("; did you mean `{name}`?"));
+        format!("{}{expected}{}{}", self.message, self.expected, nearest.unwrap_or_default())
+    }
 }
 
 impl fmt::Display for UnitFileError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}:{}: {}", self.line, self.column, self.message)?;
-        if !self.expected.is_empty() {
-            write!(formatter, ", expected {}", self.expected)?;
-        }
-        match &self.nearest {
-            Some(name) => write!(formatter, "; did you mean `{name}`?"),
-            None => Ok(()),
-        }
+        write!(formatter, "{}:{}: {}", self.line, self.column, self.words())
     }
 }
 

@@ -112,7 +112,7 @@ impl Reader<'_> {
         let mut units: Vec<_> =
             file.units.into_iter().filter_map(|entry| self.unit(entry, &mut unit_file)).collect();
         if units.is_empty() && self.errors.is_empty() {
-            units.extend(self.unit_text(DEFAULT_UNIT, 0..0, "the default unit"));
+            units.extend(self.unit_text(DEFAULT_UNIT, 0..0, None));
         }
         self.names = units.iter().map(|unit| unit.file.name.value.clone()).collect();
         let count = units.len();
@@ -255,7 +255,7 @@ impl Reader<'_> {
         let span = entry.span();
         match entry.into_inner() {
             UnitEntry::Path(path) => match unit_file(&path) {
-                Ok(text) => self.unit_text(&text, span, &path),
+                Ok(text) => self.unit_text(&text, span, Some(&path)),
                 Err(reason) => {
                     self.refuse(span, format!("the unit file {path} cannot be read: {reason}"), "");
                     None
@@ -263,32 +263,33 @@ impl Reader<'_> {
             },
             UnitEntry::Table(table) => {
                 let text = toml::to_string(&table).unwrap_or_default();
-                self.unit_text(&text, span, "the unit")
+                self.unit_text(&text, span, None)
             }
         }
     }
 
-    fn unit_text(&mut self, text: &str, span: Range<usize>, name: &str) -> Option<UnitSource> {
+    fn unit_text(&mut self, text: &str, span: Range<usize>, path: Option<&str>) -> Option<UnitSource> {
         let file = match UnitFile::parse(text) {
             Ok(file) => file,
             Err(errors) => {
                 for error in errors.iter() {
-                    self.refuse(span.clone(), format!("{name}: {error}"), "");
+                    // A unit that stands in the scenario has no text of its own to point into.
+                    let message = match path {
+                        Some(path) => format!("{path}:{error}"),
+                        None => format!("the unit: {}", error.words()),
+                    };
+                    self.refuse(span.clone(), message, "");
                 }
                 return None;
             }
         };
         let program = match &file.cpu.program {
             None => UserProgram::None,
-            Some(path) => match Builtin::named(&path.value.display().to_string()) {
+            Some(program) => match Builtin::named(&program.value.display().to_string()) {
                 Some(builtin) => UserProgram::Builtin(builtin),
                 None => {
                     let help = format!("{}, or none at all", Builtin::ALL.map(Builtin::name).join(", "));
-                    self.refuse(
-                        span,
-                        format!("{name}: the program {} is not known", path.value.display()),
-                        help,
-                    );
+                    self.refuse(span, format!("the program {} is not known", program.value.display()), help);
                     return None;
                 }
             },
