@@ -243,7 +243,8 @@ fn a_kill_at_any_moment_leaves_a_whole_state() {
     let mut seed = 1;
     let mut states = std::collections::BTreeSet::new();
     for kill in 0..KILLS {
-        let (frames, spins) = (1 + random(&mut seed) % 400, random(&mut seed) % 3_000_000);
+        // Frames enough that the disk has stored some, also on a machine that does other things too.
+        let (frames, spins) = (1 + random(&mut seed) % 4_000, random(&mut seed) % 3_000_000);
         kill_a_writer(&folder, frames, spins);
         let mut twin = start(&folder);
         assert_eq!(al_status(&mut twin), (0x01, 0x0000), "after kill {kill}");
@@ -258,8 +259,7 @@ fn a_kill_at_any_moment_leaves_a_whole_state() {
         let whole = second == !generation || second == !generation.wrapping_sub(1);
         assert!(erased || whole || generation == 0, "after kill {kill}: {generation:#06X}, {second:#06X}");
     }
-    // How many they are depends on the machine; that they are many makes the kills worth something.
-    assert!(states.len() > KILLS as usize / 10, "only {} different moments", states.len());
+    assert!(states.len() > KILLS as usize / 4, "only {} different moments", states.len());
     let names = fs::read_dir(&folder).expect("readable").map(|entry| entry.expect("readable").file_name());
     assert!(names.map(|name| name.to_string_lossy().into_owned()).all(|name| !name.contains("damaged")));
 }
