@@ -1,0 +1,139 @@
+//! The elementary types of IEC 61131-3 that the language knows, as one table.
+
+use core::fmt;
+
+/// An elementary type. IEC 61131-3, table 10. STRING is no elementary type here: it has a length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Elementary {
+    /// One bit.
+    Bool,
+    /// Bit string of 8 bits.
+    Byte,
+    /// Bit string of 16 bits.
+    Word,
+    /// Bit string of 32 bits.
+    Dword,
+    /// Bit string of 64 bits.
+    Lword,
+    /// Signed integer of 8 bits.
+    Sint,
+    /// Signed integer of 16 bits.
+    Int,
+    /// Signed integer of 32 bits.
+    Dint,
+    /// Signed integer of 64 bits.
+    Lint,
+    /// Unsigned integer of 8 bits.
+    Usint,
+    /// Unsigned integer of 16 bits.
+    Uint,
+    /// Unsigned integer of 32 bits.
+    Udint,
+    /// Unsigned integer of 64 bits.
+    Ulint,
+    /// Floating point number of 32 bits.
+    Real,
+    /// Floating point number of 64 bits.
+    Lreal,
+    /// Duration, signed, 64 bits, in nanoseconds.
+    Time,
+}
+
+/// What can be done with a type: the generic types of IEC 61131-3, 6.4.3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// BOOL.
+    Bool,
+    /// BYTE to LWORD.
+    BitString,
+    /// SINT to LINT.
+    Signed,
+    /// USINT to ULINT.
+    Unsigned,
+    /// REAL and LREAL.
+    Real,
+    /// TIME.
+    Time,
+}
+
+struct Row {
+    elementary: Elementary,
+    name: &'static str,
+    class: Class,
+    bits: u32,
+}
+
+const fn row(elementary: Elementary, name: &'static str, class: Class, bits: u32) -> Row {
+    Row { elementary, name, class, bits }
+}
+
+/// In the order of the variants.
+const ROWS: [Row; 16] = [
+    row(Elementary::Bool, "BOOL", Class::Bool, 1),
+    row(Elementary::Byte, "BYTE", Class::BitString, 8),
+    row(Elementary::Word, "WORD", Class::BitString, 16),
+    row(Elementary::Dword, "DWORD", Class::BitString, 32),
+    row(Elementary::Lword, "LWORD", Class::BitString, 64),
+    row(Elementary::Sint, "SINT", Class::Signed, 8),
+    row(Elementary::Int, "INT", Class::Signed, 16),
+    row(Elementary::Dint, "DINT", Class::Signed, 32),
+    row(Elementary::Lint, "LINT", Class::Signed, 64),
+    row(Elementary::Usint, "USINT", Class::Unsigned, 8),
+    row(Elementary::Uint, "UINT", Class::Unsigned, 16),
+    row(Elementary::Udint, "UDINT", Class::Unsigned, 32),
+    row(Elementary::Ulint, "ULINT", Class::Unsigned, 64),
+    row(Elementary::Real, "REAL", Class::Real, 32),
+    row(Elementary::Lreal, "LREAL", Class::Real, 64),
+    row(Elementary::Time, "TIME", Class::Time, 64),
+];
+
+impl Elementary {
+    /// All of them.
+    pub const ALL: [Self; 16] = {
+        let mut all = [Self::Bool; 16];
+        let mut place = 0;
+        while place < all.len() {
+            all[place] = ROWS[place].elementary;
+            // The rows stand in the order of the variants.
+            assert!(all[place] as usize == place);
+            place += 1;
+        }
+        all
+    };
+
+    /// Its name, in capitals.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        ROWS[self as usize].name
+    }
+
+    /// The type of this name, in whatever case.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|elementary| elementary.name().eq_ignore_ascii_case(name))
+    }
+
+    /// What can be done with it.
+    #[must_use]
+    pub const fn class(self) -> Class {
+        ROWS[self as usize].class
+    }
+
+    /// How many bits it has: 1, 8, 16, 32 or 64.
+    #[must_use]
+    pub const fn bits(self) -> u32 {
+        ROWS[self as usize].bits
+    }
+
+    /// How many bytes it takes on a wire; a BOOL takes one.
+    #[must_use]
+    pub const fn size_bytes(self) -> usize {
+        self.bits().div_ceil(8) as usize
+    }
+}
+
+impl fmt::Display for Elementary {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(self.name())
+    }
+}

@@ -1,0 +1,3 @@
+//! From text to what it says: tokens, and the tree of a file.
+
+pub(crate) mod ast;
