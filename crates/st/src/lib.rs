@@ -1,10 +1,22 @@
 //! Structured Text (IEC 61131-3): read, checked, and run with a statement budget.
 
+mod code;
+mod convert;
 mod elementary;
+mod fault;
+mod host;
+mod library;
+mod machine;
+mod memory;
+mod operators;
 mod problem;
 mod syntax;
+mod types;
+mod value;
 
 pub use elementary::{Class, Elementary};
+pub use fault::Fault;
+pub use host::{Alarm, Host, NX_OBJECT_BYTES_MAX, NoHost, NxCallNumber, NxFault};
 pub use problem::{Problem, Problems, Span};
 
 /// The longest source in bytes.

@@ -1,0 +1,61 @@
+//! What ends a scan before its end.
+
+use core::fmt;
+
+/// What went wrong while a program ran. The scan ends there; what it wrote before stays written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// An integer divided by zero, or MOD zero.
+    DivisionByZero,
+    /// An index outside the bounds of its array.
+    IndexOutOfBounds {
+        /// The index.
+        index: i64,
+        /// The first index of the array.
+        lower: i64,
+        /// The last.
+        upper: i64,
+    },
+    /// A library function was asked for more elements than there are.
+    TooManyElements {
+        /// How many it was asked for.
+        asked: u64,
+        /// How many there are from the given one on.
+        available: u64,
+    },
+    /// A bit, a position or a number that the library function does not take.
+    ArgumentOutOfRange {
+        /// The argument.
+        value: i64,
+        /// The least that is taken.
+        lower: i64,
+        /// The most.
+        upper: i64,
+    },
+    /// A text that is no value of the type.
+    NotConvertible,
+    /// FOR with a step of zero would never end.
+    StepOfZero,
+    /// The statement budget of the task is used up: a loop that does not end, or too much work for one task period.
+    BudgetUsedUp,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::DivisionByZero => formatter.write_str("division by zero"),
+            Self::IndexOutOfBounds { index, lower, upper } => {
+                write!(formatter, "index {index} lies outside {lower}..{upper}")
+            }
+            Self::TooManyElements { asked, available } => {
+                write!(formatter, "{asked} elements were asked for, and {available} are there")
+            }
+            Self::ArgumentOutOfRange { value, lower, upper } => {
+                write!(formatter, "{value} lies outside {lower} to {upper}")
+            }
+            Self::NotConvertible => formatter.write_str("the text is no value of this type"),
+            Self::StepOfZero => formatter.write_str("the step of FOR is zero"),
+            Self::BudgetUsedUp => formatter.write_str("the statement budget of the task is used up"),
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What a program asks of the world around it.
+
+use core::task::Poll;
+
+/// A call of NX_ReadObj or NX_WriteObj that is under way: a number that its host gave.
+pub type NxCallNumber = u64;
+
+/// Most bytes of an NX object.
+pub const NX_OBJECT_BYTES_MAX: usize = 200;
+
+/// What answers the calls of a program. Nothing waits: what takes longer is asked for again in a later scan.
+pub trait Host {
+    /// Begins to read the NX object `index`:`sub` of the unit with this NX Unit number.
+    ///
+    /// # Errors
+    /// Error ID and extended error ID of NX_ReadObj.
+    fn nx_read(&mut self, unit: u16, index: u16, sub: u8) -> Result<NxCallNumber, NxFault>;
+
+    /// Begins to write it; `value` is little endian.
+    ///
+    /// # Errors
+    /// Error ID and extended error ID of NX_WriteObj.
+    fn nx_write(&mut self, unit: u16, index: u16, sub: u8, value: &[u8]) -> Result<NxCallNumber, NxFault>;
+
+    /// What became of a call: how many bytes were read into `value`, none after a write. Pending until it has come,
+    /// then told once.
+    fn nx_result(
+        &mut self,
+        call: NxCallNumber,
+        value: &mut [u8; NX_OBJECT_BYTES_MAX],
+    ) -> Poll<Result<usize, NxFault>>;
+
+    /// SetAlarm: a user-defined error with its code and attached information.
+    fn set_alarm(&mut self, alarm: Alarm);
+
+    /// ResetAlarm: the user-defined errors are reset.
+    fn reset_alarm(&mut self);
+}
+
+/// Why an NX object was not read or written, by the numbers that the instruction's pins tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NxFault {
+    /// ErrorID.
+    pub error_id: u16,
+    /// ErrorIDEx.
+    pub error_id_ex: u32,
+}
+
+/// A user-defined error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Alarm {
+    /// Event code, 1 to 60000.
+    pub code: u16,
+    /// Attached information 1: a value of an elementary type, as 64 bits.
+    pub info_1: u64,
+    /// Attached information 2.
+    pub info_2: u64,
+}
+
+/// A host for programs that ask for nothing: it refuses NX objects and drops alarms.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct NoHost;
+
+impl Host for NoHost {
+    fn nx_read(&mut self, _: u16, _: u16, _: u8) -> Result<NxCallNumber, NxFault> {
+        Err(NxFault { error_id: 0x2C00, error_id_ex: 0 })
+    }
+
+    fn nx_write(&mut self, _: u16, _: u16, _: u8, _: &[u8]) -> Result<NxCallNumber, NxFault> {
+        Err(NxFault { error_id: 0x2C00, error_id_ex: 0 })
+    }
+
+    fn nx_result(
+        &mut self,
+        _: NxCallNumber,
+        _: &mut [u8; NX_OBJECT_BYTES_MAX],
+    ) -> Poll<Result<usize, NxFault>> {
+        Poll::Pending
+    }
+
+    fn set_alarm(&mut self, _: Alarm) {}
+
+    fn reset_alarm(&mut self) {}
+}

@@ -1,0 +1,115 @@
+//! The functions of the library: one table, which the checker, the machine and the documents read.
+
+mod conversions;
+mod table;
+
+use core::fmt;
+
+use crate::code::Slot;
+use crate::elementary::{Class, Elementary};
+use crate::fault::Fault;
+use crate::machine::Machine;
+
+pub(crate) use conversions::{Conversion, FROM_TEXT, Of, TO_TEXT};
+
+/// A function of the library.
+pub(crate) struct Function {
+    /// Its name, as the standard or the maker prints it.
+    pub(crate) name: &'static str,
+    /// Its inputs and in-outs, in the order of a call without names.
+    pub(crate) pins: &'static [Pin],
+    /// Whether more values may follow, of the type of the last pin: `MAX(a, b, c)`.
+    pub(crate) variadic: bool,
+    pub(crate) result: ResultType,
+    /// What it does, in a line of the documents.
+    pub(crate) does: &'static str,
+    pub(crate) run: fn(&mut Call<'_, '_>) -> Result<u64, Fault>,
+}
+
+/// A pin of a function.
+pub(crate) struct Pin {
+    pub(crate) name: &'static str,
+    /// Another name of it: the standard and the maker do not always agree. Empty: none.
+    pub(crate) alias: &'static str,
+    pub(crate) takes: Takes,
+    /// What it is when a call leaves it out; none: it must not be left out.
+    pub(crate) default: Option<u64>,
+}
+
+/// What a pin takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Takes {
+    /// A value of a type of these classes: one type for all such pins of a call, the common one of their arguments.
+    Generic(&'static [Class]),
+    /// The same, and a STRING too: then all of them are.
+    GenericOrText(&'static [Class]),
+    /// A value of a type of these classes, whatever the other pins have; it is given as it is.
+    Any(&'static [Class]),
+    /// A value of this type.
+    Fixed(Elementary),
+    /// A STRING; the argument is the slot where it begins.
+    Text,
+    /// A variable of a type of these classes, exactly the type of the generic pins; read and written. The argument is
+    /// its slot.
+    Variable(&'static [Class]),
+    /// An element of an array, or a variable, of whatever type, and those behind it: three arguments, the slot, how
+    /// many elements there are from it on, the slots of an element. All such pins of a call have one type.
+    Elements { written: bool },
+    /// A reference of the type ANY: two arguments, the slot and the number of its layout. For blocks of the library.
+    Reference,
+}
+
+/// The type of a function's result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ResultType {
+    None,
+    /// The type of the generic pins.
+    Generic,
+    Fixed(Elementary),
+    /// A STRING as long as the longest of its STRINGs.
+    Text,
+    /// A STRING as long as all of them together.
+    TextOfAll,
+    /// A STRING of so many characters.
+    TextOf(u16),
+}
+
+/// A row of the table, to be copied about.
+#[derive(Clone, Copy)]
+pub(crate) struct Native(pub(crate) &'static Function);
+
+impl fmt::Debug for Native {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.0.name)
+    }
+}
+
+/// A call of a function while a program runs.
+pub(crate) struct Call<'c, 'm> {
+    pub(crate) machine: &'c mut Machine<'m>,
+    /// What the pins got, in their order; see [`Takes`].
+    pub(crate) arguments: &'c [u64],
+    /// The type of the generic pins.
+    pub(crate) elementary: Elementary,
+    /// Where a STRING result goes, and the most characters that fit there.
+    pub(crate) text: (Slot, u16),
+}
+
+impl Call<'_, '_> {
+    /// Gives a STRING back.
+    pub(crate) fn give_text(&mut self, text: &[u8]) -> u64 {
+        let (slot, capacity) = self.text;
+        self.machine.memory.put_text(slot, capacity, text);
+        slot.into()
+    }
+}
+
+/// The function of this name, in whatever case.
+pub(crate) fn function(name: &str) -> Option<Native> {
+    table::all().find(|function| function.name.eq_ignore_ascii_case(name)).map(Native)
+}
+
+/// All functions that a program may name, in the order of the table.
+pub(crate) fn functions() -> impl Iterator<Item = &'static Function> {
+    table::all().filter(|function| !function.name.starts_with('_'))
+}

@@ -1,0 +1,345 @@
+//! Runs the code of a program on its memory.
+
+mod places;
+
+use arrayvec::ArrayVec;
+
+use crate::code::*;
+use crate::convert::convert;
+use crate::elementary::Elementary;
+use crate::fault::Fault;
+use crate::host::Host;
+use crate::library::Call;
+use crate::memory::Memory;
+use crate::operators::{Binary, binary, compare, unary};
+use crate::problem::Span;
+use crate::value::{integer, wrap};
+
+/// Most arguments of a call in slots.
+pub(crate) const ARGUMENTS_MAX: usize = 64;
+
+/// How many slots a statement copies for one of the budget.
+const SLOTS_FOR_ONE: u32 = 16;
+
+/// A program while it scans.
+pub(crate) struct Machine<'m> {
+    pub(crate) memory: &'m mut Memory,
+    pub(crate) initial: &'m [u64],
+    pub(crate) units: &'m [Unit],
+    pub(crate) layouts: &'m [Layout],
+    pub(crate) host: &'m mut dyn Host,
+    /// The present moment in nanoseconds, the same in the whole scan.
+    pub(crate) now_ns: u64,
+    /// How many statements may still run.
+    pub(crate) budget: u64,
+    /// Where the function block instance begins whose body runs.
+    pub(crate) instance: Slot,
+    /// The statement or index that runs, to tell where a fault was.
+    pub(crate) at: Span,
+}
+
+/// A variable behind a reference of the type ANY, as it lies on a wire: elementary values one after the other.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// Offset in slots, and type.
+    pub(crate) values: Vec<(u32, Elementary)>,
+}
+
+/// How a statement ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Flow {
+    Next,
+    Exit,
+    Continue,
+    Return,
+}
+
+impl Machine<'_> {
+    /// Runs the body of a program organization unit on the instance that is set.
+    pub(crate) fn run(&mut self, unit: u32) -> Result<(), Fault> {
+        self.freshen(unit);
+        let units = self.units;
+        self.body(&units[unit as usize].body).map(|_| ())
+    }
+
+    /// Gives the variables their initial values that have them at each call.
+    fn freshen(&mut self, unit: u32) {
+        for range in &self.units[unit as usize].fresh {
+            let initial = &self.initial[range.start as usize..range.end as usize];
+            self.memory.slice_mut(range.start, range.end - range.start).copy_from_slice(initial);
+        }
+    }
+
+    /// Uses up some of the budget.
+    pub(crate) fn spend(&mut self, statements: u64) -> Result<(), Fault> {
+        match self.budget.checked_sub(statements) {
+            Some(left) => {
+                self.budget = left;
+                Ok(())
+            }
+            None => {
+                self.budget = 0;
+                Err(Fault::BudgetUsedUp)
+            }
+        }
+    }
+
+    fn body(&mut self, body: &[Statement]) -> Result<Flow, Fault> {
+        for statement in body {
+            self.at = statement.span;
+            self.spend(1)?;
+            match self.statement(&statement.kind)? {
+                Flow::Next => {}
+                other => return Ok(other),
+            }
+        }
+        Ok(Flow::Next)
+    }
+
+    fn statement(&mut self, statement: &StatementKind) -> Result<Flow, Fault> {
+        match statement {
+            StatementKind::Assign(assign) => self.assign(assign)?,
+            StatementKind::Evaluate(code) => {
+                self.value(code)?;
+            }
+            StatementKind::CallBlock(call) => self.call_block(call)?,
+            StatementKind::If { branches, otherwise } => return self.choose(branches, otherwise),
+            StatementKind::Case { selector, arms, otherwise } => return self.case(selector, arms, otherwise),
+            StatementKind::For(ring) => return self.count(ring),
+            StatementKind::While { condition, body } => return self.repeat_while(condition, body),
+            StatementKind::Repeat { body, until } => return self.repeat_until(body, until),
+            StatementKind::Exit => return Ok(Flow::Exit),
+            StatementKind::Continue => return Ok(Flow::Continue),
+            StatementKind::Return => return Ok(Flow::Return),
+        }
+        Ok(Flow::Next)
+    }
+
+    fn assign(&mut self, assign: &Assign) -> Result<(), Fault> {
+        let value = self.value(&assign.value)?;
+        let to = self.slot(&assign.to)?;
+        self.put(to, value, assign.put)
+    }
+
+    fn put(&mut self, to: Slot, value: u64, put: Put) -> Result<(), Fault> {
+        match put {
+            Put::Value => self.memory.set(to, value),
+            Put::Slots(slots) => {
+                self.spend((slots / SLOTS_FOR_ONE).into())?;
+                self.memory.copy(slot_of(value), to, slots);
+            }
+            Put::Text(capacity) => self.put_text(to, slot_of(value), capacity)?,
+            Put::Any { layout } => {
+                self.memory.set(to, value);
+                self.memory.set(to + 1, layout.into());
+            }
+        }
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn put_text(&mut self, to: Slot, from: Slot, capacity: u16) -> Result<(), Fault> {
+        let text = self.memory.text(from);
+        self.spend(text.len() as u64 / 128)?;
+        self.memory.put_text(to, capacity, &text);
+        Ok(())
+    }
+
+    fn choose(
+        &mut self,
+        branches: &[(Code, Vec<Statement>)],
+        otherwise: &[Statement],
+    ) -> Result<Flow, Fault> {
+        for (condition, body) in branches {
+            if self.value(condition)? != 0 {
+                return self.body(body);
+            }
+        }
+        self.body(otherwise)
+    }
+
+    fn case(&mut self, selector: &Case, arms: &[CaseArm], otherwise: &[Statement]) -> Result<Flow, Fault> {
+        let value = integer(selector.elementary, self.value(&selector.value)?);
+        let chosen =
+            arms.iter().find(|arm| arm.labels.iter().any(|(from, to)| (from..=to).contains(&&value)));
+        self.body(chosen.map_or(otherwise, |arm| &arm.body))
+    }
+
+    /// FOR: the limit and the step are evaluated once; the variable is beyond the limit when it is over. Where the
+    /// variable's type ends, the loop ends too.
+    fn count(&mut self, ring: &For) -> Result<Flow, Fault> {
+        let elementary = ring.elementary;
+        let from = self.value(&ring.from)?;
+        let to = integer(elementary, self.value(&ring.to)?);
+        let by = integer(elementary, self.value(&ring.by)?);
+        if by == 0 {
+            return Err(Fault::StepOfZero);
+        }
+        let variable = self.slot(&ring.variable)?;
+        self.memory.set(variable, from);
+        loop {
+            let present = integer(elementary, self.memory.get(variable));
+            if if by > 0 { present > to } else { present < to } {
+                return Ok(Flow::Next);
+            }
+            match self.body(&ring.body)? {
+                Flow::Exit => return Ok(Flow::Next),
+                Flow::Return => return Ok(Flow::Return),
+                Flow::Next | Flow::Continue => {}
+            }
+            self.spend(1)?;
+            let next = integer(elementary, self.memory.get(variable)) + by;
+            self.memory.set(variable, wrap(elementary, next as u64));
+            if integer(elementary, self.memory.get(variable)) != next {
+                return Ok(Flow::Next);
+            }
+        }
+    }
+
+    fn repeat_while(&mut self, condition: &Code, body: &[Statement]) -> Result<Flow, Fault> {
+        while self.value(condition)? != 0 {
+            match self.body(body)? {
+                Flow::Exit => break,
+                Flow::Return => return Ok(Flow::Return),
+                Flow::Next | Flow::Continue => {}
+            }
+            self.spend(1)?;
+        }
+        Ok(Flow::Next)
+    }
+
+    fn repeat_until(&mut self, body: &[Statement], until: &Code) -> Result<Flow, Fault> {
+        loop {
+            match self.body(body)? {
+                Flow::Exit => break,
+                Flow::Return => return Ok(Flow::Return),
+                Flow::Next | Flow::Continue => {}
+            }
+            self.spend(1)?;
+            if self.value(until)? != 0 {
+                break;
+            }
+        }
+        Ok(Flow::Next)
+    }
+
+    /// The value of an expression.
+    pub(crate) fn value(&mut self, code: &Code) -> Result<u64, Fault> {
+        match code {
+            Code::Constant(value) => Ok(*value),
+            Code::Load(place) => self.slot(place).map(|slot| self.memory.get(slot)),
+            Code::Address(place) => self.slot(place).map(u64::from),
+            Code::Unary { operator, elementary, operand } => {
+                Ok(unary(*operator, *elementary, self.value(operand)?))
+            }
+            Code::Binary { operator, elementary, operands } => {
+                let left = self.value(&operands.0)?;
+                let right = self.value(&operands.1)?;
+                binary(*operator, *elementary, left, right)
+            }
+            Code::Decide { stop_at, operands } => {
+                let left = self.value(&operands.0)?;
+                if (left != 0) == *stop_at { Ok(left) } else { self.value(&operands.1) }
+            }
+            Code::CompareText { operator, operands } => {
+                self.compare_text(*operator, &operands.0, &operands.1)
+            }
+            Code::Convert { from, to, operand } => Ok(convert(*from, *to, self.value(operand)?)),
+            Code::Call(call) => self.call_function(call),
+            Code::Native(call) => self.call_native(call),
+        }
+    }
+
+    fn compare_text(&mut self, operator: Binary, left: &Code, right: &Code) -> Result<u64, Fault> {
+        let (left, right) = (self.value(left)?, self.value(right)?);
+        Ok(self.order_of_texts(operator, slot_of(left), slot_of(right)).into())
+    }
+
+    // Its texts are large: they must not lie in the frames of the evaluation around them.
+    #[inline(never)]
+    fn order_of_texts(&self, operator: Binary, left: Slot, right: Slot) -> bool {
+        compare(operator, Some(self.memory.text(left).cmp(&self.memory.text(right))))
+    }
+
+    /// All inputs are evaluated before the first is stored: one of them may call the same function.
+    fn call_function(&mut self, call: &FunctionCall) -> Result<u64, Fault> {
+        let at = self.at;
+        let mut values = ArrayVec::<u64, ARGUMENTS_MAX>::new();
+        for (_, code, _) in &call.inputs {
+            values.push(self.value(code)?);
+        }
+        self.freshen(call.unit);
+        for ((slot, _, put), value) in call.inputs.iter().zip(values) {
+            self.put(*slot, value, *put)?;
+        }
+        self.spend(1)?;
+        let units = self.units;
+        self.body(&units[call.unit as usize].body)?;
+        self.at = at;
+        for output in &call.outputs {
+            self.assign(output)?;
+        }
+        Ok(match call.result {
+            FunctionResult::None => 0,
+            FunctionResult::Value(slot) => self.memory.get(slot),
+            FunctionResult::Copied { from, to, slots } => {
+                self.memory.copy(from, to, slots);
+                to.into()
+            }
+        })
+    }
+
+    fn call_native(&mut self, call: &NativeCall) -> Result<u64, Fault> {
+        let mut arguments = ArrayVec::<u64, ARGUMENTS_MAX>::new();
+        for argument in &call.arguments {
+            match argument {
+                NativeArgument::Value(code) => arguments.push(self.value(code)?),
+                NativeArgument::Reference(place) => arguments.push(self.slot(place)?.into()),
+                NativeArgument::Elements { place, element_slots } => {
+                    let (slot, elements) = self.elements(place)?;
+                    arguments.extend([slot.into(), elements.into(), (*element_slots).into()]);
+                }
+                NativeArgument::Any(place) => {
+                    let slot = self.slot(place)?;
+                    arguments.extend([self.memory.get(slot), self.memory.get(slot + 1)]);
+                }
+            }
+        }
+        let (elementary, text) = (call.elementary, call.text);
+        (call.native.0.run)(&mut Call { machine: self, arguments: &arguments, elementary, text })
+    }
+
+    fn call_block(&mut self, call: &BlockCall) -> Result<(), Fault> {
+        let (caller, at) = (self.instance, self.at);
+        let instance = self.slot(&call.instance)?;
+        for (offset, code, put) in &call.inputs {
+            let value = self.value(code)?;
+            self.put(instance + offset, value, *put)?;
+        }
+        self.instance = instance;
+        let ran = self.run(call.unit);
+        self.instance = caller;
+        ran?;
+        self.at = at;
+        for output in &call.outputs {
+            let value = self.block_output(instance + output.offset, output);
+            let to = self.slot(&output.to)?;
+            self.put(to, value, output.put)?;
+        }
+        Ok(())
+    }
+
+    fn block_output(&self, slot: Slot, output: &BlockOutput) -> u64 {
+        if output.put != Put::Value {
+            return slot.into();
+        }
+        let value = self.memory.get(slot);
+        let value = output.convert.map_or(value, |(from, to)| convert(from, to, value));
+        if output.negated { unary(crate::operators::Unary::Not, Elementary::Bool, value) } else { value }
+    }
+}
+
+/// The slot that a value names.
+pub(crate) fn slot_of(value: u64) -> Slot {
+    Slot::try_from(value).unwrap_or_else(|_| unreachable!("{value} is no slot: the checker gives slots only"))
+}

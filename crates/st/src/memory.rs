@@ -1,0 +1,86 @@
+//! The slots of a program.
+
+use arrayvec::ArrayVec;
+
+use crate::code::Slot;
+use crate::types::STRING_CHARACTERS_MAX;
+
+/// The characters of a STRING, taken out of the memory.
+pub(crate) type Text = ArrayVec<u8, STRING_CHARACTERS_MAX>;
+
+/// The slots; every place in a program lies in them, which the checker has seen to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Memory {
+    slots: Vec<u64>,
+}
+
+impl Memory {
+    pub(crate) const fn new(slots: Vec<u64>) -> Self {
+        Self { slots }
+    }
+
+    pub(crate) fn get(&self, slot: Slot) -> u64 {
+        self.slots[slot as usize]
+    }
+
+    pub(crate) fn set(&mut self, slot: Slot, value: u64) {
+        self.slots[slot as usize] = value;
+    }
+
+    pub(crate) fn slice(&self, from: Slot, slots: u32) -> &[u64] {
+        &self.slots[from as usize..][..slots as usize]
+    }
+
+    pub(crate) fn slice_mut(&mut self, from: Slot, slots: u32) -> &mut [u64] {
+        &mut self.slots[from as usize..][..slots as usize]
+    }
+
+    /// Copies slots; both places may overlap.
+    pub(crate) fn copy(&mut self, from: Slot, to: Slot, slots: u32) {
+        let from = from as usize;
+        self.slots.copy_within(from..from + slots as usize, to as usize);
+    }
+
+    /// How many characters the STRING at `slot` has.
+    pub(crate) fn text_length(&self, slot: Slot) -> usize {
+        usize::try_from(self.get(slot)).unwrap_or(STRING_CHARACTERS_MAX).min(STRING_CHARACTERS_MAX)
+    }
+
+    /// The STRING at `slot`.
+    pub(crate) fn text(&self, slot: Slot) -> Text {
+        let length = self.text_length(slot);
+        let words = self.slice(slot + 1, length.div_ceil(8) as u32);
+        words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect()
+    }
+
+    /// Puts a STRING at `slot`, cut to `capacity` characters.
+    pub(crate) fn put_text(&mut self, slot: Slot, capacity: u16, text: &[u8]) {
+        let text = &text[..text.len().min(capacity.into())];
+        self.set(slot, text.len() as u64);
+        let words = self.slice_mut(slot + 1, text.len().div_ceil(8) as u32);
+        for (word, octets) in words.iter_mut().zip(text.chunks(8)) {
+            let mut all = [0; 8];
+            all[..octets.len()].copy_from_slice(octets);
+            *word = u64::from_le_bytes(all);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn a_text_comes_back_cut_to_its_capacity(text in prop::collection::vec(any::<u8>(), 0..100), capacity in 0..80_u16) {
+            let mut memory = Memory::new(vec![u64::MAX; 20]);
+            memory.put_text(3, capacity, &text);
+            let expected = &text[..text.len().min(capacity.into())];
+            let kept = memory.text(3);
+            prop_assert_eq!(kept.as_slice(), expected);
+            prop_assert_eq!((memory.get(2), memory.get(3 + crate::types::string_slots(capacity))), (u64::MAX, u64::MAX));
+        }
+    }
+}

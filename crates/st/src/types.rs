@@ -1,0 +1,167 @@
+//! Types after their names are resolved, and how many slots their values take.
+//!
+//! The memory of a program is a row of slots of 64 bits. An elementary value takes one slot, whatever its width; a
+//! STRING takes one for its length and then one for each eight characters; arrays, structures and function block
+//! instances take the slots of their parts, one after the other.
+
+use core::fmt;
+use std::sync::Arc;
+
+use crate::elementary::Elementary;
+
+/// Most characters of a STRING: 1,986 bytes with the NUL at the end, as an NJ/NX-series CPU Unit.
+pub(crate) const STRING_CHARACTERS_MAX: usize = 1985;
+
+/// Characters of a STRING that is declared without a length: 256 bytes with the NUL at the end.
+pub(crate) const STRING_CHARACTERS_DEFAULT: u16 = 255;
+
+/// A type.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Type {
+    Elementary(Elementary),
+    /// With the most characters that it holds.
+    String(u16),
+    Array(Arc<Array>),
+    Struct(Arc<Structure>),
+    Enum(Arc<Enumeration>),
+    Block(Arc<Block>),
+    /// Whatever variable: a VAR_IN_OUT of a library block. Two slots: where it lies, and the number of its layout.
+    Any,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Array {
+    pub(crate) bounds: Vec<Bound>,
+    pub(crate) element: Type,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bound {
+    pub(crate) lower: i64,
+    pub(crate) upper: i64,
+}
+
+impl Bound {
+    /// How many indices lie in it; the bounds were in order when they were read.
+    pub(crate) const fn count(self) -> u32 {
+        (self.upper - self.lower + 1) as u32
+    }
+}
+
+#[derive(Debug)]
+pub(crate) struct Structure {
+    pub(crate) name: String,
+    pub(crate) members: Vec<Member>,
+    pub(crate) slots: u32,
+}
+
+#[derive(Debug)]
+pub(crate) struct Enumeration {
+    pub(crate) name: String,
+    pub(crate) values: Vec<(String, i64)>,
+}
+
+/// A function block type. Its members are its pins and its inner variables.
+#[derive(Debug)]
+pub(crate) struct Block {
+    pub(crate) name: String,
+    /// Place of its code among the units.
+    pub(crate) unit: u32,
+    pub(crate) members: Vec<Member>,
+    pub(crate) slots: u32,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Member {
+    pub(crate) name: String,
+    pub(crate) type_: Type,
+    pub(crate) offset: u32,
+    pub(crate) role: Role,
+    pub(crate) retain: bool,
+}
+
+/// What a variable is to its program organization unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    Input,
+    Output,
+    InOut,
+    Internal,
+}
+
+/// Named types are the same by their names' declaration, not by what they hold.
+macro_rules! same_by_identity {
+    ($($name:ty),*) => {$(
+        impl PartialEq for $name {
+            fn eq(&self, other: &Self) -> bool {
+                core::ptr::eq(self, other)
+            }
+        }
+    )*};
+}
+same_by_identity!(Structure, Enumeration, Block);
+
+impl Type {
+    pub(crate) const BOOL: Self = Self::Elementary(Elementary::Bool);
+
+    /// How many slots a value takes.
+    pub(crate) fn slots(&self) -> u32 {
+        match self {
+            Self::Elementary(_) | Self::Enum(_) => 1,
+            Self::String(capacity) => string_slots(*capacity),
+            Self::Array(array) => array.elements() * array.element.slots(),
+            Self::Struct(structure) => structure.slots,
+            Self::Block(block) => block.slots,
+            Self::Any => 2,
+        }
+    }
+
+    pub(crate) const fn elementary(&self) -> Option<Elementary> {
+        match self {
+            Self::Elementary(elementary) => Some(*elementary),
+            _ => None,
+        }
+    }
+}
+
+impl Array {
+    /// How many elements it has in all its dimensions.
+    pub(crate) fn elements(&self) -> u32 {
+        self.bounds.iter().map(|bound| bound.count()).product()
+    }
+}
+
+/// Slots of a STRING of so many characters.
+pub(crate) const fn string_slots(capacity: u16) -> u32 {
+    1 + (capacity as u32).div_ceil(8)
+}
+
+/// The member of this name, in whatever case.
+pub(crate) fn member<'a>(members: &'a [Member], name: &str) -> Option<&'a Member> {
+    members.iter().find(|member| member.name.eq_ignore_ascii_case(name))
+}
+
+impl fmt::Display for Type {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Elementary(elementary) => elementary.fmt(formatter),
+            Self::String(capacity) => write!(formatter, "STRING[{capacity}]"),
+            Self::Array(array) => array.fmt(formatter),
+            Self::Struct(structure) => formatter.write_str(&structure.name),
+            Self::Enum(enumeration) => formatter.write_str(&enumeration.name),
+            Self::Block(block) => formatter.write_str(&block.name),
+            Self::Any => formatter.write_str("ANY"),
+        }
+    }
+}
+
+impl fmt::Display for Array {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("ARRAY[")?;
+        for (place, bound) in self.bounds.iter().enumerate() {
+            let comma = if place == 0 { "" } else { "," };
+            write!(formatter, "{comma}{}..{}", bound.lower, bound.upper)?;
+        }
+        write!(formatter, "] OF {}", self.element)
+    }
+}

@@ -1,0 +1,72 @@
+//! How the values of elementary types stand in 64 bits.
+//!
+//! Signed integers and TIME are sign-extended; unsigned integers, bit strings and BOOL have zeros above; REAL and
+//! LREAL are their IEEE 754 bits. So each value has one representation, and equal values are equal slots, but for
+//! NaN and the two zeros.
+
+use crate::elementary::{Class, Elementary};
+
+/// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps.
+pub(crate) const fn wrap(elementary: Elementary, bits: u64) -> u64 {
+    let unused = 64 - elementary.bits();
+    match elementary.class() {
+        Class::Signed | Class::Time => (((bits << unused) as i64) >> unused) as u64,
+        Class::Bool | Class::BitString | Class::Unsigned => (bits << unused) >> unused,
+        Class::Real => bits,
+    }
+}
+
+/// The least and the greatest value of an integer, a bit string, a BOOL or a TIME.
+pub(crate) const fn range(elementary: Elementary) -> (i128, i128) {
+    let bits = elementary.bits();
+    match elementary.class() {
+        Class::Signed | Class::Time => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
+        Class::Bool | Class::BitString | Class::Unsigned => (0, (1 << bits) - 1),
+        Class::Real => (0, 0),
+    }
+}
+
+/// The number that the bits of an integer, a bit string, a BOOL or a TIME stand for.
+pub(crate) const fn integer(elementary: Elementary, bits: u64) -> i128 {
+    match elementary.class() {
+        Class::Signed | Class::Time => bits as i64 as i128,
+        _ => bits as i128,
+    }
+}
+
+/// The number that the bits of a REAL or an LREAL stand for.
+pub(crate) fn real(elementary: Elementary, bits: u64) -> f64 {
+    match elementary {
+        Elementary::Real => f64::from(f32::from_bits(bits as u32)),
+        _ => f64::from_bits(bits),
+    }
+}
+
+/// The bits of a number as REAL or LREAL.
+pub(crate) fn real_bits(elementary: Elementary, number: f64) -> u64 {
+    match elementary {
+        Elementary::Real => u64::from((number as f32).to_bits()),
+        _ => number.to_bits(),
+    }
+}
+
+/// Writes a value little endian; `octets` is as long as the type on the wire.
+pub(crate) fn pack(bits: u64, octets: &mut [u8]) {
+    for (octet, value) in octets.iter_mut().zip(bits.to_le_bytes()) {
+        *octet = value;
+    }
+}
+
+/// Reads a little-endian value; what is missing is zero.
+pub(crate) fn unpack(elementary: Elementary, octets: &[u8]) -> u64 {
+    let mut all = [0; 8];
+    for (octet, value) in all.iter_mut().zip(octets) {
+        *octet = *value;
+    }
+    let bits = u64::from_le_bytes(all);
+    match elementary {
+        // A byte other than 0 is TRUE.
+        Elementary::Bool => u64::from(bits != 0),
+        _ => wrap(elementary, bits),
+    }
+}
