@@ -73,6 +73,8 @@ pub struct UnitHeader {
     pub io_data_active: bool,
     /// NX Unit Error Status: the unit has an error.
     pub error: bool,
+    /// The unit can do NX message communications.
+    pub messages_enabled: bool,
 }
 
 /// What the CPU Unit tells the unit along with the data C to M.

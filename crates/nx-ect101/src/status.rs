@@ -31,6 +31,20 @@ impl SlaveStatus {
             | (self.new_message as u16) << 8
             | (self.ready_to_write_message as u16) << 9
     }
+
+    /// What the word tells. Reserved bits tell nothing.
+    #[must_use]
+    pub const fn from_bits(bits: u16) -> Self {
+        Self {
+            sdo_enabled: bits & 1 != 0,
+            m_to_c_valid: bits & 1 << 1 != 0,
+            c_to_m_valid: bits & 1 << 2 != 0,
+            in_port_link: bits & 1 << 6 != 0,
+            out_port_link: bits & 1 << 7 != 0,
+            new_message: bits & 1 << 8 != 0,
+            ready_to_write_message: bits & 1 << 9 != 0,
+        }
+    }
 }
 
 impl Default for SlaveStatus {

@@ -175,7 +175,8 @@ impl NxEct101 {
         if let Some(outputs) = outputs.filter(|_| io_data_active) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
         }
-        let header = UnitHeader { status: self.status, io_data_active, error: self.has_error() };
+        let (status, error) = (self.status, self.has_error());
+        let header = UnitHeader { status, io_data_active, error, messages_enabled: true };
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
@@ -245,7 +246,7 @@ impl Unit for NxEct101 {
     fn power_off(&mut self, _now: Instant) {
         self.status = SlaveStatus::default();
         self.nx_unit_status = NxUnitStatus::default();
-        let header = UnitHeader { status: self.status, io_data_active: false, error: true };
+        let header = UnitHeader { status: self.status, error: true, ..UnitHeader::default() };
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 

@@ -19,8 +19,12 @@ pub enum OperatingMode {
 }
 
 /// How a CPU Unit is set up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpuSettings {
+    /// Device name of the unit on the NX bus: the first part of its device variables' names.
+    pub device_name: String,
+    /// NX Unit number of the unit, from 1.
+    pub unit_number: u8,
     /// Task period of the primary periodic task; not zero.
     pub task_period: Duration,
     /// Operating mode at power-on.
@@ -37,14 +41,26 @@ impl CpuSettings {
             CpuMode::Run => OperatingMode::Run,
             CpuMode::Program => OperatingMode::Program,
         };
-        Self { task_period: file.cpu.task_period.value, mode, system_time_ns: None }
+        Self {
+            device_name: file.name.value.clone(),
+            unit_number: file.unit_number.value,
+            task_period: file.cpu.task_period.value,
+            mode,
+            system_time_ns: None,
+        }
     }
 }
 
 impl Default for CpuSettings {
-    /// 1 ms, RUN, no system time.
+    /// A unit N1 with number 1; 1 ms, RUN, no system time.
     fn default() -> Self {
-        Self { task_period: Duration::from_millis(1), mode: OperatingMode::Run, system_time_ns: None }
+        Self {
+            device_name: "N1".to_owned(),
+            unit_number: 1,
+            task_period: Duration::from_millis(1),
+            mode: OperatingMode::Run,
+            system_time_ns: None,
+        }
     }
 }
 
@@ -76,7 +92,12 @@ impl CpuUnit {
     ) -> Self {
         assert!(!settings.task_period.is_zero(), "the task period is zero");
         Self {
-            io: Io::new(bus.m_to_c_layout.clone(), bus.c_to_m_layout.clone()),
+            io: Io::new(
+                &settings.device_name,
+                settings.unit_number,
+                bus.m_to_c_layout.clone(),
+                bus.c_to_m_layout.clone(),
+            ),
             bus,
             program,
             mode: settings.mode,
@@ -104,6 +125,7 @@ impl CpuUnit {
         self.refresh_inputs();
         if self.mode == OperatingMode::Run {
             self.program.scan(&mut self.io);
+            self.io.memory.c_to_m.apply_forced();
         }
         self.io.nx_objects.send(&mut self.bus.messages);
         let late = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
@@ -148,15 +170,15 @@ impl CpuUnit {
         // Responses first: then no flag is older than a response.
         self.io.nx_objects.receive(&mut self.bus.messages);
         let image = self.bus.m_to_c.newest();
-        self.io.header = image.header;
-        self.io.m_to_c.copy_from_slice(image.bytes());
+        self.io.take_inputs(image.header, image.bytes());
     }
 
     fn refresh_outputs(&mut self, now: Instant) {
         let running_ns = now.saturating_since(self.powered_on).as_nanos();
         let system_time_ns = self.system_time_ns.map_or(0, |start_ns| start_ns.saturating_add(running_ns));
         let header = CpuHeader { refreshing: self.io_refreshing, messages_enabled: true, system_time_ns };
-        self.bus.c_to_m.publish(header, &self.io.c_to_m);
+        self.io.memory.c_to_m.apply_forced();
+        self.bus.c_to_m.publish(header, self.io.c_to_m());
     }
 }
 

@@ -19,7 +19,7 @@ impl Program for Echo {
         for set in DataSet::all().iter().filter(|set| set.direction == Direction::MToC) {
             for number in 1..=set.max_count {
                 if let Some((from, to)) = io.twin(set.kind, number) {
-                    io.c_to_m[to].copy_from_slice(&io.m_to_c[from]);
+                    io.memory.c_to_m.bytes[to].copy_from_slice(&io.memory.m_to_c.bytes[from]);
                 }
             }
         }

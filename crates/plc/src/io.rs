@@ -5,6 +5,7 @@ use core::ops::Range;
 use nx_ect101::nx_bus::UnitHeader;
 use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
 
+use crate::device_variables::{DeviceVariables, Memory};
 use crate::nx_object_client::NxObjectClient;
 
 /// A user program.
@@ -22,24 +23,32 @@ impl<F: FnMut(&mut Io)> Program for F {
 /// The I/O of one unit as the last I/O refresh brought it, and what the next one takes along.
 #[derive(Clone, Debug)]
 pub struct Io {
-    pub(crate) m_to_c: Vec<u8>,
-    pub(crate) c_to_m: Vec<u8>,
-    pub(crate) header: UnitHeader,
+    pub(crate) memory: Memory,
+    pub(crate) variables: DeviceVariables,
     pub(crate) nx_objects: NxObjectClient,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
+    /// Of the unit on the NX bus.
+    unit_number: u8,
 }
 
 impl Io {
-    pub(crate) fn new(m_to_c_layout: ImageLayout, c_to_m_layout: ImageLayout) -> Self {
-        Self {
-            m_to_c: vec![0; m_to_c_layout.size_bytes()],
-            c_to_m: vec![0; c_to_m_layout.size_bytes()],
-            header: UnitHeader::default(),
+    pub(crate) fn new(
+        device_name: &str,
+        unit_number: u8,
+        m_to_c_layout: ImageLayout,
+        c_to_m_layout: ImageLayout,
+    ) -> Self {
+        let mut io = Self {
+            memory: Memory::new(m_to_c_layout.size_bytes(), c_to_m_layout.size_bytes()),
+            variables: DeviceVariables::new(device_name, unit_number, &m_to_c_layout, &c_to_m_layout),
             nx_objects: NxObjectClient::default(),
             m_to_c_layout,
             c_to_m_layout,
-        }
+            unit_number,
+        };
+        io.take_inputs(UnitHeader::default(), &[]);
+        io
     }
 
     /// UINTs `number` M to C, 1 to 40; none if it is not allocated.
@@ -88,32 +97,32 @@ impl Io {
     #[must_use]
     pub fn entry(&self, kind: DataSetKind, number: u8) -> Option<&[u8]> {
         let place = self.m_to_c_layout.place(Direction::MToC, kind, number)?;
-        self.m_to_c.get(place)
+        self.memory.m_to_c.bytes.get(place)
     }
 
     /// The raw bytes of entry `number` C to M, little endian; none if it is not allocated.
     #[must_use]
     pub fn entry_mut(&mut self, kind: DataSetKind, number: u8) -> Option<&mut [u8]> {
         let place = self.c_to_m_layout.place(Direction::CToM, kind, number)?;
-        self.c_to_m.get_mut(place)
+        self.memory.c_to_m.bytes.get_mut(place)
     }
 
     /// The whole image M to C, entry after entry.
     #[must_use]
     pub fn m_to_c(&self) -> &[u8] {
-        &self.m_to_c
+        &self.memory.m_to_c.bytes
     }
 
     /// The whole image C to M, entry after entry.
     #[must_use]
     pub fn c_to_m(&self) -> &[u8] {
-        &self.c_to_m
+        &self.memory.c_to_m.bytes
     }
 
-    /// The whole image C to M, to be changed.
+    /// The whole image C to M, to be changed. What is forced has its value again when it goes out.
     #[must_use]
     pub fn c_to_m_mut(&mut self) -> &mut [u8] {
-        &mut self.c_to_m
+        &mut self.memory.c_to_m.bytes
     }
 
     /// Reads and writes NX objects of the unit.
@@ -125,19 +134,24 @@ impl Io {
     /// EtherCAT Slave Status of the unit.
     #[must_use]
     pub fn status(&self) -> SlaveStatus {
-        self.header.status
+        SlaveStatus::from_bits(self.memory.slave_status())
     }
 
     /// NX Unit I/O Data Active Status: the unit's I/O data can be used for control.
     #[must_use]
     pub fn io_data_active(&self) -> bool {
-        self.header.io_data_active
+        self.memory.io_data_active()
     }
 
     /// NX Unit Error Status: the unit has an error.
     #[must_use]
     pub fn unit_error(&self) -> bool {
-        self.header.error
+        self.memory.unit_error()
+    }
+
+    /// Takes in what the unit tells, data and statuses; what is forced stays.
+    pub(crate) fn take_inputs(&mut self, header: UnitHeader, m_to_c: &[u8]) {
+        self.memory.refresh(self.unit_number, header, m_to_c);
     }
 
     /// Where the same entry lies in both images; none if only one direction has it allocated.
@@ -165,15 +179,15 @@ mod tests {
             allocation.select(direction, DataSetKind::Bytes, 2);
             allocation.select(direction, DataSetKind::Udint, 4);
         }
-        Io::new(allocation.layout(Direction::MToC), allocation.layout(Direction::CToM))
+        Io::new("N1", 1, allocation.layout(Direction::MToC), allocation.layout(Direction::CToM))
     }
 
     #[test]
     fn entries_are_read_where_they_lie() {
         let mut io = io();
-        io.m_to_c[30..34].copy_from_slice(&[0x34, 0x12, 0x78, 0x56]);
-        io.m_to_c[180] = 0xAB;
-        io.m_to_c[204..208].copy_from_slice(&0xDEAD_BEEF_u32.to_le_bytes());
+        io.memory.m_to_c.bytes[30..34].copy_from_slice(&[0x34, 0x12, 0x78, 0x56]);
+        io.memory.m_to_c.bytes[180] = 0xAB;
+        io.memory.m_to_c.bytes[204..208].copy_from_slice(&0xDEAD_BEEF_u32.to_le_bytes());
         assert_eq!(io.uints(2).expect("allocated")[..2], [0x1234, 0x5678]);
         assert_eq!(io.bytes(1).expect("allocated")[0], 0xAB);
         assert_eq!(io.udint(2), Some(0xDEAD_BEEF));

@@ -5,6 +5,7 @@
 
 mod builtin;
 mod cpu_unit;
+mod device_variables;
 mod echo;
 mod io;
 mod message_echo;
@@ -13,6 +14,11 @@ mod pulse;
 
 pub use builtin::Builtin;
 pub use cpu_unit::{CpuSettings, CpuUnit, OperatingMode};
+pub use device_variables::{
+    DeviceVariables, STATUS_BITS, SYSTEM_TABLE_ELEMENTS, StatusBit, Target, TextProblem, VALUE_BYTES_MAX,
+    Validity, ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
+    VariableType, VariableValue,
+};
 pub use echo::Echo;
 pub use io::{Io, Program};
 pub use message_echo::MessageEcho;

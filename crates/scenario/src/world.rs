@@ -18,16 +18,12 @@ use crate::recorded::Recorded;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, UnitSource};
 
-pub(crate) use variables::Variable;
-
 /// The system time of the CPU Units at the beginning: 2026-01-01 00:00:00 UTC.
 pub(crate) const SYSTEM_TIME_NS: u64 = 1_767_225_600_000_000_000;
 /// Everything that a scenario moves.
 pub(crate) struct World {
     network: Network<NxEct101>,
     cpus: Vec<Cpu>,
-    /// Device names of the units on their NX buses.
-    names: Vec<String>,
     line: Line,
     master: Master,
     recorded: Recorded,
@@ -65,7 +61,6 @@ impl World {
         let mut world = Self {
             network,
             cpus,
-            names: scenario.units.iter().map(|source| source.file.name.value.clone()).collect(),
             line: Line::new(seed),
             master: Master::new(count, scenario.cycle),
             recorded: Recorded::new(scenario.recorded.clone()),

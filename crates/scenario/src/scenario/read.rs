@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use nx_ect101::unit_file::UnitFile;
-use plc::Builtin;
+use plc::{Builtin, DeviceVariables};
 use serde::Deserialize;
 use time::Duration;
 use toml::Spanned;
@@ -16,7 +16,6 @@ use crate::orders::{
 use crate::recorded::RecordedFrames;
 use crate::sentence;
 use crate::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
-use crate::world::Variable;
 
 /// Seed of a scenario that names none.
 const DEFAULT_SEED: u64 = 1;
@@ -82,7 +81,7 @@ impl Scenario {
             let span = error.span().unwrap_or_default();
             ScenarioErrors(vec![ScenarioError::new(text, span, error.message().to_owned(), String::new())])
         })?;
-        let mut reader = Reader { text, names: Vec::new(), errors: Vec::new() };
+        let mut reader = Reader { text, variables: Vec::new(), names: Vec::new(), errors: Vec::new() };
         let scenario = reader.scenario(file, unit_file);
         if reader.errors.is_empty() {
             return Ok(scenario);
@@ -96,6 +95,8 @@ struct Reader<'a> {
     text: &'a str,
     /// Device names of the units.
     names: Vec<String>,
+    /// Their device variables.
+    variables: Vec<DeviceVariables>,
     errors: Vec<ScenarioError>,
 }
 
@@ -115,6 +116,7 @@ impl Reader<'_> {
             units.extend(self.unit_text(DEFAULT_UNIT, 0..0, None));
         }
         self.names = units.iter().map(|unit| unit.file.name.value.clone()).collect();
+        self.variables = units.iter().map(|unit| DeviceVariables::of_unit_file(&unit.file)).collect();
         let count = units.len();
         let limit = file.limit.and_then(|limit| self.duration(&limit)).unwrap_or(DEFAULT_LIMIT);
         let cycle = file.cycle.and_then(|cycle| self.cycle(&cycle)).unwrap_or(DEFAULT_CYCLE);
@@ -400,7 +402,7 @@ impl Reader<'_> {
     fn condition(&mut self, text: &Spanned<String>, units: usize) -> Option<Condition> {
         let condition = self.sentence(CONDITIONS, text)?;
         if let Condition::Variable { name, .. } = &condition
-            && !self.names.iter().any(|unit| Variable::named(name, unit).is_some())
+            && !self.variables.iter().any(|variables| variables.find_target(name).is_ok())
         {
             let help = format!("the units are named {}", self.names.join(", "));
             self.refuse(text.span(), format!("no unit has the device variable {name}"), help);

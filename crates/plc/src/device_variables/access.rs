@@ -1,0 +1,134 @@
+//! Reading, writing and forcing by id.
+
+use st::{Class, Elementary};
+
+use super::error::VariableError;
+use super::list::DeviceVariables;
+use super::memory::Place;
+use super::variable::{Target, VariableAccess, VariableId, VariableType, VariableValue};
+use crate::io::Io;
+
+/// Variables by id. A value is little endian; a BOOL takes one byte.
+///
+/// A *forced* value is fixed until it is released: of an input the user program sees the forced value whatever
+/// the master sends, of an output the unit gets it whatever the program writes. It outlives operating modes and
+/// user programs. After the release the value stays until the next I/O refresh or the next write.
+impl Io {
+    /// The variables of this CPU Unit.
+    #[must_use]
+    pub const fn variables(&self) -> &DeviceVariables {
+        &self.variables
+    }
+
+    /// The variable of this name or AT specification, in whatever case: to be asked for once, and not in a scan.
+    #[must_use]
+    pub fn find(&self, name_or_at: &str) -> Option<VariableId> {
+        self.variables.find(name_or_at)
+    }
+
+    /// The value.
+    ///
+    /// # Errors
+    /// There is no such variable or element.
+    pub fn read(&self, target: impl Into<Target>) -> Result<VariableValue, VariableError> {
+        let place = self.variables.place(target.into())?;
+        Ok(self.memory.of(place.area).read(place))
+    }
+
+    /// Writes an output: what goes out with the next I/O refresh. What is forced keeps its value.
+    ///
+    /// # Errors
+    /// There is no such variable or element, it is read-only, or the value does not fit.
+    pub fn write(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
+        let target = target.into();
+        let place = self.checked(target, value)?;
+        if self.variables.at(target.variable)?.access == VariableAccess::ReadOnly {
+            return Err(VariableError::NotWritable);
+        }
+        self.memory.of_mut(place.area).write(place, value);
+        Ok(())
+    }
+
+    /// Forces a variable or an element, of whatever access.
+    ///
+    /// # Errors
+    /// There is no such variable or element, or the value does not fit.
+    pub fn force(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
+        let place = self.checked(target.into(), value)?;
+        self.memory.of_mut(place.area).force(place, value);
+        Ok(())
+    }
+
+    /// Releases what is forced of a variable or an element; nothing, if nothing is.
+    ///
+    /// # Errors
+    /// There is no such variable or element.
+    pub fn release(&mut self, target: impl Into<Target>) -> Result<(), VariableError> {
+        let place = self.variables.place(target.into())?;
+        self.memory.of_mut(place.area).release(place);
+        Ok(())
+    }
+
+    /// Releases everything.
+    pub fn release_all(&mut self) {
+        self.memory.m_to_c.release_all();
+        self.memory.c_to_m.release_all();
+        self.memory.status.release_all();
+    }
+
+    /// Whether all of a variable or an element is forced.
+    ///
+    /// # Errors
+    /// There is no such variable or element.
+    pub fn is_forced(&self, target: impl Into<Target>) -> Result<bool, VariableError> {
+        let place = self.variables.place(target.into())?;
+        Ok(self.memory.of(place.area).is_forced(place))
+    }
+
+    /// What is forced: whole variables, and elements of arrays that are forced in part.
+    pub fn forced(&self) -> impl Iterator<Item = Target> {
+        self.variables.iter().flat_map(|(id, variable)| {
+            let whole = Some(Target::from(id)).filter(|&target| self.is_forced(target) == Ok(true));
+            let parts = variable.variable_type.elements.filter(|_| whole.is_none()).unwrap_or(0);
+            let parts = (0..parts).map(move |element| id.element(element));
+            whole.into_iter().chain(parts.filter(|&target| self.is_forced(target) == Ok(true)))
+        })
+    }
+
+    /// The type of a variable, or of the element that is meant.
+    ///
+    /// # Errors
+    /// There is no such variable or element.
+    pub fn type_of(&self, target: impl Into<Target>) -> Result<VariableType, VariableError> {
+        self.variables.type_of(target.into())
+    }
+
+    fn checked(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
+        let place = self.variables.place(target)?;
+        let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);
+        if length_bytes != expected_bytes {
+            return Err(VariableError::WrongLength { length_bytes, expected_bytes });
+        }
+        let elementary = self.variables.at(target.variable)?.variable_type.elementary;
+        match value.iter().find(|&&byte| byte > 1) {
+            Some(&value) if is_bool(elementary) => Err(VariableError::NotABool { value }),
+            _ => Ok(place),
+        }
+    }
+}
+
+impl DeviceVariables {
+    /// The type of a variable, or of the element that is meant.
+    ///
+    /// # Errors
+    /// There is no such variable or element.
+    pub fn type_of(&self, target: Target) -> Result<VariableType, VariableError> {
+        self.place(target)?;
+        let whole = self.at(target.variable)?.variable_type;
+        Ok(if target.element.is_some() { VariableType::single(whole.elementary) } else { whole })
+    }
+}
+
+fn is_bool(elementary: Elementary) -> bool {
+    elementary.class() == Class::Bool
+}

@@ -1,0 +1,52 @@
+//! Why a variable is not read, written or forced.
+
+use core::fmt;
+
+/// Why a variable is not read, written or forced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VariableError {
+    /// The CPU Unit has no such variable: the id is another CPU Unit's.
+    NoSuchVariable,
+    /// It has no elements.
+    NotAnArray,
+    /// The array has no such element.
+    NoSuchElement {
+        /// Which was asked for.
+        element: u16,
+        /// How many the array has, counted from 0.
+        elements: u16,
+    },
+    /// The I/O refresh gives it its value, not the user program.
+    NotWritable,
+    /// The value has another length.
+    WrongLength {
+        /// Its length in bytes.
+        length_bytes: usize,
+        /// The length of the variable or element in bytes.
+        expected_bytes: usize,
+    },
+    /// A BOOL is 0 or 1.
+    NotABool {
+        /// What the byte has.
+        value: u8,
+    },
+}
+
+impl fmt::Display for VariableError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchVariable => formatter.write_str("the CPU Unit has no such variable"),
+            Self::NotAnArray => formatter.write_str("the variable is no array"),
+            Self::NoSuchElement { element, elements } => {
+                write!(formatter, "element {element} of an array of {elements}, counted from 0")
+            }
+            Self::NotWritable => formatter.write_str("the variable is read-only"),
+            Self::WrongLength { length_bytes, expected_bytes } => {
+                write!(formatter, "{length_bytes} bytes for a value of {expected_bytes}")
+            }
+            Self::NotABool { value } => write!(formatter, "{value} for a BOOL, which is 0 or 1"),
+        }
+    }
+}
+
+impl core::error::Error for VariableError {}

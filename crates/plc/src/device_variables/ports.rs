@@ -1,0 +1,177 @@
+//! The I/O ports of the unit and the variables of the NX bus (manual, 6-3-2, A-3-3 and A-5).
+
+use nx_ect101::{DataSet, DataSetKind, Direction, ImageLayout};
+use st::Elementary;
+
+use super::memory::{Area, Place};
+use super::variable::{Variable, VariableAccess, VariableType};
+
+/// Elements of the system-defined tables: the NX Bus Function Module and 32 NX Units (manual, A-5-1).
+pub const SYSTEM_TABLE_ELEMENTS: u16 = 33;
+
+const TABLE_BYTES: usize = SYSTEM_TABLE_ELEMENTS as usize;
+/// Where the parts of the status image lie.
+pub(crate) const SLAVE_STATUS: usize = 0;
+pub(crate) const IO_DATA_ACTIVE: usize = 2;
+pub(crate) const UNIT_ERROR: usize = 3;
+pub(crate) const MESSAGE_TABLE: usize = 4;
+pub(crate) const ERROR_TABLE: usize = MESSAGE_TABLE + TABLE_BYTES;
+/// Length of the status image in bytes.
+pub(crate) const STATUS_BYTES: usize = ERROR_TABLE + TABLE_BYTES;
+
+/// What a variable tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VariableSource {
+    /// An I/O entry of a data set.
+    Entry {
+        /// Which way the data goes.
+        direction: Direction,
+        /// The data set.
+        kind: DataSetKind,
+        /// Number of the entry, its subindex.
+        number: u8,
+    },
+    /// EtherCAT Slave Status, the whole word.
+    SlaveStatus,
+    /// One bit of it.
+    SlaveStatusBit {
+        /// Its number, 0 to 15.
+        bit: u8,
+    },
+    /// NX Unit I/O Data Active Status.
+    IoDataActive,
+    /// NX Unit Error Status.
+    UnitError,
+    /// `_NXB_UnitMsgActiveTbl`: which NX Units can do message communications.
+    UnitMessageActiveTable,
+    /// `_NXB_UnitErrFlagTbl`: which NX Units have an error.
+    UnitErrorFlagTable,
+}
+
+/// A bit of EtherCAT Slave Status that is an I/O port of its own (manual, 6-3-2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatusBit {
+    /// Its number, 0 to 15.
+    pub bit: u8,
+    /// Name of the I/O port.
+    pub port: &'static str,
+}
+
+const fn status_bit(bit: u8, port: &'static str) -> StatusBit {
+    StatusBit { bit, port }
+}
+
+/// The bits of EtherCAT Slave Status; 3 to 5 and 10 to 15 are reserved and no I/O ports.
+pub const STATUS_BITS: [StatusBit; 7] = [
+    status_bit(0, "SDO Communications Enabled"),
+    status_bit(1, "Data from EtherCAT Master to CPU Unit Valid"),
+    status_bit(2, "Data from CPU Unit to EtherCAT Master Valid"),
+    status_bit(6, "IN Port Link ON"),
+    status_bit(7, "OUT Port Link ON"),
+    status_bit(8, "New Message Data Available from EtherCAT Master"),
+    status_bit(9, "Ready to Write Message Data to EtherCAT Master"),
+];
+
+const SLAVE_STATUS_PORT: &str = "EtherCAT Slave Status";
+
+/// Makes the variables of one unit.
+pub(super) struct Ports<'a> {
+    pub(super) device_name: &'a str,
+    pub(super) unit_number: u8,
+}
+
+impl Ports<'_> {
+    /// The entries of one direction, in the order of the image. An entry that stands in the wrong data set, or a
+    /// second time, has no I/O port.
+    pub(super) fn entries(&self, direction: Direction, layout: &ImageLayout) -> Vec<Variable> {
+        let mut entries = Vec::new();
+        for kind in DataSetKind::ALL {
+            for number in 0..=u8::MAX {
+                if let Some(bytes) = layout.place(direction, kind, number) {
+                    entries.push((bytes.start, self.entry(direction, kind, number, bytes.start)));
+                }
+            }
+        }
+        entries.sort_by_key(|(start, _)| *start);
+        entries.into_iter().map(|(_, variable)| variable).collect()
+    }
+
+    fn entry(&self, direction: Direction, kind: DataSetKind, number: u8, start: usize) -> Variable {
+        let (set, variable_type) = match kind {
+            DataSetKind::Uints => ("UINTs", VariableType::array(Elementary::Uint, 15)),
+            DataSetKind::Bytes => ("BYTES", VariableType::array(Elementary::Byte, 10)),
+            DataSetKind::Udint => ("UDINT", VariableType::single(Elementary::Udint)),
+        };
+        let (area, way, access) = match direction {
+            Direction::MToC => (Area::MToC, "M to C", VariableAccess::ReadOnly),
+            Direction::CToM => (Area::CToM, "C to M", VariableAccess::ReadWrite),
+        };
+        let length_bytes = usize::from(DataSet::of(direction, kind).entry_bytes);
+        let source = VariableSource::Entry { direction, kind, number };
+        let port = format!("{set} {number:02} {way}");
+        let place = Place::whole(area, start, length_bytes);
+        Variable { access, ..self.port(self.device_name, "", &port, variable_type, source, place) }
+    }
+
+    /// EtherCAT Slave Status and its bits, and what the NX Bus Function Module tells of the unit.
+    pub(super) fn statuses(&self) -> Vec<Variable> {
+        let (word, bool) = (VariableType::single(Elementary::Word), VariableType::single(Elementary::Bool));
+        let place = Place::whole(Area::Status, SLAVE_STATUS, 2);
+        let source = VariableSource::SlaveStatus;
+        let mut list = vec![self.port(self.device_name, "", SLAVE_STATUS_PORT, word, source, place)];
+        for StatusBit { bit, port } in STATUS_BITS {
+            let place = Place::bit(Area::Status, SLAVE_STATUS, bit);
+            let (path, source) = (format!("{SLAVE_STATUS_PORT}/"), VariableSource::SlaveStatusBit { bit });
+            list.push(self.port(self.device_name, &path, port, bool, source, place));
+        }
+        let prefix = format!("NXBus_{}", self.device_name);
+        let of_bus = [
+            ("NX Unit I/O Data Active Status", VariableSource::IoDataActive, IO_DATA_ACTIVE),
+            ("NX Unit Error Status", VariableSource::UnitError, UNIT_ERROR),
+        ];
+        for (port, source, start) in of_bus {
+            let place = Place::whole(Area::Status, start, 1);
+            list.push(self.port(&prefix, "", port, bool, source, place));
+        }
+        list
+    }
+
+    /// A read-only variable of an I/O port. The name has `_` for everything that is no letter and no digit.
+    fn port(
+        &self,
+        prefix: &str,
+        path: &str,
+        port: &str,
+        variable_type: VariableType,
+        source: VariableSource,
+        place: Place,
+    ) -> Variable {
+        let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
+        Variable {
+            name: format!("{prefix}_{words}"),
+            port: Some(port.to_owned()),
+            at: Some(format!("IOBus://unit#{}/{path}{port}", self.unit_number)),
+            variable_type,
+            access: VariableAccess::ReadOnly,
+            source,
+            place,
+        }
+    }
+}
+
+/// The system-defined variables: no device has them, and no AT specification.
+pub(super) fn system_defined() -> [Variable; 2] {
+    let tables = [
+        ("_NXB_UnitMsgActiveTbl", VariableSource::UnitMessageActiveTable, MESSAGE_TABLE),
+        ("_NXB_UnitErrFlagTbl", VariableSource::UnitErrorFlagTable, ERROR_TABLE),
+    ];
+    tables.map(|(name, source, start)| Variable {
+        name: name.to_owned(),
+        port: None,
+        at: None,
+        variable_type: VariableType::array(Elementary::Bool, SYSTEM_TABLE_ELEMENTS),
+        access: VariableAccess::ReadOnly,
+        source,
+        place: Place::whole(Area::Status, start, TABLE_BYTES),
+    })
+}

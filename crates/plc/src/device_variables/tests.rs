@@ -1,0 +1,24 @@
+//! The list of variables, their memory and their texts.
+
+mod list;
+mod text;
+
+use nx_ect101::{DataSetKind, Direction, IoAllocation};
+
+use crate::io::Io;
+
+/// An allocation of so many 15 UINT, 10 BYTE and UDINT entries in each direction.
+fn allocation(m_to_c: [u8; 3], c_to_m: [u8; 3]) -> IoAllocation {
+    let mut allocation = IoAllocation::empty();
+    for (direction, counts) in [(Direction::MToC, m_to_c), (Direction::CToM, c_to_m)] {
+        for (kind, count) in DataSetKind::ALL.into_iter().zip(counts) {
+            allocation.select(direction, kind, count);
+        }
+    }
+    allocation
+}
+
+fn io_of(allocation: &IoAllocation) -> Io {
+    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
+    Io::new("N1", 1, m_to_c, c_to_m)
+}

@@ -1,0 +1,48 @@
+//! Whether a value can be used for control.
+
+use super::error::VariableError;
+use super::ports::VariableSource;
+use super::variable::VariableId;
+use crate::io::Io;
+use nx_ect101::Direction;
+
+/// Whether a value can be used for control, and if not, why: the conditions of the manual's A-3-2, in the order in
+/// which its program looks at them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Validity {
+    /// It can.
+    Valid,
+    /// NX Unit I/O Data Active Status is FALSE: the unit does not refresh its I/O.
+    IoDataNotActive,
+    /// NX Unit Error Status is TRUE.
+    UnitError,
+    /// Data from EtherCAT Master to CPU Unit Valid, or the same for the other direction, is FALSE.
+    DataNotValid,
+}
+
+impl Io {
+    /// Whether the value of a variable can be used for control, as the statuses stand that the user program sees.
+    /// An I/O entry is judged by all three conditions, EtherCAT Slave Status by the first two; what the NX Bus
+    /// Function Module itself tells is always valid.
+    ///
+    /// # Errors
+    /// There is no such variable.
+    pub fn validity(&self, id: VariableId) -> Result<Validity, VariableError> {
+        let status = self.status();
+        let data_valid = match self.variables.at(id)?.source {
+            VariableSource::Entry { direction: Direction::MToC, .. } => status.m_to_c_valid,
+            VariableSource::Entry { direction: Direction::CToM, .. } => status.c_to_m_valid,
+            VariableSource::SlaveStatus | VariableSource::SlaveStatusBit { .. } => true,
+            VariableSource::IoDataActive
+            | VariableSource::UnitError
+            | VariableSource::UnitMessageActiveTable
+            | VariableSource::UnitErrorFlagTable => return Ok(Validity::Valid),
+        };
+        Ok(match () {
+            () if !self.io_data_active() => Validity::IoDataNotActive,
+            () if self.unit_error() => Validity::UnitError,
+            () if !data_valid => Validity::DataNotValid,
+            () => Validity::Valid,
+        })
+    }
+}

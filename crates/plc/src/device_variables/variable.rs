@@ -1,0 +1,122 @@
+//! One device variable: name, I/O port, AT specification, type, access and place.
+
+use core::fmt;
+
+use arrayvec::ArrayVec;
+use st::Elementary;
+
+use super::memory::Place;
+use super::ports::VariableSource;
+
+/// Length of the longest variable in bytes: the system-defined tables of 33 BOOL.
+pub const VALUE_BYTES_MAX: usize = 33;
+
+/// The value of a variable or of an element, little endian; a BOOL takes one byte, 0 or 1.
+pub type VariableValue = ArrayVec<u8, VALUE_BYTES_MAX>;
+
+/// A variable of one CPU Unit, found once by its name. It means nothing to another CPU Unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct VariableId(pub(super) u16);
+
+impl VariableId {
+    /// One element of an array, counted from 0.
+    #[must_use]
+    pub const fn element(self, element: u16) -> Target {
+        Target { variable: self, element: Some(element) }
+    }
+}
+
+/// What is read, written or forced: a whole variable, or one element of an array.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Target {
+    /// The variable.
+    pub variable: VariableId,
+    /// The element, counted from 0; none: all of the variable.
+    pub element: Option<u16>,
+}
+
+impl From<VariableId> for Target {
+    fn from(variable: VariableId) -> Self {
+        Self { variable, element: None }
+    }
+}
+
+/// An elementary type, or an array of it. Prints as IEC 61131-3 writes it: `ARRAY[0..14] OF UINT`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct VariableType {
+    /// The type, or that of each element.
+    pub elementary: Elementary,
+    /// How many elements the array has, counted from 0; none: it is no array.
+    pub elements: Option<u16>,
+}
+
+impl VariableType {
+    /// No array.
+    #[must_use]
+    pub const fn single(elementary: Elementary) -> Self {
+        Self { elementary, elements: None }
+    }
+
+    /// An array of so many elements.
+    #[must_use]
+    pub const fn array(elementary: Elementary, elements: u16) -> Self {
+        Self { elementary, elements: Some(elements) }
+    }
+
+    /// Length in bytes, element after element.
+    #[must_use]
+    pub const fn size_bytes(self) -> usize {
+        let elements = match self.elements {
+            Some(elements) => elements as usize,
+            None => 1,
+        };
+        elements * self.elementary.size_bytes()
+    }
+}
+
+impl fmt::Display for VariableType {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.elements {
+            None => fmt::Display::fmt(&self.elementary, formatter),
+            Some(elements) => {
+                write!(formatter, "ARRAY[0..{}] OF {}", elements.saturating_sub(1), self.elementary)
+            }
+        }
+    }
+}
+
+/// Who gives a variable its value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum VariableAccess {
+    /// The I/O refresh does; the user program reads it.
+    ReadOnly,
+    /// The user program does; the I/O refresh takes it along.
+    ReadWrite,
+}
+
+/// A device variable or a system-defined variable.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variable {
+    /// Its name, such as `N1_UINTs_01_M_to_C`.
+    pub name: String,
+    /// The name of its I/O port as the manual prints it, such as `UINTs 01 M to C`; none for a system-defined
+    /// variable.
+    pub port: Option<String>,
+    /// Its AT specification, such as `IOBus://unit#1/UINTs 01 M to C`; none for a system-defined variable.
+    pub at: Option<String>,
+    /// Its type.
+    pub variable_type: VariableType,
+    /// Who gives it its value.
+    pub access: VariableAccess,
+    /// What it tells.
+    pub source: VariableSource,
+    pub(super) place: Place,
+}
+
+impl Variable {
+    /// Whether this is its name or its AT specification, in whatever case.
+    pub(super) fn is_called(&self, name_or_at: &str) -> bool {
+        let at = self.at.as_deref().is_some_and(|at| at.eq_ignore_ascii_case(name_or_at));
+        at || self.name.eq_ignore_ascii_case(name_or_at)
+    }
+}
