@@ -1,0 +1,106 @@
+//! Durations.
+
+use super::number::sign;
+use crate::problem::{Problem, Span};
+
+/// Units from the longest to the shortest, and their nanoseconds.
+const UNITS: [(&str, i128); 7] = [
+    ("d", 86_400_000_000_000),
+    ("h", 3_600_000_000_000),
+    ("m", 60_000_000_000),
+    ("s", 1_000_000_000),
+    ("ms", 1_000_000),
+    ("us", 1_000),
+    ("ns", 1),
+];
+
+/// Larger than every TIME, and small enough to go on counting with.
+const TOO_LONG: i128 = 1 << 80;
+
+const HELP: &str = "a duration is written with its units, the longest first: T#1d2h3m4s5ms, T#1.5s, T#-20ms";
+
+/// What stands behind `T#`, in nanoseconds: units in descending order, each once, and a fraction in the last only.
+/// What is less than a nanosecond is cut off. IEC 61131-3, table 8.
+pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
+    let (negative, rest) = sign(text);
+    let fault = |message: String| Problem::new(span, message).help(HELP);
+    let mut rest = rest.trim_start_matches('_');
+    if rest.is_empty() {
+        return Err(fault("expected a duration".to_owned()));
+    }
+    let mut total = 0_i128;
+    let mut longer_units = 0;
+    while !rest.is_empty() {
+        let piece = piece(rest).ok_or_else(|| fault(format!("`{rest}` is not a duration")))?;
+        let place = UNITS.iter().position(|(unit, _)| unit.eq_ignore_ascii_case(piece.unit));
+        let Some((place, (_, factor))) = place.and_then(|place| Some((place, UNITS.get(place)?))) else {
+            return Err(fault(unit_fault(piece.unit)));
+        };
+        if place < longer_units {
+            return Err(fault(format!("the unit `{}` stands behind one that is not longer", piece.unit)));
+        }
+        if piece.fraction.is_some() && !piece.rest.is_empty() {
+            return Err(fault("only the last unit of a duration may have a fraction".to_owned()));
+        }
+        longer_units = place + 1;
+        total = (total + piece.nanoseconds(*factor)).min(TOO_LONG);
+        rest = piece.rest;
+    }
+    let signed = if negative { -total } else { total };
+    i64::try_from(signed).map_err(|_| {
+        Problem::new(
+            span,
+            "this duration is out of the range of TIME, 2^63 ns on both sides (about 292 years)",
+        )
+    })
+}
+
+fn unit_fault(unit: &str) -> String {
+    if unit.is_empty() {
+        "a duration needs a unit behind each number".to_owned()
+    } else {
+        format!("`{unit}` is no unit of a duration")
+    }
+}
+
+/// A number and its unit.
+struct Piece<'text> {
+    whole: &'text str,
+    fraction: Option<&'text str>,
+    unit: &'text str,
+    rest: &'text str,
+}
+
+fn piece(text: &str) -> Option<Piece<'_>> {
+    let (whole, behind) = split(text, |character| character.is_ascii_digit() || character == '_')?;
+    let (fraction, behind) = match behind.strip_prefix('.') {
+        Some(behind) => {
+            let (fraction, behind) =
+                split(behind, |character| character.is_ascii_digit() || character == '_')?;
+            (Some(fraction), behind)
+        }
+        None => (None, behind),
+    };
+    let (unit, behind) = split(behind, |character| character.is_ascii_alphabetic()).unwrap_or(("", behind));
+    Some(Piece { whole, fraction, unit, rest: behind.trim_start_matches('_') })
+}
+
+/// The longest beginning of `text` that `belongs`, if there is one, and the rest.
+fn split(text: &str, belongs: impl Fn(char) -> bool) -> Option<(&str, &str)> {
+    let length = text.find(|character| !belongs(character)).unwrap_or(text.len());
+    text.split_at_checked(length).filter(|_| length > 0)
+}
+
+impl Piece<'_> {
+    fn nanoseconds(&self, factor: i128) -> i128 {
+        let whole = digits(self.whole).fold(0, |value: i128, digit| (value * 10 + digit).min(TOO_LONG));
+        // 10^18 times the nanoseconds of a day are within an i128, and finer digits than that change nothing.
+        let fraction = digits(self.fraction.unwrap_or_default()).take(18);
+        let (value, scale) = fraction.fold((0, 1), |(value, scale), digit| (value * 10 + digit, scale * 10));
+        whole.saturating_mul(factor).saturating_add(value * factor / scale).min(TOO_LONG)
+    }
+}
+
+fn digits(text: &str) -> impl Iterator<Item = i128> {
+    text.bytes().filter(u8::is_ascii_digit).map(|byte| i128::from(byte - b'0'))
+}

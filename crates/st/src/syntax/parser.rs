@@ -1,0 +1,270 @@
+//! From tokens to the tree: a recursive descent that tells what is missing and goes on.
+
+mod arguments;
+mod blocks;
+mod declarations;
+mod expressions;
+mod file;
+mod initials;
+mod postfix;
+mod spelling;
+mod statements;
+mod types;
+
+use super::PROBLEMS_MAX;
+use super::ast::Name;
+use super::keyword::Keyword;
+use super::lexer::{self, Lexed};
+use super::token::{Lexeme, Token};
+use crate::problem::{Problem, Span};
+use blocks::Block;
+
+/// How deep expressions, statements, types and initial values may be nested in one another, all together.
+const NESTING_MAX: usize = 64;
+
+/// How many operands one expression may have, so that whoever walks its tree needs a bounded stack.
+const OPERANDS_MAX: usize = 500;
+
+/// What could not be read has been told; the caller looks for a place to go on.
+#[derive(Debug)]
+struct Failed;
+
+type Parsed<T> = Result<T, Failed>;
+
+/// Reads one source.
+pub(super) struct Parser<'source> {
+    source: &'source str,
+    lexemes: Vec<Lexeme>,
+    /// Where pragmas stood.
+    pragmas: Vec<Span>,
+    /// The token to read next; the last, the end of the file, is never passed.
+    place: usize,
+    problems: Vec<Problem>,
+    /// Whether the rest of the file is left aside.
+    stopped: bool,
+    /// How deep the reading is.
+    depth: usize,
+    /// How many operands the expression has so far.
+    operands: usize,
+    /// The blocks that are open, the innermost last.
+    blocks: Vec<Block>,
+}
+
+impl<'source> Parser<'source> {
+    pub(super) fn new(source: &'source str) -> Self {
+        let Lexed { lexemes, pragmas, problems } = lexer::lex(source);
+        Self {
+            source,
+            lexemes,
+            pragmas,
+            place: 0,
+            problems,
+            stopped: false,
+            depth: 0,
+            operands: 0,
+            blocks: Vec::new(),
+        }
+    }
+
+    /// The token `ahead` places from here.
+    fn peek(&self, ahead: usize) -> Token {
+        self.lexemes.get(self.place + ahead).map_or(Token::End, |lexeme| lexeme.token)
+    }
+
+    fn token(&self) -> Token {
+        self.peek(0)
+    }
+
+    fn at(&self, keyword: Keyword) -> bool {
+        self.token() == Token::Keyword(keyword)
+    }
+
+    /// The keyword that stands here.
+    fn keyword(&self) -> Option<Keyword> {
+        match self.token() {
+            Token::Keyword(keyword) => Some(keyword),
+            _ => None,
+        }
+    }
+
+    /// Where the token to read stands.
+    fn here(&self) -> Span {
+        self.lexemes.get(self.place).map(|lexeme| lexeme.span).unwrap_or_default()
+    }
+
+    /// Where the token before it stood.
+    fn previous(&self) -> Span {
+        let before = self.place.checked_sub(1).and_then(|place| self.lexemes.get(place));
+        before.map(|lexeme| lexeme.span).unwrap_or_default()
+    }
+
+    /// From `start` to the last token that was read.
+    fn since(&self, start: Span) -> Span {
+        let end = self.previous().end.max(start.start);
+        Span { start: start.start, end }
+    }
+
+    /// The token before the one to read.
+    fn peek_before(&self) -> Option<Token> {
+        let before = self.place.checked_sub(1).and_then(|place| self.lexemes.get(place));
+        before.map(|lexeme| lexeme.token)
+    }
+
+    fn text(&self, span: Span) -> &'source str {
+        self.source.get(span.range()).unwrap_or_default()
+    }
+
+    /// Moves on by a token.
+    fn advance(&mut self) -> Span {
+        let span = self.here();
+        if self.token() != Token::End {
+            self.place += 1;
+        }
+        span
+    }
+
+    /// Moves on when this token stands here.
+    fn accept(&mut self, token: Token) -> bool {
+        let stands_here = self.token() == token;
+        if stands_here {
+            self.advance();
+        }
+        stands_here
+    }
+
+    fn accept_keyword(&mut self, keyword: Keyword) -> bool {
+        self.accept(Token::Keyword(keyword))
+    }
+
+    /// Tells a problem, but one only for each place: what follows from it helps nobody.
+    fn tell(&mut self, problem: Problem) {
+        if self.stopped {
+            return;
+        }
+        let is_known = self.problems.iter().any(|known| known.span.start == problem.span.start);
+        if !is_known && self.problems.len() < PROBLEMS_MAX {
+            self.problems.push(problem);
+        }
+        if self.problems.len() >= PROBLEMS_MAX {
+            self.stop();
+        }
+    }
+
+    /// Leaves the rest of the file aside.
+    fn stop(&mut self) {
+        self.stopped = true;
+        self.place = self.lexemes.len().saturating_sub(1);
+    }
+
+    /// Tells a problem and fails.
+    fn fail<T>(&mut self, problem: Problem) -> Parsed<T> {
+        self.tell(problem);
+        Err(Failed)
+    }
+
+    /// The problem that `what` is not here: "expected … behind …, found …".
+    fn missing(&self, what: &str) -> Problem {
+        let span = self.here();
+        Problem::new(span, format!("expected {what}, found {}", self.found()))
+    }
+
+    /// The token to read, as a message names it.
+    fn found(&self) -> String {
+        match self.token() {
+            Token::End => "the end of the file".to_owned(),
+            Token::OpenString => "a string without an end".to_owned(),
+            Token::Keyword(keyword) => format!("`{}`", keyword.word()),
+            _ => {
+                let text = self.text(self.here());
+                let shown: String = text.chars().take(40).collect();
+                let more = if shown.len() < text.len() { "…" } else { "" };
+                format!("`{shown}{more}`")
+            }
+        }
+    }
+
+    /// Moves behind `token`, or tells that `what` is missing.
+    fn expect(&mut self, token: Token, what: &str) -> Parsed<Span> {
+        if self.token() == token {
+            return Ok(self.advance());
+        }
+        let problem = self.missing(what);
+        self.fail(problem)
+    }
+
+    /// Reads a name. `what` it is the name of goes into the message.
+    fn name(&mut self, what: &str) -> Parsed<Name> {
+        let span = self.here();
+        let text = self.text(span);
+        match self.token() {
+            Token::Name => {
+                self.advance();
+                Ok(Name { text: text.to_owned(), span })
+            }
+            Token::Keyword(keyword) => {
+                let message = format!("expected {what}, found the reserved word `{}`", keyword.word());
+                self.fail(Problem::new(span, message))
+            }
+            Token::BadNumber | Token::Integer => {
+                let message = format!("expected {what}, found `{text}`");
+                self.fail(Problem::new(span, message).help("a name does not begin with a digit"))
+            }
+            _ => {
+                let problem = self.missing(what);
+                self.fail(problem)
+            }
+        }
+    }
+
+    /// Reads the name of something new: no word of the language.
+    fn new_name(&mut self, what: &str) -> Parsed<Name> {
+        let name = self.name(what)?;
+        if spelling::is_type_word(&name.text) {
+            let message = format!("`{}` is the name of a type and cannot be {what}", name.text);
+            self.tell(Problem::new(name.span, message));
+        }
+        Ok(name)
+    }
+
+    /// Reads something that is one level deeper.
+    fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        if self.depth >= NESTING_MAX {
+            let help = format!("{NESTING_MAX} levels are the most");
+            self.tell(Problem::new(self.here(), "nested too deeply").help(help));
+            self.stop();
+            return Err(Failed);
+        }
+        self.depth += 1;
+        let result = read(self);
+        self.depth -= 1;
+        result
+    }
+
+    /// The semicolon that ends `what`. A missing one is told directly behind the last token, where it belongs.
+    fn semicolon(&mut self, what: &str) -> Parsed<()> {
+        if self.accept(Token::Semicolon) {
+            return Ok(());
+        }
+        let end = self.previous().end;
+        let mut problem = Problem::new(Span { start: end, end }, format!("expected `;` behind {what}"));
+        problem.help = self.semicolon_help();
+        self.fail(problem)
+    }
+
+    /// What the token that stands where a semicolon belongs may have been meant for.
+    fn semicolon_help(&self) -> Option<String> {
+        let help = match self.token() {
+            Token::Keyword(Keyword::Then) => "THEN belongs to IF or ELSIF",
+            Token::Keyword(Keyword::Do) => "DO belongs to FOR or WHILE",
+            Token::Keyword(Keyword::Of) => "OF belongs to CASE",
+            Token::Caret => "pointers are not supported",
+            _ => return None,
+        };
+        Some(help.to_owned())
+    }
+
+    /// The line of a place, counted from 1.
+    fn line(&self, span: Span) -> usize {
+        span.line_and_column(self.source).0
+    }
+}

@@ -1,0 +1,169 @@
+//! What is open, what closes it, and where reading goes on behind something broken.
+
+use super::super::keyword::Keyword;
+use super::super::token::Token;
+use super::{Parsed, Parser, spelling};
+use crate::problem::{Problem, Span};
+
+/// Something that an `END_…` closes.
+pub(super) struct Block {
+    opener: Keyword,
+    span: Span,
+    /// An `IF` with an `ELSE IF`, which opens a second one: often it should have been ELSIF.
+    has_else_if: bool,
+}
+
+impl Block {
+    fn awaits(&self, keyword: Keyword) -> bool {
+        let goes_on = match self.opener {
+            Keyword::If => matches!(keyword, Keyword::Elsif | Keyword::Else),
+            Keyword::Case => keyword == Keyword::Else,
+            Keyword::Repeat => keyword == Keyword::Until,
+            _ => false,
+        };
+        goes_on || self.opener.closer() == Some(keyword)
+    }
+}
+
+impl Parser<'_> {
+    /// Opens the block whose first word stands here, and tells where that is.
+    pub(super) fn open(&mut self, opener: Keyword) -> Span {
+        let span = self.advance();
+        self.blocks.push(Block { opener, span, has_else_if: false });
+        span
+    }
+
+    /// Notes that the innermost block goes on with ELSE and directly behind it IF.
+    pub(super) fn note_else_if(&mut self) {
+        if let Some(block) = self.blocks.last_mut() {
+            block.has_else_if = true;
+        }
+    }
+
+    /// Closes the innermost block. Another block's end that no open block waits for was meant for this one.
+    pub(super) fn close(&mut self) {
+        let Some(closer) = self.blocks.last().and_then(|block| block.opener.closer()) else { return };
+        self.mend(&[closer]);
+        let is_closed = self.accept_keyword(closer);
+        let Some(block) = self.blocks.pop() else { return };
+        if is_closed {
+            return;
+        }
+        let (opener, line) = (block.opener.word(), self.line(block.span));
+        let mut problem = self.missing(&format!("`{}` for the {opener} of line {line}", closer.word()));
+        if block.has_else_if {
+            problem = problem.help("`ELSE IF` opens a second IF; one more branch is written ELSIF");
+        }
+        self.tell(problem);
+        let ends = self.keyword().filter(|found| found.word().starts_with("END_") || found.ends_statements());
+        if ends.is_some_and(|found| !self.is_awaited(found)) {
+            self.advance();
+        }
+    }
+
+    /// Whether an open block ends or goes on with this word.
+    pub(super) fn is_awaited(&self, keyword: Keyword) -> bool {
+        self.blocks.iter().any(|block| block.awaits(keyword))
+    }
+
+    /// Whether the innermost block is a statement.
+    pub(super) fn is_inside_statement(&self) -> bool {
+        self.blocks.last().is_some_and(|block| block.opener.opens_statement())
+    }
+
+    /// What closes the innermost block.
+    fn innermost_closer(&self) -> Option<Keyword> {
+        self.blocks.last().and_then(|block| block.opener.closer())
+    }
+
+    /// Goes on behind the next semicolon, or at a word that begins or ends something.
+    pub(super) fn recover(&mut self) {
+        loop {
+            match self.token() {
+                Token::End => return,
+                Token::Semicolon => {
+                    self.advance();
+                    return;
+                }
+                Token::Keyword(word) if stands_out(word) => return,
+                _ => self.advance(),
+            };
+        }
+    }
+
+    /// Goes on behind `word`, unless a semicolon or a word that begins or ends something comes before it.
+    pub(super) fn recover_behind(&mut self, word: Keyword) {
+        loop {
+            match self.token() {
+                Token::End | Token::Semicolon => return,
+                Token::Keyword(found) if found == word => {
+                    self.advance();
+                    return;
+                }
+                Token::Keyword(found) if stands_out(found) => return,
+                _ => self.advance(),
+            };
+        }
+    }
+
+    /// Reads `word`, also when it is misspelt. `place` tells what it stands behind.
+    pub(super) fn word(&mut self, word: Keyword, place: &str) -> Parsed<()> {
+        self.mend(&[word]);
+        if self.accept_keyword(word) {
+            return Ok(());
+        }
+        let mut problem = self.missing_behind(&format!("`{}` {place}", word.word()));
+        let (before, here) = (self.previous(), self.here());
+        if self.pragmas.iter().any(|pragma| before.end <= pragma.start && pragma.end <= here.start) {
+            problem =
+                problem.help("text in `{…}` is a pragma and is left aside; blocks are written with words");
+        }
+        self.fail(problem)
+    }
+
+    /// A missing thing is told where the wrong one stands, or behind the last token when that is in another line.
+    fn missing_behind(&self, what: &str) -> Problem {
+        let mut problem = self.missing(what);
+        let before = self.previous();
+        if self.line(before) != self.line(self.here()) {
+            problem.span = Span { start: before.end, end: before.end };
+        }
+        problem
+    }
+
+    /// Takes a misspelt word, such as `ENDIF`, as the one of `candidates` that it looks like, and tells so.
+    pub(super) fn mend(&mut self, candidates: &[Keyword]) -> bool {
+        if self.token() != Token::Name {
+            return false;
+        }
+        let span = self.here();
+        let text = self.text(span);
+        let parted = self.parted_end(text);
+        let Some(meant) = parted.or_else(|| spelling::nearest(text, candidates)) else { return false };
+        let message = format!("`{text}` is not a word of the language");
+        self.tell(Problem::new(span, message).help(format!("did you mean `{}`?", meant.word())));
+        if parted.is_some() && matches!(self.peek(1), Token::Keyword(word) if word.closer().is_some()) {
+            self.advance();
+        }
+        if let Some(lexeme) = self.lexemes.get_mut(self.place) {
+            lexeme.token = Token::Keyword(meant);
+        }
+        true
+    }
+
+    /// What `END` alone, or `END IF`, closes.
+    fn parted_end(&self, text: &str) -> Option<Keyword> {
+        if !text.eq_ignore_ascii_case("END") {
+            return None;
+        }
+        match self.peek(1) {
+            Token::Keyword(word) if word.closer().is_some() => word.closer(),
+            _ => self.innermost_closer(),
+        }
+    }
+}
+
+/// Whether reading can go on at this word behind something broken.
+fn stands_out(word: Keyword) -> bool {
+    word.opens_statement() || word.ends_statements() || word.ends_body()
+}
