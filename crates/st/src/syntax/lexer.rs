@@ -55,7 +55,10 @@ impl Lexed {
                 self.push(found, Span::from(cursor.span()));
             }
             Token::Name => self.name(cursor),
-            Token::Unknown => self.unknown(opening, cursor.slice()),
+            Token::Unknown => {
+                self.unknown(opening, cursor.slice());
+                self.push(token, opening);
+            }
             _ => match foreign(token, cursor.slice()) {
                 Some((meant, help)) => {
                     let message = format!("`{}` is not Structured Text", cursor.slice());

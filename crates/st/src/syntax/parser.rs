@@ -205,7 +205,7 @@ impl<'source> Parser<'source> {
                 let message = format!("expected {what}, found the reserved word `{}`", keyword.word());
                 self.fail(Problem::new(span, message))
             }
-            Token::BadNumber | Token::Integer => {
+            Token::BadNumber => {
                 let message = format!("expected {what}, found `{text}`");
                 self.fail(Problem::new(span, message).help("a name does not begin with a digit"))
             }
@@ -218,6 +218,14 @@ impl<'source> Parser<'source> {
 
     /// Reads the name of something new: no word of the language.
     fn new_name(&mut self, what: &str) -> Parsed<Name> {
+        let is_declared =
+            matches!(self.peek(1), Token::Colon | Token::Comma | Token::Assign | Token::Keyword(Keyword::At));
+        if let (Some(word), true) = (self.keyword(), is_declared) {
+            let message = format!("`{}` is a reserved word and cannot be {what}", word.word());
+            let span = self.advance();
+            self.tell(Problem::new(span, message));
+            return Ok(Name { text: self.text(span).to_owned(), span });
+        }
         let name = self.name(what)?;
         if spelling::is_type_word(&name.text) {
             let message = format!("`{}` is the name of a type and cannot be {what}", name.text);
@@ -242,8 +250,12 @@ impl<'source> Parser<'source> {
 
     /// The semicolon that ends `what`. A missing one is told directly behind the last token, where it belongs.
     fn semicolon(&mut self, what: &str) -> Parsed<()> {
-        if self.accept(Token::Semicolon) {
+        // A string without an end has swallowed its semicolon.
+        if self.accept(Token::Semicolon) || self.peek_before() == Some(Token::OpenString) {
             return Ok(());
+        }
+        if self.token() == Token::Unknown {
+            return Err(Failed);
         }
         let end = self.previous().end;
         let mut problem = Problem::new(Span { start: end, end }, format!("expected `;` behind {what}"));
@@ -257,6 +269,9 @@ impl<'source> Parser<'source> {
             Token::Keyword(Keyword::Then) => "THEN belongs to IF or ELSIF",
             Token::Keyword(Keyword::Do) => "DO belongs to FOR or WHILE",
             Token::Keyword(Keyword::Of) => "OF belongs to CASE",
+            Token::CloseParenthesis => "this `)` has no `(`",
+            Token::CloseBracket => "this `]` has no `[`",
+            Token::Dot => "a real number has digits on both sides of its point",
             Token::Caret => "pointers are not supported",
             _ => return None,
         };

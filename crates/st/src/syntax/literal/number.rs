@@ -26,8 +26,8 @@ pub(crate) fn based(text: &str, span: Span) -> Result<Literal, Problem> {
 /// `1.5`, `1.0E-3`.
 pub(crate) fn real(text: &str, span: Span) -> Result<Literal, Problem> {
     float(text).filter(|value| value.is_finite()).map(Literal::Real).ok_or_else(|| {
-        let most = "-1.7976931348623157E308..1.7976931348623157E308";
-        Problem::new(span, format!("`{text}` is out of the range of LREAL, {most}"))
+        let limit = f64::MAX;
+        Problem::new(span, format!("`{text}` is out of the range of LREAL, -{limit:E}..{limit:E}"))
     })
 }
 
@@ -55,9 +55,12 @@ pub(super) fn real_of(elementary: Elementary, text: &str, span: Span) -> Result<
     let Some(value) = float(text) else {
         return Err(Problem::new(span, format!("`{text}` is not a number of {elementary}")));
     };
-    let limit = if elementary == Elementary::Real { f64::from(f32::MAX) } else { f64::MAX };
+    let (limit, shown) = match elementary {
+        Elementary::Real => (f64::from(f32::MAX), format!("{:E}", f32::MAX)),
+        _ => (f64::MAX, format!("{:E}", f64::MAX)),
+    };
     if value.abs() > limit {
-        let message = format!("`{text}` is out of the range of {elementary}, -{limit:E}..{limit:E}");
+        let message = format!("`{text}` is out of the range of {elementary}, -{shown}..{shown}");
         return Err(Problem::new(span, message));
     }
     Ok(value)

@@ -59,6 +59,7 @@ impl Parser<'_> {
             }
             if self.place == before {
                 self.advance();
+                self.accept(Token::Semicolon);
             }
         }
         variables

@@ -178,7 +178,12 @@ impl Parser<'_> {
             _ => {
                 let before = self.text(self.previous());
                 let shown: String = before.chars().take(40).collect();
-                self.missing(&format!("an expression behind `{shown}`"))
+                let is_tested = matches!(
+                    self.peek_before(),
+                    Some(Token::Keyword(Keyword::If | Keyword::Elsif | Keyword::While | Keyword::Until))
+                );
+                let what = if is_tested { "a condition" } else { "an expression" };
+                self.missing(&format!("{what} behind `{shown}`"))
             }
         }
     }

@@ -36,6 +36,7 @@ impl Parser<'_> {
     }
 
     fn item(&mut self, file: &mut File, unnamed: &mut Option<Pou>) {
+        self.mend_statement();
         let here = self.here();
         match self.keyword() {
             Some(Keyword::Type) => self.type_block(&mut file.types),
@@ -54,25 +55,28 @@ impl Parser<'_> {
                 self.advance();
                 self.accept(Token::Semicolon);
             }
-            _ if self.skip_unsupported() => {}
             _ => {
                 let body = self.statements(Place::Body);
-                unnamed.get_or_insert_with(|| unnamed_program(here)).body.extend(body);
+                if !body.is_empty() {
+                    unnamed.get_or_insert_with(|| unnamed_program(here)).body.extend(body);
+                }
             }
         }
     }
 
-    /// Moves behind a declaration that the language does not know.
-    fn skip_unsupported(&mut self) -> bool {
+    /// Moves behind a declaration that the language does not know, and no further than what is open goes.
+    pub(super) fn skip_unsupported(&mut self) -> bool {
         let here = self.here();
         let text = self.text(here);
         let known = UNSUPPORTED.iter().find(|(word, _)| word.eq_ignore_ascii_case(text));
         let (Some((word, end)), Token::Name) = (known, self.peek(1)) else { return false };
         self.tell(Problem::new(here, format!("{word} is not supported")));
-        while self.token() != Token::End && !self.text(self.here()).eq_ignore_ascii_case(end) {
-            self.advance();
+        while self.token() != Token::End && !self.keyword().is_some_and(|word| self.is_awaited(word)) {
+            let span = self.advance();
+            if self.text(span).eq_ignore_ascii_case(end) {
+                break;
+            }
         }
-        self.advance();
         true
     }
 

@@ -24,6 +24,9 @@ impl Parser<'_> {
         let mut statements = Vec::new();
         loop {
             self.mend_statement();
+            if !self.is_inside_statement() && self.skip_unsupported() {
+                continue;
+            }
             if self.statements_end() || (place == Place::Arm && self.at_label()) {
                 return statements;
             }
@@ -52,7 +55,7 @@ impl Parser<'_> {
     }
 
     /// Takes a misspelt word at the beginning of a statement for what it looks like, if no statement begins so.
-    fn mend_statement(&mut self) {
+    pub(super) fn mend_statement(&mut self) {
         let begins_statement = matches!(
             self.peek(1),
             Token::Assign
@@ -127,9 +130,10 @@ impl Parser<'_> {
         match (self.token(), target.kind) {
             (Token::Assign | Token::Equal, kind) => {
                 let to = Expression { kind, span: target.span };
-                if self.advance() == sign && self.text(sign) != ":=" {
+                if self.token() == Token::Equal {
                     self.tell_assignment(sign);
                 }
+                self.advance();
                 let value = self.expression()?;
                 self.no_second_assignment()?;
                 Ok(StatementKind::Assign { to, value })
@@ -144,6 +148,8 @@ impl Parser<'_> {
 
     /// `=`, or an operator of another language, where `:=` belongs.
     fn tell_assignment(&mut self, sign: Span) {
+        // `==` has been told as a comparison, which it is not here.
+        self.problems.retain(|problem| problem.span.start != sign.start);
         let message = format!("expected `:=`, found `{}`", self.text(sign));
         self.tell(Problem::new(sign, message).help("an assignment is written `:=`"));
     }

@@ -1,11 +1,13 @@
 //! Types, where they are declared and where they are used.
 
-use super::super::ast::{Expression, Name, TypeDeclaration, TypeDefinition, TypeKind, TypeName};
+use super::super::ast::{
+    Expression, Name, TypeDeclaration, TypeDefinition, TypeKind, TypeName, VarDeclaration,
+};
 use super::super::keyword::Keyword;
 use super::super::token::Token;
 use super::declarations::Owner;
-use super::{Parsed, Parser, spelling};
-use crate::elementary::Elementary;
+use super::{Failed, Parsed, Parser, spelling};
+use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 
 /// The values of an enumeration, each with its number if one is given.
@@ -54,10 +56,7 @@ impl Parser<'_> {
 
     fn definition(&mut self) -> Parsed<TypeDefinition> {
         if self.at(Keyword::Struct) {
-            self.open(Keyword::Struct);
-            let members = self.declarations(Owner::Struct);
-            self.close();
-            return Ok(TypeDefinition::Struct(members));
+            return Ok(TypeDefinition::Struct(self.structure()));
         }
         let has_base = self.token() == Token::Name && self.peek(1) == Token::OpenParenthesis;
         if self.token() == Token::OpenParenthesis || (has_base && self.peek(2) == Token::Name) {
@@ -66,6 +65,14 @@ impl Parser<'_> {
         let type_name = self.type_name()?;
         let initial = if self.assign_sign() { Some(self.initial()?) } else { None };
         Ok(TypeDefinition::Alias { type_name, initial })
+    }
+
+    /// `STRUCT … END_STRUCT`.
+    fn structure(&mut self) -> Vec<VarDeclaration> {
+        self.open(Keyword::Struct);
+        let members = self.declarations(Owner::Struct);
+        self.close();
+        members
     }
 
     /// `(a, b := 5)`, with its base type before or behind it.
@@ -138,7 +145,10 @@ impl Parser<'_> {
             Token::Keyword(Keyword::Array) => return self.array(),
             Token::Name => return self.named_type(span),
             Token::Keyword(Keyword::Struct) => {
-                Problem::new(span, "a structure has no place here").help("declare it in TYPE … END_TYPE")
+                let problem = Problem::new(span, "a structure has no place here");
+                self.tell(problem.help("declare it in TYPE … END_TYPE"));
+                self.structure();
+                return Err(Failed);
             }
             Token::OpenParenthesis => {
                 Problem::new(span, "an enumeration has no place here").help("declare it in TYPE … END_TYPE")
@@ -205,6 +215,5 @@ impl Parser<'_> {
 }
 
 fn is_integer(elementary: Elementary) -> bool {
-    use crate::elementary::Class;
     matches!(elementary.class(), Class::Signed | Class::Unsigned)
 }
