@@ -1,8 +1,6 @@
 //! From text to tokens: comments and pragmas are gone, and spellings of other languages are told.
 
 mod skipped;
-#[cfg(test)]
-mod tests;
 
 use logos::Logos as _;
 

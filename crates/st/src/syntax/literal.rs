@@ -2,8 +2,6 @@
 
 mod number;
 mod string;
-#[cfg(test)]
-mod tests;
 mod time;
 
 pub(crate) use number::{based, integer, real};

@@ -2,8 +2,12 @@
 
 mod accepted;
 mod broken;
+mod declared;
+mod literals;
+mod manual;
 mod printed;
 mod properties;
+mod spans;
 
 use super::{ast::File, parse};
 use crate::problem::Problems;

@@ -118,6 +118,11 @@ impl Parser<'_> {
             problem =
                 problem.help("text in `{…}` is a pragma and is left aside; blocks are written with words");
         }
+        let operators = [Keyword::And, Keyword::Or, Keyword::Xor, Keyword::Mod];
+        let is_name = self.token() == Token::Name;
+        if let Some(operator) = spelling::nearest(self.text(here), &operators).filter(|_| is_name) {
+            problem = problem.help(format!("did you mean `{}`?", operator.word()));
+        }
         self.fail(problem)
     }
 

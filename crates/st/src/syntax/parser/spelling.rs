@@ -25,9 +25,10 @@ pub(super) fn nearest(text: &str, candidates: &[Keyword]) -> Option<Keyword> {
     let distance = |keyword: &Keyword| strsim::damerau_levenshtein(&text, keyword.word());
     // Two wrong letters in a word of four would make half of all names a keyword.
     let allowed = if text.len() > 5 { 2 } else { 1 };
-    // The table of distances is as large as the text is long; no keyword is nearly as long as this.
-    let is_short = text.len() < 24;
-    let best = candidates.iter().filter(|_| is_short).min_by_key(|keyword| distance(keyword))?;
+    // The table of distances is as large as the text is long, and no keyword is nearly as long as this. A single letter
+    // looks like nothing.
+    let is_comparable = (2..24).contains(&text.len());
+    let best = candidates.iter().filter(|_| is_comparable).min_by_key(|keyword| distance(keyword))?;
     (distance(best) <= allowed).then_some(*best)
 }
 

@@ -32,6 +32,8 @@ impl Parser<'_> {
             }
             let before = self.place;
             match self.deeper(Self::statement) {
+                // One empty statement says as much as a million of them.
+                Ok(Statement { kind: StatementKind::Empty, .. }) if ends_empty(&statements) => {}
                 Ok(statement) => statements.push(statement),
                 Err(_) => self.recover(),
             }
@@ -221,6 +223,10 @@ impl Parser<'_> {
             _ => false,
         }
     }
+}
+
+fn ends_empty(statements: &[Statement]) -> bool {
+    matches!(statements.last(), Some(Statement { kind: StatementKind::Empty, .. }))
 }
 
 /// The words that a misspelt one at the beginning of a statement may stand for.

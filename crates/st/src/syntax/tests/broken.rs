@@ -54,6 +54,8 @@ const SOURCES: &[&str] = &[
     "IF a THEN x := 1; ELSE x := 2; ELSE x := 3; END_IF;",
     "IF a {x := 1;}\ny := 2;",
     "IF a { x := 1;",
+    "IF a ADN b THEN x := 1; END_IF;",
+    "IF a THNE x := 1; END_IF;",
     "IFF a THEN x := 1; END_IF;",
     "IF a == b && !c || d != e % 2 THEN x := 1; END_IF;",
     // CASE and loops.
@@ -112,6 +114,9 @@ const SOURCES: &[&str] = &[
     "PROGRAM a x := 1; VAR y : INT; END_VAR END_PROGRAM",
     "PROGRAM a VAR x : INT; x := 1; END_PROGRAM",
     "CONFIGURATION c RESOURCE r ON p END_RESOURCE END_CONFIGURATION x := 1;",
+    "PROGRAM p IF a THEN WHILE b DO x := 1; END_IF; END_PROGRAM",
+    "PROGRAM p IF a THEN x := 1; END_PROGRAM\nPROGRAM q y = 1; END_PROGRAM",
+    "FUNCTION : INT END_FUNCTION",
     "FUNCTON f : INT f := 1; END_FUNCTION",
 ];
 
