@@ -272,7 +272,7 @@ impl<'source> Parser<'source> {
             Token::CloseParenthesis => "this `)` has no `(`",
             Token::CloseBracket => "this `]` has no `[`",
             Token::Dot => "a real number has digits on both sides of its point",
-            Token::Caret => "pointers are not supported",
+            Token::Caret => "a power is written `**`",
             _ => return None,
         };
         Some(help.to_owned())

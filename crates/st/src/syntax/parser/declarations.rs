@@ -15,6 +15,15 @@ pub(super) enum Owner {
     Struct,
 }
 
+impl Owner {
+    fn closer(self) -> Keyword {
+        match self {
+            Self::Section => Keyword::EndVar,
+            Self::Struct => Keyword::EndStruct,
+        }
+    }
+}
+
 impl Parser<'_> {
     /// `VAR … END_VAR`, with the word that opens it.
     pub(super) fn section(&mut self, opener: Keyword) -> VarSection {
@@ -52,7 +61,11 @@ impl Parser<'_> {
     /// Declarations up to the end of the section or structure.
     pub(super) fn declarations(&mut self, owner: Owner) -> Vec<VarDeclaration> {
         let mut variables = Vec::new();
-        while !self.declarations_end(owner) {
+        loop {
+            self.mend_closer(owner);
+            if self.declarations_end(owner) {
+                return variables;
+            }
             let before = self.place;
             if self.declaration(owner, &mut variables).is_err() {
                 self.recover();
@@ -62,11 +75,19 @@ impl Parser<'_> {
                 self.accept(Token::Semicolon);
             }
         }
-        variables
+    }
+
+    /// Takes a misspelt end, such as `ENDVAR`, for what it is: a declaration has other things behind its name.
+    fn mend_closer(&mut self, owner: Owner) {
+        let is_declared =
+            matches!(self.peek(1), Token::Colon | Token::Comma | Token::Assign | Token::Keyword(Keyword::At));
+        if self.token() == Token::Name && !is_declared {
+            self.mend(&[owner.closer()]);
+        }
     }
 
     fn declarations_end(&self, owner: Owner) -> bool {
-        let closer = if owner == Owner::Section { Keyword::EndVar } else { Keyword::EndStruct };
+        let closer = owner.closer();
         match self.token() {
             Token::End => true,
             Token::Keyword(word) if word.ends_body() => true,

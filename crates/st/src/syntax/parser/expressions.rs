@@ -174,6 +174,9 @@ impl Parser<'_> {
                 .help("use AT IOBus://… or the variable's name"),
             Token::OpenBracket => Problem::new(span, "a list in brackets has no place here")
                 .help("it can be the initial value of an ARRAY"),
+            Token::Dot => {
+                self.missing("a number").help("a real number has digits on both sides of its point")
+            }
             _ if self.place == 0 => self.missing("an expression"),
             _ => {
                 let before = self.text(self.previous());

@@ -21,7 +21,8 @@ impl Parser<'_> {
                     return self.nothing_behind_a_call(Expression { kind: ExpressionKind::Call(call), span });
                 }
                 Token::Caret => {
-                    return self.fail(Problem::new(self.here(), "pointers are not supported"));
+                    let problem = Problem::new(self.here(), "pointers are not supported");
+                    return self.fail(problem.help("a power is written `**`"));
                 }
                 _ => return Ok(whole),
             };

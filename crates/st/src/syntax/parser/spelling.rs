@@ -5,10 +5,11 @@ use super::super::literal;
 use crate::elementary::Elementary;
 
 /// Words of other languages and dialects for which no letter-by-letter likeness is needed.
-const OTHER_WORDS: [(&str, Keyword); 7] = [
+const OTHER_WORDS: [(&str, Keyword); 8] = [
     ("ELIF", Keyword::Elsif),
     ("ELSEIF", Keyword::Elsif),
     ("BREAK", Keyword::Exit),
+    ("STEP", Keyword::By),
     ("NEXT", Keyword::EndFor),
     ("WEND", Keyword::EndWhile),
     ("ENDSWITCH", Keyword::EndCase),

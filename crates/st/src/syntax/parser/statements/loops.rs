@@ -53,6 +53,9 @@ impl Parser<'_> {
         let from = self.expression()?;
         self.word(Keyword::To, "behind the first value of FOR")?;
         let to = self.expression()?;
+        if self.token() == Token::Name && self.text(self.here()).len() > 2 {
+            self.mend(&[Keyword::By]);
+        }
         let by = if self.accept_keyword(Keyword::By) { Some(self.expression()?) } else { None };
         Ok(ForHead { variable, from, to, by })
     }
