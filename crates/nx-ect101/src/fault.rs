@@ -91,6 +91,14 @@ impl Fault {
         self.row().recovery == Recovery::ResetErrorByFailsoft
     }
 
+    /// Whether the fail-soft operation of the NX bus decides what stops with it.
+    pub(crate) fn is_fail_soft(self) -> bool {
+        matches!(
+            self.row().recovery,
+            Recovery::ResetErrorByFailsoft | Recovery::RestartNxUnitThenResetErrorByFailsoft
+        )
+    }
+
     /// Whether I/O is refreshed no more, or does not begin to be.
     pub(crate) fn stops_io(self) -> bool {
         matches!(self.row().io_refresh, IoRefreshEffect::NotPerformed | IoRefreshEffect::Stops)

@@ -75,6 +75,10 @@ pub struct UnitHeader {
     pub error: bool,
     /// The unit can do NX message communications.
     pub messages_enabled: bool,
+    /// The unit has an error for which the fail-soft operation of the NX bus decides (manual, 8-3-4).
+    pub fail_soft_error: bool,
+    /// The last [`CpuHeader::error_resets`] that it has followed.
+    pub error_resets: u32,
 }
 
 /// What the CPU Unit tells the unit along with the data C to M.
@@ -84,6 +88,11 @@ pub struct CpuHeader {
     pub refreshing: bool,
     /// The CPU Unit does NX message communications with the unit.
     pub messages_enabled: bool,
+    /// The NX Bus Function Module has stopped I/O refreshing because of an error: no data is exchanged, but that is no
+    /// I/O communications error of the unit.
+    pub io_stopped: bool,
+    /// Counts the error resets in the NX Bus Function Module; with each the unit resets its errors too. It wraps.
+    pub error_resets: u32,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has none.
     pub system_time_ns: u64,
 }

@@ -3,6 +3,7 @@
 mod checks;
 mod diagnosis;
 mod memory;
+mod nx_bus_side;
 
 use device::{Check, Exchange, ProcessDataAreas, Start, Unit};
 use objects::ObjectServer;
@@ -21,7 +22,6 @@ use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
 use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd, UnitHeader};
 use crate::nx_objects::NxObject;
-use crate::nx_server;
 use crate::pdo_settings::PdoSettings;
 use crate::rules;
 use crate::settings::UnitSettings;
@@ -60,6 +60,10 @@ pub struct NxEct101 {
     is_initialized: bool,
     /// It has stopped, which is the present cause of NX Unit I/O Communications Error.
     io_communications_lost: bool,
+    /// The NX Bus Function Module has stopped I/O refreshing because of an error.
+    io_stopped: bool,
+    /// How many error resets of the NX Bus Function Module the unit has followed.
+    error_resets: u32,
 }
 
 impl NxEct101 {
@@ -104,6 +108,8 @@ impl NxEct101 {
             cpu_refreshing: false,
             is_initialized: false,
             io_communications_lost: false,
+            io_stopped: false,
+            error_resets: 0,
             settings: settings.clone(),
         };
         (unit, cpu_end)
@@ -132,18 +138,9 @@ impl NxEct101 {
         self.settings.id_switch = id_switch;
     }
 
-    /// Whether the I/O allocation and the unit's own health let I/O be refreshed.
+    /// Whether the I/O allocation, the unit's own health and the NX bus let I/O be refreshed.
     fn io_is_refreshed(&self) -> bool {
-        self.io_findings.is_empty() && !self.objects.diagnosis.stops_io()
-    }
-
-    /// Answers the NX messages that have come. What they change shows in the same refresh.
-    fn answer_messages(&mut self) {
-        if self.bus.messages.take_discarded() {
-            self.objects.diagnosis.inject(Fault::MessageCommunications);
-        }
-        let (objects, serial) = (&mut self.objects, self.memory.contents().serial());
-        self.bus.messages.answer(|request| nx_server::answer(request, serial, &mut objects.messages));
+        self.io_findings.is_empty() && !self.objects.diagnosis.stops_io() && !self.io_stopped
     }
 
     /// Works out the status words of both sides (manual, 6-3-2 and 7-5-5).
@@ -171,13 +168,10 @@ impl NxEct101 {
 
     /// Takes in outputs and tells the status to the CPU Unit.
     fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
-        let io_data_active = self.io_is_refreshed();
-        if let Some(outputs) = outputs.filter(|_| io_data_active) {
+        if let Some(outputs) = outputs.filter(|_| self.io_is_refreshed()) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
         }
-        let (status, error) = (self.status, self.has_error());
-        let header = UnitHeader { status, io_data_active, error, messages_enabled: true };
-        self.bus.m_to_c.publish(header, &self.m_to_c);
+        self.bus.m_to_c.publish(self.header(), &self.m_to_c);
     }
 
     /// Fills the inputs from the newest data of the CPU Unit.
@@ -274,6 +268,7 @@ impl Unit for NxEct101 {
         self.objects.diagnosis.set_time(cpu.system_time_ns);
         self.tell_start();
         self.watch_io_communications(cpu.refreshing);
+        self.follow_nx_bus(cpu);
         self.answer_messages();
         self.update_status(&exchange, cpu);
         self.refresh_m_to_c(exchange.outputs);

@@ -42,6 +42,17 @@ pub enum CpuMode {
     Program,
 }
 
+/// What the NX Bus Function Module does when the unit has an error of the two families for which the manual makes it
+/// depend on this setting (manual, 8-3-4: 10410000 and 80200000).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FailSoftOperation {
+    /// *Fail-soft*: only the unit with the error stops; an error reset in the unit is enough.
+    #[default]
+    FailSoft,
+    /// *Stop*: I/O refreshing stops until the error is reset in the NX Bus Function Module.
+    Stop,
+}
+
 /// The level that a user gives to an event whose level can be changed (manual, 8-3-4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedLevel {
@@ -58,6 +69,8 @@ pub struct CpuSection {
     pub task_period: Located<Duration>,
     /// Mode at power-on; RUN when left out.
     pub mode: Located<CpuMode>,
+    /// Fail-soft operation of the NX bus; fail-soft when left out.
+    pub fail_soft: Located<FailSoftOperation>,
     /// User program, relative to the unit file; none when left out.
     pub program: Option<Located<PathBuf>>,
 }

@@ -1,6 +1,6 @@
 //! User programs that need no file, by their names.
 
-use crate::io::Program;
+use crate::program::Program;
 use crate::{Echo, MessageEcho, Pulse};
 
 /// A user program that a unit file names in place of a path.

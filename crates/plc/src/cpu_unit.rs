@@ -1,73 +1,26 @@
 //! The CPU Unit: a primary periodic task that refreshes the I/O of one unit and runs a user program.
 
+mod settings;
+
 use core::fmt;
 
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
-use nx_ect101::unit_file::{CpuMode, UnitFile};
 use time::{Duration, Instant};
 
-use crate::io::{Io, Program};
+use crate::cpu_event::{CpuEvent, CpuRecord};
+use crate::io::Io;
+use crate::nx_bus_function::{IoRefreshing, NxBusFunction};
+use crate::program::{Program, Slot};
 
-/// Operating mode of the CPU Unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum OperatingMode {
-    /// RUN: the user program runs.
-    #[default]
-    Run,
-    /// PROGRAM: the user program stands; the I/O exchange goes on and the values stay (manual, A-4).
-    Program,
-}
-
-/// How a CPU Unit is set up.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CpuSettings {
-    /// Device name of the unit on the NX bus: the first part of its device variables' names.
-    pub device_name: String,
-    /// NX Unit number of the unit, from 1.
-    pub unit_number: u8,
-    /// Task period of the primary periodic task; not zero.
-    pub task_period: Duration,
-    /// Operating mode at power-on.
-    pub mode: OperatingMode,
-    /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
-    pub system_time_ns: Option<u64>,
-}
-
-impl CpuSettings {
-    /// The settings of a unit file, without system time.
-    #[must_use]
-    pub fn from_unit_file(file: &UnitFile) -> Self {
-        let mode = match file.cpu.mode.value {
-            CpuMode::Run => OperatingMode::Run,
-            CpuMode::Program => OperatingMode::Program,
-        };
-        Self {
-            device_name: file.name.value.clone(),
-            unit_number: file.unit_number.value,
-            task_period: file.cpu.task_period.value,
-            mode,
-            system_time_ns: None,
-        }
-    }
-}
-
-impl Default for CpuSettings {
-    /// A unit N1 with number 1; 1 ms, RUN, no system time.
-    fn default() -> Self {
-        Self {
-            device_name: "N1".to_owned(),
-            unit_number: 1,
-            task_period: Duration::from_millis(1),
-            mode: OperatingMode::Run,
-            system_time_ns: None,
-        }
-    }
-}
+pub use settings::{CpuSettings, OperatingMode};
 
 /// A CPU Unit in operation, with one unit on its NX bus.
 pub struct CpuUnit {
     bus: CpuEnd,
-    program: Box<dyn Program + Send>,
+    nx_bus_function: NxBusFunction,
+    /// Outside runtimes, in the order in which they were attached.
+    attached: Vec<Slot>,
+    user_program: Slot,
     io: Io,
     mode: OperatingMode,
     task_period: Duration,
@@ -99,7 +52,9 @@ impl CpuUnit {
                 bus.c_to_m_layout.clone(),
             ),
             bus,
-            program,
+            nx_bus_function: NxBusFunction::new(settings.fail_soft),
+            attached: Vec::new(),
+            user_program: Slot::new(program),
             mode: settings.mode,
             task_period: settings.task_period,
             powered_on: now,
@@ -116,20 +71,24 @@ impl CpuUnit {
     }
 
     /// One task period: first the I/O refresh, which hands over the data C to M that the last scan left and
-    /// takes in the newest data M to C, then the user program in RUN mode. So what a program makes of its
-    /// inputs goes out one task period later: the 2 T_cpu of the I/O response time (manual, 7-9-1).
+    /// takes in the newest data M to C, then the outside runtimes, then the user program in RUN mode. So what a
+    /// program makes of its inputs goes out one task period later: the 2 T_cpu of the I/O response time (manual,
+    /// 7-9-1).
     ///
-    /// Periods keep their phase; those that were missed by `now` are left out.
+    /// Periods keep their phase; those that were missed by `now` are left out, and an event tells how many.
     pub fn cycle(&mut self, now: Instant) {
-        self.refresh_outputs(now);
+        let missed_periods = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
+        self.begin_period(now, missed_periods);
+        self.refresh_outputs();
         self.refresh_inputs();
+        for runtime in &mut self.attached {
+            runtime.run(&mut self.io);
+        }
         if self.mode == OperatingMode::Run {
-            self.program.scan(&mut self.io);
-            self.io.memory.c_to_m.apply_forced();
+            self.user_program.run(&mut self.io);
         }
         self.io.nx_objects.send(&mut self.bus.messages);
-        let late = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
-        self.deadline += self.task_period * (late + 1);
+        self.deadline += self.task_period * (missed_periods + 1);
     }
 
     /// The operating mode.
@@ -138,9 +97,63 @@ impl CpuUnit {
         self.mode
     }
 
-    /// Changes the operating mode, in force from the next task period on.
+    /// Changes the operating mode, in force from the next task period on. With RUN mode the user program starts
+    /// anew. What is forced stays.
     pub fn set_mode(&mut self, mode: OperatingMode) {
-        self.mode = mode;
+        if self.mode != mode {
+            self.mode = mode;
+            self.user_program.start_anew();
+            self.io.log(CpuEvent::ModeChanged(mode));
+        }
+    }
+
+    /// Replaces the user program. What is forced stays, and so do the values.
+    ///
+    /// # Errors
+    /// [`NotInProgramMode`]: then the old one goes on.
+    pub fn load(&mut self, program: Box<dyn Program + Send>) -> Result<(), NotInProgramMode> {
+        if self.mode != OperatingMode::Program {
+            return Err(NotInProgramMode);
+        }
+        self.user_program = Slot::new(program);
+        self.io.log(CpuEvent::ProgramLoaded);
+        Ok(())
+    }
+
+    /// Attaches an outside runtime, such as another PLC or an HMI. It runs before the user program, and in every
+    /// operating mode: what is outside does not stop with this CPU Unit.
+    pub fn attach(&mut self, runtime: Box<dyn Program + Send>) {
+        self.attached.push(Slot::new(runtime));
+    }
+
+    /// Whether the user program has stopped by itself ([`crate::ProgramEvent::Stopped`]).
+    #[must_use]
+    pub fn has_program_stopped(&self) -> bool {
+        self.user_program.is_stopped()
+    }
+
+    /// Takes the events that nobody has taken yet, the oldest first. At most [`crate::CPU_EVENTS_MAX`] are kept,
+    /// and one that goes on and on is one record.
+    pub fn take_events(&mut self) -> impl ExactSizeIterator<Item = CpuRecord> {
+        self.io.events.take()
+    }
+
+    /// How many records of events were lost since power-on, because nobody took them.
+    #[must_use]
+    pub const fn events_lost(&self) -> u64 {
+        self.io.events.lost()
+    }
+
+    /// Resets the errors of the NX Bus Function Module and, with its next refresh, those of the unit. I/O refreshing
+    /// that an error has stopped goes on, unless the cause is still there (manual, 8-3-4).
+    pub const fn reset_errors(&mut self) {
+        self.nx_bus_function.reset_errors();
+    }
+
+    /// Whether the NX Bus Function Module has stopped I/O refreshing because of an error of the unit.
+    #[must_use]
+    pub fn is_io_stopped(&self) -> bool {
+        self.nx_bus_function.refreshing() == IoRefreshing::Stopped
     }
 
     /// Whether the CPU Unit does I/O refreshing on the NX bus, from the next task period on. A CPU Unit that stops
@@ -166,21 +179,52 @@ impl CpuUnit {
         &mut self.io
     }
 
+    fn begin_period(&mut self, now: Instant, missed_periods: u64) {
+        let running = now.saturating_since(self.powered_on);
+        let system_time_ns = self.system_time_ns.map(|start_ns| start_ns.saturating_add(running.as_nanos()));
+        self.io.begin_period(Instant::ZERO + running, system_time_ns);
+        if missed_periods > 0 {
+            self.io.log(CpuEvent::TaskPeriodExceeded { missed_periods });
+        }
+    }
+
     fn refresh_inputs(&mut self) {
         // Responses first: then no flag is older than a response.
         self.io.nx_objects.receive(&mut self.bus.messages);
         let image = self.bus.m_to_c.newest();
-        self.io.take_inputs(image.header, image.bytes());
+        match self.nx_bus_function.hear(&image.header) {
+            Some(IoRefreshing::Stopped) => self.io.log(CpuEvent::IoRefreshingStopped),
+            Some(IoRefreshing::GoesOn) => self.io.log(CpuEvent::IoRefreshingResumed),
+            None => {}
+        }
+        self.io.take_inputs(image.header, self.nx_bus_function.refreshing(), image.bytes());
     }
 
-    fn refresh_outputs(&mut self, now: Instant) {
-        let running_ns = now.saturating_since(self.powered_on).as_nanos();
-        let system_time_ns = self.system_time_ns.map_or(0, |start_ns| start_ns.saturating_add(running_ns));
-        let header = CpuHeader { refreshing: self.io_refreshing, messages_enabled: true, system_time_ns };
-        self.io.memory.c_to_m.apply_forced();
+    fn refresh_outputs(&mut self) {
+        let mut header = CpuHeader {
+            refreshing: self.io_refreshing,
+            messages_enabled: true,
+            system_time_ns: self.io.system_time_ns().unwrap_or(0),
+            ..CpuHeader::default()
+        };
+        self.nx_bus_function.tell(&mut header);
+        // What has been written from outside may be forced.
+        self.io.memory.apply_forced();
         self.bus.c_to_m.publish(header, self.io.c_to_m());
     }
 }
+
+/// A user program is loaded in PROGRAM mode only.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotInProgramMode;
+
+impl fmt::Display for NotInProgramMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("the CPU Unit is in RUN mode, and a program is loaded in PROGRAM mode")
+    }
+}
+
+impl core::error::Error for NotInProgramMode {}
 
 impl fmt::Debug for CpuUnit {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

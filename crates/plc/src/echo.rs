@@ -2,7 +2,8 @@
 
 use nx_ect101::{DataSet, Direction};
 
-use crate::io::{Io, Program};
+use crate::io::Io;
+use crate::program::Program;
 
 /// Copies every entry M to C to the same entry C to M, as long as the I/O data can be used and the data of both
 /// directions is valid. The manual's program stops at NX Unit Error Status too; this one does not, so that data

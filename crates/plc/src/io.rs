@@ -1,24 +1,16 @@
-//! What a user program sees of one unit: its entries by data set, its status, the raw images.
+//! What a program sees of one unit: its entries by data set, its status, the raw images, and the time.
 
 use core::ops::Range;
 
 use nx_ect101::nx_bus::UnitHeader;
 use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
+use time::Instant;
 
+use crate::cpu_event::{CpuEvent, CpuEventLog};
 use crate::device_variables::{DeviceVariables, Memory};
+use crate::nx_bus_function::IoRefreshing;
 use crate::nx_object_client::NxObjectClient;
-
-/// A user program.
-pub trait Program {
-    /// Runs once in a task period.
-    fn scan(&mut self, io: &mut Io);
-}
-
-impl<F: FnMut(&mut Io)> Program for F {
-    fn scan(&mut self, io: &mut Io) {
-        self(io);
-    }
-}
+use crate::program::ProgramEvent;
 
 /// The I/O of one unit as the last I/O refresh brought it, and what the next one takes along.
 #[derive(Clone, Debug)]
@@ -30,6 +22,12 @@ pub struct Io {
     c_to_m_layout: ImageLayout,
     /// Of the unit on the NX bus.
     unit_number: u8,
+    pub(crate) events: CpuEventLog,
+    /// When the task period began, counted from power-on.
+    now: Instant,
+    system_time_ns: Option<u64>,
+    /// The program that runs now has reported that it stops.
+    has_stopped: bool,
 }
 
 impl Io {
@@ -46,8 +44,12 @@ impl Io {
             m_to_c_layout,
             c_to_m_layout,
             unit_number,
+            events: CpuEventLog::new(),
+            now: Instant::ZERO,
+            system_time_ns: None,
+            has_stopped: false,
         };
-        io.take_inputs(UnitHeader::default(), &[]);
+        io.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
         io
     }
 
@@ -131,6 +133,26 @@ impl Io {
         &mut self.nx_objects
     }
 
+    /// When this task period began, counted from power-on of the CPU Unit: the same for all of a scan.
+    #[must_use]
+    pub const fn now(&self) -> Instant {
+        self.now
+    }
+
+    /// The system time at the beginning of this task period, in nanoseconds since 1970-01-01 00:00:00; none while
+    /// the CPU Unit has none.
+    #[must_use]
+    pub const fn system_time_ns(&self) -> Option<u64> {
+        self.system_time_ns
+    }
+
+    /// Tells the owner of the CPU Unit what has happened in a program ([`crate::CpuUnit::take_events`]). A program
+    /// that reports [`ProgramEvent::Stopped`] does not run until it is started again.
+    pub fn report(&mut self, event: ProgramEvent) {
+        self.has_stopped |= matches!(event, ProgramEvent::Stopped(_));
+        self.log(CpuEvent::Program(event));
+    }
+
     /// EtherCAT Slave Status of the unit.
     #[must_use]
     pub fn status(&self) -> SlaveStatus {
@@ -150,8 +172,23 @@ impl Io {
     }
 
     /// Takes in what the unit tells, data and statuses; what is forced stays.
-    pub(crate) fn take_inputs(&mut self, header: UnitHeader, m_to_c: &[u8]) {
-        self.memory.refresh(self.unit_number, header, m_to_c);
+    pub(crate) fn take_inputs(&mut self, header: UnitHeader, refreshing: IoRefreshing, m_to_c: &[u8]) {
+        self.memory.refresh(self.unit_number, header, refreshing, m_to_c);
+    }
+
+    /// A task period begins, so long after power-on.
+    pub(crate) const fn begin_period(&mut self, now: Instant, system_time_ns: Option<u64>) {
+        self.now = now;
+        self.system_time_ns = system_time_ns;
+    }
+
+    /// Whether the program that ran has reported that it stops.
+    pub(crate) const fn take_stop(&mut self) -> bool {
+        core::mem::replace(&mut self.has_stopped, false)
+    }
+
+    pub(crate) fn log(&mut self, event: CpuEvent) {
+        self.events.add(self.now, event);
     }
 
     /// Where the same entry lies in both images; none if only one direction has it allocated.

@@ -4,25 +4,31 @@
 //! [`CpuUnit::deadline`] has come. A user program is a [`Program`] that sees [`Io`] and nothing else.
 
 mod builtin;
+mod cpu_event;
 mod cpu_unit;
 mod device_variables;
 mod echo;
 mod io;
 mod message_echo;
+mod nx_bus_function;
 mod nx_object_client;
+mod program;
 mod pulse;
 
 pub use builtin::Builtin;
-pub use cpu_unit::{CpuSettings, CpuUnit, OperatingMode};
+pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
+pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
 pub use device_variables::{
     DeviceVariables, STATUS_BITS, SYSTEM_TABLE_ELEMENTS, StatusBit, Target, TextProblem, VALUE_BYTES_MAX,
     Validity, ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
     VariableType, VariableValue,
 };
 pub use echo::Echo;
-pub use io::{Io, Program};
+pub use io::Io;
 pub use message_echo::MessageEcho;
 pub use nx_ect101::nx_bus::{NxMessageError, NxValue};
+pub use nx_ect101::unit_file::FailSoftOperation;
 pub use nx_ect101::{ObjectIndex, SubIndex};
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
+pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;

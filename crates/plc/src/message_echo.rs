@@ -6,8 +6,9 @@ use nx_ect101::nx_bus::NxValue;
 use nx_ect101::{ObjectIndex, SubIndex};
 
 use crate::echo::Echo;
-use crate::io::{Io, Program};
+use crate::io::Io;
 use crate::nx_object_client::NxCall;
+use crate::program::Program;
 
 const MESSAGE: SubIndex = SubIndex(1);
 const FROM_MASTER: ObjectIndex = ObjectIndex(0x5000);

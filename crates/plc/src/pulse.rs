@@ -1,6 +1,7 @@
 //! The pulse program of the manual's example: as long as it comes, the CPU Unit is in RUN mode.
 
-use crate::io::{Io, Program};
+use crate::io::Io;
+use crate::program::Program;
 
 /// Counts in the first byte C to M, one up with every task period. In PROGRAM mode it stands, which a master
 /// notices when it has not changed for longer than the I/O response time.

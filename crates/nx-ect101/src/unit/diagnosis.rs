@@ -151,16 +151,4 @@ impl NxEct101 {
             diagnosis.raise_standing(Occurrence::of_finding(finding));
         }
     }
-
-    /// A CPU Unit that stops I/O refreshing is an NX bus without I/O communications.
-    pub(super) fn watch_io_communications(&mut self, refreshing: bool) {
-        if self.cpu_refreshing && !refreshing {
-            self.io_communications_lost = true;
-            self.objects.diagnosis.see(Fault::IoCommunications);
-        } else if refreshing && core::mem::take(&mut self.io_communications_lost) {
-            self.objects.diagnosis.see_no_more(Fault::IoCommunications);
-        }
-        self.cpu_refreshing = refreshing;
-        self.is_initialized |= refreshing;
-    }
 }

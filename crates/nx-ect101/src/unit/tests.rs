@@ -14,8 +14,13 @@ use crate::timing::Timing;
 use crate::unit_file::UnitFile;
 
 const NOW: Instant = Instant::ZERO;
-const REFRESHING: CpuHeader =
-    CpuHeader { refreshing: true, messages_enabled: true, system_time_ns: 1_700_000_000_000_000_000 };
+const REFRESHING: CpuHeader = CpuHeader {
+    refreshing: true,
+    messages_enabled: true,
+    io_stopped: false,
+    error_resets: 0,
+    system_time_ns: 1_700_000_000_000_000_000,
+};
 
 struct Bench {
     unit: NxEct101,

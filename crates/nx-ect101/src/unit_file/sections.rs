@@ -8,7 +8,7 @@ use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntrie
 use super::error::Problem;
 use super::located::Located;
 use super::reader::{Reader, Section, Value, wrong_type};
-use super::{ChangedLevel, CpuMode, CpuSection, Model, UnitFile, values};
+use super::{ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, UnitFile, values};
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
@@ -199,10 +199,11 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
     let mut cpu = CpuSection {
         task_period: Located::left_out(Duration::from_millis(1)),
         mode: Located::left_out(CpuMode::Run),
+        fail_soft: Located::left_out(FailSoftOperation::FailSoft),
         program: None,
     };
     let Some(section) = reader.section(file, "cpu") else { return cpu };
-    reader.only(&section, &["task_period", "mode", "program"]);
+    reader.only(&section, &["task_period", "mode", "fail_soft", "program"]);
     if let Some(task_period) = reader.value(&section, "task_period", values::task_period) {
         cpu.task_period = task_period;
     }
@@ -210,6 +211,17 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
     if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
         cpu.mode = mode;
     }
+    if let Some(fail_soft) = reader.value(&section, "fail_soft", fail_soft) {
+        cpu.fail_soft = fail_soft;
+    }
     cpu.program = reader.value(&section, "program", values::path);
     cpu
+}
+
+fn fail_soft(place: &str, value: &DeValue<'_>) -> Result<FailSoftOperation, Problem> {
+    match value.as_bool() {
+        Some(true) => Ok(FailSoftOperation::FailSoft),
+        Some(false) => Ok(FailSoftOperation::Stop),
+        None => Err(wrong_type(place, value, "true or false")),
+    }
 }

@@ -35,6 +35,7 @@ mapping.1A03 = ["6002:02", "6001:01"]
 [cpu]
 task_period = "1ms"
 mode = "run"
+fail_soft = false
 program = "echo.st"
 "#;
 
@@ -48,7 +49,7 @@ fn a_file_with_every_key_reads_as_written() {
     let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
     assert_eq!((level.event_code.value.0, level.level.value), (0x3917_0000, EventLevel::Observation));
     assert_eq!(file.cpu.task_period.value, Duration::from_millis(1));
-    assert_eq!(file.cpu.mode.value, CpuMode::Run);
+    assert_eq!((file.cpu.mode.value, file.cpu.fail_soft.value), (CpuMode::Run, FailSoftOperation::Stop));
     assert_eq!(file.cpu.program.unwrap().value, PathBuf::from("echo.st"));
 }
 
@@ -76,6 +77,7 @@ fn what_is_left_out_is_as_documented() {
     assert_eq!(file.name, Located::left_out("N1".into()));
     assert_eq!((file.unit_number.value, file.serial.value, file.id_switch.value), (1, 1, 1));
     assert_eq!((file.timing.value, file.cpu.mode.value), (Timing::Exact, CpuMode::Run));
+    assert_eq!(file.cpu.fail_soft.value, FailSoftOperation::FailSoft);
     assert_eq!((&file.io_allocation, &file.pdo, &file.storage), (&None, &None, &None));
     assert_eq!(file.io_allocation(), IoAllocation::factory());
 }
@@ -176,6 +178,8 @@ const WRONG: &[(&str, &str)] = &[
     ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"101ms\""),
     ("period as a number", "model = \"nx-ect101\"\ncpu.task_period = 1"),
     ("mode", "model = \"nx-ect101\"\n[cpu]\nmode = \"RUN\""),
+    ("fail-soft as a word", "model = \"nx-ect101\"\n[cpu]\nfail_soft = \"stop\""),
+    ("fail-soft misspelt", "model = \"nx-ect101\"\n[cpu]\nfailsoft = true"),
     ("cpu no table", "model = \"nx-ect101\"\ncpu = \"run\""),
     ("array of tables", "model = \"nx-ect101\"\n[[cpu]]\nmode = \"run\""),
     ("unknown data set", "model = \"nx-ect101\"\n[io_allocation.m_to_c]\nuint = 6"),

@@ -102,7 +102,8 @@ impl Bench {
     }
 
     pub(crate) fn refresh(&mut self, time_ns: u64, refreshing: bool) {
-        let header = CpuHeader { refreshing, messages_enabled: true, system_time_ns: time_ns };
+        let header =
+            CpuHeader { refreshing, messages_enabled: true, system_time_ns: time_ns, ..CpuHeader::default() };
         self.cpu.c_to_m.publish(header, &[]);
         let has_inputs = matches!(self.state, AlState::SafeOp | AlState::Op);
         let inputs_bytes = if has_inputs { self.unit.process_data().inputs_bytes } else { 0 };

@@ -1,6 +1,11 @@
 //! A CPU Unit and a unit in virtual time, each with its own period and phase.
 
+mod fail_soft;
+mod forced;
+mod programs;
+
 use device::{Check, Exchange, PortLinks, Unit};
+use nx_ect101::unit_file::{FailSoftOperation, UnitFile};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
 use wire::AlState;

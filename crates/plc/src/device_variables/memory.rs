@@ -6,6 +6,7 @@ use super::ports::{
     ERROR_TABLE, IO_DATA_ACTIVE, MESSAGE_TABLE, SLAVE_STATUS, STATUS_BYTES, SYSTEM_TABLE_ELEMENTS, UNIT_ERROR,
 };
 use super::variable::VariableValue;
+use crate::nx_bus_function::IoRefreshing;
 
 /// Which image a variable lies in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,22 +69,29 @@ impl Memory {
 
     /// Takes in what the unit with this NX Unit number tells. What is forced stays. The system-defined tables end
     /// at unit 32: one with a higher number has no element in them.
-    pub(crate) fn refresh(&mut self, unit_number: u8, header: UnitHeader, m_to_c: &[u8]) {
+    pub(crate) fn refresh(
+        &mut self,
+        unit_number: u8,
+        header: UnitHeader,
+        refreshing: IoRefreshing,
+        m_to_c: &[u8],
+    ) {
+        let is_stopped = refreshing == IoRefreshing::Stopped;
         for (byte, new) in self.m_to_c.bytes.iter_mut().zip(m_to_c) {
             *byte = *new;
         }
         let status = &mut self.status.bytes;
         status[SLAVE_STATUS..][..2].copy_from_slice(&header.status.bits().to_le_bytes());
-        status[IO_DATA_ACTIVE] = header.io_data_active.into();
+        status[IO_DATA_ACTIVE] = (header.io_data_active && !is_stopped).into();
         status[UNIT_ERROR] = header.error.into();
         // The NX Bus Function Module itself can always be asked (manual, A-5-1).
         status[MESSAGE_TABLE] = 1;
+        status[ERROR_TABLE] = is_stopped.into();
         if u16::from(unit_number) < SYSTEM_TABLE_ELEMENTS {
             status[MESSAGE_TABLE + usize::from(unit_number)] = header.messages_enabled.into();
             status[ERROR_TABLE + usize::from(unit_number)] = header.error.into();
         }
-        self.m_to_c.apply_forced();
-        self.status.apply_forced();
+        self.apply_forced();
     }
 
     pub(crate) fn slave_status(&self) -> u16 {
@@ -96,6 +104,13 @@ impl Memory {
 
     pub(crate) fn unit_error(&self) -> bool {
         self.status.bytes[UNIT_ERROR] != 0
+    }
+
+    /// Gives everything forced its value, whatever has been written over it.
+    pub(crate) fn apply_forced(&mut self) {
+        self.m_to_c.apply_forced();
+        self.c_to_m.apply_forced();
+        self.status.apply_forced();
     }
 
     pub(super) const fn of(&self, area: Area) -> &Image {
@@ -133,8 +148,7 @@ impl Image {
         Self { bytes: zeros.clone(), forced: zeros.clone(), values: zeros, has_forced: false }
     }
 
-    /// Gives all forced bits their values, whatever has been written over them.
-    pub(crate) fn apply_forced(&mut self) {
+    fn apply_forced(&mut self) {
         if !self.has_forced {
             return;
         }
@@ -143,7 +157,9 @@ impl Image {
         }
     }
 
+    /// Frees everything; it stays until it is written or refreshed.
     pub(crate) fn release_all(&mut self) {
+        self.apply_forced();
         self.forced.fill(0);
         self.values.fill(0);
         self.has_forced = false;
@@ -178,6 +194,7 @@ impl Image {
 
     /// Frees the value; it stays until it is written or refreshed.
     pub(super) fn release(&mut self, place: Place) {
+        self.apply_forced();
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for (forced, fixed) in bits {
             *forced &= !place.mask;

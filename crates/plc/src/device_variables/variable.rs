@@ -1,8 +1,10 @@
 //! One device variable: name, I/O port, AT specification, type, access and place.
 
 use core::fmt;
+use core::ops::Range;
 
 use arrayvec::ArrayVec;
+use nx_ect101::Direction;
 use st::Elementary;
 
 use super::memory::Place;
@@ -114,6 +116,16 @@ pub struct Variable {
 }
 
 impl Variable {
+    /// Where its bytes lie in [`crate::Io::m_to_c`] or [`crate::Io::c_to_m`]; none for what is no I/O entry.
+    #[must_use]
+    pub fn image_bytes(&self) -> Option<(Direction, Range<usize>)> {
+        let bytes = self.place.start..self.place.start + self.place.length_bytes;
+        match self.source {
+            VariableSource::Entry { direction, .. } => Some((direction, bytes)),
+            _ => None,
+        }
+    }
+
     /// Whether this is its name or its AT specification, in whatever case.
     pub(super) fn is_called(&self, name_or_at: &str) -> bool {
         let at = self.at.as_deref().is_some_and(|at| at.eq_ignore_ascii_case(name_or_at));

@@ -8,6 +8,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::device_variables::*;
+use crate::nx_bus_function::IoRefreshing;
 
 /// The I/O map as a table.
 fn table(io: &Io) -> String {
@@ -115,7 +116,11 @@ fn a_value_is_valid_under_the_conditions_of_the_manuals_program() {
         ["N1_UINTs_01_M_to_C", "N1_UINTs_01_C_to_M", "N1_EtherCAT_Slave_Status", "_NXB_UnitErrFlagTbl"];
     let mut seen = |m_to_c_valid, io_data_active, error| {
         let status = SlaveStatus { m_to_c_valid, ..SlaveStatus::default() };
-        io.take_inputs(UnitHeader { status, io_data_active, error, messages_enabled: true }, &[]);
+        io.take_inputs(
+            UnitHeader { status, io_data_active, error, messages_enabled: true, ..UnitHeader::default() },
+            IoRefreshing::GoesOn,
+            &[],
+        );
         names.map(|name| io.validity(io.find(name).expect(name)).expect("a variable of this list"))
     };
     use Validity::{DataNotValid, IoDataNotActive, UnitError, Valid};
@@ -149,12 +154,20 @@ fn the_system_tables_have_the_elements_of_the_unit() {
         [&[1][..], &[0; 32]].concat(),
         "the NX Bus Function Module is always there"
     );
-    io.take_inputs(UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() }, &[]);
+    io.take_inputs(
+        UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() },
+        IoRefreshing::GoesOn,
+        &[],
+    );
     assert_eq!(table(&io, active), [&[1, 1][..], &[0; 31]].concat());
     assert_eq!(table(&io, errors), [&[0, 1][..], &[0; 31]].concat());
     let layout = IoAllocation::empty().layout(Direction::MToC);
     let mut beyond = Io::new("N1", 63, layout.clone(), layout);
-    beyond.take_inputs(UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() }, &[]);
+    beyond.take_inputs(
+        UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() },
+        IoRefreshing::GoesOn,
+        &[],
+    );
     let errors = beyond.find("_NXB_UnitErrFlagTbl").expect("always there");
     assert_eq!(table(&beyond, errors), [0; 33], "units beyond 32 have no element");
 }

@@ -1,0 +1,168 @@
+//! What the CPU Unit tells its owner: a bounded log that says what it has lost.
+
+use std::collections::VecDeque;
+
+use time::Instant;
+
+use crate::cpu_unit::OperatingMode;
+use crate::program::ProgramEvent;
+
+/// Most records that wait to be taken.
+pub const CPU_EVENTS_MAX: usize = 64;
+
+/// Something that happened on the CPU Unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CpuEvent {
+    /// The operating mode was changed.
+    ModeChanged(OperatingMode),
+    /// A user program was loaded.
+    ProgramLoaded,
+    /// A task period began late, so that some were left out.
+    TaskPeriodExceeded {
+        /// How many, of all that the record counts.
+        missed_periods: u64,
+    },
+    /// A program told something.
+    Program(ProgramEvent),
+    /// The NX Bus Function Module stopped I/O refreshing because of an error of the unit: the fail-soft operation
+    /// is set to *Stop* (manual, 8-3-4).
+    IoRefreshingStopped,
+    /// The errors of the NX Bus Function Module were reset, and I/O refreshing goes on.
+    IoRefreshingResumed,
+}
+
+/// An event, when it happened, and how often.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CpuRecord {
+    /// What happened.
+    pub event: CpuEvent,
+    /// Beginning of the task period in which it happened first, counted from power-on of the CPU Unit.
+    pub first_at: Instant,
+    /// The same for the last time.
+    pub last_at: Instant,
+    /// How often it happened, from 1.
+    pub count: u64,
+}
+
+/// The records that nobody has taken yet.
+#[derive(Clone, Debug)]
+pub(crate) struct CpuEventLog {
+    records: VecDeque<CpuRecord>,
+    lost: u64,
+}
+
+impl CpuEvent {
+    /// After one of these, the same trouble is new trouble.
+    const fn is_turn(&self) -> bool {
+        match self {
+            Self::ModeChanged(_)
+            | Self::ProgramLoaded
+            | Self::IoRefreshingStopped
+            | Self::IoRefreshingResumed => true,
+            Self::TaskPeriodExceeded { .. } => false,
+            Self::Program(event) => matches!(event, ProgramEvent::UserDefinedErrorsReset),
+        }
+    }
+
+    /// Takes the other event in, if it is the same again.
+    fn absorb(&mut self, other: &Self) -> bool {
+        match (self, other) {
+            (
+                Self::TaskPeriodExceeded { missed_periods },
+                Self::TaskPeriodExceeded { missed_periods: more },
+            ) => {
+                *missed_periods = missed_periods.saturating_add(*more);
+                true
+            }
+            (this, other) => this == other,
+        }
+    }
+}
+
+impl CpuEventLog {
+    pub(crate) fn new() -> Self {
+        Self { records: VecDeque::with_capacity(CPU_EVENTS_MAX), lost: 0 }
+    }
+
+    /// Writes an event down. One that goes on and on takes one record; when there is no room, the oldest is lost.
+    pub(crate) fn add(&mut self, now: Instant, event: CpuEvent) {
+        if !event.is_turn() {
+            let mut since_turn = self.records.iter_mut().rev().take_while(|record| !record.event.is_turn());
+            if let Some(record) = since_turn.find_map(|record| record.event.absorb(&event).then_some(record))
+            {
+                record.last_at = now;
+                record.count += 1;
+                return;
+            }
+        }
+        if self.records.len() == CPU_EVENTS_MAX {
+            self.records.pop_front();
+            self.lost += 1;
+        }
+        self.records.push_back(CpuRecord { event, first_at: now, last_at: now, count: 1 });
+    }
+
+    /// Takes all records, the oldest first.
+    pub(crate) fn take(&mut self) -> impl ExactSizeIterator<Item = CpuRecord> {
+        self.records.drain(..)
+    }
+
+    /// How many records were lost since power-on.
+    pub(crate) const fn lost(&self) -> u64 {
+        self.lost
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(ms: u64) -> Instant {
+        Instant::from_nanos(ms * 1_000_000)
+    }
+
+    const EXCEEDED: CpuEvent = CpuEvent::TaskPeriodExceeded { missed_periods: 2 };
+    const OVERRUN: CpuEvent = CpuEvent::Program(ProgramEvent::TaskOverrun { budget_statements: 100 });
+
+    #[test]
+    fn what_goes_on_and_on_takes_one_record() {
+        let mut log = CpuEventLog::new();
+        for ms in 0..1_000 {
+            log.add(at(ms), EXCEEDED);
+            log.add(at(ms), OVERRUN);
+        }
+        let records: Vec<_> = log.take().collect();
+        let exceeded = CpuEvent::TaskPeriodExceeded { missed_periods: 2_000 };
+        let expected = [exceeded, OVERRUN].map(|event| CpuRecord {
+            event,
+            first_at: at(0),
+            last_at: at(999),
+            count: 1_000,
+        });
+        assert_eq!(records, expected);
+        assert_eq!(log.take().len(), 0);
+        assert_eq!(log.lost(), 0);
+    }
+
+    #[test]
+    fn after_a_change_of_the_mode_the_same_trouble_is_new_trouble() {
+        let mut log = CpuEventLog::new();
+        let change = CpuEvent::ModeChanged(OperatingMode::Program);
+        for event in [OVERRUN, OVERRUN, change.clone(), change, OVERRUN] {
+            log.add(at(1), event);
+        }
+        assert_eq!(log.take().map(|record| record.count).collect::<Vec<_>>(), [2, 1, 1, 1]);
+    }
+
+    #[test]
+    fn the_oldest_record_is_lost_and_counted() {
+        let mut log = CpuEventLog::new();
+        for code in 1..=70 {
+            log.add(at(1), CpuEvent::Program(ProgramEvent::UserDefinedError { code, info1: 0, info2: 0 }));
+        }
+        assert_eq!(log.lost(), 6);
+        let first = log.take().next().map(|record| record.event);
+        let seventh = ProgramEvent::UserDefinedError { code: 7, info1: 0, info2: 0 };
+        assert_eq!(first, Some(CpuEvent::Program(seventh)));
+    }
+}

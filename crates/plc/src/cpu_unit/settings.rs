@@ -1,0 +1,64 @@
+//! How a CPU Unit is set up.
+
+use nx_ect101::unit_file::{CpuMode, FailSoftOperation, UnitFile};
+use time::Duration;
+
+/// Operating mode of the CPU Unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OperatingMode {
+    /// RUN: the user program runs.
+    #[default]
+    Run,
+    /// PROGRAM: the user program stands; the I/O exchange goes on and the values stay (manual, A-4).
+    Program,
+}
+
+/// How a CPU Unit is set up.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CpuSettings {
+    /// Device name of the unit on the NX bus: the first part of its device variables' names.
+    pub device_name: String,
+    /// NX Unit number of the unit, from 1.
+    pub unit_number: u8,
+    /// Task period of the primary periodic task; not zero.
+    pub task_period: Duration,
+    /// Operating mode at power-on.
+    pub mode: OperatingMode,
+    /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
+    pub system_time_ns: Option<u64>,
+    /// What the NX Bus Function Module does when the unit has an error.
+    pub fail_soft: FailSoftOperation,
+}
+
+impl CpuSettings {
+    /// The settings of a unit file, without system time.
+    #[must_use]
+    pub fn from_unit_file(file: &UnitFile) -> Self {
+        let mode = match file.cpu.mode.value {
+            CpuMode::Run => OperatingMode::Run,
+            CpuMode::Program => OperatingMode::Program,
+        };
+        Self {
+            device_name: file.name.value.clone(),
+            unit_number: file.unit_number.value,
+            task_period: file.cpu.task_period.value,
+            mode,
+            system_time_ns: None,
+            fail_soft: file.cpu.fail_soft.value,
+        }
+    }
+}
+
+impl Default for CpuSettings {
+    /// A unit N1 with number 1; 1 ms, RUN, no system time, fail-soft.
+    fn default() -> Self {
+        Self {
+            device_name: "N1".to_owned(),
+            unit_number: 1,
+            task_period: Duration::from_millis(1),
+            mode: OperatingMode::Run,
+            system_time_ns: None,
+            fail_soft: FailSoftOperation::FailSoft,
+        }
+    }
+}

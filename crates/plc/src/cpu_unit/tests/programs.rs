@@ -1,0 +1,206 @@
+//! User programs and outside runtimes: when they start, when they run, what they tell.
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use super::*;
+use crate::{CpuEvent, ProgramEvent, ProgramTrouble};
+
+/// Tells every call, with the time.
+struct Told {
+    name: &'static str,
+    calls: Sender<String>,
+}
+
+impl Program for Told {
+    fn start(&mut self, io: &mut Io) {
+        let _ = self.calls.send(format!("{} starts at {} ms", self.name, ms(io)));
+    }
+
+    fn scan(&mut self, io: &mut Io) {
+        let _ = self.calls.send(format!("{} at {} ms", self.name, ms(io)));
+    }
+}
+
+fn ms(io: &Io) -> u64 {
+    io.now().as_nanos() / 1_000_000
+}
+
+fn told(name: &'static str) -> (Box<Told>, Receiver<String>) {
+    let (calls, heard) = channel();
+    (Box::new(Told { name, calls }), heard)
+}
+
+fn cpu_unit(settings: CpuSettings, program: Box<dyn Program + Send>) -> (NxEct101, CpuUnit) {
+    let (unit, bus) = NxEct101::power_on(&UnitSettings::default());
+    (unit, CpuUnit::power_on(at_ms(100), settings, bus, program))
+}
+
+/// The CPU Unit gets power at 100 ms: its own time begins there.
+fn at_ms(ms: u64) -> Instant {
+    Instant::ZERO + Duration::from_millis(ms)
+}
+
+fn stop() -> ProgramEvent {
+    ProgramEvent::Stopped(ProgramTrouble { what: "array index 15 of 15".into(), line: 3, column: 7 })
+}
+
+fn events(cpu: &mut CpuUnit) -> Vec<CpuEvent> {
+    cpu.take_events().map(|record| record.event).collect()
+}
+
+#[test]
+fn a_user_program_starts_before_its_first_scan_and_again_with_run_mode() {
+    let (program, heard) = told("user");
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), program);
+    let calls = || heard.try_iter().collect::<Vec<_>>();
+    cpu.cycle(at_ms(100));
+    cpu.cycle(at_ms(101));
+    assert_eq!(calls(), ["user starts at 0 ms", "user at 0 ms", "user at 1 ms"]);
+    cpu.set_mode(OperatingMode::Program);
+    cpu.cycle(at_ms(102));
+    cpu.set_mode(OperatingMode::Program);
+    cpu.set_mode(OperatingMode::Run);
+    assert_eq!(calls().len(), 0);
+    cpu.cycle(at_ms(103));
+    assert_eq!(calls(), ["user starts at 3 ms", "user at 3 ms"]);
+    let [program, run] = [OperatingMode::Program, OperatingMode::Run].map(CpuEvent::ModeChanged);
+    assert_eq!(events(&mut cpu), [program, run]);
+}
+
+#[test]
+fn an_outside_runtime_runs_first_and_in_every_mode() {
+    let (program, user) = told("user");
+    let settings = CpuSettings { mode: OperatingMode::Program, ..CpuSettings::default() };
+    let (_unit, mut cpu) = cpu_unit(settings, program);
+    let (runtime, outside) = told("outside");
+    cpu.attach(runtime);
+    let (runtime, second) = told("second");
+    cpu.attach(runtime);
+    cpu.cycle(at_ms(100));
+    assert_eq!(outside.try_iter().count(), 2, "start and scan");
+    assert_eq!((second.try_iter().count(), user.try_iter().count()), (2, 0));
+    cpu.set_mode(OperatingMode::Run);
+    cpu.cycle(at_ms(101));
+    assert_eq!(outside.try_iter().collect::<Vec<_>>(), ["outside at 1 ms"], "it is not started anew");
+    assert_eq!(user.try_iter().count(), 2);
+}
+
+#[test]
+fn what_an_outside_runtime_writes_the_user_program_reads() {
+    let program = |io: &mut Io| {
+        let first = io.c_to_m()[0];
+        io.c_to_m_mut()[1] = first + 1;
+    };
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
+    cpu.attach(Box::new(|io: &mut Io| io.c_to_m_mut()[0] = 7));
+    cpu.cycle(at_ms(100));
+    assert_eq!(cpu.io().c_to_m()[..2], [7, 8]);
+}
+
+#[test]
+fn a_program_is_loaded_in_program_mode_only() {
+    let (old, heard_old) = told("old");
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), old);
+    let (new, heard_new) = told("new");
+    cpu.cycle(at_ms(100));
+    assert_eq!(cpu.load(new), Err(NotInProgramMode));
+    cpu.cycle(at_ms(101));
+    assert_eq!((heard_old.try_iter().count(), heard_new.try_iter().count()), (3, 0));
+    cpu.set_mode(OperatingMode::Program);
+    let (new, heard_new) = told("new");
+    assert_eq!(cpu.load(new), Ok(()));
+    cpu.set_mode(OperatingMode::Run);
+    cpu.cycle(at_ms(102));
+    assert_eq!(heard_new.try_iter().collect::<Vec<_>>(), ["new starts at 2 ms", "new at 2 ms"]);
+    assert_eq!(heard_old.try_iter().count(), 0);
+    assert!(events(&mut cpu).contains(&CpuEvent::ProgramLoaded));
+}
+
+#[test]
+fn a_program_that_stops_runs_again_when_it_is_started() {
+    let mut scans = 0;
+    let program = move |io: &mut Io| {
+        scans += 1;
+        io.set_udint(1, 1);
+        io.c_to_m_mut()[0] = scans;
+        if scans == 2 {
+            io.report(stop());
+        }
+    };
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
+    let (runtime, outside) = told("outside");
+    cpu.attach(runtime);
+    for ms in 100..110 {
+        cpu.cycle(at_ms(ms));
+    }
+    assert_eq!(cpu.io().c_to_m()[0], 2);
+    assert!(cpu.has_program_stopped());
+    assert_eq!(outside.try_iter().count(), 11, "the others go on");
+    assert_eq!(events(&mut cpu), [CpuEvent::Program(stop())]);
+    cpu.set_mode(OperatingMode::Program);
+    cpu.set_mode(OperatingMode::Run);
+    cpu.cycle(at_ms(110));
+    assert_eq!((cpu.io().c_to_m()[0], cpu.has_program_stopped()), (3, false));
+}
+
+#[test]
+fn a_program_that_stops_at_its_start_does_not_scan() {
+    struct Broken;
+    impl Program for Broken {
+        fn start(&mut self, io: &mut Io) {
+            io.report(stop());
+        }
+
+        fn scan(&mut self, io: &mut Io) {
+            io.c_to_m_mut()[0] = 1;
+        }
+    }
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(Broken));
+    cpu.cycle(at_ms(100));
+    assert_eq!((cpu.io().c_to_m()[0], cpu.has_program_stopped()), (0, true));
+}
+
+#[test]
+fn task_periods_that_are_left_out_are_told() {
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(Echo));
+    cpu.cycle(at_ms(100));
+    cpu.cycle(at_ms(101) + Duration::from_micros(999));
+    assert_eq!(events(&mut cpu), [], "late, but none is left out");
+    cpu.cycle(at_ms(104));
+    cpu.cycle(at_ms(106));
+    let record = cpu.take_events().next().expect("a record");
+    assert_eq!(record.event, CpuEvent::TaskPeriodExceeded { missed_periods: 3 });
+    let (first_at, last_at) = (at_ms(4), at_ms(6));
+    assert_eq!((record.first_at, record.last_at, record.count), (first_at, last_at, 2));
+}
+
+#[test]
+fn an_error_in_every_scan_is_counted_and_not_logged_endlessly() {
+    let overrun = ProgramEvent::TaskOverrun { budget_statements: 1_000 };
+    let alarm = ProgramEvent::UserDefinedError { code: 0x101, info1: 20_000_000, info2: 1 };
+    let reported = [overrun, alarm];
+    let program = {
+        let reported = reported.clone();
+        move |io: &mut Io| reported.iter().for_each(|event| io.report(event.clone()))
+    };
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
+    for ms in 100..1_100 {
+        cpu.cycle(at_ms(ms));
+    }
+    let records: Vec<_> = cpu.take_events().map(|record| (record.event, record.count)).collect();
+    assert_eq!(records, reported.map(|event| (CpuEvent::Program(event), 1_000)));
+    assert_eq!(cpu.events_lost(), 0);
+}
+
+#[test]
+fn a_program_knows_the_time() {
+    let (times, heard) = channel();
+    let program = move |io: &mut Io| times.send((io.now(), io.system_time_ns())).expect("someone listens");
+    let settings = CpuSettings { system_time_ns: Some(1_000), ..CpuSettings::default() };
+    let (_unit, mut cpu) = cpu_unit(settings, Box::new(program));
+    cpu.cycle(at_ms(100));
+    cpu.jump_system_time(Duration::from_millis(5));
+    cpu.cycle(at_ms(101));
+    let expected = [(at_ms(0), Some(1_000)), (at_ms(1), Some(6_001_000))];
+    assert_eq!(heard.try_iter().collect::<Vec<_>>(), expected);
+}

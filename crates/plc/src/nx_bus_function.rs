@@ -1,0 +1,96 @@
+//! The NX Bus Function Module of the CPU Unit: what it does when the unit has an error (manual, 8-3-4).
+//!
+//! For two families of errors, Control Parameter Error in Master (10410000) and NX Unit I/O Communications Error
+//! (80200000), the fail-soft operation decides. Set to *Stop*, I/O refreshing stops on the NX bus, and goes on
+//! when the error has been reset in the NX Bus Function Module. Set to *Fail-soft*, only the unit that has the
+//! error stops, and a reset in the unit is enough.
+
+use nx_ect101::nx_bus::{CpuHeader, UnitHeader};
+use nx_ect101::unit_file::FailSoftOperation;
+
+/// Whether the NX Bus Function Module lets I/O be refreshed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum IoRefreshing {
+    GoesOn,
+    /// Because of an error of the unit.
+    Stopped,
+}
+
+/// The NX Bus Function Module.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NxBusFunction {
+    fail_soft: FailSoftOperation,
+    refreshing: IoRefreshing,
+    /// How often errors were reset; the unit follows, and says how far it is.
+    error_resets: u32,
+    /// The unit has not followed the last reset yet.
+    awaits_reset: bool,
+}
+
+impl NxBusFunction {
+    pub(crate) const fn new(fail_soft: FailSoftOperation) -> Self {
+        Self { fail_soft, refreshing: IoRefreshing::GoesOn, error_resets: 0, awaits_reset: false }
+    }
+
+    pub(crate) const fn refreshing(&self) -> IoRefreshing {
+        self.refreshing
+    }
+
+    /// Resets the errors here and in the unit.
+    pub(crate) const fn reset_errors(&mut self) {
+        self.error_resets = self.error_resets.wrapping_add(1);
+        self.awaits_reset = true;
+    }
+
+    /// What the unit is told.
+    pub(crate) fn tell(&self, header: &mut CpuHeader) {
+        header.io_stopped = self.refreshing == IoRefreshing::Stopped;
+        header.error_resets = self.error_resets;
+    }
+
+    /// Hears what the unit tells, and says whether I/O refreshing stops or goes on with it.
+    pub(crate) fn hear(&mut self, header: &UnitHeader) -> Option<IoRefreshing> {
+        let has_followed = header.error_resets == self.error_resets;
+        let was_reset = self.awaits_reset && has_followed;
+        self.awaits_reset &= !has_followed;
+        let change = match (self.fail_soft, self.refreshing) {
+            // An older error may be what the reset is about.
+            (FailSoftOperation::Stop, IoRefreshing::GoesOn) if header.fail_soft_error && has_followed => {
+                IoRefreshing::Stopped
+            }
+            (_, IoRefreshing::Stopped) if was_reset && !header.fail_soft_error => IoRefreshing::GoesOn,
+            _ => return None,
+        };
+        self.refreshing = change;
+        Some(change)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn heard(fail_soft_error: bool, error_resets: u32) -> UnitHeader {
+        UnitHeader { fail_soft_error, error_resets, ..UnitHeader::default() }
+    }
+
+    #[test]
+    fn with_fail_soft_nothing_stops() {
+        let mut bus = NxBusFunction::new(FailSoftOperation::FailSoft);
+        assert_eq!(bus.hear(&heard(true, 0)), None);
+        assert_eq!(bus.refreshing(), IoRefreshing::GoesOn);
+    }
+
+    #[test]
+    fn with_stop_only_a_reset_that_the_unit_has_followed_lets_it_go_on() {
+        let mut bus = NxBusFunction::new(FailSoftOperation::Stop);
+        assert_eq!(bus.hear(&heard(true, 0)), Some(IoRefreshing::Stopped));
+        assert_eq!(bus.hear(&heard(false, 0)), None, "a reset in the unit is not enough");
+        bus.reset_errors();
+        assert_eq!(bus.hear(&heard(false, 0)), None, "the unit has not heard of it yet");
+        assert_eq!(bus.hear(&heard(true, 1)), None, "the cause is still there");
+        assert_eq!(bus.hear(&heard(false, 1)), None, "that reset is over");
+        bus.reset_errors();
+        assert_eq!(bus.hear(&heard(false, 2)), Some(IoRefreshing::GoesOn));
+    }
+}

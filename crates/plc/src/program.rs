@@ -1,0 +1,110 @@
+//! What runs on a CPU Unit: user programs, and outside runtimes in their place.
+
+use std::borrow::Cow;
+
+use crate::io::Io;
+
+/// A program: a function of [`Io`], Structured Text, an outside PLC. It never waits: the task period goes on
+/// while it does.
+pub trait Program {
+    /// Runs once before the first scan: when the CPU Unit begins RUN mode, or when an outside runtime is attached.
+    /// Here a program gives its variables their initial values.
+    fn start(&mut self, io: &mut Io) {
+        let _ = io;
+    }
+
+    /// Runs once in a task period.
+    fn scan(&mut self, io: &mut Io);
+}
+
+impl<F: FnMut(&mut Io)> Program for F {
+    fn scan(&mut self, io: &mut Io) {
+        self(io);
+    }
+}
+
+/// What a program tells by [`Io::report`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ProgramEvent {
+    /// It cannot go on, and stops until it is started again.
+    Stopped(ProgramTrouble),
+    /// Something went wrong in it; it goes on.
+    Error(ProgramTrouble),
+    /// A scan was broken off, because it had used up its statements.
+    TaskOverrun {
+        /// How many statements a scan has.
+        budget_statements: u64,
+    },
+    /// A user-defined error, as SetAlarm raises it.
+    UserDefinedError {
+        /// Event code, 1 to 60000.
+        code: u16,
+        /// Attached information 1.
+        info1: u64,
+        /// Attached information 2.
+        info2: u64,
+    },
+    /// The user-defined errors are reset, as ResetAlarm does.
+    UserDefinedErrorsReset,
+}
+
+/// What is wrong in a program, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProgramTrouble {
+    /// What, as a lower-case fragment.
+    pub what: Cow<'static, str>,
+    /// Line of the source, from 1; 0 if there is none to tell.
+    pub line: usize,
+    /// Column in characters, from 1; 0 if there is none to tell.
+    pub column: usize,
+}
+
+/// A program on the CPU Unit, and whether it runs.
+pub(crate) struct Slot {
+    program: Box<dyn Program + Send>,
+    state: State,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum State {
+    /// It has not been started yet, or is to be started anew.
+    ToStart,
+    Running,
+    /// It has reported that it cannot go on.
+    Stopped,
+}
+
+impl Slot {
+    pub(crate) fn new(program: Box<dyn Program + Send>) -> Self {
+        Self { program, state: State::ToStart }
+    }
+
+    /// The next scan is a first one.
+    pub(crate) const fn start_anew(&mut self) {
+        self.state = State::ToStart;
+    }
+
+    pub(crate) fn is_stopped(&self) -> bool {
+        self.state == State::Stopped
+    }
+
+    /// One scan, if the program runs, and before the first one its start.
+    pub(crate) fn run(&mut self, io: &mut Io) {
+        if self.state == State::ToStart {
+            self.state = State::Running;
+            self.step(io, |program, io| program.start(io));
+        }
+        if self.state == State::Running {
+            self.step(io, |program, io| program.scan(io));
+        }
+    }
+
+    fn step(&mut self, io: &mut Io, step: impl FnOnce(&mut dyn Program, &mut Io)) {
+        step(self.program.as_mut(), io);
+        // What the next program reads is forced again.
+        io.memory.apply_forced();
+        if io.take_stop() {
+            self.state = State::Stopped;
+        }
+    }
+}
