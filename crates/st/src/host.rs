@@ -33,8 +33,8 @@ pub trait Host {
     /// SetAlarm: a user-defined error with its code and attached information.
     fn set_alarm(&mut self, alarm: Alarm);
 
-    /// ResetAlarm: the user-defined errors are reset.
-    fn reset_alarm(&mut self);
+    /// ResetAlarm: the user-defined error of this code is reset; of code 0, all of them.
+    fn reset_alarm(&mut self, code: u16);
 }
 
 /// Why an NX object was not read or written, by the numbers that the instruction's pins tell.
@@ -80,5 +80,5 @@ impl Host for NoHost {
 
     fn set_alarm(&mut self, _: Alarm) {}
 
-    fn reset_alarm(&mut self) {}
+    fn reset_alarm(&mut self, _: u16) {}
 }

@@ -1,16 +1,38 @@
 //! The functions of the library: one table, which the checker, the machine and the documents read.
 
+mod bits;
+mod blocks;
+mod comparisons;
 mod conversions;
+mod memory;
+mod numbers;
+mod nx;
+mod reference;
+mod selection;
+mod system;
 mod table;
+#[cfg(test)]
+mod tests;
+mod texts;
+mod time;
+mod value_text;
 
 use core::fmt;
 
 use crate::code::Slot;
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
-use crate::machine::Machine;
+use crate::machine::{Machine, slot_of};
+use crate::memory::Text;
+use crate::value;
 
+pub(crate) use blocks::block_pin;
 pub(crate) use conversions::{Conversion, FROM_TEXT, Of, TO_TEXT};
+pub use reference::{Entry, reference};
+pub(crate) use value_text::{text_of, value_of};
+
+/// How many characters a function looks at for one of the budget.
+const CHARACTERS_FOR_ONE: u64 = 128;
 
 /// A function of the library.
 pub(crate) struct Function {
@@ -53,7 +75,8 @@ pub(crate) enum Takes {
     /// its slot.
     Variable(&'static [Class]),
     /// An element of an array, or a variable, of whatever type, and those behind it: three arguments, the slot, how
-    /// many elements there are from it on, the slots of an element. All such pins of a call have one type.
+    /// many elements there are from it on, the slots of an element. All such pins of a call have one type. An array
+    /// without an index stands for its first element.
     Elements { written: bool },
     /// A reference of the type ANY: two arguments, the slot and the number of its layout. For blocks of the library.
     Reference,
@@ -62,9 +85,10 @@ pub(crate) enum Takes {
 /// The type of a function's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ResultType {
-    None,
-    /// The type of the generic pins.
+    /// The type of the generic pins; a STRING when they are.
     Generic,
+    /// The signed integer that is as wide as the REAL or LREAL of the generic pins: DINT or LINT.
+    Whole,
     Fixed(Elementary),
     /// A STRING as long as the longest of its STRINGs.
     Text,
@@ -72,6 +96,19 @@ pub(crate) enum ResultType {
     TextOfAll,
     /// A STRING of so many characters.
     TextOf(u16),
+}
+
+impl ResultType {
+    /// The elementary type of the result, by the type of the generic pins; none for a STRING.
+    pub(crate) fn elementary(self, generic: Elementary) -> Option<Elementary> {
+        match self {
+            Self::Generic => Some(generic),
+            Self::Whole if generic == Elementary::Real => Some(Elementary::Dint),
+            Self::Whole => Some(Elementary::Lint),
+            Self::Fixed(elementary) => Some(elementary),
+            Self::Text | Self::TextOfAll | Self::TextOf(_) => None,
+        }
+    }
 }
 
 /// A row of the table, to be copied about.
@@ -96,6 +133,42 @@ pub(crate) struct Call<'c, 'm> {
 }
 
 impl Call<'_, '_> {
+    /// The argument at `place`, as 64 bits.
+    fn bits(&self, place: usize) -> u64 {
+        self.arguments[place]
+    }
+
+    /// The argument at `place`, an integer, if it lies between the two limits.
+    fn number(&self, place: usize, lower: i64, upper: i64) -> Result<u32, Fault> {
+        let value = self.bits(place) as i64;
+        match u32::try_from(value) {
+            Ok(number) if (lower..=upper).contains(&value) => Ok(number),
+            _ => Err(Fault::ArgumentOutOfRange { value, lower, upper }),
+        }
+    }
+
+    /// The argument at `place`, of the type of the generic pins, as a number.
+    fn real(&self, place: usize) -> f64 {
+        value::real(self.elementary, self.bits(place))
+    }
+
+    /// A number as a result of the type of the generic pins.
+    fn give_real(&self, number: f64) -> u64 {
+        value::real_bits(self.elementary, number)
+    }
+
+    /// The slot that the argument at `place` names.
+    fn slot(&self, place: usize) -> Slot {
+        slot_of(self.bits(place))
+    }
+
+    /// The STRING that the argument at `place` names.
+    fn text(&mut self, place: usize) -> Result<Text, Fault> {
+        let text = self.machine.memory.text(self.slot(place));
+        self.machine.spend(text.len() as u64 / CHARACTERS_FOR_ONE)?;
+        Ok(text)
+    }
+
     /// Gives a STRING back.
     pub(crate) fn give_text(&mut self, text: &[u8]) -> u64 {
         let (slot, capacity) = self.text;

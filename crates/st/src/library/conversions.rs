@@ -1,7 +1,9 @@
 //! Conversions by name: `INT_TO_REAL`, `TO_DINT`, `REAL_TO_STRING`, `STRING_TO_UINT`.
 
-use super::{Call, Function, Pin, ResultType, Takes};
-use crate::elementary::{Class, Elementary};
+use super::table::{EVERY, pin, row};
+use super::value_text::{TEXT_CHARACTERS_MAX, read, shown};
+use super::{Call, Function, ResultType, Takes};
+use crate::elementary::Elementary;
 use crate::fault::Fault;
 
 /// One side of a conversion.
@@ -40,35 +42,28 @@ impl Of {
     }
 }
 
-const EVERY: &[Class] =
-    &[Class::Bool, Class::BitString, Class::Signed, Class::Unsigned, Class::Real, Class::Time];
-
 /// A value as a text. The argument's type is the type of the generic pin.
-pub(crate) static TO_TEXT: Function = Function {
-    name: "_ToText",
-    pins: &[Pin { name: "In", alias: "", takes: Takes::Generic(EVERY), default: None }],
-    variadic: false,
-    result: ResultType::TextOf(40),
-    does: "a value as text",
-    run: to_text,
-};
+pub(crate) static TO_TEXT: Function = row(
+    "_ToText",
+    &[pin("In", Takes::Generic(EVERY))],
+    ResultType::TextOf(TEXT_CHARACTERS_MAX as u16),
+    "a value as text",
+    to_text,
+);
 
 /// A text as a value; the type that it becomes is the type of the call.
-pub(crate) static FROM_TEXT: Function = Function {
-    name: "_FromText",
-    pins: &[Pin { name: "In", alias: "", takes: Takes::Text, default: None }],
-    variadic: false,
-    result: ResultType::Generic,
-    does: "a text as a value",
-    run: from_text,
-};
+pub(crate) static FROM_TEXT: Function =
+    row("_FromText", &[pin("In", Takes::Text)], ResultType::Generic, "a text as a value", from_text);
 
 fn to_text(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
-    let _ = call;
-    Ok(0)
+    let text = shown(call.elementary, call.bits(0));
+    Ok(call.give_text(text.as_bytes()))
 }
 
+// The text is large: it must not lie in the frames of the evaluation around it.
+#[inline(never)]
 fn from_text(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
-    let _ = call;
-    Ok(0)
+    let text = call.text(0)?;
+    let text = core::str::from_utf8(&text).map_err(|_| Fault::NotConvertible)?;
+    read(call.elementary, text.trim_ascii()).ok_or(Fault::NotConvertible)
 }

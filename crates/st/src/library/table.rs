@@ -1,19 +1,77 @@
-//! All functions.
+//! All functions, group after group, and how their rows are written.
 
-use super::{Function, Pin, ResultType, Takes};
-use crate::elementary::{Class, Elementary};
+use super::{Call, Function, Pin, ResultType, Takes};
+use super::{bits, comparisons, memory, numbers, nx, selection, system, texts, time};
+use crate::elementary::Class;
+use crate::fault::Fault;
+
+/// Every group with the name that the documents give it.
+pub(super) const GROUPS: [(&str, &[Function]); 9] = [
+    ("numbers", numbers::FUNCTIONS),
+    ("comparison", comparisons::FUNCTIONS),
+    ("selection", selection::FUNCTIONS),
+    ("bit strings", bits::FUNCTIONS),
+    ("texts", texts::FUNCTIONS),
+    ("memory", memory::FUNCTIONS),
+    ("time", time::FUNCTIONS),
+    ("errors", system::FUNCTIONS),
+    ("NX objects", nx::FUNCTIONS),
+];
 
 /// Group after group.
 pub(super) fn all() -> impl Iterator<Item = &'static Function> {
-    BITS.iter()
+    GROUPS.into_iter().flat_map(|(_, functions)| functions)
 }
 
-/// Bits of bit strings.
-#[rustfmt::skip]
-static BITS: &[Function] = &[
-    Function { name: "TestABit", pins: &[
-        Pin { name: "In", alias: "", takes: Takes::Generic(&[Class::BitString]), default: None },
-        Pin { name: "Pos", alias: "", takes: Takes::Fixed(Elementary::Uint), default: None }],
-        variadic: false, result: ResultType::Fixed(Elementary::Bool), does: "whether a bit is set",
-        run: |call| Ok(call.arguments[0] >> (call.arguments[1] & 63) & 1) },
-];
+/// Integers.
+pub(super) const INTEGERS: &[Class] = &[Class::Signed, Class::Unsigned];
+/// ANY_NUM of the standard.
+pub(super) const NUMBERS: &[Class] = &[Class::Signed, Class::Unsigned, Class::Real];
+/// ANY_MAGNITUDE of the standard.
+pub(super) const MAGNITUDES: &[Class] = &[Class::Signed, Class::Unsigned, Class::Real, Class::Time];
+/// REAL and LREAL.
+pub(super) const REALS: &[Class] = &[Class::Real];
+/// BYTE to LWORD.
+pub(super) const BIT_STRINGS: &[Class] = &[Class::BitString];
+/// Every elementary type.
+pub(super) const EVERY: &[Class] =
+    &[Class::Bool, Class::BitString, Class::Signed, Class::Unsigned, Class::Real, Class::Time];
+
+type Run = fn(&mut Call<'_, '_>) -> Result<u64, Fault>;
+
+/// A function with these pins and no more.
+pub(super) const fn row(
+    name: &'static str,
+    pins: &'static [Pin],
+    result: ResultType,
+    does: &'static str,
+    run: Run,
+) -> Function {
+    Function { name, pins, variadic: false, result, does, run }
+}
+
+/// A function that takes more values of the type of its last pin.
+pub(super) const fn row_of_many(
+    name: &'static str,
+    pins: &'static [Pin],
+    result: ResultType,
+    does: &'static str,
+    run: Run,
+) -> Function {
+    Function { name, pins, variadic: true, result, does, run }
+}
+
+/// A pin that both the standard and the maker call so.
+pub(super) const fn pin(name: &'static str, takes: Takes) -> Pin {
+    Pin { name, alias: "", takes, default: None }
+}
+
+/// A pin that the maker calls `name` and the standard `alias`.
+pub(super) const fn pin_or(name: &'static str, alias: &'static str, takes: Takes) -> Pin {
+    Pin { name, alias, takes, default: None }
+}
+
+/// A pin that a call may leave out.
+pub(super) const fn optional(name: &'static str, takes: Takes, default: u64) -> Pin {
+    Pin { name, alias: "", takes, default: Some(default) }
+}

@@ -1,0 +1,72 @@
+//! Memory: elements of arrays copied and filled.
+
+use super::table::{INTEGERS, pin, row};
+use super::{Call, Function, Pin, ResultType, Takes};
+use crate::elementary::Elementary;
+use crate::fault::Fault;
+
+const COPY: &[Pin] = &[
+    pin("In", Takes::Elements { written: false }),
+    pin("AryOut", Takes::Elements { written: true }),
+    pin("Size", Takes::Any(INTEGERS)),
+];
+const DONE: ResultType = ResultType::Fixed(Elementary::Bool);
+
+/// How many slots are copied for one of the budget.
+const SLOTS_FOR_ONE: u64 = 16;
+
+#[rustfmt::skip]
+pub(super) const FUNCTIONS: &[Function] = &[
+    row("MemCopy", COPY, DONE, "copies Size elements from In on to AryOut on, also where both overlap; gives TRUE; \
+        more elements than there are is a fault", copy),
+    row("AryMove", COPY, DONE, "the same as MemCopy", copy),
+    row("SetBlock", COPY, DONE, "copies the one value In to Size elements from AryOut on; gives TRUE; \
+        more elements than there are is a fault", fill),
+    row("SizeOfAry", &[pin("In", Takes::Elements { written: false })], ResultType::Fixed(Elementary::Uint),
+        "how many elements an array has, from the given one on", |call| Ok(Elements::of(call, 0).count.min(u16::MAX.into()).into())),
+];
+
+/// What the three arguments of such a pin say.
+#[derive(Clone, Copy)]
+struct Elements {
+    slot: u32,
+    count: u32,
+    slots_each: u32,
+}
+
+impl Elements {
+    fn of(call: &Call<'_, '_>, place: usize) -> Self {
+        // The machine made them of 32 bits.
+        let [slot, count, slots_each] = [0, 1, 2].map(|offset| call.bits(place + offset) as u32);
+        Self { slot, count, slots_each }
+    }
+
+    /// As many as were asked for, if there are so many.
+    fn asked(self, call: &Call<'_, '_>, place: usize) -> Result<u32, Fault> {
+        let asked = call.number(place, 0, u32::MAX.into())?;
+        if asked > self.count {
+            return Err(Fault::TooManyElements { asked: asked.into(), available: self.count.into() });
+        }
+        Ok(asked)
+    }
+}
+
+fn copy(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let (from, to) = (Elements::of(call, 0), Elements::of(call, 3));
+    let size = from.asked(call, 6)?.min(to.asked(call, 6)?);
+    let slots = size * to.slots_each;
+    call.machine.spend(u64::from(slots) / SLOTS_FOR_ONE)?;
+    call.machine.memory.copy(from.slot, to.slot, slots);
+    Ok(1)
+}
+
+fn fill(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let (from, to) = (Elements::of(call, 0), Elements::of(call, 3));
+    let size = to.asked(call, 6)?;
+    call.machine.spend(u64::from(size * to.slots_each) / SLOTS_FOR_ONE)?;
+    // The value may itself be one of the elements: it is the same before and after it is copied to itself.
+    for element in 0..size {
+        call.machine.memory.copy(from.slot, to.slot + element * to.slots_each, to.slots_each);
+    }
+    Ok(1)
+}

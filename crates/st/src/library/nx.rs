@@ -1,0 +1,131 @@
+//! NX objects, for the blocks NX_ReadObj and NX_WriteObj of the prelude.
+//!
+//! These functions answer by an LWORD: 0 while the call is under way, 1 when it is done, and a fault with the highest
+//! bit, the error ID in bits 32 to 47, and the extended error ID below.
+
+use core::task::Poll;
+
+use arrayvec::ArrayVec;
+
+use super::table::{pin, row};
+use super::{Call, Function, Pin, ResultType, Takes};
+use crate::elementary::{Class, Elementary};
+use crate::fault::Fault;
+use crate::host::{NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault};
+use crate::machine::Layout;
+use crate::value;
+
+const STATUS: ResultType = ResultType::Fixed(Elementary::Lword);
+const UNIT: Pin = pin("Unit", Takes::Fixed(Elementary::Uint));
+const INDEX: Pin = pin("Index", Takes::Fixed(Elementary::Uint));
+const SUB: Pin = pin("Sub", Takes::Fixed(Elementary::Usint));
+/// Where the number of the call is put: an ULINT.
+const NUMBER: Pin = pin("Number", Takes::Variable(&[Class::Unsigned]));
+const MADE: Pin = pin("Number", Takes::Fixed(Elementary::Ulint));
+const DATA: Pin = pin("Data", Takes::Reference);
+
+#[rustfmt::skip]
+pub(super) const FUNCTIONS: &[Function] = &[
+    row("_NxRead", &[UNIT, INDEX, SUB, NUMBER], STATUS, "begins to read an NX object", read),
+    row("_NxWrite", &[UNIT, INDEX, SUB, NUMBER, DATA], STATUS, "begins to write an NX object", write),
+    row("_NxReadResult", &[MADE, DATA], STATUS, "what became of a call that reads", read_result),
+    row("_NxWriteResult", &[MADE], STATUS, "what became of a call, whatever was read", write_result),
+];
+
+const PENDING: u64 = 0;
+const DONE: u64 = 1;
+const FAULT: u64 = 1 << 63;
+
+/// The object and the variable are not equally long: Incorrect NX Message Length.
+const WRONG_LENGTH: NxFault = NxFault { error_id: 0x2C03, error_id_ex: 0 };
+
+type Octets = ArrayVec<u8, NX_OBJECT_BYTES_MAX>;
+
+fn status_of(fault: NxFault) -> u64 {
+    FAULT | u64::from(fault.error_id) << 32 | u64::from(fault.error_id_ex)
+}
+
+/// The first three arguments; the checker gave each its type.
+fn object(call: &Call<'_, '_>) -> (u16, u16, u8) {
+    (call.bits(0) as u16, call.bits(1) as u16, call.bits(2) as u8)
+}
+
+fn read(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let (unit, index, sub) = object(call);
+    let made = call.machine.host.nx_read(unit, index, sub);
+    Ok(note(call, made))
+}
+
+fn write(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let (unit, index, sub) = object(call);
+    let made = match packed(call, 4) {
+        Some(value) => call.machine.host.nx_write(unit, index, sub, &value),
+        None => Err(WRONG_LENGTH),
+    };
+    Ok(note(call, made))
+}
+
+fn note(call: &mut Call<'_, '_>, made: Result<NxCallNumber, NxFault>) -> u64 {
+    match made {
+        Ok(number) => {
+            let slot = call.slot(3);
+            call.machine.memory.set(slot, number);
+            PENDING
+        }
+        Err(fault) => status_of(fault),
+    }
+}
+
+fn read_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let mut value = [0; NX_OBJECT_BYTES_MAX];
+    Ok(match call.machine.host.nx_result(call.bits(0), &mut value) {
+        Poll::Pending => PENDING,
+        Poll::Ready(Err(fault)) => status_of(fault),
+        Poll::Ready(Ok(length_bytes)) => match value.get(..length_bytes) {
+            Some(value) if unpack(call, 1, value) => DONE,
+            _ => status_of(WRONG_LENGTH),
+        },
+    })
+}
+
+fn write_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let mut value = [0; NX_OBJECT_BYTES_MAX];
+    Ok(match call.machine.host.nx_result(call.bits(0), &mut value) {
+        Poll::Pending => PENDING,
+        Poll::Ready(Err(fault)) => status_of(fault),
+        Poll::Ready(Ok(_)) => DONE,
+    })
+}
+
+/// The slot and the layout of the variable behind the reference at `place`.
+fn referred<'m>(call: &Call<'_, 'm>, place: usize) -> Option<(u32, &'m Layout)> {
+    let layouts = call.machine.layouts;
+    let number = usize::try_from(call.bits(place + 1)).ok()?;
+    Some((call.slot(place), layouts.get(number)?))
+}
+
+/// The variable as it lies in an NX object, little endian; none if no object is so long.
+fn packed(call: &Call<'_, '_>, place: usize) -> Option<Octets> {
+    let (slot, layout) = referred(call, place)?;
+    let mut octets = Octets::new();
+    for (offset, elementary) in &layout.values {
+        let bits = call.machine.memory.get(slot + offset).to_le_bytes();
+        octets.try_extend_from_slice(&bits[..elementary.size_bytes()]).ok()?;
+    }
+    Some(octets)
+}
+
+/// Puts the octets of an NX object into the variable; it stays as it is if it is not as long.
+fn unpack(call: &mut Call<'_, '_>, place: usize, mut octets: &[u8]) -> bool {
+    let Some((slot, layout)) = referred(call, place) else { return false };
+    let size_bytes: usize = layout.values.iter().map(|(_, elementary)| elementary.size_bytes()).sum();
+    if size_bytes != octets.len() {
+        return false;
+    }
+    for (offset, elementary) in &layout.values {
+        let (own, rest) = octets.split_at(elementary.size_bytes());
+        call.machine.memory.set(slot + offset, value::unpack(*elementary, own));
+        octets = rest;
+    }
+    true
+}

@@ -1,0 +1,132 @@
+//! Texts: IEC 61131-3, table 34, and a few that the maker has. A character is one byte; the first has position 1.
+//!
+//! Characters that a text does not have are none: a length beyond the end reaches to the end, a position behind it finds
+//! nothing. A negative number is a fault, and so is position 0, but for INSERT, where it is the place before the first
+//! character. A result that is too long for its place is cut.
+
+use super::table::{INTEGERS, pin, row, row_of_many};
+use super::{Call, Function, Pin, ResultType, Takes};
+use crate::elementary::Elementary;
+use crate::fault::Fault;
+use crate::memory::Text;
+use crate::types::STRING_CHARACTERS_MAX;
+
+const IN: &[Pin] = &[pin("In", Takes::Text)];
+const IN_LENGTH: &[Pin] = &[pin("In", Takes::Text), pin("L", Takes::Any(INTEGERS))];
+const IN_LENGTH_POSITION: &[Pin] =
+    &[pin("In", Takes::Text), pin("L", Takes::Any(INTEGERS)), pin("P", Takes::Any(INTEGERS))];
+const TWO: &[Pin] = &[pin("In1", Takes::Text), pin("In2", Takes::Text)];
+const COUNT: ResultType = ResultType::Fixed(Elementary::Uint);
+
+#[rustfmt::skip]
+pub(super) const FUNCTIONS: &[Function] = &[
+    row("LEN", IN, COUNT, "how many characters In has", |call| Ok(call.machine.memory.text_length(call.slot(0)) as u64)),
+    row("LEFT", IN_LENGTH, ResultType::Text, "the first L characters", |call| give(call, left)),
+    row("RIGHT", IN_LENGTH, ResultType::Text, "the last L characters", |call| give(call, right)),
+    row("MID", IN_LENGTH_POSITION, ResultType::Text, "L characters from position P on", |call| give(call, middle)),
+    row_of_many("CONCAT", TWO, ResultType::TextOfAll, "one text behind the other", |call| give(call, concatenated)),
+    row("INSERT", &[pin("In1", Takes::Text), pin("In2", Takes::Text), pin("P", Takes::Any(INTEGERS))],
+        ResultType::TextOfAll, "In1 with In2 behind its position P; 0 is the place before the first character", |call| give(call, inserted)),
+    row("DELETE", IN_LENGTH_POSITION, ResultType::Text, "In without L characters from position P on", |call| give(call, deleted)),
+    row("REPLACE", &[pin("In1", Takes::Text), pin("In2", Takes::Text),
+        pin("L", Takes::Any(INTEGERS)), pin("P", Takes::Any(INTEGERS))],
+        ResultType::TextOfAll, "In1 with In2 in place of L characters from position P on", |call| give(call, replaced)),
+    row("FIND", TWO, COUNT, "the first position of In2 in In1; 0 if there is none, or if In2 is empty", find),
+    row("ToUCase", IN, ResultType::Text, "In with the letters a to z as capitals",
+        |call| give(call, |call| { let mut text = call.text(0)?; text.make_ascii_uppercase(); Ok(text) })),
+    row("ToLCase", IN, ResultType::Text, "In with the letters A to Z as small ones",
+        |call| give(call, |call| { let mut text = call.text(0)?; text.make_ascii_lowercase(); Ok(text) })),
+    row("TrimL", IN, ResultType::Text, "In without the blanks in front",
+        |call| give(call, |call| Ok(collect(&[call.text(0)?.trim_ascii_start()])))),
+    row("TrimR", IN, ResultType::Text, "In without the blanks behind",
+        |call| give(call, |call| Ok(collect(&[call.text(0)?.trim_ascii_end()])))),
+];
+
+// The texts of one function are large: they lie in its own frame only while it runs.
+#[inline(never)]
+fn give(call: &mut Call<'_, '_>, text: fn(&mut Call<'_, '_>) -> Result<Text, Fault>) -> Result<u64, Fault> {
+    let text = text(call)?;
+    Ok(call.give_text(&text))
+}
+
+/// Pieces one behind the other, cut where a text ends at the latest.
+fn collect(pieces: &[&[u8]]) -> Text {
+    pieces.iter().flat_map(|piece| piece.iter().copied()).take(STRING_CHARACTERS_MAX).collect()
+}
+
+/// A length, or a position that may be 0, within a text of `length` characters.
+fn count(call: &Call<'_, '_>, place: usize, length: usize) -> Result<usize, Fault> {
+    let number = call.number(place, 0, STRING_CHARACTERS_MAX as i64)?;
+    Ok(length.min(number as usize))
+}
+
+/// How many characters stand before the position.
+fn before(call: &Call<'_, '_>, place: usize, length: usize) -> Result<usize, Fault> {
+    let position = call.number(place, 1, STRING_CHARACTERS_MAX as i64)?;
+    Ok(length.min(position as usize - 1))
+}
+
+/// The text without the piece of which the arguments from `place` on tell the length and the position: what stands
+/// before it, the piece, and what stands behind it.
+fn parts<'t>(
+    call: &Call<'_, '_>,
+    place: usize,
+    text: &'t [u8],
+) -> Result<(&'t [u8], &'t [u8], &'t [u8]), Fault> {
+    let (before, rest) = text.split_at(before(call, place + 1, text.len())?);
+    let (piece, behind) = rest.split_at(count(call, place, rest.len())?);
+    Ok((before, piece, behind))
+}
+
+fn left(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let mut text = call.text(0)?;
+    text.truncate(count(call, 1, text.len())?);
+    Ok(text)
+}
+
+fn right(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let text = call.text(0)?;
+    let length = count(call, 1, text.len())?;
+    Ok(collect(&[&text[text.len() - length..]]))
+}
+
+fn middle(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let text = call.text(0)?;
+    parts(call, 1, &text).map(|(_, piece, _)| collect(&[piece]))
+}
+
+fn deleted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let text = call.text(0)?;
+    parts(call, 1, &text).map(|(before, _, behind)| collect(&[before, behind]))
+}
+
+fn concatenated(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let mut all = call.text(0)?;
+    for place in 1..call.arguments.len() {
+        all = collect(&[&all, &call.text(place)?]);
+    }
+    Ok(all)
+}
+
+fn inserted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let (text, piece) = (call.text(0)?, call.text(1)?);
+    let (before, behind) = text.split_at(count(call, 2, text.len())?);
+    Ok(collect(&[before, &piece, behind]))
+}
+
+fn replaced(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
+    let (text, other) = (call.text(0)?, call.text(1)?);
+    parts(call, 2, &text).map(|(before, _, behind)| collect(&[before, &other, behind]))
+}
+
+#[inline(never)]
+fn find(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let (text, piece) = (call.text(0)?, call.text(1)?);
+    if piece.is_empty() {
+        return Ok(0);
+    }
+    // Long texts with a long common beginning compare many characters.
+    call.machine.spend((text.len() * piece.len()) as u64 / (128 * 128))?;
+    let place = text.windows(piece.len()).position(|window| window == piece.as_slice());
+    Ok(place.map_or(0, |place| place as u64 + 1))
+}
