@@ -78,6 +78,8 @@ pub(crate) struct Element {
 #[derive(Clone, Debug)]
 pub(crate) struct Dimension {
     pub(crate) index: Code,
+    /// Type of the index.
+    pub(crate) elementary: Elementary,
     pub(crate) lower: i64,
     pub(crate) upper: i64,
     /// How many elements one step of this index is.

@@ -46,6 +46,11 @@ impl Bound {
     pub(crate) const fn count(self) -> u32 {
         (self.upper - self.lower + 1) as u32
     }
+
+    /// Whether an index lies in it.
+    pub(crate) fn holds(self, index: i128) -> bool {
+        (i128::from(self.lower)..=self.upper.into()).contains(&index)
+    }
 }
 
 #[derive(Debug)]

@@ -3,6 +3,7 @@
 use super::{Machine, slot_of};
 use crate::code::{Base, Dimension, Element, Place, Slot};
 use crate::fault::Fault;
+use crate::value::integer;
 
 impl Machine<'_> {
     /// The slot where a variable begins.
@@ -45,13 +46,14 @@ impl Machine<'_> {
     }
 
     fn index(&mut self, dimension: &Dimension) -> Result<u32, Fault> {
-        let Dimension { lower, upper, .. } = *dimension;
-        let index = self.value(&dimension.index)? as i64;
-        if (lower..=upper).contains(&index) {
+        let Dimension { elementary, lower, upper, .. } = *dimension;
+        let index = integer(elementary, self.value(&dimension.index)?);
+        if (i128::from(lower)..=upper.into()).contains(&index) {
             // Bounds lie as far apart as slots count at most.
-            return Ok((index - lower) as u32);
+            return Ok((index - i128::from(lower)) as u32);
         }
         self.at = dimension.span;
+        let index = i64::try_from(index).unwrap_or(i64::MAX);
         Err(Fault::IndexOutOfBounds { index, lower, upper })
     }
 }

@@ -1,0 +1,420 @@
+//! Calls of functions and function blocks of the program.
+
+use std::rc::Rc;
+
+use super::expressions::{Body, Kind, Value};
+use super::numbers::{Fitting, coerce, converted};
+use super::places::nearest;
+use super::scope::{Located, Symbol, key};
+use super::{Named, Signature};
+use crate::code::{
+    Assign, Base, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, StatementKind,
+};
+use crate::convert::widens;
+use crate::library;
+use crate::machine::{ARGUMENTS_MAX, Layout};
+use crate::problem::{Problem, Span};
+use crate::syntax::ast::{Argument, Call, Expression, ExpressionKind, Name};
+use crate::types::{Block, Member, Role, Type, member};
+
+/// An argument with the pin that it is for.
+enum Given<'a> {
+    Input(&'a Expression),
+    Output { to: &'a Expression, negated: bool, span: Span },
+}
+
+impl<'t> Body<'_, 't> {
+    /// A call in an expression.
+    pub(super) fn call(&mut self, call: &Call) -> Option<Value> {
+        let ExpressionKind::Name(name) = &call.callee.kind else {
+            return self.refuse_block_value(call);
+        };
+        if self.symbol(name).is_some_and(
+            |symbol| matches!(&symbol, Symbol::Variable(located) if matches!(located.type_, Type::Block(_))),
+        ) {
+            return self.refuse_block_value(call);
+        }
+        if let Some(signature) = self.function(name, call.callee.span)? {
+            return self.call_function(&signature, call);
+        }
+        if let Some(conversion) = library::Conversion::named(name) {
+            return self.convert(conversion, call);
+        }
+        match library::function(name).filter(|native| self.is_library() || !native.0.name.starts_with('_')) {
+            Some(native) => self.call_native(native, call),
+            None => self.unknown_function(name, call.callee.span),
+        }
+    }
+
+    fn refuse_block_value(&mut self, call: &Call) -> Option<Value> {
+        self.checker.refuse(
+            Problem::new(call.span, "a function block is called as a statement and has no value")
+                .help("take an output of the instance: instance.Q"),
+        )
+    }
+
+    /// The function of the program with this name, if there is one.
+    fn function(&mut self, name: &str, span: Span) -> Option<Option<Rc<Signature>>> {
+        match self.checker.named.get(&key(name)) {
+            Some(Named::Signature(signature)) => Some(Some(signature.clone())),
+            Some(Named::Function(pou)) => {
+                let pou = *pou;
+                self.checker.named.insert(key(name), Named::Wrong);
+                let signature = self.checker.signature(pou)?;
+                self.checker.named.insert(key(name), Named::Signature(signature.clone()));
+                Some(Some(signature))
+            }
+            Some(Named::Wrong) => None,
+            Some(Named::Block(..) | Named::Shape(_) | Named::Type(_) | Named::Resolving) => {
+                self.checker.refuse(
+                    Problem::new(span, format!("`{name}` is a type, and nothing to call"))
+                        .help("declare an instance of the block and call that"),
+                )
+            }
+            Some(Named::Program) => {
+                self.checker.refuse(Problem::new(span, format!("`{name}` is a program: the task runs it")))
+            }
+            None => Some(None),
+        }
+    }
+
+    fn unknown_function<T>(&mut self, name: &str, span: Span) -> Option<T> {
+        let own = self
+            .checker
+            .named
+            .iter()
+            .filter(|(_, named)| matches!(named, Named::Function(_) | Named::Signature(_)));
+        let names = own.map(|(name, _)| name.clone()).chain(self.scope.symbols.keys().cloned());
+        let names = names.chain(library::functions().map(|function| function.name.to_owned()));
+        let problem = Problem::new(span, format!("there is no function `{name}`"));
+        let problem = match nearest(name, names) {
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem,
+        };
+        self.checker.refuse(problem)
+    }
+
+    /// A call as a statement.
+    pub(super) fn call_statement(&mut self, call: &Call) -> Option<StatementKind> {
+        if let Some(located) = self.instance(&call.callee)? {
+            if let Type::Block(block) = &located.type_ {
+                let block = block.clone();
+                return self.call_block(&block, located, call);
+            }
+        }
+        self.call(call).map(|value| StatementKind::Evaluate(value.code))
+    }
+
+    /// The variable that is called, if a variable is.
+    fn instance(&mut self, callee: &Expression) -> Option<Option<Located>> {
+        let located = match &callee.kind {
+            ExpressionKind::Name(name) => match self.symbol(name) {
+                Some(Symbol::Variable(located)) if matches!(located.type_, Type::Block(_)) => located,
+                // The result variable of a function has its name, and a function cannot call itself.
+                _ => return Some(None),
+            },
+            _ => self.place(callee)?,
+        };
+        if matches!(located.type_, Type::Block(_)) {
+            return Some(Some(located));
+        }
+        let message = format!("this is {}, and only function blocks are called", located.type_);
+        self.checker.refuse(Problem::new(callee.span, message))
+    }
+
+    fn call_function(&mut self, signature: &Signature, call: &Call) -> Option<Value> {
+        self.note_call(signature.unit, call.span);
+        let given = self.assign_pins(&signature.name, &signature.pins, call)?;
+        let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+        for (pin, given) in signature.pins.iter().zip(given) {
+            match given {
+                Some(Given::Input(expression)) => {
+                    let fitting = self.pin_input(pin, expression)?;
+                    inputs.push((pin.offset, fitting.code, fitting.put));
+                }
+                Some(Given::Output { to, negated, span }) => {
+                    outputs.push(self.function_output(pin, to, negated, span)?);
+                }
+                None => self.required(pin, &signature.name, call.span)?,
+            }
+        }
+        if inputs.len() > ARGUMENTS_MAX {
+            let message = format!("a call has {ARGUMENTS_MAX} arguments at most");
+            return self.checker.refuse(Problem::new(call.span, message));
+        }
+        let (kind, result) = self.function_result(signature, call.span)?;
+        let code = Code::Call(Box::new(FunctionCall { unit: signature.unit, inputs, outputs, result }));
+        Some(Value { kind, code, span: call.span })
+    }
+
+    fn function_result(&mut self, signature: &Signature, span: Span) -> Option<(Kind, FunctionResult)> {
+        let Some((slot, type_)) = &signature.result else {
+            return Some((Kind::Nothing, FunctionResult::None));
+        };
+        let result = match type_ {
+            Type::Elementary(_) | Type::Enum(_) => FunctionResult::Value(*slot),
+            _ => {
+                let slots = type_.slots();
+                let to = self.checker.allocate(&vec![0; slots as usize], span)?;
+                FunctionResult::Copied { from: *slot, to, slots }
+            }
+        };
+        Some((Kind::Type(type_.clone()), result))
+    }
+
+    fn function_output(
+        &mut self,
+        pin: &Member,
+        to: &Expression,
+        negated: bool,
+        span: Span,
+    ) -> Option<Assign> {
+        let target = self.target(to)?;
+        let place = Place { base: Base::Memory, offset: pin.offset, indices: Vec::new() };
+        let located = Located { place, type_: pin.type_.clone(), access: super::scope::Access::Write };
+        let mut value = super::expressions::load(&located, span);
+        if negated {
+            self.negatable(&pin.type_, span)?;
+            let (operator, elementary) = (crate::operators::Unary::Not, crate::elementary::Elementary::Bool);
+            value.code = Code::Unary { operator, elementary, operand: Box::new(value.code) };
+        }
+        let fitting = coerce(self.checker, value, &target.type_)?;
+        Some(Assign { to: target.place, value: fitting.code, put: fitting.put })
+    }
+
+    fn call_block(&mut self, block: &Block, instance: Located, call: &Call) -> Option<StatementKind> {
+        self.note_call(block.unit, call.span);
+        // Running an instance writes it.
+        self.checker.written(&instance, call.callee.span)?;
+        let pins = block.members.iter().filter(|pin| pin.role != Role::Internal).cloned().collect::<Vec<_>>();
+        let given = self.assign_pins(&block.name, &pins, call)?;
+        let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+        for (pin, given) in pins.iter().zip(given) {
+            match given {
+                Some(Given::Input(expression)) => {
+                    let fitting = self.pin_input(pin, expression)?;
+                    inputs.push((pin.offset, fitting.code, fitting.put));
+                }
+                Some(Given::Output { to, negated, span }) => {
+                    outputs.push(self.block_output(pin, to, negated, span)?);
+                }
+                None => self.required(pin, &block.name, call.span)?,
+            }
+        }
+        let call = BlockCall { unit: block.unit, instance: instance.place, inputs, outputs };
+        Some(StatementKind::CallBlock(call))
+    }
+
+    fn block_output(
+        &mut self,
+        pin: &Member,
+        to: &Expression,
+        negated: bool,
+        span: Span,
+    ) -> Option<BlockOutput> {
+        let target = self.target(to)?;
+        if negated {
+            self.negatable(&pin.type_, span)?;
+        }
+        let (convert, put) = match (&pin.type_, &target.type_) {
+            (Type::Elementary(from), Type::Elementary(into)) if widens(*from, *into) => {
+                ((from != into).then_some((*from, *into)), Put::Value)
+            }
+            (Type::String(_), Type::String(capacity)) => (None, Put::Text(*capacity)),
+            (Type::Enum(_), _) if pin.type_ == target.type_ => (None, Put::Value),
+            (Type::Array(_) | Type::Struct(_), _) if pin.type_ == target.type_ => {
+                (None, Put::Slots(pin.type_.slots()))
+            }
+            (from, into) => {
+                let message = format!("the output `{}` is {from}, and goes into no {into}", pin.name);
+                return self.checker.refuse(Problem::new(to.span, message));
+            }
+        };
+        Some(BlockOutput { offset: pin.offset, convert, negated, to: target.place, put })
+    }
+
+    fn negatable(&mut self, type_: &Type, span: Span) -> Option<()> {
+        if *type_ == Type::BOOL {
+            return Some(());
+        }
+        self.checker.refuse(Problem::new(span, format!("NOT is for a BOOL output, and this is {type_}")))
+    }
+
+    /// An input or in-out with what it gets.
+    fn pin_input(&mut self, pin: &Member, expression: &Expression) -> Option<Fitting> {
+        if pin.role != Role::InOut {
+            let value = self.expression(expression)?;
+            return coerce(self.checker, value, &pin.type_);
+        }
+        let located = self.target(expression)?;
+        if pin.type_ == Type::Any {
+            return self.any(&located, expression.span);
+        }
+        if located.type_ != pin.type_ {
+            let message = format!("`{}` is a variable of {}, not {}", pin.name, pin.type_, located.type_);
+            let problem = Problem::new(expression.span, message);
+            return self.checker.refuse(problem.help("a VAR_IN_OUT takes a variable of exactly its type"));
+        }
+        Some(Fitting { code: Code::Address(located.place), put: Put::Value })
+    }
+
+    fn any(&mut self, located: &Located, span: Span) -> Option<Fitting> {
+        let Some(values) = super::places::flatten(&located.type_) else {
+            let message = format!("{} has no bytes to send: a STRING or a block is in it", located.type_);
+            return self.checker.refuse(Problem::new(span, message));
+        };
+        let layout = self.checker.out.layouts.len() as u32;
+        self.checker.out.layouts.push(Layout { values });
+        Some(Fitting { code: Code::Address(located.place.clone()), put: Put::Any { layout } })
+    }
+
+    /// What a pin without an argument means: an in-out has to have one, everything else keeps what it has.
+    fn required(&mut self, pin: &Member, name: &str, span: Span) -> Option<()> {
+        if pin.role != Role::InOut {
+            return Some(());
+        }
+        let message = format!("`{name}` needs its in-out `{}`", pin.name);
+        self.checker.refuse(Problem::new(span, message))
+    }
+
+    /// Which argument is for which pin.
+    fn assign_pins<'a>(
+        &mut self,
+        name: &str,
+        pins: &[Member],
+        call: &'a Call,
+    ) -> Option<Vec<Option<Given<'a>>>> {
+        let mut given: Vec<Option<Given<'a>>> = pins.iter().map(|_| None).collect();
+        let mut next = 0;
+        for argument in &call.arguments {
+            let (place, value, span) = match argument {
+                Argument::Positional(expression) => {
+                    let Some(pin) = pins.get(next) else {
+                        let message = format!("`{name}` has {} pins, and more are given", pins.len());
+                        return self.checker.refuse(Problem::new(expression.span, message));
+                    };
+                    next += 1;
+                    let value = if pin.role == Role::Output {
+                        Given::Output { to: expression, negated: false, span: expression.span }
+                    } else {
+                        Given::Input(expression)
+                    };
+                    (next - 1, value, expression.span)
+                }
+                Argument::Input { name: pin, value } => {
+                    let place = self.pin(name, pins, pin, Role::Input)?;
+                    (place, Given::Input(value), pin.span)
+                }
+                Argument::Output { to: None, name: pin, .. } => {
+                    self.pin(name, pins, pin, Role::Output)?;
+                    continue;
+                }
+                Argument::Output { name: pin, negated, to: Some(to) } => {
+                    let place = self.pin(name, pins, pin, Role::Output)?;
+                    (place, Given::Output { to, negated: *negated, span: pin.span }, pin.span)
+                }
+            };
+            if given[place].replace(value).is_some() {
+                let message = format!("the pin `{}` is given twice", pins[place].name);
+                return self.checker.refuse(Problem::new(span, message));
+            }
+        }
+        Some(given)
+    }
+
+    /// The place of the pin of this name that is an output, or that is none.
+    fn pin(&mut self, of: &str, pins: &[Member], name: &Name, role: Role) -> Option<usize> {
+        let wanted = library::block_pin(of, &name.text).unwrap_or(&name.text);
+        let place =
+            member(pins, wanted).and_then(|pin| pins.iter().position(|other| core::ptr::eq(pin, other)));
+        let Some(place) = place else {
+            return self.unknown_pin(of, pins.iter().map(|pin| pin.name.clone()), name);
+        };
+        let is_output = pins[place].role == Role::Output;
+        match (is_output, role) {
+            (true, Role::Output) | (false, Role::Input) => Some(place),
+            (true, _) => self.checker.refuse(
+                Problem::new(name.span, format!("`{}` is an output", name.text))
+                    .help(format!("write {} => variable", name.text)),
+            ),
+            (false, _) => self.checker.refuse(
+                Problem::new(name.span, format!("`{}` is an input", name.text))
+                    .help(format!("write {} := value", name.text)),
+            ),
+        }
+    }
+
+    pub(super) fn unknown_pin<T>(
+        &mut self,
+        of: &str,
+        pins: impl Iterator<Item = String>,
+        name: &Name,
+    ) -> Option<T> {
+        let pins = pins.collect::<Vec<_>>();
+        let problem = Problem::new(name.span, format!("`{of}` has no pin `{}`", name.text));
+        let enables = ["EN", "ENO"].iter().any(|enable| enable.eq_ignore_ascii_case(&name.text));
+        let problem = match nearest(&name.text, pins.iter().cloned()) {
+            _ if enables => problem.help("EN and ENO are not supported: put the call into an IF"),
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem.help(format!("its pins are {}", pins.join(", "))),
+        };
+        self.checker.refuse(problem)
+    }
+
+    fn note_call(&mut self, callee: u32, span: Span) {
+        if let Some(unit) = self.unit {
+            self.checker.calls.push((unit, callee, span));
+        } else {
+            self.checker
+                .refuse::<()>(Problem::new(span, "a function of the program is not known before it runs"));
+        }
+    }
+
+    /// `INT_TO_REAL(x)` and its like.
+    fn convert(&mut self, conversion: library::Conversion, call: &Call) -> Option<Value> {
+        let [argument] = call.arguments.as_slice() else {
+            return self.checker.refuse(Problem::new(call.span, "a conversion has one argument"));
+        };
+        let (Argument::Positional(expression) | Argument::Input { value: expression, .. }) = argument else {
+            return self.checker.refuse(Problem::new(call.span, "a conversion has one input"));
+        };
+        let value = self.expression(expression)?;
+        let value = match conversion.from {
+            Some(library::Of::Elementary(from)) => {
+                let code = super::numbers::elementary_of(self.checker, value, from)?;
+                Value::of(Type::Elementary(from), code, expression.span)
+            }
+            Some(library::Of::Text) | None => self.typed(value),
+        };
+        match (conversion.to, &value.kind) {
+            (library::Of::Elementary(to), Kind::Type(Type::Elementary(from))) => {
+                let time = crate::elementary::Elementary::Time;
+                if (*from == time) != (to == time) {
+                    let help = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";
+                    let message = format!("a TIME has no number without a unit: {from} to {to}");
+                    return self.checker.refuse(Problem::new(call.span, message).help(help));
+                }
+                let code = converted(value.code, *from, to);
+                Some(Value::of(Type::Elementary(to), code, call.span))
+            }
+            (library::Of::Elementary(to), Kind::Type(Type::String(_))) => {
+                self.from_text(to, value, call.span)
+            }
+            (library::Of::Text, Kind::Type(Type::Elementary(from))) => {
+                let from = *from;
+                self.to_text(from, value, call.span)
+            }
+            (_, kind) => {
+                let message = format!("{kind} cannot be converted by `{}`", name_of(&call.callee));
+                self.checker.refuse(Problem::new(value.span, message))
+            }
+        }
+    }
+}
+
+fn name_of(callee: &Expression) -> &str {
+    match &callee.kind {
+        ExpressionKind::Name(name) => name,
+        _ => "",
+    }
+}

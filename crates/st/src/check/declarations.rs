@@ -1,0 +1,365 @@
+//! VAR sections: where variables lie, and what their names mean.
+
+use super::scope::{Access, Located, Scope, Symbol, key};
+use super::{Checker, Origin, Pending, Shape, Signature};
+use crate::code::{Base, Slot};
+use crate::machine::Layout;
+use crate::problem::{Problem, Span};
+use crate::program::{External, Variable};
+use crate::syntax::ast::{File, Pou, VarDeclaration, VarKind, VarSection};
+use crate::types::{Block, Member, Role, Type};
+use std::rc::Rc;
+use std::sync::Arc;
+
+/// Why a constant cannot be written.
+const CONSTANT: &str = "it is a constant";
+/// Why an input of the unit that is being called cannot be written.
+const OWN_INPUT: &str = "it is an input";
+
+/// Where the variables of a unit go.
+enum Home {
+    /// Into the memory: PROGRAM, and VAR_GLOBAL with an empty owner.
+    Memory { owner: String },
+    /// Into the memory, with their initial values at each call: FUNCTION.
+    Fresh,
+    /// Into the instances of a function block.
+    Instance,
+}
+
+/// What a VAR section becomes.
+struct Plan {
+    home: Home,
+    members: Vec<Member>,
+    initial: Vec<u64>,
+}
+
+impl<'t> Checker<'t> {
+    /// VAR_GLOBAL of the file.
+    pub(super) fn declare_globals(&mut self, file: &'t File) {
+        let mut scope = Scope::default();
+        let mut plan = Plan::new(Home::Memory { owner: String::new() });
+        for section in &file.globals {
+            self.section(section, &mut plan, &mut scope);
+        }
+        self.globals = scope.symbols;
+    }
+
+    /// The variables of a PROGRAM.
+    pub(super) fn program_scope(&mut self, pou: &Pou) -> Scope {
+        let mut scope = Scope::default();
+        let mut plan = Plan::new(Home::Memory { owner: pou.name.text.clone() });
+        for section in &pou.sections {
+            self.section(section, &mut plan, &mut scope);
+        }
+        scope
+    }
+
+    /// A function block type, whose body is to be checked later.
+    pub(super) fn block_shape(&mut self, pou: &'t Pou, origin: Origin) -> Option<Shape> {
+        let unit = self.new_unit();
+        let outer = core::mem::replace(&mut self.origin, origin);
+        let mut scope = Scope::default();
+        let mut plan = Plan::new(Home::Instance);
+        for section in &pou.sections {
+            self.section(section, &mut plan, &mut scope);
+        }
+        self.origin = outer;
+        self.limit(plan.initial.len(), pou.name.span)?;
+        let slots = plan.initial.len() as u32;
+        let block = Block { name: pou.name.text.clone(), unit, members: plan.members, slots };
+        self.pending.push(Pending { pou, unit, scope, origin });
+        Some(Shape { type_: Type::Block(Arc::new(block)), initial: plan.initial })
+    }
+
+    /// A function as its callers see it; its body is to be checked later.
+    pub(super) fn signature(&mut self, pou: &'t Pou) -> Option<Rc<Signature>> {
+        let unit = self.new_unit();
+        let mut scope = Scope::default();
+        let mut plan = Plan::new(Home::Fresh);
+        for section in &pou.sections {
+            self.section(section, &mut plan, &mut scope);
+        }
+        let result = match &pou.result {
+            Some(type_name) => {
+                let shape = self.shape(type_name, &scope)?;
+                self.refuse_block(&shape.type_, type_name.span)?;
+                let slot = self.place_fresh(&shape, type_name.span, &mut scope)?;
+                let located = Located::in_memory(slot, shape.type_.clone(), Access::Write);
+                scope.symbols.insert(key(&pou.name.text), Symbol::Variable(located));
+                Some((slot, shape.type_))
+            }
+            None => None,
+        };
+        self.pending.push(Pending { pou, unit, scope, origin: Origin::User });
+        let pins = plan.members.into_iter().filter(|member| member.role != Role::Internal).collect();
+        Some(Rc::new(Signature { name: pou.name.text.clone(), unit, pins, result }))
+    }
+
+    fn refuse_block(&mut self, type_: &Type, span: Span) -> Option<()> {
+        match type_ {
+            Type::Block(_) => self.refuse(
+                Problem::new(span, "a function has no function block instances")
+                    .help("a function keeps nothing from call to call: make it a FUNCTION_BLOCK"),
+            ),
+            _ => Some(()),
+        }
+    }
+
+    fn section(&mut self, section: &VarSection, plan: &mut Plan, scope: &mut Scope) {
+        self.refuse_misplaced(section, &plan.home);
+        for declaration in &section.variables {
+            self.declare(section, declaration, plan, scope);
+        }
+    }
+
+    fn refuse_misplaced(&mut self, section: &VarSection, home: &Home) {
+        let message = match (section.kind, home) {
+            (VarKind::Input | VarKind::Output | VarKind::InOut, Home::Memory { .. }) => {
+                "a PROGRAM has no inputs and outputs of its own"
+            }
+            (VarKind::Global, Home::Fresh | Home::Instance) => {
+                "VAR_GLOBAL stands outside of functions and blocks"
+            }
+            _ => return,
+        };
+        self.refuse::<()>(Problem::new(section.span, message).help("use VAR or VAR_EXTERNAL"));
+    }
+
+    fn declare(
+        &mut self,
+        section: &VarSection,
+        declaration: &VarDeclaration,
+        plan: &mut Plan,
+        scope: &mut Scope,
+    ) -> Option<()> {
+        if scope.symbols.contains_key(&key(&declaration.name.text)) {
+            let message = format!("the name `{}` is declared twice", declaration.name.text);
+            return self.refuse(Problem::new(declaration.name.span, message));
+        }
+        let symbol = self.symbol(section, declaration, plan, scope)?;
+        scope.symbols.insert(key(&declaration.name.text), symbol);
+        Some(())
+    }
+
+    fn symbol(
+        &mut self,
+        section: &VarSection,
+        declaration: &VarDeclaration,
+        plan: &mut Plan,
+        scope: &mut Scope,
+    ) -> Option<Symbol> {
+        let shape = self.shape(&declaration.type_name, scope)?;
+        if section.kind == VarKind::External || declaration.at.is_some() {
+            return self.external(declaration, &shape.type_);
+        }
+        if section.kind == VarKind::InOut {
+            if let Some(initial) = &declaration.initial {
+                let message = "a VAR_IN_OUT has no initial value: it is a variable of the caller's";
+                return self.refuse(Problem::new(super::initials::span(initial), message));
+            }
+            return self.in_out(declaration, shape.type_, plan, scope);
+        }
+        let shape = self.with_initial(shape, declaration.initial.as_ref(), scope)?;
+        if section.constant && matches!(shape.type_, Type::Elementary(_) | Type::Enum(_)) {
+            return Some(Symbol::Constant(shape.type_, shape.initial[0]));
+        }
+        let access = if section.constant { Access::ReadOnly(CONSTANT) } else { Access::Write };
+        self.variable(section, declaration, shape, access, plan, scope).map(Symbol::Variable)
+    }
+
+    fn variable(
+        &mut self,
+        section: &VarSection,
+        declaration: &VarDeclaration,
+        shape: Shape,
+        access: Access,
+        plan: &mut Plan,
+        scope: &mut Scope,
+    ) -> Option<Located> {
+        let role = role(section.kind);
+        let access = if role == Role::Input { Access::ReadOnly(OWN_INPUT) } else { access };
+        let (name, span) = (&declaration.name, declaration.type_name.span);
+        let type_ = shape.type_.clone();
+        if section.kind == VarKind::Temp || matches!(plan.home, Home::Fresh) {
+            self.refuse_block(&type_, span)?;
+            let slot = self.place_fresh(&shape, span, scope)?;
+            if matches!(plan.home, Home::Fresh) {
+                let name = name.text.clone();
+                plan.members.push(Member { name, type_: type_.clone(), offset: slot, role, retain: false });
+            }
+            return Some(Located::in_memory(slot, type_, access));
+        }
+        match &plan.home {
+            Home::Memory { owner } => {
+                let slot = self.allocate(&shape.initial, span)?;
+                self.out.variables.push(Variable {
+                    owner: owner.clone(),
+                    name: name.text.clone(),
+                    type_: type_.clone(),
+                    slot,
+                    retain: section.retain,
+                });
+                Some(Located::in_memory(slot, type_, access))
+            }
+            Home::Fresh | Home::Instance => {
+                let offset = plan.initial.len() as u32;
+                plan.initial.extend_from_slice(&shape.initial);
+                self.limit(plan.initial.len(), span)?;
+                let (name, retain) = (name.text.clone(), section.retain);
+                plan.members.push(Member { name, type_: type_.clone(), offset, role, retain });
+                Some(Located::at(Base::Instance, offset, type_, access))
+            }
+        }
+    }
+
+    fn place_fresh(&mut self, shape: &Shape, span: Span, scope: &mut Scope) -> Option<Slot> {
+        let slot = self.allocate(&shape.initial, span)?;
+        scope.fresh.push(slot..slot + shape.initial.len() as u32);
+        Some(slot)
+    }
+
+    /// A variable of the caller's: a slot of ours says where it lies.
+    fn in_out(
+        &mut self,
+        declaration: &VarDeclaration,
+        type_: Type,
+        plan: &mut Plan,
+        scope: &mut Scope,
+    ) -> Option<Symbol> {
+        let slots = if type_ == Type::Any { 2 } else { 1 };
+        let offset = match plan.home {
+            Home::Fresh => {
+                let slot = self.allocate(&vec![0; slots], declaration.name.span)?;
+                scope.fresh.push(slot..slot + slots as u32);
+                slot
+            }
+            _ => {
+                plan.initial.extend(core::iter::repeat_n(0, slots));
+                (plan.initial.len() - slots) as u32
+            }
+        };
+        let name = declaration.name.text.clone();
+        plan.members.push(Member { name, type_: type_.clone(), offset, role: Role::InOut, retain: false });
+        let fresh = matches!(plan.home, Home::Fresh);
+        let located = match (&type_, fresh) {
+            (Type::Any, true) => Located::in_memory(offset, type_, Access::ReadOnly("it is a reference")),
+            (Type::Any, false) => {
+                Located::at(Base::Instance, offset, type_, Access::ReadOnly("it is a reference"))
+            }
+            (_, true) => Located::at(Base::ReferenceInMemory(offset), 0, type_, Access::Write),
+            (_, false) => Located::at(Base::ReferenceInInstance(offset), 0, type_, Access::Write),
+        };
+        Some(Symbol::Variable(located))
+    }
+
+    /// VAR_EXTERNAL, or a variable with AT: a device variable, or a VAR_GLOBAL of the file.
+    fn external(&mut self, declaration: &VarDeclaration, type_: &Type) -> Option<Symbol> {
+        let symbol = match &declaration.at {
+            Some(at) => self.device_at(at)?,
+            None => self.global_or_device(declaration)?,
+        };
+        let found = match &symbol {
+            Symbol::Variable(located) => &located.type_,
+            Symbol::Constant(type_, _) => type_,
+        };
+        if found == type_ {
+            return Some(symbol);
+        }
+        let message = format!("`{}` is {found}, not {type_}", declaration.name.text);
+        self.refuse(Problem::new(declaration.type_name.span, message))
+    }
+
+    fn global_or_device(&mut self, declaration: &VarDeclaration) -> Option<Symbol> {
+        let name = &declaration.name;
+        if let Some(symbol) = self.globals.get(&key(&name.text)) {
+            return Some(symbol.clone());
+        }
+        if let Some(symbol) = self.device_named(&name.text) {
+            return Some(symbol);
+        }
+        let devices = self.surroundings.globals.iter().map(|global| global.name.clone());
+        let near = super::places::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
+        let problem = Problem::new(name.span, format!("there is no global variable `{}`", name.text));
+        self.refuse(match near {
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem.help("declare it in VAR_GLOBAL"),
+        })
+    }
+
+    fn device_at(&mut self, at: &crate::syntax::ast::Name) -> Option<Symbol> {
+        let globals = self.surroundings.globals;
+        let found = globals
+            .iter()
+            .position(|global| global.at.as_deref().is_some_and(|path| path.eq_ignore_ascii_case(&at.text)));
+        if let Some(place) = found {
+            return self.device(place);
+        }
+        let paths = globals.iter().filter_map(|global| global.at.clone());
+        let near = super::places::nearest(&at.text, paths);
+        let problem = Problem::new(at.span, format!("there is no I/O port `{}`", at.text));
+        self.refuse(match near {
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem.help("the I/O ports are those of the unit's I/O allocation"),
+        })
+    }
+
+    /// The device variable of this name.
+    pub(super) fn device_named(&mut self, name: &str) -> Option<Symbol> {
+        let globals = self.surroundings.globals;
+        let place = globals.iter().position(|global| global.name.eq_ignore_ascii_case(name))?;
+        self.device(place)
+    }
+
+    /// Takes a device variable into the memory when it is named first.
+    fn device(&mut self, place: usize) -> Option<Symbol> {
+        if let Some(symbol) = self.devices.get(&place) {
+            return Some(symbol.clone());
+        }
+        let surroundings = self.surroundings;
+        let mut declarations = surroundings.declared.globals.iter().flat_map(|section| &section.variables);
+        let declaration = declarations.nth(place)?;
+        let shape = self.shape(&declaration.type_name, &Scope::default())?;
+        let shape = self.with_initial(shape, declaration.initial.as_ref(), &Scope::default())?;
+        let slot = self.allocate(&shape.initial, declaration.name.span)?;
+        let global = &surroundings.globals[place];
+        let access = match &global.constant {
+            Some(_) => Access::ReadOnly(CONSTANT),
+            None => self.refreshed(place, slot, &shape.type_)?,
+        };
+        self.out.variables.push(Variable {
+            owner: String::new(),
+            name: global.name.clone(),
+            type_: shape.type_.clone(),
+            slot,
+            retain: false,
+        });
+        let symbol = Symbol::Variable(Located::in_memory(slot, shape.type_, access));
+        self.devices.insert(place, symbol.clone());
+        Some(symbol)
+    }
+
+    /// Notes a device variable that is refreshed before and behind each scan.
+    fn refreshed(&mut self, place: usize, slot: Slot, type_: &Type) -> Option<Access> {
+        let layout = Layout { values: super::places::flatten(type_)? };
+        self.out.externals.push(External { global: place, slot, layout, written: false });
+        Some(match self.surroundings.globals[place].writable {
+            true => Access::Device(self.out.externals.len() - 1),
+            false => Access::ReadOnly("it comes from the unit"),
+        })
+    }
+}
+
+impl Plan {
+    const fn new(home: Home) -> Self {
+        Self { home, members: Vec::new(), initial: Vec::new() }
+    }
+}
+
+const fn role(kind: VarKind) -> Role {
+    match kind {
+        VarKind::Input => Role::Input,
+        VarKind::Output => Role::Output,
+        VarKind::InOut => Role::InOut,
+        _ => Role::Internal,
+    }
+}

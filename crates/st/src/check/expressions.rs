@@ -1,0 +1,537 @@
+//! Expressions: their types by the rules of the language, their code.
+
+use core::fmt;
+
+use super::numbers::{converted, elementary_of};
+use super::scope::{Located, Scope, Symbol, key};
+use super::{Checker, Origin};
+use crate::code::{Base, Code, Place, Slot};
+use crate::convert::{common, fits, natural, widens};
+use crate::elementary::{Class, Elementary};
+use crate::operators::{self, Binary, Unary};
+use crate::problem::{Problem, Span};
+use crate::syntax::ast::{
+    BinaryOperator, Expression, ExpressionKind, Literal, Name, TypedValue, UnaryOperator,
+};
+use crate::types::{Type, string_slots};
+use crate::value::{real_bits, wrap};
+
+/// The inside of a unit while it is checked.
+pub(super) struct Body<'c, 't> {
+    pub(super) checker: &'c mut Checker<'t>,
+    pub(super) scope: &'c Scope,
+    /// The unit whose code this becomes; none for constant expressions.
+    pub(super) unit: Option<u32>,
+    pub(super) loops: u32,
+}
+
+/// An expression that has been checked.
+#[derive(Debug)]
+pub(super) struct Value {
+    pub(super) kind: Kind,
+    /// Of a number without a type: nothing that counts.
+    pub(super) code: Code,
+    pub(super) span: Span,
+}
+
+/// What an expression is.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    Type(Type),
+    /// A whole number that takes the type that is needed.
+    Integer(i128),
+    /// A number with a fraction that becomes REAL or LREAL, as needed.
+    Real(f64),
+    /// A function without a result.
+    Nothing,
+}
+
+impl fmt::Display for Kind {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Type(type_) => type_.fmt(formatter),
+            Self::Integer(number) => write!(formatter, "the number {number}"),
+            Self::Real(number) => write!(formatter, "the number {number}"),
+            Self::Nothing => formatter.write_str("nothing"),
+        }
+    }
+}
+
+impl Value {
+    pub(super) fn of(type_: Type, code: Code, span: Span) -> Self {
+        Self { kind: Kind::Type(type_), code, span }
+    }
+
+    fn elementary(elementary: Elementary, code: Code, span: Span) -> Self {
+        Self::of(Type::Elementary(elementary), code, span)
+    }
+
+    fn constant(elementary: Elementary, bits: u64, span: Span) -> Self {
+        Self::elementary(elementary, Code::Constant(bits), span)
+    }
+
+    const fn untyped(kind: Kind, span: Span) -> Self {
+        Self { kind, code: Code::Constant(0), span }
+    }
+}
+
+impl<'c, 't> Body<'c, 't> {
+    pub(super) const fn for_constants(checker: &'c mut Checker<'t>, scope: &'c Scope) -> Self {
+        Self { checker, scope, unit: None, loops: 0 }
+    }
+
+    pub(super) fn is_library(&self) -> bool {
+        self.checker.origin == Origin::Library
+    }
+
+    /// Checks an expression; none if it is wrong, which has been told.
+    pub(super) fn expression(&mut self, expression: &Expression) -> Option<Value> {
+        let span = expression.span;
+        match &expression.kind {
+            ExpressionKind::Literal(literal) => self.literal(literal, span),
+            ExpressionKind::Name(name) => self.name(name, span),
+            ExpressionKind::Member { .. } | ExpressionKind::Index { .. } => {
+                let located = self.place(expression)?;
+                Some(load(&located, span))
+            }
+            ExpressionKind::EnumValue { type_name, value } => self.enum_value(type_name, value, span),
+            ExpressionKind::Unary { operator, operand } => {
+                let operand = self.expression(operand)?;
+                self.unary(*operator, operand, span)
+            }
+            ExpressionKind::Binary { operator, left, right } => {
+                // Both are looked at, so that both tell what is wrong.
+                let (left, right) = (self.expression(left), self.expression(right));
+                self.binary(*operator, left?, right?, span)
+            }
+            ExpressionKind::Call(call) => self.call(call),
+        }
+    }
+
+    /// A condition: a BOOL.
+    pub(super) fn condition(&mut self, expression: &Expression) -> Option<Code> {
+        let value = self.expression(expression)?;
+        if value.kind == Kind::Type(Type::BOOL) {
+            return Some(value.code);
+        }
+        let message = format!("a condition is a BOOL, not {}", value.kind);
+        self.checker.refuse(Problem::new(value.span, message).help("compare it: … <> 0"))
+    }
+
+    fn literal(&mut self, literal: &Literal, span: Span) -> Option<Value> {
+        Some(match literal {
+            Literal::Bool(value) => Value::constant(Elementary::Bool, u64::from(*value), span),
+            Literal::Integer(number) => Value::untyped(Kind::Integer((*number).into()), span),
+            Literal::Real(number) => Value::untyped(Kind::Real(*number), span),
+            Literal::Typed { elementary, value: TypedValue::Integer(number) } => {
+                Value::constant(*elementary, wrap(*elementary, *number as u64), span)
+            }
+            Literal::Typed { elementary, value: TypedValue::Real(number) } => {
+                Value::constant(*elementary, real_bits(*elementary, *number), span)
+            }
+            Literal::Time(nanoseconds) => Value::constant(Elementary::Time, *nanoseconds as u64, span),
+            Literal::String(text) => {
+                let (slot, length) = self.checker.text_literal(text, span)?;
+                let place = Place { base: Base::Memory, offset: slot, indices: Vec::new() };
+                Value::of(Type::String(length), Code::Address(place), span)
+            }
+        })
+    }
+
+    fn name(&mut self, name: &str, span: Span) -> Option<Value> {
+        match self.symbol(name) {
+            Some(Symbol::Variable(located)) => return Some(load(&located, span)),
+            Some(Symbol::Constant(type_, bits)) => return Some(Value::of(type_, Code::Constant(bits), span)),
+            None => {}
+        }
+        match self.checker.enum_values.get(&key(name)).map(Vec::as_slice) {
+            Some([(enumeration, number)]) => {
+                Some(Value::of(Type::Enum(enumeration.clone()), Code::Constant(*number as u64), span))
+            }
+            Some([(first, _), (second, _), ..]) => {
+                let message = format!("`{name}` is a value of {} and of {}", first.name, second.name);
+                let help = format!("write {}#{name}", first.name);
+                self.checker.refuse(Problem::new(span, message).help(help))
+            }
+            _ if crate::library::function(name).is_some() => {
+                let message = format!("`{name}` is a function");
+                self.checker.refuse(Problem::new(span, message).help(format!("call it: {name}(…)")))
+            }
+            _ => self.unknown(name, span),
+        }
+    }
+
+    fn enum_value(&mut self, type_name: &Name, value: &Name, span: Span) -> Option<Value> {
+        let shape = self.checker.named_shape(&type_name.text, type_name.span)?;
+        let Type::Enum(enumeration) = &shape.type_ else {
+            let message = format!("`{}` is no enumeration", type_name.text);
+            return self.checker.refuse(Problem::new(type_name.span, message));
+        };
+        let found = enumeration.values.iter().find(|(name, _)| name.eq_ignore_ascii_case(&value.text));
+        let Some((_, number)) = found else {
+            let names = enumeration.values.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>();
+            let message = format!("{} has no value `{}`", enumeration.name, value.text);
+            let help = format!("it has {}", names.join(", "));
+            return self.checker.refuse(Problem::new(value.span, message).help(help));
+        };
+        Some(Value::of(shape.type_.clone(), Code::Constant(*number as u64), span))
+    }
+
+    fn unary(&mut self, operator: UnaryOperator, operand: Value, span: Span) -> Option<Value> {
+        let negated = operator == UnaryOperator::Minus;
+        match (&operand.kind, operator) {
+            (Kind::Integer(number), UnaryOperator::Minus | UnaryOperator::Plus) => {
+                Some(Value::untyped(Kind::Integer(if negated { -number } else { *number }), span))
+            }
+            (Kind::Real(number), UnaryOperator::Minus | UnaryOperator::Plus) => {
+                Some(Value::untyped(Kind::Real(if negated { -number } else { *number }), span))
+            }
+            (Kind::Type(Type::Elementary(elementary)), _) => {
+                let elementary = *elementary;
+                let class = elementary.class();
+                match operator {
+                    UnaryOperator::Not if matches!(class, Class::Bool | Class::BitString) => {
+                        Some(unary(Unary::Not, elementary, operand.code, span))
+                    }
+                    UnaryOperator::Minus if matches!(class, Class::Signed | Class::Real | Class::Time) => {
+                        Some(unary(Unary::Negate, elementary, operand.code, span))
+                    }
+                    UnaryOperator::Plus if !matches!(class, Class::Bool | Class::BitString) => {
+                        Some(Value::elementary(elementary, operand.code, span))
+                    }
+                    _ => self.refuse_unary(operator, &operand.kind, span),
+                }
+            }
+            (kind, _) => self.refuse_unary(operator, kind, span),
+        }
+    }
+
+    fn refuse_unary(&mut self, operator: UnaryOperator, kind: &Kind, span: Span) -> Option<Value> {
+        let (sign, help) = match operator {
+            UnaryOperator::Not => ("NOT", "NOT is for BOOL and bit strings"),
+            UnaryOperator::Minus => ("-", "a sign is for signed numbers and TIME"),
+            UnaryOperator::Plus => ("+", "a sign is for numbers and TIME"),
+        };
+        self.checker.refuse(Problem::new(span, format!("there is no {sign} of {kind}")).help(help))
+    }
+
+    fn binary(&mut self, operator: BinaryOperator, left: Value, right: Value, span: Span) -> Option<Value> {
+        let code = code_of(operator);
+        match (&left.kind, &right.kind) {
+            (Kind::Integer(a), Kind::Integer(b)) => self.fold_integers(code, *a, *b, span),
+            (Kind::Integer(_) | Kind::Real(_), Kind::Integer(_) | Kind::Real(_)) => {
+                let a = elementary_of(self.checker, left, Elementary::Lreal)?;
+                let b = elementary_of(self.checker, right, Elementary::Lreal)?;
+                let value = self.combine(code, Elementary::Lreal, a, b, span)?;
+                Some(as_untyped_real(value))
+            }
+            (Kind::Type(Type::String(_)), Kind::Type(Type::String(_))) if is_comparison(code) => {
+                let operands = Box::new((left.code, right.code));
+                Some(Value::elementary(
+                    Elementary::Bool,
+                    Code::CompareText { operator: code, operands },
+                    span,
+                ))
+            }
+            (Kind::Type(Type::Enum(a)), Kind::Type(Type::Enum(b))) if a == b && is_comparison(code) => {
+                self.combine(code, Elementary::Lint, left.code, right.code, span)
+            }
+            _ => self.elementary_binary(operator, left, right, span),
+        }
+    }
+
+    fn elementary_binary(
+        &mut self,
+        operator: BinaryOperator,
+        left: Value,
+        right: Value,
+        span: Span,
+    ) -> Option<Value> {
+        let code = code_of(operator);
+        if let Some(time) = time_operator(code, &left.kind, &right.kind) {
+            return self.time_binary(time, left, right, span);
+        }
+        let Some(elementary) = operand_type(code, &left.kind, &right.kind) else {
+            return self.refuse_binary(operator, &left, &right, span);
+        };
+        if !suits(code, elementary.class()) {
+            return self.refuse_binary(operator, &left, &right, span);
+        }
+        let left = self.operand(code, left, elementary)?;
+        let right = self.operand(code, right, elementary)?;
+        self.combine(code, elementary, left, right, span)
+    }
+
+    /// An operand as the type of the operation; the power of integers is one of LREALs, which they become here.
+    fn operand(&mut self, operator: Binary, value: Value, elementary: Elementary) -> Option<Code> {
+        match value.kind {
+            Kind::Type(Type::Elementary(from)) if operator == Binary::Power => {
+                Some(converted(value.code, from, elementary))
+            }
+            _ => elementary_of(self.checker, value, elementary),
+        }
+    }
+
+    fn time_binary(&mut self, operator: Binary, left: Value, right: Value, span: Span) -> Option<Value> {
+        // A number by a TIME is the TIME by the number.
+        let swapped = left.kind != Kind::Type(Type::Elementary(Elementary::Time));
+        let (time, other) = if swapped { (right, left) } else { (left, right) };
+        let time = elementary_of(self.checker, time, Elementary::Time)?;
+        let other_type = match operator {
+            Binary::MultiplyTime | Binary::DivideTime => Elementary::Lreal,
+            Binary::Multiply | Binary::Divide => Elementary::Lint,
+            _ => Elementary::Time,
+        };
+        let other = elementary_of(self.checker, other, other_type)?;
+        self.combine(operator, Elementary::Time, time, other, span)
+    }
+
+    /// The code of an operation; of two constants, its result.
+    fn combine(
+        &mut self,
+        operator: Binary,
+        elementary: Elementary,
+        left: Code,
+        right: Code,
+        span: Span,
+    ) -> Option<Value> {
+        let result = if is_comparison(operator) { Elementary::Bool } else { elementary };
+        let code = match (operator, elementary, left, right) {
+            (_, _, Code::Constant(a), Code::Constant(b)) => {
+                match operators::binary(operator, elementary, a, b) {
+                    Ok(bits) => Code::Constant(bits),
+                    Err(fault) => return self.checker.refuse(Problem::new(span, fault.to_string())),
+                }
+            }
+            (Binary::And, Elementary::Bool, left, right) => {
+                Code::Decide { stop_at: false, operands: Box::new((left, right)) }
+            }
+            (Binary::Or, Elementary::Bool, left, right) => {
+                Code::Decide { stop_at: true, operands: Box::new((left, right)) }
+            }
+            (_, _, left, right) => Code::Binary { operator, elementary, operands: Box::new((left, right)) },
+        };
+        Some(Value::elementary(result, code, span))
+    }
+
+    /// Numbers without types: as many bits as it takes.
+    fn fold_integers(&mut self, operator: Binary, a: i128, b: i128, span: Span) -> Option<Value> {
+        let number = match operator {
+            Binary::Add => a.checked_add(b),
+            Binary::Subtract => a.checked_sub(b),
+            Binary::Multiply => a.checked_mul(b),
+            Binary::Divide | Binary::Modulo if b == 0 => {
+                return self.checker.refuse(Problem::new(span, "division by zero"));
+            }
+            Binary::Divide => a.checked_div(b),
+            Binary::Modulo => a.checked_rem(b),
+            Binary::And => Some(a & b),
+            Binary::Or => Some(a | b),
+            Binary::Xor => Some(a ^ b),
+            Binary::Power => return Some(Value::untyped(Kind::Real((a as f64).powf(b as f64)), span)),
+            _ => {
+                let holds = operators::compare(operator, Some(a.cmp(&b)));
+                return Some(Value::constant(Elementary::Bool, holds.into(), span));
+            }
+        };
+        match number.filter(|number| (i128::from(i64::MIN)..=u64::MAX.into()).contains(number)) {
+            Some(number) => Some(Value::untyped(Kind::Integer(number), span)),
+            None => self.checker.refuse(Problem::new(span, "the number is greater than every type holds")),
+        }
+    }
+
+    fn refuse_binary(
+        &mut self,
+        operator: BinaryOperator,
+        left: &Value,
+        right: &Value,
+        span: Span,
+    ) -> Option<Value> {
+        let (sign, class) = (sign(operator), classes(&left.kind, &right.kind));
+        let message = format!("there is no {sign} of {} and {}", left.kind, right.kind);
+        let help = match (operator, class) {
+            (BinaryOperator::Add, [None, None]) => "texts are joined by CONCAT(…)",
+            (BinaryOperator::And | BinaryOperator::Or | BinaryOperator::Xor, _) => {
+                "it is for BOOL and bit strings: convert integers by …_TO_WORD(…)"
+            }
+            (_, [Some(Class::BitString), _] | [_, Some(Class::BitString)]) => {
+                "bit strings are no numbers: convert them by …_TO_UINT(…)"
+            }
+            (_, [Some(Class::Bool), _] | [_, Some(Class::Bool)]) => "a BOOL is compared with TRUE or FALSE",
+            _ => "convert one of them",
+        };
+        self.checker.refuse(Problem::new(span, message).help(help))
+    }
+}
+
+impl Checker<'_> {
+    /// A text in the memory, and its length.
+    fn text_literal(&mut self, text: &[u8], span: Span) -> Option<(Slot, u16)> {
+        let Some(length) = u16::try_from(text.len())
+            .ok()
+            .filter(|length| usize::from(*length) <= crate::types::STRING_CHARACTERS_MAX)
+        else {
+            let message = format!("a text has {} characters at most", crate::types::STRING_CHARACTERS_MAX);
+            return self.refuse(Problem::new(span, message));
+        };
+        let mut memory = crate::memory::Memory::new(vec![0; string_slots(length) as usize]);
+        memory.put_text(0, length, text);
+        let slot = self.allocate(memory.slice(0, string_slots(length)), span)?;
+        self.literals.insert(slot);
+        Some((slot, length))
+    }
+
+    /// Whether a text literal lies there.
+    pub(super) fn is_literal(&self, slot: Slot) -> bool {
+        self.literals.contains(&slot)
+    }
+}
+
+/// The value of a variable.
+pub(super) fn load(located: &Located, span: Span) -> Value {
+    let place = located.place.clone();
+    let code = match located.type_ {
+        Type::Elementary(_) | Type::Enum(_) => Code::Load(place),
+        _ => Code::Address(place),
+    };
+    Value::of(located.type_.clone(), code, span)
+}
+
+fn unary(operator: Unary, elementary: Elementary, operand: Code, span: Span) -> Value {
+    let code = match operand {
+        Code::Constant(bits) => Code::Constant(operators::unary(operator, elementary, bits)),
+        operand => Code::Unary { operator, elementary, operand: Box::new(operand) },
+    };
+    Value::elementary(elementary, code, span)
+}
+
+/// What two constants of LREAL make stays a number without a type, unless it is a comparison.
+fn as_untyped_real(value: Value) -> Value {
+    match (&value.kind, &value.code) {
+        (Kind::Type(Type::Elementary(Elementary::Lreal)), Code::Constant(bits)) => {
+            Value::untyped(Kind::Real(f64::from_bits(*bits)), value.span)
+        }
+        _ => value,
+    }
+}
+
+/// The type in which two operands meet.
+fn operand_type(operator: Binary, left: &Kind, right: &Kind) -> Option<Elementary> {
+    if operator == Binary::Power {
+        return power_type(left, right);
+    }
+    match (left, right) {
+        (Kind::Type(Type::Elementary(a)), Kind::Type(Type::Elementary(b))) => common(*a, *b),
+        (Kind::Type(Type::Elementary(a)), Kind::Integer(number))
+        | (Kind::Integer(number), Kind::Type(Type::Elementary(a))) => with_number(*a, *number),
+        (Kind::Type(Type::Elementary(a)), Kind::Real(_))
+        | (Kind::Real(_), Kind::Type(Type::Elementary(a))) => {
+            [Elementary::Real, Elementary::Lreal].into_iter().find(|real| widens(*a, *real))
+        }
+        _ => None,
+    }
+}
+
+/// A number without a type takes the type of the other operand if it fits there, and else a wider one.
+fn with_number(elementary: Elementary, number: i128) -> Option<Elementary> {
+    match elementary.class() {
+        Class::Bool | Class::Time => None,
+        Class::Real => Some(elementary),
+        _ if fits(elementary, number) => Some(elementary),
+        Class::BitString => {
+            let wider = [Elementary::Word, Elementary::Dword, Elementary::Lword];
+            wider.into_iter().find(|wider| widens(elementary, *wider) && fits(*wider, number))
+        }
+        Class::Signed | Class::Unsigned => common(elementary, natural(number)?),
+    }
+}
+
+/// The power of two REALs, or of a REAL and a narrow integer, is a REAL; of all others an LREAL.
+fn power_type(left: &Kind, right: &Kind) -> Option<Elementary> {
+    let numeric = |kind: &Kind| match kind {
+        Kind::Integer(_) | Kind::Real(_) => Some(Elementary::Real),
+        Kind::Type(Type::Elementary(elementary)) => match elementary.class() {
+            Class::Real => Some(*elementary),
+            Class::Signed | Class::Unsigned => Some(Elementary::Lreal),
+            _ => None,
+        },
+        _ => None,
+    };
+    Some(numeric(left)?.max(numeric(right)?))
+}
+
+/// TIME with TIME, or with a number.
+fn time_operator(operator: Binary, left: &Kind, right: &Kind) -> Option<Binary> {
+    let [left, right] = [left, right].map(|kind| match kind {
+        Kind::Integer(_) => Some(Class::Signed),
+        Kind::Real(_) => Some(Class::Real),
+        Kind::Type(Type::Elementary(elementary)) => Some(elementary.class()),
+        _ => None,
+    });
+    match (operator, left?, right?) {
+        (Binary::Add | Binary::Subtract, Class::Time, Class::Time) => Some(operator),
+        (Binary::Multiply, Class::Time, Class::Signed | Class::Unsigned)
+        | (Binary::Multiply, Class::Signed | Class::Unsigned, Class::Time)
+        | (Binary::Divide, Class::Time, Class::Signed | Class::Unsigned) => Some(operator),
+        (Binary::Multiply, Class::Time, Class::Real) | (Binary::Multiply, Class::Real, Class::Time) => {
+            Some(Binary::MultiplyTime)
+        }
+        (Binary::Divide, Class::Time, Class::Real) => Some(Binary::DivideTime),
+        _ => None,
+    }
+}
+
+/// Whether an operation is there for a class of types.
+fn suits(operator: Binary, class: Class) -> bool {
+    match operator {
+        Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide => {
+            matches!(class, Class::Signed | Class::Unsigned | Class::Real)
+        }
+        Binary::Modulo => matches!(class, Class::Signed | Class::Unsigned),
+        Binary::Power => class == Class::Real,
+        Binary::And | Binary::Or | Binary::Xor => matches!(class, Class::Bool | Class::BitString),
+        _ => true,
+    }
+}
+
+pub(super) const fn is_comparison(operator: Binary) -> bool {
+    use Binary::*;
+    matches!(operator, Equal | NotEqual | Less | LessOrEqual | Greater | GreaterOrEqual)
+}
+
+fn classes(left: &Kind, right: &Kind) -> [Option<Class>; 2] {
+    [left, right].map(|kind| match kind {
+        Kind::Type(type_) => type_.elementary().map(Elementary::class),
+        Kind::Integer(_) => Some(Class::Signed),
+        Kind::Real(_) => Some(Class::Real),
+        Kind::Nothing => None,
+    })
+}
+
+const fn row(operator: BinaryOperator) -> (Binary, &'static str) {
+    match operator {
+        BinaryOperator::Power => (Binary::Power, "**"),
+        BinaryOperator::Multiply => (Binary::Multiply, "*"),
+        BinaryOperator::Divide => (Binary::Divide, "/"),
+        BinaryOperator::Modulo => (Binary::Modulo, "MOD"),
+        BinaryOperator::Add => (Binary::Add, "+"),
+        BinaryOperator::Subtract => (Binary::Subtract, "-"),
+        BinaryOperator::Less => (Binary::Less, "<"),
+        BinaryOperator::LessOrEqual => (Binary::LessOrEqual, "<="),
+        BinaryOperator::Greater => (Binary::Greater, ">"),
+        BinaryOperator::GreaterOrEqual => (Binary::GreaterOrEqual, ">="),
+        BinaryOperator::Equal => (Binary::Equal, "="),
+        BinaryOperator::NotEqual => (Binary::NotEqual, "<>"),
+        BinaryOperator::And => (Binary::And, "AND"),
+        BinaryOperator::Xor => (Binary::Xor, "XOR"),
+        BinaryOperator::Or => (Binary::Or, "OR"),
+    }
+}
+
+const fn code_of(operator: BinaryOperator) -> Binary {
+    row(operator).0
+}
+
+const fn sign(operator: BinaryOperator) -> &'static str {
+    row(operator).1
+}

@@ -1,0 +1,113 @@
+//! Which value becomes which type by itself.
+
+use super::Checker;
+use super::expressions::{Kind, Value};
+use crate::code::{Code, Put};
+use crate::convert::{convert, fits, widens};
+use crate::elementary::{Class, Elementary};
+use crate::problem::Problem;
+use crate::types::Type;
+use crate::value::{range, real_bits};
+
+/// A value that fits its target, and how it is put there.
+#[derive(Debug)]
+pub(super) struct Fitting {
+    pub(super) code: Code,
+    pub(super) put: Put,
+}
+
+/// Makes a value of a type; refuses what does not become it by itself.
+pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> Option<Fitting> {
+    match (&value.kind, target) {
+        (_, Type::Elementary(elementary)) => {
+            let code = elementary_of(checker, value, *elementary)?;
+            Some(Fitting { code, put: Put::Value })
+        }
+        (Kind::Type(Type::String(_)), Type::String(capacity)) => {
+            Some(Fitting { code: value.code, put: Put::Text(*capacity) })
+        }
+        (Kind::Type(type_), _) if type_ == target => match target {
+            Type::Enum(_) => Some(Fitting { code: value.code, put: Put::Value }),
+            Type::Array(_) | Type::Struct(_) => {
+                Some(Fitting { code: value.code, put: Put::Slots(target.slots()) })
+            }
+            _ => checker.refuse(
+                Problem::new(value.span, format!("an instance of {target} cannot be copied"))
+                    .help("pass it as VAR_IN_OUT"),
+            ),
+        },
+        _ => {
+            let message = format!("this is {}, where {target} is needed", value.kind);
+            checker.refuse(Problem::new(value.span, message))
+        }
+    }
+}
+
+/// Makes a value of an elementary type.
+pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Elementary) -> Option<Code> {
+    match value.kind {
+        Kind::Integer(number) => integer_of(checker, number, target, &value),
+        Kind::Real(number) if target.class() == Class::Real => {
+            Some(Code::Constant(real_bits(target, number)))
+        }
+        Kind::Type(Type::Elementary(from)) if widens(from, target) => {
+            Some(converted(value.code, from, target))
+        }
+        Kind::Type(Type::Elementary(from)) => {
+            let message = format!("{from} does not become {target} by itself");
+            let problem = Problem::new(value.span, message);
+            checker.refuse(problem.help(conversion_help(from, target)))
+        }
+        Kind::Real(_) => {
+            let message = format!("a number with a fraction is no {target}");
+            checker.refuse(
+                Problem::new(value.span, message).help(format!("use LREAL_TO_{target}(…) or TRUNC(…)")),
+            )
+        }
+        Kind::Type(type_) => {
+            let message = format!("this is {type_}, where {target} is needed");
+            let problem = Problem::new(value.span, message);
+            checker.refuse(match type_ {
+                Type::String(_) => problem.help(format!("use STRING_TO_{target}(…)")),
+                Type::Enum(_) => problem.help("use EnumToNum(…)"),
+                Type::Array(_) => problem.help("an element is named by its index: [0]"),
+                _ => problem,
+            })
+        }
+        Kind::Nothing => checker
+            .refuse(Problem::new(value.span, "this function gives no result").help("call it as a statement")),
+    }
+}
+
+fn integer_of(checker: &mut Checker<'_>, number: i128, target: Elementary, value: &Value) -> Option<Code> {
+    let span = value.span;
+    match target.class() {
+        Class::Real => Some(Code::Constant(real_bits(target, number as f64))),
+        Class::Bool => checker.refuse(Problem::new(span, "a number is no BOOL").help("use TRUE or FALSE")),
+        Class::Time => checker.refuse(Problem::new(span, "a number is no TIME").help("use T#10ms")),
+        _ if fits(target, number) => Some(Code::Constant(number as u64)),
+        _ => {
+            let (least, greatest) = range(target);
+            let message = format!("{number} does not fit {target}, which holds {least} to {greatest}");
+            checker.refuse(Problem::new(span, message))
+        }
+    }
+}
+
+fn conversion_help(from: Elementary, target: Elementary) -> String {
+    match (from.class(), target.class()) {
+        (Class::Time, _) => "use TimeToNanoSec(…) or TimeToSec(…)".to_owned(),
+        (_, Class::Time) => "use NanoSecToTime(…) or SecToTime(…)".to_owned(),
+        (_, Class::Bool) => format!("use {from}_TO_BOOL(…), or a comparison"),
+        _ => format!("use {from}_TO_{target}(…)"),
+    }
+}
+
+/// The code of a conversion; a constant is converted now.
+pub(super) fn converted(code: Code, from: Elementary, to: Elementary) -> Code {
+    match code {
+        _ if from == to => code,
+        Code::Constant(bits) => Code::Constant(convert(from, to, bits)),
+        _ => Code::Convert { from, to, operand: Box::new(code) },
+    }
+}

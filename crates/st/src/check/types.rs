@@ -1,0 +1,255 @@
+//! The names of types, and what they stand for.
+
+use std::sync::Arc;
+
+use super::constants::Constants;
+use super::scope::{Scope, key};
+use super::{Checker, Named, Origin, SLOTS_MAX, Shape};
+use crate::library;
+use crate::problem::{Problem, Span};
+use crate::syntax::ast::{
+    Expression, File, Name, PouKind, TypeDeclaration, TypeDefinition, TypeKind, TypeName, VarDeclaration,
+};
+use crate::types::*;
+
+/// Most dimensions of an array.
+const DIMENSIONS_MAX: usize = 3;
+
+impl<'t> Checker<'t> {
+    /// Enters the names of a file's types and program organization units.
+    pub(super) fn enter(&mut self, file: &'t File, origin: Origin) {
+        for declaration in &file.types {
+            self.enter_name(&declaration.name, Named::Type(declaration));
+        }
+        for pou in file.units.iter().filter(|pou| !pou.name.text.is_empty()) {
+            let named = match pou.kind {
+                PouKind::Program => Named::Program,
+                PouKind::Function => Named::Function(pou),
+                PouKind::FunctionBlock => Named::Block(pou, origin),
+            };
+            self.enter_name(&pou.name, named);
+        }
+        // Enumerations first: their values are named without their types.
+        for declaration in &file.types {
+            self.named_shape(&declaration.name.text, declaration.name.span);
+        }
+    }
+
+    fn enter_name(&mut self, name: &Name, named: Named<'t>) {
+        let taken = library::function(&name.text).is_some() || self.named.contains_key(&key(&name.text));
+        if taken {
+            let message = format!("the name `{}` is taken", name.text);
+            self.refuse::<()>(
+                Problem::new(name.span, message).help("each type, function and block has a name of its own"),
+            );
+        } else {
+            self.named.insert(key(&name.text), named);
+        }
+    }
+
+    /// The type behind a type name; none if it is wrong, which has been told.
+    pub(super) fn shape(&mut self, type_name: &TypeName, scope: &Scope) -> Option<Shape> {
+        match &type_name.kind {
+            TypeKind::Elementary(elementary) => Some(Shape::zero(Type::Elementary(*elementary))),
+            TypeKind::String(None) => Some(Shape::zero(Type::String(STRING_CHARACTERS_DEFAULT))),
+            TypeKind::String(Some(length)) => self.string(length, scope),
+            TypeKind::Array { bounds, element } => self.array(type_name.span, bounds, element, scope),
+            TypeKind::Named(name) if self.origin == Origin::Library && name.eq_ignore_ascii_case("ANY") => {
+                Some(Shape::zero(Type::Any))
+            }
+            TypeKind::Named(name) => self.named_shape(name, type_name.span),
+        }
+    }
+
+    fn string(&mut self, length: &Expression, scope: &Scope) -> Option<Shape> {
+        let characters = self.constant_integer(length, scope)?;
+        match u16::try_from(characters) {
+            Ok(characters) if (1..=STRING_CHARACTERS_MAX).contains(&characters.into()) => {
+                Some(Shape::zero(Type::String(characters)))
+            }
+            _ => self.refuse(Problem::new(
+                length.span,
+                format!("a STRING has 1 to {STRING_CHARACTERS_MAX} characters, not {characters}"),
+            )),
+        }
+    }
+
+    fn array(
+        &mut self,
+        span: Span,
+        bounds: &[(Expression, Expression)],
+        element: &TypeName,
+        scope: &Scope,
+    ) -> Option<Shape> {
+        if bounds.len() > DIMENSIONS_MAX {
+            let message = format!("an array has {DIMENSIONS_MAX} dimensions at most, not {}", bounds.len());
+            return self.refuse(Problem::new(span, message));
+        }
+        let element = self.shape(element, scope)?;
+        let mut bound_list = Vec::new();
+        let mut slots = i128::from(element.type_.slots());
+        for (lower, upper) in bounds {
+            let span = lower.span.to(upper.span);
+            let lower = self.constant_integer(lower, scope)?;
+            let upper = self.constant_integer(upper, scope)?;
+            if upper < lower {
+                let message = format!("the bounds {lower}..{upper} hold no element");
+                return self.refuse(Problem::new(span, message).help("the lower bound comes first"));
+            }
+            slots = slots.saturating_mul(upper - lower + 1);
+            let (Ok(lower), Ok(upper), true) =
+                (i64::try_from(lower), i64::try_from(upper), slots <= SLOTS_MAX.into())
+            else {
+                let message =
+                    format!("the array is larger than the {SLOTS_MAX} values that a program may have");
+                return self.refuse(Problem::new(span, message));
+            };
+            bound_list.push(Bound { lower, upper });
+        }
+        let array = Array { bounds: bound_list, element: element.type_ };
+        let initial = element.initial.repeat(array.elements() as usize);
+        Some(Shape { type_: Type::Array(Arc::new(array)), initial })
+    }
+
+    /// The type of this name.
+    pub(super) fn named_shape(&mut self, name: &str, span: Span) -> Option<Shape> {
+        let Some(named) = self.named.get_mut(&key(name)) else {
+            return self.unknown_type(name, span);
+        };
+        match named {
+            Named::Shape(shape) => return Some(shape.clone()),
+            Named::Wrong => return None,
+            Named::Resolving => {
+                let message = format!("`{name}` contains itself");
+                return self.refuse(Problem::new(span, message));
+            }
+            Named::Function(_) | Named::Signature(_) => {
+                let message = format!("`{name}` is a function, not a type");
+                let help = "a function is called by its name and has no instances";
+                return self.refuse(Problem::new(span, message).help(help));
+            }
+            Named::Program => {
+                return self.refuse(Problem::new(span, format!("`{name}` is a program, not a type")));
+            }
+            Named::Type(_) | Named::Block(..) => {}
+        }
+        let shape = match core::mem::replace(named, Named::Resolving) {
+            Named::Type(declaration) => self.define(declaration),
+            Named::Block(pou, origin) => self.block_shape(pou, origin),
+            _ => None,
+        };
+        self.named.insert(key(name), shape.clone().map_or(Named::Wrong, Named::Shape));
+        shape
+    }
+
+    fn unknown_type(&mut self, name: &str, span: Span) -> Option<Shape> {
+        let types = self.named.iter().filter(|(_, named)| {
+            matches!(named, Named::Type(_) | Named::Block(..) | Named::Shape(_) | Named::Resolving)
+        });
+        let names = types.map(|(name, _)| name.clone());
+        let elementary =
+            crate::elementary::Elementary::ALL.iter().map(|elementary| elementary.name().to_owned());
+        let near = super::places::nearest(name, names.chain(elementary));
+        let problem = Problem::new(span, format!("there is no type `{name}`"));
+        self.refuse(match near {
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem,
+        })
+    }
+
+    fn define(&mut self, declaration: &TypeDeclaration) -> Option<Shape> {
+        match &declaration.definition {
+            TypeDefinition::Struct(members) => self.structure(&declaration.name, members),
+            TypeDefinition::Enum { values, initial } => {
+                self.enumeration(&declaration.name, values, initial.as_ref())
+            }
+            TypeDefinition::Alias { type_name, initial } => {
+                let shape = self.shape(type_name, &Scope::default())?;
+                self.with_initial(shape, initial.as_ref(), &Scope::default())
+            }
+        }
+    }
+
+    fn structure(&mut self, name: &Name, declarations: &[VarDeclaration]) -> Option<Shape> {
+        let scope = Scope::default();
+        let (mut members, mut initial) = (Vec::<Member>::new(), Vec::new());
+        for declaration in declarations {
+            let shape = self.shape(&declaration.type_name, &scope)?;
+            let shape = self.with_initial(shape, declaration.initial.as_ref(), &scope)?;
+            if matches!(shape.type_, Type::Block(_)) {
+                let message = "a structure holds no function block instance";
+                return self.refuse(Problem::new(declaration.type_name.span, message));
+            }
+            if member(&members, &declaration.name.text).is_some() {
+                let message = format!("the structure has a member `{}` already", declaration.name.text);
+                return self.refuse(Problem::new(declaration.name.span, message));
+            }
+            let offset = initial.len() as u32;
+            initial.extend(shape.initial);
+            self.limit(initial.len(), declaration.type_name.span)?;
+            let name = declaration.name.text.clone();
+            members.push(Member { name, type_: shape.type_, offset, role: Role::Internal, retain: false });
+        }
+        let structure = Structure { name: name.text.clone(), members, slots: initial.len() as u32 };
+        Some(Shape { type_: Type::Struct(Arc::new(structure)), initial })
+    }
+
+    /// Refuses what no memory would hold.
+    pub(super) fn limit(&mut self, slots: usize, span: Span) -> Option<()> {
+        if slots <= SLOTS_MAX as usize {
+            return Some(());
+        }
+        let message = format!("this is larger than the {SLOTS_MAX} values that a program may have");
+        self.refuse(Problem::new(span, message))
+    }
+
+    fn enumeration(
+        &mut self,
+        name: &Name,
+        declared: &[(Name, Option<Expression>)],
+        initial: Option<&Name>,
+    ) -> Option<Shape> {
+        let mut values = Vec::<(String, i64)>::new();
+        let mut next = 0_i128;
+        for (value_name, number) in declared {
+            if let Some(number) = number {
+                next = self.constant_integer(number, &Scope::default())?;
+            }
+            if values.iter().any(|(other, _)| other.eq_ignore_ascii_case(&value_name.text)) {
+                let message = format!("the enumeration has a value `{}` already", value_name.text);
+                return self.refuse(Problem::new(value_name.span, message));
+            }
+            let Ok(value) = i32::try_from(next) else {
+                let message = format!("{next} is no DINT, which the values of an enumeration are");
+                return self.refuse(Problem::new(value_name.span, message));
+            };
+            values.push((value_name.text.clone(), value.into()));
+            next += 1;
+        }
+        let first = match initial {
+            Some(initial) => values.iter().find(|(value, _)| value.eq_ignore_ascii_case(&initial.text)),
+            None => values.first(),
+        };
+        let Some(&(_, first)) = first else {
+            let span = initial.map_or(name.span, |initial| initial.span);
+            return self.refuse(Problem::new(span, format!("`{}` has no such value", name.text)));
+        };
+        let enumeration = Arc::new(Enumeration { name: name.text.clone(), values });
+        for (value, number) in &enumeration.values {
+            self.enum_values.entry(key(value)).or_default().push((enumeration.clone(), *number));
+        }
+        Some(Shape { type_: Type::Enum(enumeration), initial: vec![first as u64] })
+    }
+
+    /// A whole number that is known before the program runs.
+    pub(super) fn constant_integer(&mut self, expression: &Expression, scope: &Scope) -> Option<i128> {
+        Constants::new(self, scope).integer(expression)
+    }
+}
+
+impl Shape {
+    pub(super) fn zero(type_: Type) -> Self {
+        let initial = vec![0; type_.slots() as usize];
+        Self { type_, initial }
+    }
+}

@@ -1,0 +1,57 @@
+//! The bodies of the program organization units.
+
+use super::expressions::Body;
+use super::{Checker, Pending};
+use crate::code::Unit;
+use crate::problem::{Problem, Span};
+use crate::syntax::ast::{File, Pou, PouKind};
+
+impl<'t> Checker<'t> {
+    /// Checks all of them: those that nobody calls too.
+    pub(super) fn units(&mut self, file: &'t File) {
+        for pou in &file.units {
+            match pou.kind {
+                PouKind::Program => self.program(pou),
+                PouKind::FunctionBlock => {
+                    self.named_shape(&pou.name.text, pou.name.span);
+                }
+                PouKind::Function => self.uncalled_function(pou),
+            }
+        }
+        // A body may be the first to name a block or a function, which has a body too.
+        while let Some(pending) = self.pending.pop() {
+            self.body(&pending);
+        }
+        if self.out.programs.is_empty() && self.problems.is_empty() {
+            let problem = Problem::new(Span::default(), "there is no PROGRAM in it");
+            self.refuse::<()>(problem.help("write PROGRAM name … END_PROGRAM, or statements alone"));
+        }
+    }
+
+    fn program(&mut self, pou: &'t Pou) {
+        let scope = self.program_scope(pou);
+        let unit = self.new_unit();
+        self.out.programs.push(unit);
+        self.pending.push(Pending { pou, unit, scope, origin: super::Origin::User });
+    }
+
+    fn uncalled_function(&mut self, pou: &'t Pou) {
+        let key = super::scope::key(&pou.name.text);
+        if let Some(super::Named::Function(own)) = self.named.get(&key) {
+            let own = *own;
+            self.named.insert(key.clone(), super::Named::Wrong);
+            if let Some(signature) = self.signature(own) {
+                self.named.insert(key, super::Named::Signature(signature));
+            }
+        }
+    }
+
+    fn body(&mut self, pending: &Pending<'t>) {
+        self.origin = pending.origin;
+        let mut body = Body { scope: &pending.scope, unit: Some(pending.unit), loops: 0, checker: self };
+        let statements = body.statements(&pending.pou.body);
+        let fresh = pending.scope.fresh.clone();
+        self.out.units[pending.unit as usize] = Unit { body: statements, fresh };
+        self.origin = super::Origin::User;
+    }
+}

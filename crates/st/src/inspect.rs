@@ -1,0 +1,152 @@
+//! Values of a program's variables by their names, for tests, panels and traces.
+
+use core::fmt::Write;
+
+use crate::code::Slot;
+use crate::elementary::{Class, Elementary};
+use crate::library::{text_of, value_of};
+use crate::program::Instance;
+use crate::types::{Role, Type, member};
+
+impl Instance {
+    /// The value of a variable as text: `x`, `Main.x`, `timer.Q`, `table[3].speed`. None if there is no such
+    /// variable. Arrays and structures are written with all their parts.
+    #[must_use]
+    pub fn value(&self, path: &str) -> Option<String> {
+        let (type_, slot) = self.find(path)?;
+        let mut text = String::new();
+        self.write(&mut text, &type_, slot);
+        Some(text)
+    }
+
+    /// Sets a variable of an elementary type, as [`Instance::value`] writes it. False if there is no such
+    /// variable, or the text is no value of its type.
+    pub fn set(&mut self, path: &str, text: &str) -> bool {
+        let Some((Type::Elementary(elementary), slot)) = self.find(path) else { return false };
+        let text =
+            text.strip_prefix("16#").filter(|_| elementary.class() == Class::BitString).unwrap_or(text);
+        let Some(bits) = value_of(elementary, text) else { return false };
+        self.memory.set(slot, bits);
+        true
+    }
+
+    /// The names of all variables that lie under a name: `x`, or `Main.x` with the PROGRAM that has it.
+    pub fn names(&self) -> impl Iterator<Item = String> {
+        self.variables().iter().map(|variable| match variable.owner.as_str() {
+            "" => variable.name.clone(),
+            owner => format!("{owner}.{}", variable.name),
+        })
+    }
+
+    fn find(&self, path: &str) -> Option<(Type, Slot)> {
+        let mut parts = split(path);
+        let first = parts.next()?;
+        let named =
+            |name: &str| self.variables().iter().find(|variable| variable.name.eq_ignore_ascii_case(name));
+        let start = match named(first) {
+            Some(variable) => variable,
+            None => {
+                let name = parts.next()?;
+                self.variables().iter().find(|variable| {
+                    variable.owner.eq_ignore_ascii_case(first) && variable.name.eq_ignore_ascii_case(name)
+                })?
+            }
+        };
+        parts.try_fold((start.type_.clone(), start.slot), |(type_, slot), part| step(&type_, slot, part))
+    }
+
+    fn write(&self, text: &mut String, type_: &Type, slot: Slot) {
+        match type_ {
+            Type::Elementary(elementary) => text.push_str(&written(*elementary, self.memory.get(slot))),
+            Type::Enum(enumeration) => {
+                let number = self.memory.get(slot) as i64;
+                let name = enumeration.values.iter().find(|(_, value)| *value == number);
+                match name {
+                    Some((name, _)) => text.push_str(name),
+                    None => text.push_str(&number.to_string()),
+                }
+            }
+            Type::String(_) => {
+                // Writing to a String cannot fail.
+                let _ = write!(text, "'{}'", String::from_utf8_lossy(&self.memory.text(slot)));
+            }
+            Type::Array(array) => {
+                let slots = array.element.slots();
+                let parts = (0..array.elements()).map(|place| (None, &array.element, slot + place * slots));
+                self.write_parts(text, ['[', ']'], parts);
+            }
+            Type::Struct(structure) => self.write_members(text, &structure.members, slot),
+            Type::Block(block) => self.write_members(text, &block.members, slot),
+            Type::Any => text.push('?'),
+        }
+    }
+
+    fn write_members(&self, text: &mut String, members: &[crate::types::Member], slot: Slot) {
+        let own = members.iter().filter(|member| member.role != Role::InOut);
+        let parts = own.map(|member| (Some(member.name.as_str()), &member.type_, slot + member.offset));
+        self.write_parts(text, ['(', ')'], parts);
+    }
+
+    fn write_parts<'a>(
+        &self,
+        text: &mut String,
+        brackets: [char; 2],
+        parts: impl Iterator<Item = (Option<&'a str>, &'a Type, Slot)>,
+    ) {
+        text.push(brackets[0]);
+        for (place, (name, type_, slot)) in parts.enumerate() {
+            if place > 0 {
+                text.push_str(", ");
+            }
+            if let Some(name) = name {
+                text.push_str(name);
+                text.push_str(" := ");
+            }
+            self.write(text, type_, slot);
+        }
+        text.push(brackets[1]);
+    }
+}
+
+/// Bit strings in hexadecimal, as engineers read them; everything else as its conversion to STRING writes it.
+fn written(elementary: Elementary, bits: u64) -> String {
+    match elementary.class() {
+        Class::BitString => format!("16#{bits:X}"),
+        _ => text_of(elementary, bits).to_string(),
+    }
+}
+
+/// Names and indices: `a.b[1,2]` is `a`, `b`, `[1,2]`.
+fn split(path: &str) -> impl Iterator<Item = &str> {
+    path.split('.').flat_map(|part| {
+        let index = part.find('[').unwrap_or(part.len());
+        let (name, indices) = part.split_at(index);
+        [name.trim(), indices.trim()].into_iter().filter(|part| !part.is_empty())
+    })
+}
+
+fn step(type_: &Type, slot: Slot, part: &str) -> Option<(Type, Slot)> {
+    match type_ {
+        Type::Array(array) => {
+            let indices = part.strip_prefix('[')?.strip_suffix(']')?;
+            let mut flat = 0;
+            let mut given = indices.split(',');
+            for bound in &array.bounds {
+                let index = given.next()?.trim().parse::<i64>().ok()?;
+                if !bound.holds(index.into()) {
+                    return None;
+                }
+                flat = flat * bound.count() + u32::try_from(index - bound.lower).ok()?;
+            }
+            given.next().is_none().then(|| (array.element.clone(), slot + flat * array.element.slots()))
+        }
+        Type::Struct(structure) => {
+            member(&structure.members, part).map(|found| (found.type_.clone(), slot + found.offset))
+        }
+        Type::Block(block) => {
+            let own = member(&block.members, part).filter(|found| found.role != Role::InOut);
+            own.map(|found| (found.type_.clone(), slot + found.offset))
+        }
+        _ => None,
+    }
+}

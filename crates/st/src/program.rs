@@ -1,0 +1,274 @@
+//! A program that has been checked, and its run.
+
+use std::sync::Arc;
+
+use crate::check::{Checked, Surroundings, check};
+use crate::code::Slot;
+use crate::elementary::Elementary;
+use crate::fault::Fault;
+use crate::host::Host;
+use crate::machine::{Layout, Machine};
+use crate::memory::Memory;
+use crate::problem::{Problems, Span};
+use crate::syntax::parse;
+use crate::types::Type;
+use crate::value;
+
+/// The blocks and types of the library, in Structured Text.
+const PRELUDE: &str = include_str!("prelude.st");
+
+/// A variable that is there without being declared: a device variable or a system-defined one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Global {
+    /// Its name.
+    pub name: String,
+    /// Its AT specification, such as `IOBus://unit#1/UDINT 01 C to M`; none if it has none.
+    pub at: Option<String>,
+    /// Its type as it is written in a declaration, such as `ARRAY[0..14] OF UINT`.
+    pub type_name: String,
+    /// Whether a program may write it.
+    pub writable: bool,
+    /// The value of one that never changes, as it is written in a declaration; none: it is refreshed.
+    pub constant: Option<String>,
+}
+
+/// A device variable that a program uses.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct External {
+    /// Its place among the globals that the program was compiled with.
+    pub global: usize,
+    pub(crate) slot: Slot,
+    pub(crate) layout: Layout,
+    /// Whether the program writes it.
+    pub written: bool,
+}
+
+/// A variable that lies in the memory under a name.
+#[derive(Clone, Debug)]
+pub(crate) struct Variable {
+    /// The PROGRAM that it belongs to; empty: it is global.
+    pub(crate) owner: String,
+    pub(crate) name: String,
+    pub(crate) type_: Type,
+    pub(crate) slot: Slot,
+    pub(crate) retain: bool,
+}
+
+/// A program that can run: compile it once, start it as often as you like.
+#[derive(Clone, Debug)]
+pub struct Program {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    source: String,
+    checked: Checked,
+}
+
+/// Reads and checks a program. What it takes for granted are the library and `globals`.
+///
+/// # Errors
+/// Everything that is wrong with it, with places, at most 50 things.
+///
+/// # Panics
+/// If a global has a type that cannot be read: whoever gives globals knows their types.
+pub fn compile(source: &str, globals: &[Global]) -> Result<Program, Problems> {
+    let (file, problems) = parse(source);
+    if !problems.is_empty() {
+        return Err(Problems::new(source, problems));
+    }
+    let (prelude, wrong) = parse(PRELUDE);
+    assert!(wrong.is_empty(), "the library's own blocks: {}", Problems::new(PRELUDE, wrong));
+    let declarations = declarations(globals);
+    let (declared, wrong) = parse(&declarations);
+    assert!(wrong.is_empty(), "the device variables: {}", Problems::new(&declarations, wrong));
+    let surroundings = Surroundings { prelude: &prelude, declared: &declared, globals };
+    let checked = check(&file, &surroundings).map_err(|problems| Problems::new(source, problems))?;
+    Ok(Program { inner: Arc::new(Inner { source: source.to_owned(), checked }) })
+}
+
+fn declarations(globals: &[Global]) -> String {
+    let mut text = "VAR_GLOBAL\n".to_owned();
+    for Global { name, type_name, constant, .. } in globals {
+        let initial = constant.as_ref().map(|value| format!(" := {value}")).unwrap_or_default();
+        text.push_str(&format!("{name} : {type_name}{initial};\n"));
+    }
+    text + "END_VAR\n"
+}
+
+impl Program {
+    /// The device variables that the program uses.
+    #[must_use]
+    pub fn externals(&self) -> &[External] {
+        &self.inner.checked.externals
+    }
+
+    /// The source that it was made of.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.inner.source
+    }
+
+    /// The program at its beginning: every variable has its initial value.
+    #[must_use]
+    pub fn start(&self) -> Instance {
+        let memory = Memory::new(self.inner.checked.initial.clone());
+        Instance { program: self.clone(), memory, used: 0 }
+    }
+}
+
+/// A program in operation.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    program: Program,
+    pub(crate) memory: Memory,
+    used: u64,
+}
+
+/// Where and why a scan ended before its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Stopped {
+    /// What went wrong.
+    pub fault: Fault,
+    /// The statement, or the index.
+    pub span: Span,
+}
+
+impl Instance {
+    /// Runs each PROGRAM once, in the order of the file. `now_ns` is the time of its timers: nanoseconds from
+    /// whatever moment, never less than before. `budget` is how many statements may run.
+    ///
+    /// # Errors
+    /// Where and why it ended before its end; what it has written until then stays.
+    pub fn scan(&mut self, now_ns: u64, budget: u64, host: &mut dyn Host) -> Result<(), Stopped> {
+        let checked = &self.program.inner.checked;
+        let mut machine = Machine {
+            memory: &mut self.memory,
+            initial: &checked.initial,
+            units: &checked.units,
+            layouts: &checked.layouts,
+            host,
+            now_ns,
+            budget,
+            instance: 0,
+            at: Span::default(),
+        };
+        let result = checked.programs.iter().try_for_each(|unit| machine.run(*unit));
+        self.used = budget - machine.budget;
+        result.map_err(|fault| Stopped { fault, span: machine.at })
+    }
+
+    /// How many statements the last scan used of its budget.
+    #[must_use]
+    pub const fn used(&self) -> u64 {
+        self.used
+    }
+
+    /// The program that runs.
+    #[must_use]
+    pub const fn program(&self) -> &Program {
+        &self.program
+    }
+
+    /// Begins again: variables have their initial values, but those with RETAIN, which stay.
+    pub fn restart(&mut self) {
+        let next = self.program.start();
+        *self = self.succeeded_by(next);
+    }
+
+    /// Gives over to a changed program: variables with RETAIN keep their values where name and type are the same.
+    #[must_use]
+    pub fn succeeded_by(&self, mut next: Self) -> Self {
+        let (old, new) = (self.retained(), next.retained());
+        for kept in new {
+            let same = old.iter().find(|before| before.path == kept.path && before.type_ == kept.type_);
+            if let Some(before) = same {
+                let values = self.memory.slice(before.slot, before.slots).to_vec();
+                next.memory.slice_mut(kept.slot, kept.slots).copy_from_slice(&values);
+            }
+        }
+        next
+    }
+
+    /// Takes in a device variable: its bytes, little endian, value after value.
+    pub fn load(&mut self, external: &External, octets: &[u8]) {
+        let mut rest = octets;
+        for (offset, elementary) in &external.layout.values {
+            let (own, behind) = rest.split_at(elementary.size_bytes().min(rest.len()));
+            self.memory.set(external.slot + offset, value::unpack(*elementary, own));
+            rest = behind;
+        }
+    }
+
+    /// Gives out a device variable.
+    pub fn store(&self, external: &External, octets: &mut [u8]) {
+        let mut rest = octets;
+        for (offset, elementary) in &external.layout.values {
+            let (own, behind) = rest.split_at_mut(elementary.size_bytes().min(rest.len()));
+            value::pack(self.memory.get(external.slot + offset), own);
+            rest = behind;
+        }
+    }
+
+    pub(crate) fn variables(&self) -> &[Variable] {
+        &self.program.inner.checked.variables
+    }
+
+    fn retained(&self) -> Vec<Retained> {
+        let mut all = Vec::new();
+        for variable in self.variables() {
+            let path = format!("{}.{}", variable.owner, variable.name).to_ascii_uppercase();
+            collect_retained(&mut all, path, &variable.type_, variable.slot, variable.retain);
+        }
+        all
+    }
+}
+
+/// A part of the memory that outlives a restart.
+struct Retained {
+    path: String,
+    type_: String,
+    slot: Slot,
+    slots: u32,
+}
+
+fn collect_retained(all: &mut Vec<Retained>, path: String, type_: &Type, slot: Slot, retain: bool) {
+    if let (Type::Block(block), false) = (type_, retain) {
+        for member in &block.members {
+            let path = format!("{path}.{}", member.name.to_ascii_uppercase());
+            collect_retained(all, path, &member.type_, slot + member.offset, member.retain);
+        }
+    } else if retain {
+        let type_name = format!("{type_} {:?}", shape_of(type_));
+        all.push(Retained { path, type_: type_name, slot, slots: type_.slots() });
+    }
+}
+
+/// What a type is made of, so that a structure that was changed is another one.
+fn shape_of(type_: &Type) -> Vec<(String, String)> {
+    match type_ {
+        Type::Struct(structure) => members_of(&structure.members),
+        Type::Block(block) => members_of(&block.members),
+        Type::Array(array) => shape_of(&array.element),
+        Type::Enum(enumeration) => {
+            enumeration.values.iter().map(|(name, number)| (name.clone(), number.to_string())).collect()
+        }
+        Type::Elementary(_) | Type::String(_) | Type::Any => Vec::new(),
+    }
+}
+
+fn members_of(members: &[crate::types::Member]) -> Vec<(String, String)> {
+    let member = |member: &crate::types::Member| {
+        (member.name.to_ascii_uppercase(), format!("{} {:?}", member.type_, shape_of(&member.type_)))
+    };
+    members.iter().map(member).collect()
+}
+
+impl External {
+    /// How many bytes it has.
+    #[must_use]
+    pub fn size_bytes(&self) -> usize {
+        self.layout.values.iter().map(|(_, elementary): &(u32, Elementary)| elementary.size_bytes()).sum()
+    }
+}
