@@ -140,7 +140,7 @@ pub(crate) struct Statement {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum StatementKind {
-    /// `;` alone.
+    /// `;` alone, once for several in a row; also a statement that could not be read, which has been told.
     Empty,
     Assign {
         to: Expression,

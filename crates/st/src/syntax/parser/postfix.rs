@@ -21,8 +21,14 @@ impl Parser<'_> {
                     return self.nothing_behind_a_call(Expression { kind: ExpressionKind::Call(call), span });
                 }
                 Token::Caret => {
-                    let problem = Problem::new(self.here(), "pointers are not supported");
-                    return self.fail(problem.help("a power is written `**`"));
+                    let mut problem = Problem::new(self.here(), "pointers are not supported");
+                    if matches!(
+                        self.peek(1),
+                        Token::Integer | Token::Real | Token::Name | Token::OpenParenthesis
+                    ) {
+                        problem = problem.help("a power is written `**`");
+                    }
+                    return self.fail(problem);
                 }
                 _ => return Ok(whole),
             };
