@@ -6,3 +6,4 @@ mod bench;
 mod exchange;
 mod messages;
 mod timing;
+mod variables;
