@@ -14,6 +14,7 @@ mod nx_bus_function;
 mod nx_object_client;
 mod program;
 mod pulse;
+mod structured_text;
 
 pub use builtin::Builtin;
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
@@ -32,3 +33,4 @@ pub use nx_ect101::{ObjectIndex, SubIndex};
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;
+pub use structured_text::{STATEMENT_BUDGET_DEFAULT, StructuredText};

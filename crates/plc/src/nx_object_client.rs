@@ -82,6 +82,14 @@ impl NxObjectClient {
         }
     }
 
+    /// Gives up a call: nobody will ask for its result. What has been sent is done all the same.
+    pub fn forget(&mut self, call: NxCall) {
+        let own = self.calls.get_mut(call.place).filter(|place| place.number() == Some(call.number));
+        if let Some(place) = own {
+            *place = Call::Free;
+        }
+    }
+
     fn call(
         &mut self,
         index: ObjectIndex,

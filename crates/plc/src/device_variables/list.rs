@@ -13,6 +13,8 @@ use super::variable::{Target, Variable, VariableId};
 /// entry that stands in its data set has one, each bit of EtherCAT Slave Status too.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceVariables {
+    device_name: String,
+    unit_number: u8,
     list: Vec<Variable>,
 }
 
@@ -25,7 +27,19 @@ impl DeviceVariables {
         list.extend(ports.entries(Direction::CToM, c_to_m));
         list.extend(ports.statuses());
         list.extend(ports::system_defined());
-        Self { list }
+        Self { device_name: device_name.to_owned(), unit_number, list }
+    }
+
+    /// Device name of the unit on the NX bus.
+    #[must_use]
+    pub fn device_name(&self) -> &str {
+        &self.device_name
+    }
+
+    /// NX Unit number of the unit.
+    #[must_use]
+    pub const fn unit_number(&self) -> u8 {
+        self.unit_number
     }
 
     /// The variables that the unit of a unit file has.

@@ -1,0 +1,131 @@
+//! User programs in Structured Text: the language of crate `st`, bound to the device variables of a CPU Unit.
+
+mod globals;
+mod host;
+
+use st::{Fault, Instance, Problems, Stopped};
+
+use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
+use crate::io::Io;
+use crate::program::{Program, ProgramEvent, ProgramTrouble};
+use host::{IoHost, PendingCalls};
+
+/// How many statements one scan may run when nothing else is said: a few milliseconds of work.
+pub const STATEMENT_BUDGET_DEFAULT: u64 = 100_000;
+
+/// A user program in Structured Text.
+///
+/// Before each scan it takes in the device variables that it names, and behind it gives out those that it writes.
+/// A scan that goes wrong ends there: what it has written stays, the CPU Unit reports it, and the next task period
+/// begins a new one.
+#[derive(Debug)]
+pub struct StructuredText {
+    instance: Instance,
+    bindings: Vec<Binding>,
+    budget_statements: u64,
+    unit_number: u8,
+    calls: PendingCalls,
+}
+
+/// A device variable that the program names.
+#[derive(Debug)]
+struct Binding {
+    variable: VariableId,
+    external: st::External,
+}
+
+impl StructuredText {
+    /// Reads and checks a program against the device variables of the CPU Unit that is to run it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, with places.
+    pub fn compile(source: &str, variables: &DeviceVariables) -> Result<Self, Problems> {
+        let globals = globals::of(variables);
+        let program = st::compile(source, &globals.list)?;
+        let bindings = program.externals().iter().map(|external| Binding {
+            variable: globals.variables[external.global],
+            external: external.clone(),
+        });
+        Ok(Self {
+            bindings: bindings.collect(),
+            instance: program.start(),
+            budget_statements: STATEMENT_BUDGET_DEFAULT,
+            unit_number: variables.unit_number(),
+            calls: PendingCalls::default(),
+        })
+    }
+
+    /// Lets a scan run so many statements at most; from 1.
+    #[must_use]
+    pub const fn with_budget(mut self, statements: u64) -> Self {
+        self.budget_statements = statements;
+        self
+    }
+
+    /// Begins with the variables that are declared with RETAIN in another program, where name and type are the same.
+    #[must_use]
+    pub fn succeeding(mut self, before: &Self) -> Self {
+        self.instance = before.instance.succeeded_by(self.instance);
+        self
+    }
+
+    /// The value of a variable of the program as text, by its name; none if there is none.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<String> {
+        self.instance.value(name)
+    }
+
+    /// How many statements the last scan ran.
+    #[must_use]
+    pub const fn statements_used(&self) -> u64 {
+        self.instance.used()
+    }
+
+    fn take_in(&mut self, io: &Io) {
+        for Binding { variable, external } in &self.bindings {
+            // The ids are of this CPU Unit's own variables.
+            if let Ok(value) = io.read(*variable) {
+                self.instance.load(external, &value);
+            }
+        }
+    }
+
+    fn give_out(&self, io: &mut Io) {
+        for Binding { variable, external } in self.bindings.iter().filter(|binding| binding.external.written)
+        {
+            let mut value: VariableValue = core::iter::repeat_n(0, external.size_bytes()).collect();
+            self.instance.store(external, &mut value);
+            // A variable is written whole, and by its own length.
+            let _ = io.write(*variable, &value);
+        }
+    }
+
+    fn report(&self, stopped: &Stopped) -> ProgramEvent {
+        if stopped.fault == Fault::BudgetUsedUp {
+            return ProgramEvent::TaskOverrun { budget_statements: self.budget_statements };
+        }
+        let (line, column) = stopped.span.line_and_column(self.instance.program().source());
+        ProgramEvent::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
+    }
+}
+
+impl Program for StructuredText {
+    fn start(&mut self, io: &mut Io) {
+        self.calls.forget(io.nx_objects());
+        self.instance.restart();
+    }
+
+    fn scan(&mut self, io: &mut Io) {
+        self.take_in(io);
+        let now_ns = io.now().saturating_since(time::Instant::ZERO).as_nanos();
+        let mut host = IoHost { io, unit_number: self.unit_number, calls: &mut self.calls };
+        let result = self.instance.scan(now_ns, self.budget_statements, &mut host);
+        self.give_out(io);
+        if let Err(stopped) = result {
+            io.report(self.report(&stopped));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,33 @@
+//! The device variables as Structured Text sees them.
+
+use st::Global;
+
+use crate::device_variables::{DeviceVariables, VariableAccess, VariableId};
+
+/// Globals, and the device variable of each but the last.
+pub(super) struct Globals {
+    pub(super) list: Vec<Global>,
+    pub(super) variables: Vec<VariableId>,
+}
+
+/// All variables of a CPU Unit, and behind them where its unit is, which NX_ReadObj and NX_WriteObj ask for: a
+/// variable of the type `_sNXUNIT_ID` that is assigned to the port *Node location information*.
+pub(super) fn of(variables: &DeviceVariables) -> Globals {
+    let mut list = variables.iter().map(|(_, variable)| Global {
+        name: variable.name.clone(),
+        at: variable.at.clone(),
+        type_name: variable.variable_type.to_string(),
+        writable: variable.access == VariableAccess::ReadWrite,
+        constant: None,
+    });
+    let mut list: Vec<_> = list.by_ref().collect();
+    let unit_number = variables.unit_number();
+    list.push(Global {
+        name: format!("{}_Node_location_information", variables.device_name()),
+        at: Some(format!("IOBus://unit#{unit_number}/Node location information")),
+        type_name: "_sNXUNIT_ID".to_owned(),
+        writable: false,
+        constant: Some(format!("(UnitNo := {unit_number})")),
+    });
+    Globals { list, variables: variables.iter().map(|(id, _)| id).collect() }
+}

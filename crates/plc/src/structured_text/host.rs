@@ -1,0 +1,121 @@
+//! What a program in Structured Text asks of its CPU Unit.
+
+use core::task::Poll;
+
+use arrayvec::ArrayVec;
+use nx_ect101::nx_bus::REQUESTS_MAX;
+use nx_ect101::{ObjectIndex, SubIndex};
+use st::{Alarm, Host, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault};
+
+use crate::NxMessageError;
+use crate::io::Io;
+use crate::nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
+use crate::program::ProgramEvent;
+
+/// NX Message Error: the unit refused the message. ErrorIDEx says why.
+const NX_MESSAGE_ERROR: u16 = 0x2C00;
+/// NX Message Resources Exceeded: too many calls at once.
+const RESOURCES_EXCEEDED: u16 = 0x2C01;
+/// Incorrect NX Message Length.
+const INCORRECT_LENGTH: u16 = 0x2C03;
+/// Input Value Out of Range: there is no unit of this number on the bus.
+const OUT_OF_RANGE: u16 = 0x0400;
+
+/// The calls of a program that are under way.
+#[derive(Debug, Default)]
+pub(super) struct PendingCalls {
+    calls: ArrayVec<(NxCallNumber, NxCall), REQUESTS_MAX>,
+    last_number: NxCallNumber,
+}
+
+impl PendingCalls {
+    fn add(&mut self, call: NxCall) -> NxCallNumber {
+        self.last_number += 1;
+        // The client has no more calls than this holds.
+        let _ = self.calls.try_push((self.last_number, call));
+        self.last_number
+    }
+
+    /// Forgets all of them: the program that made them begins anew.
+    pub(super) fn forget(&mut self, client: &mut NxObjectClient) {
+        for (_, call) in self.calls.drain(..) {
+            client.forget(call);
+        }
+    }
+}
+
+/// The CPU Unit for the time of a scan.
+pub(super) struct IoHost<'a> {
+    pub(super) io: &'a mut Io,
+    pub(super) unit_number: u8,
+    pub(super) calls: &'a mut PendingCalls,
+}
+
+impl IoHost<'_> {
+    fn call(
+        &mut self,
+        unit: u16,
+        make: impl FnOnce(&mut NxObjectClient) -> Result<NxCall, NxCallRefused>,
+    ) -> Result<NxCallNumber, NxFault> {
+        if unit != u16::from(self.unit_number) {
+            return Err(NxFault { error_id: OUT_OF_RANGE, error_id_ex: 0 });
+        }
+        match make(self.io.nx_objects()) {
+            Ok(call) => Ok(self.calls.add(call)),
+            Err(NxCallRefused::TooManyCalls) => Err(NxFault { error_id: RESOURCES_EXCEEDED, error_id_ex: 0 }),
+            Err(NxCallRefused::ValueTooLong) => Err(NxFault { error_id: INCORRECT_LENGTH, error_id_ex: 0 }),
+        }
+    }
+}
+
+impl Host for IoHost<'_> {
+    fn nx_read(&mut self, unit: u16, index: u16, sub: u8) -> Result<NxCallNumber, NxFault> {
+        self.call(unit, |client| client.read(ObjectIndex(index), SubIndex(sub)))
+    }
+
+    fn nx_write(&mut self, unit: u16, index: u16, sub: u8, value: &[u8]) -> Result<NxCallNumber, NxFault> {
+        self.call(unit, |client| client.write(ObjectIndex(index), SubIndex(sub), value))
+    }
+
+    fn nx_result(
+        &mut self,
+        number: NxCallNumber,
+        value: &mut [u8; NX_OBJECT_BYTES_MAX],
+    ) -> Poll<Result<usize, NxFault>> {
+        let Some(place) = self.calls.calls.iter().position(|(own, _)| *own == number) else {
+            return Poll::Pending;
+        };
+        let Poll::Ready(result) = self.io.nx_objects().take(self.calls.calls[place].1) else {
+            return Poll::Pending;
+        };
+        self.calls.calls.remove(place);
+        Poll::Ready(result.map_err(fault_of).map(|octets| {
+            value[..octets.len()].copy_from_slice(&octets);
+            octets.len()
+        }))
+    }
+
+    fn set_alarm(&mut self, alarm: Alarm) {
+        let Alarm { code, info_1, info_2 } = alarm;
+        self.io.report(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
+    }
+
+    fn reset_alarm(&mut self, _code: u16) {
+        self.io.report(ProgramEvent::UserDefinedErrorsReset);
+    }
+}
+
+/// What the instruction's pins tell of a refusal. The manual of the unit gives no numbers for ErrorIDEx: they are the
+/// SDO abort codes of the same refusals, which every EtherCAT engineer knows.
+const fn fault_of(error: NxMessageError) -> NxFault {
+    let (error_id, error_id_ex) = match error {
+        NxMessageError::ObjectDoesNotExist => (NX_MESSAGE_ERROR, 0x0602_0000),
+        NxMessageError::SubindexDoesNotExist => (NX_MESSAGE_ERROR, 0x0609_0011),
+        NxMessageError::NotAccessibleByMessage => (NX_MESSAGE_ERROR, 0x0601_0000),
+        NxMessageError::ReadOnly => (NX_MESSAGE_ERROR, 0x0601_0002),
+        NxMessageError::LengthMismatch { .. } => (INCORRECT_LENGTH, 0x0607_0010),
+        NxMessageError::NotReady => (NX_MESSAGE_ERROR, 0x0800_0021),
+        NxMessageError::NotReachable => (NX_MESSAGE_ERROR, 0x0800_0000),
+    };
+    NxFault { error_id, error_id_ex }
+}
