@@ -117,6 +117,10 @@ struct Checker<'t> {
     pending: Vec<Pending<'t>>,
     /// Where text literals lie.
     literals: std::collections::HashSet<Slot>,
+    /// How many types are being resolved.
+    type_depth: u32,
+    /// How deep the code of each unit lies in itself.
+    own_depths: HashMap<u32, u32>,
     /// Who calls whom.
     calls: Vec<(u32, u32, Span)>,
     /// Whether library names with a leading underscore may be called.
@@ -143,6 +147,8 @@ impl<'t> Checker<'t> {
             devices: HashMap::new(),
             pending: Vec::new(),
             literals: std::collections::HashSet::new(),
+            type_depth: 0,
+            own_depths: HashMap::new(),
             calls: Vec::new(),
             origin: Origin::User,
             // Slot 0 belongs to nobody, so that no reference is it.

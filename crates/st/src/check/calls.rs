@@ -1,6 +1,7 @@
 //! Calls of functions and function blocks of the program.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use super::expressions::{Body, Kind, Value};
 use super::numbers::{Fitting, coerce, converted};
@@ -96,17 +97,14 @@ impl<'t> Body<'_, 't> {
 
     /// A call as a statement.
     pub(super) fn call_statement(&mut self, call: &Call) -> Option<StatementKind> {
-        if let Some(located) = self.instance(&call.callee)? {
-            if let Type::Block(block) = &located.type_ {
-                let block = block.clone();
-                return self.call_block(&block, located, call);
-            }
+        if let Some((block, located)) = self.instance(&call.callee)? {
+            return self.call_block(&block, located, call);
         }
         self.call(call).map(|value| StatementKind::Evaluate(value.code))
     }
 
-    /// The variable that is called, if a variable is.
-    fn instance(&mut self, callee: &Expression) -> Option<Option<Located>> {
+    /// The function block instance that is called, if a variable is.
+    fn instance(&mut self, callee: &Expression) -> Option<Option<(Arc<Block>, Located)>> {
         let located = match &callee.kind {
             ExpressionKind::Name(name) => match self.symbol(name) {
                 Some(Symbol::Variable(located)) if matches!(located.type_, Type::Block(_)) => located,
@@ -115,8 +113,8 @@ impl<'t> Body<'_, 't> {
             },
             _ => self.place(callee)?,
         };
-        if matches!(located.type_, Type::Block(_)) {
-            return Some(Some(located));
+        if let Type::Block(block) = &located.type_ {
+            return Some(Some((block.clone(), located)));
         }
         let message = format!("this is {}, and only function blocks are called", located.type_);
         self.checker.refuse(Problem::new(callee.span, message))
@@ -398,11 +396,11 @@ impl<'t> Body<'_, 't> {
                 Some(Value::of(Type::Elementary(to), code, call.span))
             }
             (library::Of::Elementary(to), Kind::Type(Type::String(_))) => {
-                self.from_text(to, value, call.span)
+                self.value_of_text(to, value, call.span)
             }
             (library::Of::Text, Kind::Type(Type::Elementary(from))) => {
                 let from = *from;
-                self.to_text(from, value, call.span)
+                self.text_of_value(from, value, call.span)
             }
             (_, kind) => {
                 let message = format!("{kind} cannot be converted by `{}`", name_of(&call.callee));

@@ -23,6 +23,9 @@ pub(super) struct Body<'c, 't> {
     /// The unit whose code this becomes; none for constant expressions.
     pub(super) unit: Option<u32>,
     pub(super) loops: u32,
+    /// How deep the expression or statement lies that is being checked, and the deepest so far: it runs as deep.
+    pub(super) depth: u32,
+    pub(super) deepest: u32,
 }
 
 /// An expression that has been checked.
@@ -77,7 +80,20 @@ impl Value {
 
 impl<'c, 't> Body<'c, 't> {
     pub(super) const fn for_constants(checker: &'c mut Checker<'t>, scope: &'c Scope) -> Self {
-        Self { checker, scope, unit: None, loops: 0 }
+        Self::new(checker, scope, None)
+    }
+
+    pub(super) const fn new(checker: &'c mut Checker<'t>, scope: &'c Scope, unit: Option<u32>) -> Self {
+        Self { checker, scope, unit, loops: 0, depth: 0, deepest: 0 }
+    }
+
+    /// Goes one level deeper.
+    pub(super) fn nested<T>(&mut self, check: impl FnOnce(&mut Self) -> T) -> T {
+        self.depth += 1;
+        self.deepest = self.deepest.max(self.depth);
+        let checked = check(self);
+        self.depth -= 1;
+        checked
     }
 
     pub(super) fn is_library(&self) -> bool {
@@ -86,6 +102,10 @@ impl<'c, 't> Body<'c, 't> {
 
     /// Checks an expression; none if it is wrong, which has been told.
     pub(super) fn expression(&mut self, expression: &Expression) -> Option<Value> {
+        self.nested(|body| body.expression_here(expression))
+    }
+
+    fn expression_here(&mut self, expression: &Expression) -> Option<Value> {
         let span = expression.span;
         match &expression.kind {
             ExpressionKind::Literal(literal) => self.literal(literal, span),

@@ -49,13 +49,13 @@ impl Body<'_, '_> {
     }
 
     /// A text as a value of a type.
-    pub(super) fn from_text(&mut self, to: Elementary, value: Value, span: Span) -> Option<Value> {
+    pub(super) fn value_of_text(&mut self, to: Elementary, value: Value, span: Span) -> Option<Value> {
         let (native, arguments) = (Native(&library::FROM_TEXT), vec![NativeArgument::Value(value.code)]);
         self.native_value(native, Generic::Elementary(to), None, arguments, span)
     }
 
     /// A value as a text.
-    pub(super) fn to_text(&mut self, from: Elementary, value: Value, span: Span) -> Option<Value> {
+    pub(super) fn text_of_value(&mut self, from: Elementary, value: Value, span: Span) -> Option<Value> {
         let ResultType::TextOf(capacity) = library::TO_TEXT.result else { return None };
         let (native, arguments) = (Native(&library::TO_TEXT), vec![NativeArgument::Value(value.code)]);
         self.native_value(native, Generic::Elementary(from), Some(capacity), arguments, span)
@@ -200,7 +200,7 @@ impl Body<'_, '_> {
             Some(Generic::Text) => Some(Generic::Text),
             Some(Generic::Elementary(elementary)) => {
                 let literals = numbers_in(looked);
-                let wide = literals.iter().try_fold(elementary, |wide, kind| with_literal(wide, kind));
+                let wide = literals.iter().try_fold(elementary, with_literal);
                 let fitting = wide.and_then(|wide| of_classes(wide, classes));
                 match fitting {
                     Some(elementary) => Some(Generic::Elementary(elementary)),
@@ -232,7 +232,7 @@ impl Body<'_, '_> {
             _ if classes.contains(&Class::BitString) => Elementary::Byte,
             _ => Elementary::Lreal,
         };
-        let wide = literals.iter().try_fold(start, |wide, kind| with_literal(wide, kind));
+        let wide = literals.iter().try_fold(start, with_literal);
         match wide.and_then(|wide| of_classes(wide, classes)) {
             Some(elementary) => Some(Generic::Elementary(elementary)),
             None => self.refuse_class(function, first, classes, span),

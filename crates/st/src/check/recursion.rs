@@ -1,45 +1,59 @@
-//! No program organization unit calls itself (IEC 61131-3, 6.6.1), and none calls too deeply.
+//! No program organization unit calls itself (IEC 61131-3, 6.6.1), and no code lies too deep.
 
 use super::Checker;
 use crate::problem::{Problem, Span};
 
-/// How deep calls may go: the stack of a thread holds that.
-const DEPTH_MAX: u32 = 16;
+/// How deep statements, expressions and calls may lie in each other, from the PROGRAM on: the stack of a thread
+/// holds that.
+const DEPTH_MAX: u32 = 1_000;
 
 impl Checker<'_> {
-    /// Refuses calls that come back to where they began.
+    /// Refuses calls that come back to where they began, and those that go too deep.
     pub(super) fn refuse_recursion(&mut self) {
-        let mut depths = vec![Depth::Unknown; self.out.units.len()];
-        for unit in 0..depths.len() {
-            self.depth(unit as u32, Span::default(), &mut depths);
+        let units = self.out.units.len();
+        let mut graph = Graph { callees: vec![Vec::new(); units], depths: vec![Depth::Unknown; units] };
+        for (caller, callee, span) in core::mem::take(&mut self.calls) {
+            graph.callees[caller as usize].push((callee, span));
+        }
+        for unit in 0..units {
+            self.depth(unit, Span::default(), 0, &mut graph);
         }
     }
 
-    fn depth(&mut self, unit: u32, span: Span, depths: &mut [Depth]) -> u32 {
-        match depths[unit as usize] {
+    /// How deep the code of a unit lies with all that it calls; `level` calls have led here.
+    fn depth(&mut self, unit: usize, span: Span, level: u32, graph: &mut Graph) -> u32 {
+        match graph.depths[unit] {
             Depth::Known(depth) => return depth,
             Depth::InProgress => {
                 let problem = Problem::new(span, "this call comes back to itself");
                 self.refuse::<()>(problem.help("no function or block calls itself: use a loop"));
                 return 0;
             }
+            // Each call is at least one level of its own, so the limit below has been passed.
+            Depth::Unknown if level > DEPTH_MAX => return DEPTH_MAX,
             Depth::Unknown => {}
         }
-        depths[unit as usize] = Depth::InProgress;
-        let callees = self.calls.iter().filter(|(caller, _, _)| *caller == unit);
-        let callees = callees.map(|(_, callee, span)| (*callee, *span)).collect::<Vec<_>>();
-        let mut deepest = 0;
-        for (callee, span) in callees {
-            let depth = self.depth(callee, span, depths) + 1;
-            if depth == DEPTH_MAX {
-                let message = format!("calls are nested deeper than {DEPTH_MAX}");
+        graph.depths[unit] = Depth::InProgress;
+        let own = self.own_depths.get(&(unit as u32)).copied().unwrap_or(0);
+        let mut deepest = own;
+        for (callee, span) in core::mem::take(&mut graph.callees[unit]) {
+            let depth = own + self.depth(callee as usize, span, level + 1, graph);
+            if depth > DEPTH_MAX && deepest <= DEPTH_MAX {
+                let message =
+                    format!("statements, expressions and calls lie deeper than {DEPTH_MAX} in each other");
                 self.refuse::<()>(Problem::new(span, message));
             }
             deepest = deepest.max(depth);
         }
-        depths[unit as usize] = Depth::Known(deepest);
+        graph.depths[unit] = Depth::Known(deepest);
         deepest
     }
+}
+
+/// Who calls whom, by their numbers.
+struct Graph {
+    callees: Vec<Vec<(u32, Span)>>,
+    depths: Vec<Depth>,
 }
 
 #[derive(Clone, Copy)]

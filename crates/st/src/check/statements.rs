@@ -13,7 +13,7 @@ use crate::value::integer;
 impl Body<'_, '_> {
     /// Checks statements; those that are wrong are left out, and nothing runs.
     pub(super) fn statements(&mut self, statements: &[ast::Statement]) -> Vec<Statement> {
-        statements.iter().filter_map(|statement| self.statement(statement)).collect()
+        self.nested(|body| statements.iter().filter_map(|statement| body.statement(statement)).collect())
     }
 
     fn statement(&mut self, statement: &ast::Statement) -> Option<Statement> {

@@ -12,6 +12,9 @@ use crate::syntax::ast::{
 };
 use crate::types::*;
 
+/// How deep types may lie in each other.
+const TYPE_DEPTH_MAX: u32 = 32;
+
 /// Most dimensions of an array.
 const DIMENSIONS_MAX: usize = 3;
 
@@ -133,11 +136,18 @@ impl<'t> Checker<'t> {
             }
             Named::Type(_) | Named::Block(..) => {}
         }
-        let shape = match core::mem::replace(named, Named::Resolving) {
+        if self.type_depth == TYPE_DEPTH_MAX {
+            let message = format!("types lie deeper than {TYPE_DEPTH_MAX} in each other");
+            return self.refuse(Problem::new(span, message));
+        }
+        let named = core::mem::replace(named, Named::Resolving);
+        self.type_depth += 1;
+        let shape = match named {
             Named::Type(declaration) => self.define(declaration),
             Named::Block(pou, origin) => self.block_shape(pou, origin),
             _ => None,
         };
+        self.type_depth -= 1;
         self.named.insert(key(name), shape.clone().map_or(Named::Wrong, Named::Shape));
         shape
     }

@@ -48,8 +48,10 @@ impl<'t> Checker<'t> {
 
     fn body(&mut self, pending: &Pending<'t>) {
         self.origin = pending.origin;
-        let mut body = Body { scope: &pending.scope, unit: Some(pending.unit), loops: 0, checker: self };
+        let mut body = Body::new(self, &pending.scope, Some(pending.unit));
         let statements = body.statements(&pending.pou.body);
+        let deepest = body.deepest;
+        self.own_depths.insert(pending.unit, deepest);
         let fresh = pending.scope.fresh.clone();
         self.out.units[pending.unit as usize] = Unit { body: statements, fresh };
         self.origin = super::Origin::User;
