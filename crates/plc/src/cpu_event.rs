@@ -86,14 +86,11 @@ impl CpuEventLog {
 
     /// Writes an event down. One that goes on and on takes one record; when there is no room, the oldest is lost.
     pub(crate) fn add(&mut self, now: Instant, event: CpuEvent) {
-        if !event.is_turn() {
-            let mut since_turn = self.records.iter_mut().rev().take_while(|record| !record.event.is_turn());
-            if let Some(record) = since_turn.find_map(|record| record.event.absorb(&event).then_some(record))
-            {
-                record.last_at = now;
-                record.count += 1;
-                return;
-            }
+        let mut since_turn = self.records.iter_mut().rev().take_while(|record| !record.event.is_turn());
+        if let Some(record) = since_turn.find_map(|record| record.event.absorb(&event).then_some(record)) {
+            record.last_at = now;
+            record.count += 1;
+            return;
         }
         if self.records.len() == CPU_EVENTS_MAX {
             self.records.pop_front();

@@ -93,4 +93,12 @@ mod tests {
         bus.reset_errors();
         assert_eq!(bus.hear(&heard(false, 2)), Some(IoRefreshing::GoesOn));
     }
+
+    #[test]
+    fn an_error_that_a_reset_is_about_stops_nothing_before_the_unit_has_followed_it() {
+        let mut bus = NxBusFunction::new(FailSoftOperation::Stop);
+        bus.reset_errors();
+        assert_eq!(bus.hear(&heard(true, 0)), None, "the reset may be about it");
+        assert_eq!(bus.hear(&heard(true, 1)), Some(IoRefreshing::Stopped), "it was not");
+    }
 }

@@ -98,6 +98,20 @@ fn what_an_outside_runtime_writes_the_user_program_reads() {
 }
 
 #[test]
+fn a_forced_output_is_forced_for_the_next_program_and_for_raw_bytes_too() {
+    let (times, heard) = channel();
+    let program = move |io: &mut Io| times.send(io.c_to_m()[0]).expect("someone listens");
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
+    cpu.attach(Box::new(|io: &mut Io| io.c_to_m_mut()[0] = 7));
+    let output = cpu.io().find("N1_UINTs_01_C_to_M").expect("allocated").element(0);
+    cpu.io_mut().force(output, &[9, 0]).expect("it fits");
+    cpu.io_mut().write(output, &[8, 0]).expect("an output");
+    assert_eq!(cpu.io().c_to_m()[0], 9);
+    cpu.cycle(at_ms(100));
+    assert_eq!(heard.try_iter().collect::<Vec<_>>(), [9]);
+}
+
+#[test]
 fn a_program_is_loaded_in_program_mode_only() {
     let (old, heard_old) = told("old");
     let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), old);
