@@ -12,6 +12,7 @@ mod io;
 mod message_echo;
 mod nx_bus_function;
 mod nx_object_client;
+pub mod outside;
 mod program;
 mod pulse;
 mod structured_text;

@@ -4,7 +4,7 @@ use st::{Class, Elementary};
 
 use super::error::VariableError;
 use super::list::DeviceVariables;
-use super::memory::Place;
+use super::memory::{Area, Memory, Place};
 use super::variable::{Target, VariableAccess, VariableId, VariableType, VariableValue};
 use crate::io::Io;
 
@@ -31,8 +31,7 @@ impl Io {
     /// # Errors
     /// There is no such variable or element.
     pub fn read(&self, target: impl Into<Target>) -> Result<VariableValue, VariableError> {
-        let place = self.variables.place(target.into())?;
-        Ok(self.memory.of(place.area).read(place))
+        self.memory.value(&self.variables, target.into())
     }
 
     /// Writes an output: what goes out with the next I/O refresh. What is forced keeps its value.
@@ -40,11 +39,7 @@ impl Io {
     /// # Errors
     /// There is no such variable or element, it is read-only, or the value does not fit.
     pub fn write(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
-        let target = target.into();
-        let place = self.checked(target, value)?;
-        if self.variables.at(target.variable)?.access == VariableAccess::ReadOnly {
-            return Err(VariableError::NotWritable);
-        }
+        let place = self.variables.writable(target.into(), value)?;
         self.memory.of_mut(place.area).write(place, value);
         Ok(())
     }
@@ -54,7 +49,7 @@ impl Io {
     /// # Errors
     /// There is no such variable or element, or the value does not fit.
     pub fn force(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
-        let place = self.checked(target.into(), value)?;
+        let place = self.variables.fitting(target.into(), value)?;
         self.memory.of_mut(place.area).force(place, value);
         Ok(())
     }
@@ -81,8 +76,7 @@ impl Io {
     /// # Errors
     /// There is no such variable or element.
     pub fn is_forced(&self, target: impl Into<Target>) -> Result<bool, VariableError> {
-        let place = self.variables.place(target.into())?;
-        Ok(self.memory.of(place.area).is_forced(place))
+        self.memory.is_forced(&self.variables, target.into())
     }
 
     /// What is forced: whole variables, and elements of arrays that are forced in part.
@@ -102,18 +96,26 @@ impl Io {
     pub fn type_of(&self, target: impl Into<Target>) -> Result<VariableType, VariableError> {
         self.variables.type_of(target.into())
     }
+}
 
-    fn checked(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
-        let place = self.variables.place(target)?;
-        let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);
-        if length_bytes != expected_bytes {
-            return Err(VariableError::WrongLength { length_bytes, expected_bytes });
-        }
-        let elementary = self.variables.at(target.variable)?.variable_type.elementary;
-        match value.iter().find(|&&byte| byte > 1) {
-            Some(&value) if is_bool(elementary) => Err(VariableError::NotABool { value }),
-            _ => Ok(place),
-        }
+impl Memory {
+    pub(crate) fn value(
+        &self,
+        variables: &DeviceVariables,
+        target: Target,
+    ) -> Result<VariableValue, VariableError> {
+        let place = variables.place(target)?;
+        Ok(self.of(place.area).read(place))
+    }
+
+    /// Whether all of it is forced.
+    pub(crate) fn is_forced(
+        &self,
+        variables: &DeviceVariables,
+        target: Target,
+    ) -> Result<bool, VariableError> {
+        let place = variables.place(target)?;
+        Ok(self.of(place.area).is_forced(place))
     }
 }
 
@@ -126,6 +128,38 @@ impl DeviceVariables {
         self.place(target)?;
         let whole = self.at(target.variable)?.variable_type;
         Ok(if target.element.is_some() { VariableType::single(whole.elementary) } else { whole })
+    }
+
+    /// A memory that is large enough for all of them.
+    pub(crate) fn memory(&self) -> Memory {
+        let end = |area| {
+            let places = self.iter().map(|(_, variable)| variable.place).filter(|place| place.area == area);
+            places.map(|place| place.start + place.length_bytes).max().unwrap_or(0)
+        };
+        Memory::new(end(Area::MToC), end(Area::CToM))
+    }
+
+    /// Where a value goes that is written.
+    pub(crate) fn writable(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
+        let place = self.fitting(target, value)?;
+        match self.at(target.variable)?.access {
+            VariableAccess::ReadOnly => Err(VariableError::NotWritable),
+            VariableAccess::ReadWrite => Ok(place),
+        }
+    }
+
+    /// Where a value goes that is written or forced.
+    pub(crate) fn fitting(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
+        let place = self.place(target)?;
+        let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);
+        if length_bytes != expected_bytes {
+            return Err(VariableError::WrongLength { length_bytes, expected_bytes });
+        }
+        let elementary = self.at(target.variable)?.variable_type.elementary;
+        match value.iter().find(|&&byte| byte > 1) {
+            Some(&value) if is_bool(elementary) => Err(VariableError::NotABool { value }),
+            _ => Ok(place),
+        }
     }
 }
 

@@ -21,7 +21,7 @@ pub(super) enum Area {
 
 /// Where a value lies. A BOOL may be one bit of a byte, everything else has its bytes whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Place {
+pub(crate) struct Place {
     pub(super) area: Area,
     pub(super) start: usize,
     pub(super) length_bytes: usize,
@@ -113,6 +113,13 @@ impl Memory {
         self.status.apply_forced();
     }
 
+    /// Takes over values and what is forced of another memory of the same size.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.m_to_c.copy_from(&other.m_to_c);
+        self.c_to_m.copy_from(&other.c_to_m);
+        self.status.copy_from(&other.status);
+    }
+
     pub(super) const fn of(&self, area: Area) -> &Image {
         match area {
             Area::MToC => &self.m_to_c,
@@ -155,6 +162,19 @@ impl Image {
         for ((byte, forced), value) in self.bytes.iter_mut().zip(&self.forced).zip(&self.values) {
             *byte = *byte & !forced | value;
         }
+    }
+
+    fn copy_from(&mut self, other: &Self) {
+        let pairs = [
+            (&mut self.bytes, &other.bytes),
+            (&mut self.forced, &other.forced),
+            (&mut self.values, &other.values),
+        ];
+        for (own, other) in pairs {
+            let length_bytes = own.len().min(other.len());
+            own[..length_bytes].copy_from_slice(&other[..length_bytes]);
+        }
+        self.has_forced = other.has_forced;
     }
 
     /// Frees everything; it stays until it is written or refreshed.

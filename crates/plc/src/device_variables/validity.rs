@@ -1,10 +1,13 @@
 //! Whether a value can be used for control.
 
+use nx_ect101::{Direction, SlaveStatus};
+
 use super::error::VariableError;
+use super::list::DeviceVariables;
+use super::memory::Memory;
 use super::ports::VariableSource;
 use super::variable::VariableId;
 use crate::io::Io;
-use nx_ect101::Direction;
 
 /// Whether a value can be used for control, and if not, why: the conditions of the manual's A-3-2, in the order in
 /// which its program looks at them.
@@ -28,8 +31,18 @@ impl Io {
     /// # Errors
     /// There is no such variable.
     pub fn validity(&self, id: VariableId) -> Result<Validity, VariableError> {
-        let status = self.status();
-        let data_valid = match self.variables.at(id)?.source {
+        self.memory.validity(&self.variables, id)
+    }
+}
+
+impl Memory {
+    pub(crate) fn validity(
+        &self,
+        variables: &DeviceVariables,
+        id: VariableId,
+    ) -> Result<Validity, VariableError> {
+        let status = SlaveStatus::from_bits(self.slave_status());
+        let data_valid = match variables.at(id)?.source {
             VariableSource::Entry { direction: Direction::MToC, .. } => status.m_to_c_valid,
             VariableSource::Entry { direction: Direction::CToM, .. } => status.c_to_m_valid,
             VariableSource::SlaveStatus | VariableSource::SlaveStatusBit { .. } => true,
