@@ -39,7 +39,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("ASIN", ANGLE, ResultType::Generic, "the angle in radians, -π/2 to π/2, with this sine", |call| of_real(call, libm::asin)),
     row("ACOS", ANGLE, ResultType::Generic, "the angle in radians, 0 to π, with this cosine", |call| of_real(call, libm::acos)),
     row("ATAN", ANGLE, ResultType::Generic, "the angle in radians, -π/2 to π/2, with this tangent", |call| of_real(call, libm::atan)),
-    row("ATAN2", &[pin_or("Y", "In1", Takes::Generic(REALS)), pin_or("X", "In2", Takes::Generic(REALS))],
+    row("ATAN2", &[pin("Y", Takes::Generic(REALS)), pin("X", Takes::Generic(REALS))],
         ResultType::Generic, "the angle in radians, -π to π, of the point X, Y", |call| of_two_reals(call, libm::atan2)),
     row("RadToDeg", ANGLE, ResultType::Generic, "radians as degrees", |call| of_real(call, f64::to_degrees)),
     row("DegToRad", ANGLE, ResultType::Generic, "degrees as radians", |call| of_real(call, f64::to_radians)),

@@ -1,3 +1,14 @@
 //! The table, and what the functions and blocks of the library do.
 
+mod arguments;
+mod bench;
+mod bits;
 mod blocks;
+mod memory;
+mod numbers;
+mod nx_blocks;
+mod system;
+mod table;
+mod texts;
+mod timers;
+mod value_text;

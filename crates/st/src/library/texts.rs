@@ -66,16 +66,12 @@ fn before(call: &Call<'_, '_>, place: usize, length: usize) -> Result<usize, Fau
     Ok(length.min(position as usize - 1))
 }
 
-/// The text without the piece of which the arguments from `place` on tell the length and the position: what stands
+/// The text around the piece of which the arguments from `place` on tell the length and the position: what stands
 /// before it, the piece, and what stands behind it.
-fn parts<'t>(
-    call: &Call<'_, '_>,
-    place: usize,
-    text: &'t [u8],
-) -> Result<(&'t [u8], &'t [u8], &'t [u8]), Fault> {
+fn parts<'t>(call: &Call<'_, '_>, place: usize, text: &'t [u8]) -> Result<[&'t [u8]; 3], Fault> {
     let (before, rest) = text.split_at(before(call, place + 1, text.len())?);
     let (piece, behind) = rest.split_at(count(call, place, rest.len())?);
-    Ok((before, piece, behind))
+    Ok([before, piece, behind])
 }
 
 fn left(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
@@ -92,12 +88,12 @@ fn right(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
 
 fn middle(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let text = call.text(0)?;
-    parts(call, 1, &text).map(|(_, piece, _)| collect(&[piece]))
+    parts(call, 1, &text).map(|[_, piece, _]| collect(&[piece]))
 }
 
 fn deleted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let text = call.text(0)?;
-    parts(call, 1, &text).map(|(before, _, behind)| collect(&[before, behind]))
+    parts(call, 1, &text).map(|[before, _, behind]| collect(&[before, behind]))
 }
 
 fn concatenated(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
@@ -116,7 +112,7 @@ fn inserted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
 
 fn replaced(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let (text, other) = (call.text(0)?, call.text(1)?);
-    parts(call, 2, &text).map(|(before, _, behind)| collect(&[before, &other, behind]))
+    parts(call, 2, &text).map(|[before, _, behind]| collect(&[before, &other, behind]))
 }
 
 #[inline(never)]

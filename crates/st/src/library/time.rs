@@ -1,6 +1,6 @@
 //! Durations, and the present moment for the blocks.
 
-use super::table::{pin, pin_or, row};
+use super::table::{pin, row};
 use super::{Call, Function, Pin, ResultType, Takes};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
@@ -13,7 +13,7 @@ const ONE_NUMBER: &[Pin] = &[pin("In", Takes::Fixed(Elementary::Lint))];
 const TWO_TIMES: &[Pin] =
     &[pin("In1", Takes::Fixed(Elementary::Time)), pin("In2", Takes::Fixed(Elementary::Time))];
 const TIME_AND_NUMBER: &[Pin] =
-    &[pin("In1", Takes::Fixed(Elementary::Time)), pin_or("In2", "Num", Takes::Fixed(Elementary::Lreal))];
+    &[pin("In1", Takes::Fixed(Elementary::Time)), pin("In2", Takes::Fixed(Elementary::Lreal))];
 const NS_PER_S: i64 = 1_000_000_000;
 
 #[rustfmt::skip]
