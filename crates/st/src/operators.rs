@@ -1,5 +1,5 @@
 //! The operators on values of one elementary type. Integers wrap on overflow, division by zero is a fault, floating
-//! point follows IEEE 754.
+//! point follows IEEE 754; powers come from `libm`, so that they are the same on every machine.
 
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
@@ -109,7 +109,7 @@ fn single(operator: Binary, left: u64, right: u64) -> u64 {
         Binary::Multiply => left * right,
         Binary::Divide => left / right,
         Binary::Modulo => left % right,
-        Binary::Power => left.powf(right),
+        Binary::Power => libm::pow(left.into(), right.into()) as f32,
         _ => return compare(operator, left.partial_cmp(&right)).into(),
     };
     number.to_bits().into()
@@ -123,7 +123,7 @@ fn double(operator: Binary, left: u64, right: u64) -> u64 {
         Binary::Multiply => left * right,
         Binary::Divide => left / right,
         Binary::Modulo => left % right,
-        Binary::Power => left.powf(right),
+        Binary::Power => libm::pow(left, right),
         _ => return compare(operator, left.partial_cmp(&right)).into(),
     };
     number.to_bits()

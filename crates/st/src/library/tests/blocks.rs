@@ -1,6 +1,7 @@
 //! Edges, bistable blocks and counters, each by a table of calls.
 
-use crate::host::NoHost;
+use super::bench::Recorder;
+use crate::host::{Alarm, NoHost};
 use crate::program::compile;
 
 /// Calls a block once a row: the arguments, and then the outputs.
@@ -117,6 +118,51 @@ fn functions_in_a_program() {
     let mut instance = compile(source, &[]).unwrap_or_else(|problems| panic!("{problems}")).start();
     instance.scan(0, 1000, &mut NoHost).unwrap();
     assert_eq!(instance.value("s").as_deref(), Some("'d=9 8001 yes'"));
+}
+
+/// Monitoring of a pulse, by pins in their order, as in A-4-3 of the unit's manual.
+#[test]
+fn a_pulse_that_stops_raises_an_alarm_after_the_monitoring_time() {
+    let source = "PROGRAM Main
+        VAR
+            Pulse, Edge, Late, Running : BOOL; Elapsed : TIME;
+            EdgeOfPulse : R_TRIG; Keep : RS; Monitor : AccumulationTimer;
+        END_VAR
+        EdgeOfPulse(Pulse, Edge);
+        Keep(Edge, FALSE, Running);
+        Monitor(TRUE, T#20ms, Edge, Late, Elapsed);
+        IF Late = TRUE THEN
+            SetAlarm(16#101, Elapsed, Late);
+            Running := FALSE;
+        END_IF;
+        END_PROGRAM";
+    let mut instance = compile(source, &[]).unwrap_or_else(|problems| panic!("{problems}")).start();
+    let mut host = Recorder::default();
+    let mut late_ms = None;
+    for now_ms in 0..70 {
+        // The pulse changes every 5 ms until 40 ms; its last rising edge is at 30 ms.
+        let pulse = now_ms < 40 && now_ms / 5 % 2 == 0;
+        instance.set("Pulse", if pulse { "TRUE" } else { "FALSE" });
+        instance.scan(now_ms * 1_000_000, 1000, &mut host).unwrap();
+        if !host.alarms.is_empty() {
+            late_ms.get_or_insert(now_ms);
+        }
+        assert_eq!(instance.value("Running").unwrap() == "TRUE", late_ms.is_none());
+    }
+    assert_eq!(late_ms, Some(50));
+    assert_eq!(host.alarms[0], Alarm { code: 0x101, info_1: 20_000_000, info_2: 1 });
+}
+
+#[test]
+fn powers_are_the_same_by_operator_and_by_function() {
+    let source = "PROGRAM Main
+        VAR r : REAL := 1.1; x : LREAL := 1.1; a, b : REAL; c, d : LREAL; END_VAR
+        a := r ** r; b := EXPT(r, r); c := x ** x; d := EXPT(In := x, Pwr := x);
+        END_PROGRAM";
+    let mut instance = compile(source, &[]).unwrap_or_else(|problems| panic!("{problems}")).start();
+    instance.scan(0, 1000, &mut NoHost).unwrap();
+    assert_eq!(instance.value("a"), instance.value("b"));
+    assert_eq!(instance.value("c"), instance.value("d"));
 }
 
 #[test]
