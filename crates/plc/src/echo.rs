@@ -1,7 +1,5 @@
 //! The copy program of the manual's example: what the master sends comes back.
 
-use nx_ect101::{DataSet, Direction};
-
 use crate::io::Io;
 use crate::program::Program;
 
@@ -17,12 +15,6 @@ impl Program for Echo {
         if !(usable && io.status().m_to_c_valid && io.status().c_to_m_valid) {
             return;
         }
-        for set in DataSet::all().iter().filter(|set| set.direction == Direction::MToC) {
-            for number in 1..=set.max_count {
-                if let Some((from, to)) = io.twin(set.kind, number) {
-                    io.memory.c_to_m.bytes[to].copy_from_slice(&io.memory.m_to_c.bytes[from]);
-                }
-            }
-        }
+        io.copy_twins();
     }
 }

@@ -20,6 +20,8 @@ pub struct Io {
     pub(crate) nx_objects: NxObjectClient,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
+    /// Where the entries lie that both directions have.
+    twins: Vec<(Range<usize>, Range<usize>)>,
     /// Of the unit on the NX bus.
     unit_number: u8,
     pub(crate) events: CpuEventLog,
@@ -41,6 +43,7 @@ impl Io {
             memory: Memory::new(m_to_c_layout.size_bytes(), c_to_m_layout.size_bytes()),
             variables: DeviceVariables::new(device_name, unit_number, &m_to_c_layout, &c_to_m_layout),
             nx_objects: NxObjectClient::default(),
+            twins: twins(&m_to_c_layout, &c_to_m_layout),
             m_to_c_layout,
             c_to_m_layout,
             unit_number,
@@ -191,11 +194,11 @@ impl Io {
         self.events.add(self.now, event);
     }
 
-    /// Where the same entry lies in both images; none if only one direction has it allocated.
-    pub(crate) fn twin(&self, kind: DataSetKind, number: u8) -> Option<(Range<usize>, Range<usize>)> {
-        let from = self.m_to_c_layout.place(Direction::MToC, kind, number)?;
-        let to = self.c_to_m_layout.place(Direction::CToM, kind, number)?;
-        Some((from, to))
+    /// Copies every entry M to C to the same entry C to M.
+    pub(crate) fn copy_twins(&mut self) {
+        for (from, to) in &self.twins {
+            self.memory.c_to_m.bytes[to.clone()].copy_from_slice(&self.memory.m_to_c.bytes[from.clone()]);
+        }
     }
 
     fn set_entry(&mut self, kind: DataSetKind, number: u8, value: &[u8]) -> bool {
@@ -203,6 +206,17 @@ impl Io {
         entry.copy_from_slice(value);
         true
     }
+}
+
+/// Where the entries lie that both directions have, by data set and number.
+fn twins(m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Vec<(Range<usize>, Range<usize>)> {
+    let entries =
+        DataSetKind::ALL.into_iter().flat_map(|kind| (0..=u8::MAX).map(move |number| (kind, number)));
+    let twins = entries.filter_map(|(kind, number)| {
+        let from = m_to_c.place(Direction::MToC, kind, number)?;
+        Some((from, c_to_m.place(Direction::CToM, kind, number)?))
+    });
+    twins.collect()
 }
 
 #[cfg(test)]

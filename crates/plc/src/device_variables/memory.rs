@@ -77,9 +77,8 @@ impl Memory {
         m_to_c: &[u8],
     ) {
         let is_stopped = refreshing == IoRefreshing::Stopped;
-        for (byte, new) in self.m_to_c.bytes.iter_mut().zip(m_to_c) {
-            *byte = *new;
-        }
+        let length_bytes = self.m_to_c.bytes.len().min(m_to_c.len());
+        self.m_to_c.bytes[..length_bytes].copy_from_slice(&m_to_c[..length_bytes]);
         let status = &mut self.status.bytes;
         status[SLAVE_STATUS..][..2].copy_from_slice(&header.status.bits().to_le_bytes());
         status[IO_DATA_ACTIVE] = (header.io_data_active && !is_stopped).into();
