@@ -40,6 +40,9 @@ pub(crate) enum Command {
     Search(SearchArgs),
     /// Put the results of all parts of a campaign together; none may be missing
     Merge(MergeArgs),
+    /// Structured Text, the language of user programs
+    #[command(subcommand)]
+    St(St),
     /// Print a table of the model
     #[command(subcommand)]
     List(List),
@@ -62,6 +65,9 @@ pub(crate) struct RunArgs {
     /// Write every frame to this file (pcapng)
     #[arg(long, value_name = "FILE")]
     pub(crate) pcap: Option<PathBuf>,
+    /// Run this user program (Structured Text) instead of the one that the unit files name; changed, it is loaded anew
+    #[arg(long, value_name = "FILE.st")]
+    pub(crate) program: Option<PathBuf>,
     /// Drop the waits of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
@@ -165,6 +171,25 @@ pub(crate) struct MergeArgs {
     /// Write a JUnit file of all cases
     #[arg(long, value_name = "OUT")]
     pub(crate) junit: Option<PathBuf>,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum St {
+    /// Check a program: whatever is wrong with it, with places and the way out
+    Check(StCheckArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StCheckArgs {
+    /// The program
+    #[arg(value_name = "FILE.st")]
+    pub(crate) program: PathBuf,
+    /// The unit file whose device variables the program uses; left out, those of the factory setting
+    #[arg(long, value_name = "FILE")]
+    pub(crate) unit: Option<PathBuf>,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Subcommand)]

@@ -15,8 +15,9 @@ mod merge;
 pub(crate) mod replay;
 mod run;
 mod search;
+mod st_check;
 
-use crate::cli::{Command, List};
+use crate::cli::{Command, List, St};
 use crate::failure::Failure;
 
 /// Does what the command line asks for.
@@ -28,6 +29,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),
+        Command::St(St::Check(args)) => st_check::run(&args),
         Command::List(List::Events { json }) => list_events::run(json),
         Command::List(List::Objects { json }) => list_objects::run(json),
         Command::List(List::NxObjects { json }) => list_nx_objects::run(json),

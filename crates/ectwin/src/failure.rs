@@ -19,6 +19,8 @@ pub(crate) enum Failure {
     BadFile(Vec<FileProblem>),
     /// The setting rules are not satisfied. The findings are the command's result, told already.
     RulesBroken,
+    /// A program is wrong, with the places in it; nothing if that has been told.
+    ProgramWrong(Vec<FileProblem>),
     /// A case of a campaign failed. Its story has been told.
     CasesFailed,
     /// What was asked for makes no sense together, or with what is there.
@@ -41,7 +43,7 @@ impl Failure {
     pub(crate) fn report(self) -> ExitCode {
         let (message, help) = self.words();
         let mut text = match self {
-            Self::BadFile(_) | Self::RulesBroken | Self::CasesFailed => message,
+            Self::BadFile(_) | Self::ProgramWrong(_) | Self::RulesBroken | Self::CasesFailed => message,
             _ => format!("error: {message}\n"),
         };
         if let Some(help) = help {
@@ -54,7 +56,11 @@ impl Failure {
 
     const fn exit_code(&self) -> u8 {
         match self {
-            Self::Unexplained(_) | Self::RulesBroken | Self::CasesFailed | Self::LinkLost(_) => 1,
+            Self::Unexplained(_)
+            | Self::ProgramWrong(_)
+            | Self::RulesBroken
+            | Self::CasesFailed
+            | Self::LinkLost(_) => 1,
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
             Self::BadFile(_) | Self::Refused { .. } | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
@@ -65,7 +71,9 @@ impl Failure {
     fn words(&self) -> (String, Option<String>) {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), None),
-            Self::BadFile(problems) => (problems.iter().map(|problem| picture(problem)).collect(), None),
+            Self::BadFile(problems) | Self::ProgramWrong(problems) => {
+                (problems.iter().map(|problem| picture(problem)).collect(), None)
+            }
             Self::RulesBroken | Self::CasesFailed => (String::new(), None),
             Self::Refused { message, help } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {

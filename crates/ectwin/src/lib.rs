@@ -27,6 +27,7 @@ mod ethercrab_port;
 pub mod explain;
 mod live;
 mod memory_file;
+mod program_files;
 mod setup;
 mod twin;
 mod unit_side;
@@ -41,11 +42,12 @@ pub use nx_ect101::{
     LogRecord, Pattern,
 };
 pub use plc::{
-    Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError, NxObjectClient, NxValue, ObjectIndex,
-    OperatingMode, Program, SubIndex,
+    CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
+    NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,
 };
 pub use scenario;
 pub use setup::{Setup, SetupError};
+pub use st;
 pub use time::{Duration, Instant};
 pub use twin::Twin;
 pub use unit_side::UnitSide;

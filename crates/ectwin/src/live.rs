@@ -10,14 +10,16 @@ use plc::CpuUnit;
 use time::{Duration, Instant};
 
 use crate::Twin;
-use crate::twin::{Line, cpu_deadline, cycle};
+use crate::program_files::{ProgramChanges, Reports};
+use crate::twin::{Line, Parts, cpu_deadline, cycle};
 use crate::unit_side::UnitSide;
 
 /// Longest sleep of the CPU Units' thread, so that it sees the stop flag.
 const STOP_CHECK: Duration = Duration::from_millis(100);
 
 /// Answers `port` in real time until `stop` is set or the link is closed, and then sets `stop`. The units
-/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only.
+/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only. A user
+/// program whose file changes is loaded anew, and what the CPU Units tell is logged.
 ///
 /// # Errors
 /// The medium is gone, or there is no thread to be had.
@@ -28,11 +30,21 @@ pub fn run<'o, P: FramePort>(
     clock: &Clock,
     stop: &AtomicBool,
 ) -> io::Result<Statistics> {
-    let (mut line, mut cpus, _) = twin.into_parts();
+    let mut parts = twin.into_parts();
+    let (line, cpus) = (&mut parts.line, &mut parts.cpus);
+    let mut changes = ProgramChanges::watch(parts.programs)?;
+    let mut reports = Reports::default();
     thread::scope(|scope| {
         let tasks = thread::Builder::new().name("cpu-unit".to_owned());
-        let tasks = tasks.spawn_scoped(scope, || keep_pace(clock, stop, |now| turn(&mut cpus, now)))?;
-        let result = runner::run(port, &mut line, observer, clock, stop);
+        let tasks = tasks.spawn_scoped(scope, || {
+            keep_pace(clock, stop, |now| {
+                changes.apply(cpus);
+                let next = turn(cpus, now);
+                reports.tell(cpus, now);
+                next
+            });
+        })?;
+        let result = runner::run(port, line, observer, clock, stop);
         stop.store(true, Ordering::Relaxed);
         tasks.thread().unpark();
         result
@@ -59,7 +71,7 @@ impl Twin {
     /// # Errors
     /// There is no thread to be had.
     pub fn serve(self, port: impl FramePort + 'static) -> io::Result<Live> {
-        let (line, cpus, now) = self.into_parts();
+        let Parts { line, cpus, now, .. } = self.into_parts();
         let shared =
             Arc::new(Shared { line: Mutex::new(line), cpus: Mutex::new(cpus), stop: AtomicBool::new(false) });
         let clock = Clock::start_at(now);

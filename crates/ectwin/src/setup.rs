@@ -1,44 +1,74 @@
 //! One unit before it gets power: its file, its user program.
 
-use std::fmt;
-use std::ops::Range;
-use std::path::Path;
+mod error;
 
-use nx_ect101::unit_file::{UnitFile, UnitFileErrors};
+use std::path::{Path, PathBuf};
+
+use nx_ect101::unit_file::{Located, UnitFile};
 use nx_ect101::{NxEct101, Timing, UnitSettings, device_config_with};
-use plc::{Builtin, CpuSettings, CpuUnit, Io, Program};
+use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, StructuredText};
 use time::Instant;
 
 use crate::memory_file::MemoryFile;
 
+pub use error::SetupError;
+
 /// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
 /// `builtin:copy`, which copies what comes from the master back to it ([`plc::Echo`], the manual's example A-3); or
 /// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]); or `builtin:pulse`, which counts
-/// ([`plc::Pulse`], A-4).
+/// ([`plc::Pulse`], A-4); or a file in Structured Text ([`plc::StructuredText`]).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
+    program_file: Option<PathBuf>,
     system_time_ns: Option<u64>,
     memory: Option<MemoryFile>,
 }
 
 impl Setup {
     /// Reads the text of a unit file. A text has no place, so the file that `storage` names is left alone until
-    /// [`Setup::with_storage`] says where it is.
+    /// [`Setup::with_storage`] says where it is, and `program` can name a builtin program only:
+    /// [`Setup::from_toml_in`] knows the folder of others.
     ///
     /// # Errors
     /// What is wrong with it, and where.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
-        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
-        let program = named_program(&file)?;
-        Ok(Self { file, program, system_time_ns: None, memory: None })
+        Self::read(text, None)
+    }
+
+    /// Reads the text of a unit file that lies in this folder, and the user program that it names, seen from there.
+    ///
+    /// # Errors
+    /// What is wrong with it, or with the program, and where.
+    pub fn from_toml_in(text: &str, folder: &Path) -> Result<Self, SetupError> {
+        Self::read(text, Some(folder))
     }
 
     /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
     #[must_use]
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
         self.program = Box::new(program);
+        self.program_file = None;
         self
+    }
+
+    /// Gives the CPU Unit a user program in Structured Text.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, with places.
+    pub fn structured_text(self, source: &str) -> Result<Self, st::Problems> {
+        let program = self.compile(source)?;
+        Ok(self.program(program))
+    }
+
+    /// Gives the CPU Unit the user program in this file, in Structured Text.
+    ///
+    /// # Errors
+    /// [`SetupError::ProgramUnreadable`], [`SetupError::ProgramWrong`].
+    pub fn program_file(mut self, path: &Path) -> Result<Self, SetupError> {
+        self.program = Box::new(self.compile_file(path, None)?);
+        self.program_file = Some(path.to_owned());
+        Ok(self)
     }
 
     /// Gives the unit the non-volatile memory in the file that the unit file names, seen from `folder`, and
@@ -86,6 +116,19 @@ impl Setup {
         UnitSettings::from_unit_file(&self.file)
     }
 
+    /// The I/O map: the device variables that the CPU Unit has for this unit.
+    #[must_use]
+    pub fn device_variables(&self) -> DeviceVariables {
+        DeviceVariables::of_unit_file(&self.file)
+    }
+
+    /// The file of the user program, if it is in one.
+    pub(crate) fn watched_program(&self) -> Option<WatchedProgram> {
+        let path = self.program_file.clone()?;
+        let budget_statements = self.file.cpu.statement_budget.value;
+        Some(WatchedProgram { path, variables: self.device_variables(), budget_statements })
+    }
+
     pub(crate) fn power_on(self, now: Instant) -> Powered {
         let settings = self.settings();
         if let (Some(storage), None) = (&self.file.storage, &self.memory) {
@@ -98,6 +141,56 @@ impl Setup {
         let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
         Powered { config, unit, cpu: CpuUnit::power_on(now, cpu, bus, self.program), writer }
     }
+
+    fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
+        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
+        let program = Box::new(|_: &mut Io| {});
+        let setup = Self { file, program, program_file: None, system_time_ns: None, memory: None };
+        match setup.file.cpu.program.clone() {
+            Some(name) => setup.with_named_program(&name, folder),
+            None => Ok(setup),
+        }
+    }
+
+    fn with_named_program(
+        mut self,
+        name: &Located<PathBuf>,
+        folder: Option<&Path>,
+    ) -> Result<Self, SetupError> {
+        let path = name.value.display().to_string();
+        if let Some(builtin) = Builtin::named(&path) {
+            self.program = builtin.program();
+            return Ok(self);
+        }
+        let span = name.span.clone().unwrap_or_default();
+        let Some(folder) = folder else {
+            let reason = "a text has no folder to find it in".to_owned();
+            return Err(SetupError::ProgramUnreadable { path, reason, span: Some(span) });
+        };
+        let path = folder.join(&name.value);
+        self.program = Box::new(self.compile_file(&path, Some(span))?);
+        self.program_file = Some(path);
+        Ok(self)
+    }
+
+    fn compile_file(
+        &self,
+        path: &Path,
+        span: Option<std::ops::Range<usize>>,
+    ) -> Result<StructuredText, SetupError> {
+        let source = std::fs::read_to_string(path).map_err(|error| SetupError::ProgramUnreadable {
+            path: path.display().to_string(),
+            reason: error.to_string(),
+            span,
+        })?;
+        let path = path.display().to_string();
+        self.compile(&source).map_err(|problems| SetupError::ProgramWrong { path, problems })
+    }
+
+    fn compile(&self, source: &str) -> Result<StructuredText, st::Problems> {
+        let program = StructuredText::compile(source, &self.device_variables())?;
+        Ok(program.with_budget(self.file.cpu.statement_budget.value))
+    }
 }
 
 /// A unit that has got power, on its way into a line.
@@ -108,55 +201,10 @@ pub(crate) struct Powered {
     pub(crate) writer: Option<storage::Writer>,
 }
 
-fn named_program(file: &UnitFile) -> Result<Box<dyn Program + Send>, SetupError> {
-    let Some(name) = &file.cpu.program else { return Ok(Box::new(|_: &mut Io| {})) };
-    let path = name.value.display().to_string();
-    match Builtin::named(&path) {
-        Some(builtin) => Ok(builtin.program()),
-        None => Err(SetupError::Program { path, span: name.span.clone().unwrap_or_default() }),
-    }
+/// A user program in a file, to be loaded anew when the file changes.
+#[derive(Debug)]
+pub(crate) struct WatchedProgram {
+    pub(crate) path: PathBuf,
+    pub(crate) variables: DeviceVariables,
+    pub(crate) budget_statements: u64,
 }
-
-/// Why a unit file cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SetupError {
-    /// It is no valid unit file.
-    UnitFile(UnitFileErrors),
-    /// It names a user program, which cannot be read from a file yet.
-    Program {
-        /// The path.
-        path: String,
-        /// Its bytes in the unit file.
-        span: Range<usize>,
-    },
-    /// The file of its non-volatile memory cannot be used.
-    Storage {
-        /// The path.
-        path: String,
-        /// Why.
-        reason: String,
-        /// Its bytes in the unit file.
-        span: Range<usize>,
-    },
-}
-
-impl fmt::Display for SetupError {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnitFile(errors) => errors.fmt(formatter),
-            Self::Program { path, .. } => write!(
-                formatter,
-                "the user program {path} cannot be read: programs in files are not supported yet; \
-                 `{}` copies the data from the master back to it, `{}` the messages too, and without \
-                 `program` there is none",
-                Builtin::Copy.name(),
-                Builtin::Messages.name(),
-            ),
-            Self::Storage { path, reason, .. } => {
-                write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for SetupError {}

@@ -7,7 +7,7 @@ use plc::CpuUnit;
 use time::{Duration, Instant};
 
 use crate::memory_file::Keeper;
-use crate::setup::Powered;
+use crate::setup::{Powered, WatchedProgram};
 use crate::unit_side::UnitSide;
 use crate::{Setup, SetupError};
 
@@ -19,7 +19,17 @@ use crate::{Setup, SetupError};
 pub struct Twin {
     line: Line,
     cpus: Vec<CpuUnit>,
+    programs: Vec<(usize, WatchedProgram)>,
     now: Instant,
+}
+
+/// What a twin is made of, for who runs it in real time.
+pub(crate) struct Parts {
+    pub(crate) line: Line,
+    pub(crate) cpus: Vec<CpuUnit>,
+    /// User programs in files, with the positions of their units.
+    pub(crate) programs: Vec<(usize, WatchedProgram)>,
+    pub(crate) now: Instant,
 }
 
 impl Twin {
@@ -36,14 +46,16 @@ impl Twin {
     pub fn power_on(setups: impl IntoIterator<Item = Setup>) -> Self {
         let now = Instant::ZERO;
         let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
+        let mut programs = Vec::new();
         for (position, setup) in setups.into_iter().enumerate() {
+            programs.extend(setup.watched_program().map(|program| (position, program)));
             let Powered { config, unit, cpu, writer } = setup.power_on(now);
             units.push((config, unit));
             cpus.push(cpu);
             keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
         }
         let line = Line { network: Network::power_on(units, now), keepers };
-        let mut twin = Self { line, cpus, now };
+        let mut twin = Self { line, cpus, programs, now };
         twin.poll(now);
         twin
     }
@@ -91,8 +103,8 @@ impl Twin {
         self.line.unit(&mut self.cpus, position, self.now)
     }
 
-    pub(crate) fn into_parts(self) -> (Line, Vec<CpuUnit>, Instant) {
-        (self.line, self.cpus, self.now)
+    pub(crate) fn into_parts(self) -> Parts {
+        Parts { line: self.line, cpus: self.cpus, programs: self.programs, now: self.now }
     }
 
     fn poll(&mut self, now: Instant) {

@@ -7,29 +7,38 @@ use std::path::Path;
 use ectwin::unit_file::{UnitFile, UnitFileError};
 use ectwin::{Setup, SetupError};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode, SourceSpan};
+use nx_ect101::UnitSettings;
 
 use crate::failure::Failure;
 
-/// Reads one unit file.
+/// Reads one unit file, and the user program and the non-volatile memory that it names, seen from its folder.
 pub(crate) fn read(path: &Path) -> Result<Setup, Failure> {
-    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    Setup::from_toml(&text).map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+    let text = text_of(path)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let setup = Setup::from_toml_in(&text, folder).and_then(|setup| setup.with_storage(folder));
+    setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
 }
 
-/// Reads one unit file, and the non-volatile memory that it names, seen from the unit file's folder.
-pub(crate) fn read_with_storage(path: &Path) -> Result<Setup, Failure> {
+/// What a unit file sets the unit to; what it names is left alone.
+pub(crate) fn settings(path: &Path) -> Result<UnitSettings, Failure> {
+    parse(path).map(|(file, _)| UnitSettings::from_unit_file(&file))
+}
+
+/// Gives a unit the user program in a file.
+pub(crate) fn with_program(setup: Setup, path: &Path) -> Result<Setup, Failure> {
     let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let setup = Setup::from_toml(&text).and_then(|setup| setup.with_storage(folder));
-    setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+    std::fs::metadata(path).map_err(unreadable)?;
+    setup.program_file(path).map_err(|error| Failure::BadFile(problems(path, "", &error)))
+}
+
+/// The text of a file.
+pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
+    std::fs::read_to_string(path).map_err(|source| Failure::Unreadable { path: path.to_owned(), source })
 }
 
 /// Reads one unit file with its text, and nothing that it names.
 pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
-    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let text = text_of(path)?;
     match UnitFile::parse(&text) {
         Ok(file) => Ok((file, text)),
         Err(errors) => Err(Failure::BadFile(problems(path, &text, &SetupError::UnitFile(errors)))),
@@ -51,13 +60,26 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
     let source = || NamedSource::new(path.display().to_string(), text.to_owned());
     match error {
         SetupError::UnitFile(errors) => errors.iter().map(|error| FileProblem::of(error, source())).collect(),
-        SetupError::Program { span, .. } => {
-            vec![FileProblem::at(span.clone(), error, "leave this key out", source())]
+        SetupError::ProgramUnreadable { span: Some(span), .. } => {
+            vec![FileProblem::at(span.clone(), error, "seen from the folder of this file", source())]
         }
+        SetupError::ProgramUnreadable { span: None, .. } => {
+            vec![FileProblem::of_file(error.to_string(), "check the path and its permissions")]
+        }
+        SetupError::ProgramWrong { path, problems } => of_program(Path::new(path), problems),
         SetupError::Storage { span, .. } => {
             vec![FileProblem::at(span.clone(), error, "seen from the folder of this file", source())]
         }
     }
+}
+
+/// What is wrong with a program in Structured Text.
+pub(crate) fn of_program(path: &Path, problems: &st::Problems) -> Vec<FileProblem> {
+    let problem = |problem: &st::Problem| {
+        let help = problem.help.as_deref().unwrap_or_default();
+        FileProblem::in_text(path, problems.source(), problem.span.range(), &problem.message, help)
+    };
+    problems.list().iter().map(problem).collect()
 }
 
 impl FileProblem {

@@ -65,11 +65,11 @@ fn a_bad_unit_file_tells_where() {
 }
 
 #[test]
-fn a_program_in_a_file_is_refused_until_there_are_some() {
+fn a_text_has_no_folder_to_find_a_program_in() {
     let text = "model = \"nx-ect101\"\n[cpu]\nprogram = \"echo.st\"\n";
     let error = Twin::from_toml(text).unwrap_err();
     assert!(
-        matches!(&error, SetupError::Program { span, .. } if text[span.clone()] == *"\"echo.st\""),
+        matches!(&error, SetupError::ProgramUnreadable { span: Some(span), .. } if text[span.clone()] == *"\"echo.st\""),
         "{error}"
     );
 }

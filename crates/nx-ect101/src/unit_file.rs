@@ -73,7 +73,13 @@ pub struct CpuSection {
     pub fail_soft: Located<FailSoftOperation>,
     /// User program, relative to the unit file; none when left out.
     pub program: Option<Located<PathBuf>>,
+    /// How many statements a scan of a program in Structured Text may run, 1 to 1,000,000,000;
+    /// [`STATEMENT_BUDGET_DEFAULT`] when left out.
+    pub statement_budget: Located<u64>,
 }
+
+/// How many statements a scan may run when nothing else is said: a few milliseconds of work.
+pub const STATEMENT_BUDGET_DEFAULT: u64 = 100_000;
 
 /// One virtual unit. What is left out has the value that its field names.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! What the CPU Unit tells its owner: a bounded log that says what it has lost.
 
+use core::fmt;
 use std::collections::VecDeque;
 
 use time::Instant;
@@ -49,6 +50,23 @@ pub struct CpuRecord {
 pub(crate) struct CpuEventLog {
     records: VecDeque<CpuRecord>,
     lost: u64,
+}
+
+impl fmt::Display for CpuEvent {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ModeChanged(mode) => write!(formatter, "{mode} mode"),
+            Self::ProgramLoaded => formatter.write_str("a user program was loaded"),
+            Self::TaskPeriodExceeded { missed_periods } => {
+                write!(formatter, "task period exceeded: {missed_periods} periods were left out")
+            }
+            Self::Program(event) => event.fmt(formatter),
+            Self::IoRefreshingStopped => {
+                formatter.write_str("I/O refreshing stopped because of an error of the unit")
+            }
+            Self::IoRefreshingResumed => formatter.write_str("I/O refreshing goes on"),
+        }
+    }
 }
 
 impl CpuEvent {

@@ -107,7 +107,8 @@ impl CpuUnit {
         }
     }
 
-    /// Replaces the user program. What is forced stays, and so do the values.
+    /// Replaces the user program. What is forced stays, and so do the values of device variables and of variables
+    /// that both programs declare with RETAIN.
     ///
     /// # Errors
     /// [`NotInProgramMode`]: then the old one goes on.
@@ -115,7 +116,7 @@ impl CpuUnit {
         if self.mode != OperatingMode::Program {
             return Err(NotInProgramMode);
         }
-        self.user_program = Slot::new(program);
+        self.user_program.replace(program, &mut self.io);
         self.io.log(CpuEvent::ProgramLoaded);
         Ok(())
     }
@@ -130,6 +131,12 @@ impl CpuUnit {
     #[must_use]
     pub fn has_program_stopped(&self) -> bool {
         self.user_program.is_stopped()
+    }
+
+    /// The value of a variable of the user program as text, by its name; none if there is none.
+    #[must_use]
+    pub fn program_variable(&self, name: &str) -> Option<String> {
+        self.user_program.variable(name)
     }
 
     /// Takes the events that nobody has taken yet, the oldest first. At most [`crate::CPU_EVENTS_MAX`] are kept,

@@ -1,5 +1,7 @@
 //! What runs on a CPU Unit: user programs, and outside runtimes in their place.
 
+use core::fmt;
+use std::any::Any;
 use std::borrow::Cow;
 
 use crate::io::Io;
@@ -15,6 +17,28 @@ pub trait Program {
 
     /// Runs once in a task period.
     fn scan(&mut self, io: &mut Io);
+
+    /// The value of a variable of its own as text, by its name; none if there is none, or if it tells none.
+    fn variable(&self, name: &str) -> Option<String> {
+        let _ = name;
+        None
+    }
+
+    /// Runs once when another program takes its place: here it gives up what it has asked for.
+    fn end(&mut self, io: &mut Io) {
+        let _ = io;
+    }
+
+    /// Itself, for a program that takes over from it; none if it leaves nothing behind.
+    fn legacy(&self) -> Option<&dyn Any> {
+        None
+    }
+
+    /// Takes over from the program in whose place it comes, before its own start: what outlives a change of the
+    /// program, such as variables with RETAIN.
+    fn succeed(&mut self, legacy: &dyn Any) {
+        let _ = legacy;
+    }
 }
 
 impl<F: FnMut(&mut Io)> Program for F {
@@ -59,6 +83,31 @@ pub struct ProgramTrouble {
     pub column: usize,
 }
 
+impl fmt::Display for ProgramEvent {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stopped(trouble) => write!(formatter, "the program has stopped: {trouble}"),
+            Self::Error(trouble) => write!(formatter, "error in the program: {trouble}"),
+            Self::TaskOverrun { budget_statements } => {
+                write!(formatter, "task overrun: a scan had used up its {budget_statements} statements")
+            }
+            Self::UserDefinedError { code, info1, info2 } => {
+                write!(formatter, "user-defined error 16#{code:X} (information {info1}, {info2})")
+            }
+            Self::UserDefinedErrorsReset => formatter.write_str("the user-defined errors were reset"),
+        }
+    }
+}
+
+impl fmt::Display for ProgramTrouble {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            0 => formatter.write_str(&self.what),
+            line => write!(formatter, "line {line}, column {}: {}", self.column, self.what),
+        }
+    }
+}
+
 /// A program on the CPU Unit, and whether it runs.
 pub(crate) struct Slot {
     program: Box<dyn Program + Send>,
@@ -79,6 +128,15 @@ impl Slot {
         Self { program, state: State::ToStart }
     }
 
+    /// Another program takes the place.
+    pub(crate) fn replace(&mut self, mut program: Box<dyn Program + Send>, io: &mut Io) {
+        self.program.end(io);
+        if let Some(legacy) = self.program.legacy() {
+            program.succeed(legacy);
+        }
+        *self = Self::new(program);
+    }
+
     /// The next scan is a first one.
     pub(crate) const fn start_anew(&mut self) {
         self.state = State::ToStart;
@@ -86,6 +144,10 @@ impl Slot {
 
     pub(crate) fn is_stopped(&self) -> bool {
         self.state == State::Stopped
+    }
+
+    pub(crate) fn variable(&self, name: &str) -> Option<String> {
+        self.program.variable(name)
     }
 
     /// One scan, if the program runs, and before the first one its start.

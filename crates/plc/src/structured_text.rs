@@ -3,6 +3,9 @@
 mod globals;
 mod host;
 
+use std::any::Any;
+
+use nx_ect101::unit_file::STATEMENT_BUDGET_DEFAULT;
 use st::{Fault, Instance, Problems, Stopped};
 
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
@@ -10,15 +13,12 @@ use crate::io::Io;
 use crate::program::{Program, ProgramEvent, ProgramTrouble};
 use host::{IoHost, PendingCalls};
 
-/// How many statements one scan may run when nothing else is said: a few milliseconds of work.
-pub const STATEMENT_BUDGET_DEFAULT: u64 = 100_000;
-
 /// A user program in Structured Text.
 ///
 /// Before each scan it takes in the device variables that it names, and behind it gives out those that it writes.
 /// A scan that goes wrong ends there: what it has written stays, the CPU Unit reports it, and the next task period
 /// begins a new one.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct StructuredText {
     instance: Instance,
     bindings: Vec<Binding>,
@@ -28,7 +28,7 @@ pub struct StructuredText {
 }
 
 /// A device variable that the program names.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Binding {
     variable: VariableId,
     external: st::External,
@@ -62,17 +62,16 @@ impl StructuredText {
         self
     }
 
-    /// Begins with the variables that are declared with RETAIN in another program, where name and type are the same.
-    #[must_use]
-    pub fn succeeding(mut self, before: &Self) -> Self {
-        self.instance = before.instance.succeeded_by(self.instance);
-        self
-    }
-
     /// The value of a variable of the program as text, by its name; none if there is none.
     #[must_use]
     pub fn value(&self, name: &str) -> Option<String> {
         self.instance.value(name)
+    }
+
+    /// The program in operation, with all its variables.
+    #[must_use]
+    pub const fn instance(&self) -> &Instance {
+        &self.instance
     }
 
     /// How many statements the last scan ran.
@@ -123,6 +122,24 @@ impl Program for StructuredText {
         self.give_out(io);
         if let Err(stopped) = result {
             io.report(self.report(&stopped));
+        }
+    }
+
+    fn variable(&self, name: &str) -> Option<String> {
+        self.value(name)
+    }
+
+    fn end(&mut self, io: &mut Io) {
+        self.calls.forget(io.nx_objects());
+    }
+
+    fn legacy(&self) -> Option<&dyn Any> {
+        Some(self)
+    }
+
+    fn succeed(&mut self, legacy: &dyn Any) {
+        if let Some(before) = legacy.downcast_ref::<Self>() {
+            self.instance = before.instance.succeeded_by(self.instance.clone());
         }
     }
 }

@@ -8,7 +8,9 @@ use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntrie
 use super::error::Problem;
 use super::located::Located;
 use super::reader::{Reader, Section, Value, wrong_type};
-use super::{ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, UnitFile, values};
+use super::{
+    ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile, values,
+};
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
@@ -201,15 +203,22 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
         mode: Located::left_out(CpuMode::Run),
         fail_soft: Located::left_out(FailSoftOperation::FailSoft),
         program: None,
+        statement_budget: Located::left_out(STATEMENT_BUDGET_DEFAULT),
     };
     let Some(section) = reader.section(file, "cpu") else { return cpu };
-    reader.only(&section, &["task_period", "mode", "fail_soft", "program"]);
+    reader.only(&section, &["task_period", "mode", "fail_soft", "program", "statement_budget"]);
     if let Some(task_period) = reader.value(&section, "task_period", values::task_period) {
         cpu.task_period = task_period;
     }
     let modes = [("run", CpuMode::Run), ("program", CpuMode::Program)];
     if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
         cpu.mode = mode;
+    }
+    let budget = reader.value(&section, "statement_budget", |place, value| {
+        values::integer(place, value, 1..=1_000_000_000, "1 to 1000000000 statements")
+    });
+    if let Some(budget) = budget {
+        cpu.statement_budget = budget;
     }
     if let Some(fail_soft) = reader.value(&section, "fail_soft", fail_soft) {
         cpu.fail_soft = fail_soft;

@@ -1,5 +1,7 @@
 //! How a CPU Unit is set up.
 
+use core::fmt;
+
 use nx_ect101::unit_file::{CpuMode, FailSoftOperation, UnitFile};
 use time::Duration;
 
@@ -11,6 +13,15 @@ pub enum OperatingMode {
     Run,
     /// PROGRAM: the user program stands; the I/O exchange goes on and the values stay (manual, A-4).
     Program,
+}
+
+impl fmt::Display for OperatingMode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.pad(match self {
+            Self::Run => "RUN",
+            Self::Program => "PROGRAM",
+        })
+    }
 }
 
 /// How a CPU Unit is set up.

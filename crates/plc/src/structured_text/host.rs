@@ -22,7 +22,7 @@ const INCORRECT_LENGTH: u16 = 0x2C03;
 const OUT_OF_RANGE: u16 = 0x0400;
 
 /// The calls of a program that are under way.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct PendingCalls {
     calls: ArrayVec<(NxCallNumber, NxCall), REQUESTS_MAX>,
     last_number: NxCallNumber,

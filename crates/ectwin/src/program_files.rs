@@ -1,0 +1,144 @@
+//! User programs in files while they run: a changed file is loaded anew, and what the CPU Units tell is logged.
+
+use std::fs::Metadata;
+use std::io;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
+use std::thread;
+use std::time::{Duration as WallDuration, SystemTime};
+
+use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, ProgramEvent, StructuredText};
+use time::{Duration, Instant};
+
+use crate::setup::WatchedProgram;
+
+/// How often the files are looked at.
+const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
+/// How often the events of the CPU Units are logged.
+const TELL_AGAIN: Duration = Duration::from_millis(1_000);
+
+/// Programs that have been changed, on their way to their CPU Units. Dropping it ends the watch.
+pub(crate) struct ProgramChanges {
+    changed: Receiver<(usize, Box<StructuredText>)>,
+    _watch: Option<Sender<()>>,
+}
+
+impl ProgramChanges {
+    /// Watches the files of programs on a thread of its own.
+    ///
+    /// # Errors
+    /// There is no thread to be had.
+    pub(crate) fn watch(programs: Vec<(usize, WatchedProgram)>) -> io::Result<Self> {
+        let (sender, changed) = sync_channel(1);
+        if programs.is_empty() {
+            return Ok(Self { changed, _watch: None });
+        }
+        let (watch, ended) = channel();
+        let mut files: Vec<_> = programs.into_iter().map(WatchedFile::new).collect();
+        let body = move || {
+            while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK_AGAIN) {
+                let programs = files.iter_mut().filter_map(WatchedFile::changed);
+                if programs.map(|program| sender.send(program).is_ok()).any(|sent| !sent) {
+                    return;
+                }
+            }
+        };
+        thread::Builder::new().name("program-files".to_owned()).spawn(body)?;
+        Ok(Self { changed, _watch: Some(watch) })
+    }
+
+    /// Loads what has been changed, in PROGRAM mode; a CPU Unit in RUN mode goes back to it.
+    pub(crate) fn apply(&mut self, cpus: &mut [CpuUnit]) {
+        while let Ok((position, program)) = self.changed.try_recv() {
+            let Some(cpu) = cpus.get_mut(position) else { continue };
+            let mode = cpu.mode();
+            cpu.set_mode(OperatingMode::Program);
+            if cpu.load(program).is_err() {
+                unreachable!("the CPU Unit is in PROGRAM mode");
+            }
+            cpu.set_mode(mode);
+        }
+    }
+}
+
+/// A file and what it looked like last.
+struct WatchedFile {
+    position: usize,
+    program: WatchedProgram,
+    seen: Option<(SystemTime, u64)>,
+}
+
+impl WatchedFile {
+    fn new((position, program): (usize, WatchedProgram)) -> Self {
+        let seen = stamp(&program);
+        Self { position, program, seen }
+    }
+
+    /// The program, if its file has changed and it is right. A wrong one is told, and the old one goes on.
+    fn changed(&mut self) -> Option<(usize, Box<StructuredText>)> {
+        // While an editor replaces it, the file may not be there for a moment.
+        let seen = stamp(&self.program)?;
+        if self.seen.replace(seen) == Some(seen) {
+            return None;
+        }
+        let path = self.program.path.display();
+        let source = std::fs::read_to_string(&self.program.path)
+            .inspect_err(|error| tracing::warn!("{path} cannot be read: {error}; the old program goes on"))
+            .ok()?;
+        match StructuredText::compile(&source, &self.program.variables) {
+            Ok(program) => {
+                tracing::info!("{path} has changed, and is loaded");
+                Some((self.position, Box::new(program.with_budget(self.program.budget_statements))))
+            }
+            Err(problems) => {
+                for line in problems.to_string().lines() {
+                    tracing::warn!("{path}:{line}");
+                }
+                tracing::warn!("{path} has changed and is wrong: the old program goes on");
+                None
+            }
+        }
+    }
+}
+
+fn stamp(program: &WatchedProgram) -> Option<(SystemTime, u64)> {
+    let of = |metadata: Metadata| Some((metadata.modified().ok()?, metadata.len()));
+    std::fs::metadata(&program.path).ok().and_then(of)
+}
+
+/// What CPU Units tell, on its way into the log.
+#[derive(Debug, Default)]
+pub(crate) struct Reports {
+    next: Instant,
+}
+
+impl Reports {
+    /// Logs what has happened, at most once in a second: what goes on and on is one line with its count.
+    pub(crate) fn tell(&mut self, cpus: &mut [CpuUnit], now: Instant) {
+        if now < self.next {
+            return;
+        }
+        self.next = now + TELL_AGAIN;
+        for (position, cpu) in cpus.iter_mut().enumerate() {
+            for record in cpu.take_events() {
+                tell(position + 1, &record);
+            }
+        }
+    }
+}
+
+fn tell(unit: usize, record: &CpuRecord) {
+    let (event, count) = (&record.event, record.count);
+    match event {
+        CpuEvent::ModeChanged(_) | CpuEvent::ProgramLoaded => {
+            tracing::info!("CPU Unit of unit {unit}: {event}")
+        }
+        CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset) => {
+            tracing::info!("CPU Unit of unit {unit}: {event}");
+        }
+        // A machine that is busy for a moment does this to every real-time program.
+        CpuEvent::TaskPeriodExceeded { .. } => {
+            tracing::debug!("CPU Unit of unit {unit}: {event} ({count} times)")
+        }
+        _ => tracing::warn!("CPU Unit of unit {unit}: {event} ({count} times)"),
+    }
+}

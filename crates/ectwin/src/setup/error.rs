@@ -1,0 +1,66 @@
+//! Why a unit cannot be set up.
+
+use std::fmt;
+use std::ops::Range;
+
+use nx_ect101::unit_file::UnitFileErrors;
+use plc::Builtin;
+
+/// Why a unit file cannot be used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SetupError {
+    /// It is no valid unit file.
+    UnitFile(UnitFileErrors),
+    /// Its user program cannot be read.
+    ProgramUnreadable {
+        /// The path.
+        path: String,
+        /// Why.
+        reason: String,
+        /// Its bytes in the unit file; none if the unit file does not name it.
+        span: Option<Range<usize>>,
+    },
+    /// Its user program is wrong.
+    ProgramWrong {
+        /// The path.
+        path: String,
+        /// What is wrong with it, and where.
+        problems: st::Problems,
+    },
+    /// The file of its non-volatile memory cannot be used.
+    Storage {
+        /// The path.
+        path: String,
+        /// Why.
+        reason: String,
+        /// Its bytes in the unit file.
+        span: Range<usize>,
+    },
+}
+
+impl fmt::Display for SetupError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::UnitFile(errors) => errors.fmt(formatter),
+            Self::ProgramUnreadable { path, reason, .. } => {
+                let names = Builtin::ALL.map(Builtin::name).join("`, `");
+                write!(
+                    formatter,
+                    "the user program {path} cannot be read: {reason}; programs without a file are `{names}`"
+                )
+            }
+            Self::ProgramWrong { path, problems } => {
+                for (place, line) in problems.to_string().lines().enumerate() {
+                    let newline = if place == 0 { "" } else { "\n" };
+                    write!(formatter, "{newline}{path}:{line}")?;
+                }
+                Ok(())
+            }
+            Self::Storage { path, reason, .. } => {
+                write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SetupError {}
