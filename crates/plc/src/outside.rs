@@ -25,8 +25,8 @@ pub use change::{Change, ChangeRefused, Operation};
 pub use end::{OutsideEnd, Snapshot, Ticket};
 pub use program::OutsideProgram;
 
-/// Most changes that wait for the next task period.
-pub const CHANGES_MAX: usize = 512;
+/// Most changes that wait for the next task period: more than the elements of the largest data set.
+pub const CHANGES_MAX: usize = 640;
 
 /// Two ends for the CPU Unit that has these variables. All memory that the program's end ever uses is allocated here.
 #[must_use]

@@ -1,0 +1,22 @@
+//! Modbus TCP: outside PLC runtimes read, write and force the variables of CPU Units.
+//!
+//! A [`ModbusMap`] gives each variable its addresses; they do not depend on the I/O allocation. [`serve`] answers
+//! clients on a thread of its own, which meets the CPU Unit in [`plc::outside`] only: no client, however slow or
+//! hostile, delays a task period or a frame.
+//!
+//! The frames are those of *MODBUS Messaging on TCP/IP Implementation Guide* V1.0b, function codes and exceptions those
+//! of *MODBUS Application Protocol Specification* V1.1b3.
+
+mod answer;
+mod connection;
+mod exception;
+mod map;
+mod request;
+mod server;
+mod unit;
+
+pub use map::{
+    BYTES_BASE, ERROR_TABLE_BASE, FORCED_C_TO_M_BASE, FORCED_M_TO_C_BASE, IO_DATA_ACTIVE, MESSAGE_TABLE_BASE,
+    MapRow, ModbusMap, SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, Table, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
+};
+pub use server::{CONNECTIONS_MAX, Server, serve};

@@ -1,0 +1,161 @@
+//! Clients that send what is no Modbus, too much, too little, or nothing, and one that goes on beside them.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+#[expect(dead_code, reason = "the other tests use more of it")]
+mod bench;
+
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::time::Duration;
+
+use bench::Bench;
+use modbus::CONNECTIONS_MAX;
+use plc::Io;
+use proptest::prelude::*;
+use tokio_modbus::client::{Reader, Writer};
+
+/// A server that hangs is found out after so long.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+fn nothing(_: &mut Io) {}
+
+fn raw(bench: &Bench) -> TcpStream {
+    let stream = TcpStream::connect(bench.address()).unwrap();
+    stream.set_read_timeout(Some(PATIENCE)).unwrap();
+    stream
+}
+
+/// A frame for unit 1 with this PDU.
+fn frame(pdu: &[u8]) -> Vec<u8> {
+    let length = u16::try_from(pdu.len() + 1).unwrap().to_be_bytes();
+    [&[0xAB, 0xCD, 0, 0], &length[..], &[1], pdu].concat()
+}
+
+/// The PDU of the answer.
+fn answer(stream: &mut TcpStream) -> Vec<u8> {
+    let mut header = [0; 7];
+    stream.read_exact(&mut header).unwrap();
+    assert_eq!(header[..4], [0xAB, 0xCD, 0, 0]);
+    let mut pdu = vec![0; usize::from(header[5]) - 1];
+    stream.read_exact(&mut pdu).unwrap();
+    pdu
+}
+
+/// Everything until the server closes.
+fn rest(mut stream: TcpStream) -> Vec<u8> {
+    let mut octets = Vec::new();
+    // A reset is an end too: the server has not read all that came.
+    let _ = stream.read_to_end(&mut octets);
+    octets
+}
+
+#[test]
+fn wrong_requests_are_answered_by_exceptions_and_the_connection_goes_on() {
+    let bench = Bench::with(nothing);
+    let mut client = raw(&bench);
+    for (pdu, expected) in [
+        (vec![0x03, 0, 0, 0x27, 0x10], vec![0x83, 3]),
+        (vec![0x04, 0, 0, 0, 0], vec![0x84, 3]),
+        (vec![0x0F, 0x27, 0x10, 0, 16, 1, 0xFF], vec![0x8F, 3]),
+        (vec![0x10, 0, 0, 0x80, 0, 0], vec![0x90, 3]),
+        (vec![0x10, 0, 0, 0, 1, 2, 0], vec![0x90, 3]),
+        (vec![0x05, 0x27, 0x10, 0x12, 0x34], vec![0x85, 3]),
+        (vec![0x2B, 0x0E, 1, 0], vec![0xAB, 1]),
+        (vec![0x80], vec![0x80, 1]),
+        (vec![0xFF; 253], vec![0xFF, 1]),
+        (vec![0x03, 0, 0, 0, 1], vec![0x03, 2, 0, 0]),
+    ] {
+        client.write_all(&frame(&pdu)).unwrap();
+        assert_eq!(answer(&mut client), expected, "{pdu:02x?}");
+    }
+}
+
+#[test]
+fn requests_that_come_together_or_in_pieces_are_answered_in_their_order() {
+    let bench = Bench::with(nothing);
+    let mut client = raw(&bench);
+    let write = frame(&[0x06, 0, 5, 0x12, 0x34]);
+    let read = frame(&[0x03, 0, 5, 0, 1]);
+    client.write_all(&[write, read.clone()].concat()).unwrap();
+    assert_eq!(answer(&mut client), [0x06, 0, 5, 0x12, 0x34]);
+    assert_eq!(answer(&mut client), [0x03, 2, 0x12, 0x34]);
+    for octet in &read {
+        client.write_all(&[*octet]).unwrap();
+    }
+    assert_eq!(answer(&mut client), [0x03, 2, 0x12, 0x34]);
+}
+
+#[test]
+fn what_is_no_modbus_frame_ends_the_connection() {
+    let bench = Bench::with(nothing);
+    for garbage in [
+        b"GET / HTTP/1.1\r\n\r\n".to_vec(),
+        vec![0, 1, 0, 0, 0xFF, 0xFF, 1, 3, 0, 0, 0, 1],
+        vec![0, 1, 0, 0, 0, 0, 1, 3],
+        vec![0, 1, 0, 0, 0, 1, 1, 3],
+        vec![0, 1, 0, 0, 0, 255, 1, 3],
+        vec![0, 1, 0, 9, 0, 6, 1, 3, 0, 0, 0, 1],
+    ] {
+        let mut client = raw(&bench);
+        client.write_all(&garbage).unwrap();
+        assert_eq!(rest(client), [], "{garbage:02x?}");
+    }
+}
+
+#[test]
+fn a_client_that_sends_half_a_frame_is_hung_up_on_and_delays_nobody() {
+    let bench = Bench::with(nothing);
+    let mut half = raw(&bench);
+    half.write_all(&[0, 1, 0, 0, 0]).unwrap();
+    bench.run(async |bench| {
+        let mut client = bench.client(1).await;
+        for value in 0..50 {
+            client.write_single_register(0, value).await.unwrap().unwrap();
+        }
+        assert_eq!(rest(half), []);
+        assert_eq!(client.read_holding_registers(0, 1).await.unwrap().unwrap(), [49]);
+    });
+}
+
+#[test]
+fn one_client_too_many_is_hung_up_on_until_another_goes() {
+    let bench = Bench::with(nothing);
+    let request = frame(&[0x03, 0, 0, 0, 1]);
+    let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| raw(&bench)).collect();
+    for client in &mut clients {
+        client.write_all(&request).unwrap();
+        assert_eq!(answer(client), [3, 2, 0, 0]);
+    }
+    assert_eq!(rest(raw(&bench)), []);
+    clients.pop();
+    // The server hears of it in its own time.
+    let is_served = || {
+        let mut client = raw(&bench);
+        let sent = client.write_all(&request);
+        sent.is_ok() && client.read(&mut [0; 11]).is_ok_and(|octets| octets > 0)
+    };
+    assert!((0..10_000).any(|_| is_served()));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn after_any_octets_the_server_goes_on(
+        octets in proptest::collection::vec(any::<u8>(), 0..600),
+        pdus in proptest::collection::vec(proptest::collection::vec(any::<u8>(), 1..253), 0..8),
+    ) {
+        let bench = Bench::with(nothing);
+        let mut client = raw(&bench);
+        for pdu in &pdus {
+            client.write_all(&frame(pdu)).unwrap();
+            let answered = answer(&mut client);
+            prop_assert_eq!(answered[0] & 0x7F, pdu[0] & 0x7F);
+        }
+        // The server may close before it has got them all.
+        let _ = client.write_all(&octets);
+        let mut client = raw(&bench);
+        client.write_all(&frame(&[0x03, 0, 0, 0, 1])).unwrap();
+        prop_assert_eq!(&answer(&mut client)[..2], &[3, 2]);
+    }
+}
