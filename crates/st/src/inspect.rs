@@ -23,8 +23,6 @@ impl Instance {
     /// variable, or the text is no value of its type.
     pub fn set(&mut self, path: &str, text: &str) -> bool {
         let Some((Type::Elementary(elementary), slot)) = self.find(path) else { return false };
-        let text =
-            text.strip_prefix("16#").filter(|_| elementary.class() == Class::BitString).unwrap_or(text);
         let Some(bits) = value_of(elementary, text) else { return false };
         self.memory.set(slot, bits);
         true

@@ -1,5 +1,6 @@
 //! A program that has been checked, and its run.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::check::{Checked, Surroundings, check};
@@ -180,12 +181,14 @@ impl Instance {
     /// Gives over to a changed program: variables with RETAIN keep their values where name and type are the same.
     #[must_use]
     pub fn succeeded_by(&self, mut next: Self) -> Self {
-        let (old, new) = (self.retained(), next.retained());
-        for kept in new {
-            let same = old.iter().find(|before| before.path == kept.path && before.type_ == kept.type_);
-            if let Some(before) = same {
-                let values = self.memory.slice(before.slot, before.slots).to_vec();
-                next.memory.slice_mut(kept.slot, kept.slots).copy_from_slice(&values);
+        let old: HashMap<_, _> = self
+            .retained()
+            .into_iter()
+            .map(|before| ((before.path, before.type_), (before.slot, before.slots)))
+            .collect();
+        for kept in next.retained() {
+            if let Some((slot, slots)) = old.get(&(kept.path, kept.type_)) {
+                next.memory.slice_mut(kept.slot, *slots).copy_from_slice(self.memory.slice(*slot, *slots));
             }
         }
         next
@@ -234,14 +237,33 @@ struct Retained {
 }
 
 fn collect_retained(all: &mut Vec<Retained>, path: String, type_: &Type, slot: Slot, retain: bool) {
-    if let (Type::Block(block), false) = (type_, retain) {
-        for member in &block.members {
-            let path = format!("{path}.{}", member.name.to_ascii_uppercase());
-            collect_retained(all, path, &member.type_, slot + member.offset, member.retain);
+    match type_ {
+        _ if retain => {
+            let type_name = format!("{type_} {:?}", shape_of(type_));
+            all.push(Retained { path, type_: type_name, slot, slots: type_.slots() });
         }
-    } else if retain {
-        let type_name = format!("{type_} {:?}", shape_of(type_));
-        all.push(Retained { path, type_: type_name, slot, slots: type_.slots() });
+        Type::Block(block) => {
+            for member in &block.members {
+                let path = format!("{path}.{}", member.name.to_ascii_uppercase());
+                collect_retained(all, path, &member.type_, slot + member.offset, member.retain);
+            }
+        }
+        Type::Array(array) if holds_blocks(&array.element) => {
+            let slots = array.element.slots();
+            for element in 0..array.elements() {
+                let path = format!("{path} {array} {element}");
+                collect_retained(all, path, &array.element, slot + element * slots, false);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn holds_blocks(type_: &Type) -> bool {
+    match type_ {
+        Type::Block(_) => true,
+        Type::Array(array) => holds_blocks(&array.element),
+        _ => false,
     }
 }
 
