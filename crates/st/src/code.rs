@@ -238,4 +238,6 @@ pub(crate) struct Unit {
     pub(crate) body: Vec<Statement>,
     /// Slots in the memory that get their initial values at each call: variables of a function, VAR_TEMP.
     pub(crate) fresh: Vec<core::ops::Range<Slot>>,
+    /// Whether its places lie in the library's text, and not in the program's.
+    pub(crate) is_library: bool,
 }

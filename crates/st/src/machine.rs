@@ -57,17 +57,20 @@ enum Flow {
 impl Machine<'_> {
     /// Runs the body of a program organization unit on the instance that is set.
     pub(crate) fn run(&mut self, unit: u32) -> Result<(), Fault> {
-        self.freshen(unit);
+        self.freshen(unit)?;
         let units = self.units;
         self.body(&units[unit as usize].body).map(|_| ())
     }
 
     /// Gives the variables their initial values that have them at each call.
-    fn freshen(&mut self, unit: u32) {
+    fn freshen(&mut self, unit: u32) -> Result<(), Fault> {
         for range in &self.units[unit as usize].fresh {
+            let slots = range.end - range.start;
+            self.spend((slots / SLOTS_FOR_ONE).into())?;
             let initial = &self.initial[range.start as usize..range.end as usize];
-            self.memory.slice_mut(range.start, range.end - range.start).copy_from_slice(initial);
+            self.memory.slice_mut(range.start, slots).copy_from_slice(initial);
         }
+        Ok(())
     }
 
     /// Uses up some of the budget.
@@ -268,7 +271,7 @@ impl Machine<'_> {
         for (_, code, _) in &call.inputs {
             values.push(self.value(code)?);
         }
-        self.freshen(call.unit);
+        self.freshen(call.unit)?;
         for ((slot, _, put), value) in call.inputs.iter().zip(values) {
             self.put(*slot, value, *put)?;
         }
@@ -283,6 +286,7 @@ impl Machine<'_> {
             FunctionResult::None => 0,
             FunctionResult::Value(slot) => self.memory.get(slot),
             FunctionResult::Copied { from, to, slots } => {
+                self.spend((slots / SLOTS_FOR_ONE).into())?;
                 self.memory.copy(from, to, slots);
                 to.into()
             }
@@ -319,8 +323,10 @@ impl Machine<'_> {
         self.instance = instance;
         let ran = self.run(call.unit);
         self.instance = caller;
+        if ran.is_ok() || self.units[call.unit as usize].is_library {
+            self.at = at;
+        }
         ran?;
-        self.at = at;
         for output in &call.outputs {
             let value = self.block_output(instance + output.offset, output);
             let to = self.slot(&output.to)?;

@@ -53,7 +53,8 @@ impl<'t> Checker<'t> {
         let deepest = body.deepest;
         self.own_depths.insert(pending.unit, deepest);
         let fresh = pending.scope.fresh.clone();
-        self.out.units[pending.unit as usize] = Unit { body: statements, fresh };
+        let is_library = pending.origin == super::Origin::Library;
+        self.out.units[pending.unit as usize] = Unit { body: statements, fresh, is_library };
         self.origin = super::Origin::User;
     }
 }
