@@ -57,9 +57,11 @@ pub(crate) struct Surroundings<'t> {
 pub(crate) fn check(file: &File, surroundings: &Surroundings<'_>) -> Result<Checked, Vec<Problem>> {
     let mut checker = Checker::new(surroundings);
     checker.enter(surroundings.prelude, Origin::Library);
+    checker.resolve_types(surroundings.prelude);
     assert!(checker.problems.is_empty(), "the library's own blocks: {:?}", checker.problems);
     checker.enter(file, Origin::User);
     checker.declare_globals(file);
+    checker.resolve_types(file);
     checker.units(file);
     checker.refuse_recursion();
     if checker.problems.is_empty() { Ok(checker.out) } else { Err(checker.problems) }
@@ -119,6 +121,8 @@ struct Checker<'t> {
     literals: std::collections::HashSet<Slot>,
     /// How many types are being resolved.
     type_depth: u32,
+    /// How many slots all types have together.
+    type_slots: usize,
     /// How deep the code of each unit lies in itself.
     own_depths: HashMap<u32, u32>,
     /// Who calls whom.
@@ -148,6 +152,7 @@ impl<'t> Checker<'t> {
             pending: Vec::new(),
             literals: std::collections::HashSet::new(),
             type_depth: 0,
+            type_slots: 0,
             own_depths: HashMap::new(),
             calls: Vec::new(),
             origin: Origin::User,
@@ -162,6 +167,11 @@ impl<'t> Checker<'t> {
             self.problems.push(problem);
         }
         None
+    }
+
+    /// Whether so much is wrong that the rest is left aside.
+    fn is_given_up(&self) -> bool {
+        self.problems.len() >= PROBLEMS_MAX
     }
 
     /// Takes slots with these initial values out of the memory.

@@ -12,6 +12,7 @@ use crate::code::{
     Assign, Base, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, StatementKind,
 };
 use crate::convert::widens;
+use crate::elementary::Elementary;
 use crate::library;
 use crate::machine::{ARGUMENTS_MAX, Layout};
 use crate::problem::{Problem, Span};
@@ -26,7 +27,7 @@ enum Given<'a> {
 
 impl<'t> Body<'_, 't> {
     /// A call in an expression.
-    pub(super) fn call(&mut self, call: &Call) -> Option<Value> {
+    pub(super) fn call(&mut self, call: &Call, wanted: Option<Elementary>) -> Option<Value> {
         let ExpressionKind::Name(name) = &call.callee.kind else {
             return self.refuse_block_value(call);
         };
@@ -38,11 +39,14 @@ impl<'t> Body<'_, 't> {
         if let Some(signature) = self.function(name, call.callee.span)? {
             return self.call_function(&signature, call);
         }
+        if name.eq_ignore_ascii_case("EnumToNum") {
+            return self.number_of_enumeration(call);
+        }
         if let Some(conversion) = library::Conversion::named(name) {
             return self.convert(conversion, call);
         }
         match library::function(name).filter(|native| self.is_library() || !native.0.name.starts_with('_')) {
-            Some(native) => self.call_native(native, call),
+            Some(native) => self.call_native(native, call, wanted),
             None => self.unknown_function(name, call.callee.span),
         }
     }
@@ -100,7 +104,7 @@ impl<'t> Body<'_, 't> {
         if let Some((block, located)) = self.instance(&call.callee)? {
             return self.call_block(&block, located, call);
         }
-        self.call(call).map(|value| StatementKind::Evaluate(value.code))
+        self.call(call, None).map(|value| StatementKind::Evaluate(value.code))
     }
 
     /// The function block instance that is called, if a variable is.
@@ -173,7 +177,7 @@ impl<'t> Body<'_, 't> {
         let mut value = super::expressions::load(&located, span);
         if negated {
             self.negatable(&pin.type_, span)?;
-            let (operator, elementary) = (crate::operators::Unary::Not, crate::elementary::Elementary::Bool);
+            let (operator, elementary) = (crate::operators::Unary::Not, Elementary::Bool);
             value.code = Code::Unary { operator, elementary, operand: Box::new(value.code) };
         }
         let fitting = coerce(self.checker, value, &target.type_)?;
@@ -241,7 +245,7 @@ impl<'t> Body<'_, 't> {
     /// An input or in-out with what it gets.
     fn pin_input(&mut self, pin: &Member, expression: &Expression) -> Option<Fitting> {
         if pin.role != Role::InOut {
-            let value = self.expression(expression)?;
+            let value = self.expression_for(expression, &pin.type_)?;
             return coerce(self.checker, value, &pin.type_);
         }
         let located = self.target(expression)?;
@@ -368,6 +372,22 @@ impl<'t> Body<'_, 't> {
         }
     }
 
+    /// `EnumToNum(x)`: the number of an enumeration's value, a DINT.
+    fn number_of_enumeration(&mut self, call: &Call) -> Option<Value> {
+        let [Argument::Positional(expression) | Argument::Input { value: expression, .. }] =
+            call.arguments.as_slice()
+        else {
+            return self.checker.refuse(Problem::new(call.span, "EnumToNum has one input"));
+        };
+        let value = self.expression(expression)?;
+        if matches!(value.kind, Kind::Type(Type::Enum(_))) {
+            let dint = Type::Elementary(Elementary::Dint);
+            return Some(Value::of(dint, value.code, call.span));
+        }
+        let message = format!("EnumToNum takes an enumeration, not {}", value.kind);
+        self.checker.refuse(Problem::new(value.span, message))
+    }
+
     /// `INT_TO_REAL(x)` and its like.
     fn convert(&mut self, conversion: library::Conversion, call: &Call) -> Option<Value> {
         let [argument] = call.arguments.as_slice() else {
@@ -386,7 +406,7 @@ impl<'t> Body<'_, 't> {
         };
         match (conversion.to, &value.kind) {
             (library::Of::Elementary(to), Kind::Type(Type::Elementary(from))) => {
-                let time = crate::elementary::Elementary::Time;
+                let time = Elementary::Time;
                 if (*from == time) != (to == time) {
                     let help = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";
                     let message = format!("a TIME has no number without a unit: {from} to {to}");

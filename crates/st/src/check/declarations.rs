@@ -6,7 +6,7 @@ use crate::code::{Base, Slot};
 use crate::machine::Layout;
 use crate::problem::{Problem, Span};
 use crate::program::{External, Variable};
-use crate::syntax::ast::{File, Pou, VarDeclaration, VarKind, VarSection};
+use crate::syntax::ast::{File, Name, Pou, TypeKind, VarDeclaration, VarKind, VarSection};
 use crate::types::{Block, Member, Role, Type};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -34,14 +34,40 @@ struct Plan {
 }
 
 impl<'t> Checker<'t> {
-    /// VAR_GLOBAL of the file.
+    /// VAR_GLOBAL of the file, in an order in which each finds what it needs: constants are bounds of types and
+    /// numbers of enumerations, and blocks may name all other variables as VAR_EXTERNAL.
     pub(super) fn declare_globals(&mut self, file: &'t File) {
+        let all = || {
+            file.globals.iter().flat_map(|section| section.variables.iter().map(move |own| (section, own)))
+        };
+        let is_number = |section: &VarSection, own: &VarDeclaration| {
+            section.constant && matches!(own.type_name.kind, TypeKind::Elementary(_))
+        };
+        for (section, own) in all().filter(|(section, own)| is_number(section, own)) {
+            self.declare_global(section, own);
+        }
+        self.resolve_enumerations(file);
+        let (blocks, others): (Vec<_>, Vec<_>) = all()
+            .filter(|(section, own)| !is_number(section, own))
+            .partition(|(_, own)| self.is_of_blocks(&own.type_name.kind, 0));
+        for (section, own) in others.into_iter().chain(blocks) {
+            self.declare_global(section, own);
+        }
+    }
+
+    fn declare_global(&mut self, section: &VarSection, declaration: &VarDeclaration) {
+        if self.globals.contains_key(&key(&declaration.name.text)) {
+            return self.refuse_second(&declaration.name);
+        }
         let mut scope = Scope::default();
         let mut plan = Plan::new(Home::Memory { owner: String::new() });
-        for section in &file.globals {
-            self.section(section, &mut plan, &mut scope);
-        }
-        self.globals = scope.symbols;
+        self.declare(section, declaration, &mut plan, &mut scope);
+        self.globals.extend(scope.symbols);
+    }
+
+    fn refuse_second(&mut self, name: &Name) {
+        let message = format!("the name `{}` is declared twice", name.text);
+        self.refuse::<()>(Problem::new(name.span, message));
     }
 
     /// The variables of a PROGRAM.
@@ -132,9 +158,12 @@ impl<'t> Checker<'t> {
         plan: &mut Plan,
         scope: &mut Scope,
     ) -> Option<()> {
+        if self.is_given_up() {
+            return None;
+        }
         if scope.symbols.contains_key(&key(&declaration.name.text)) {
-            let message = format!("the name `{}` is declared twice", declaration.name.text);
-            return self.refuse(Problem::new(declaration.name.span, message));
+            self.refuse_second(&declaration.name);
+            return None;
         }
         let symbol = self.symbol(section, declaration, plan, scope)?;
         scope.symbols.insert(key(&declaration.name.text), symbol);

@@ -23,6 +23,8 @@ pub(super) struct Body<'c, 't> {
     /// The unit whose code this becomes; none for constant expressions.
     pub(super) unit: Option<u32>,
     pub(super) loops: u32,
+    /// The type of what the next expression is for: numbers without a type that a function takes become it.
+    pub(super) wanted: Option<Elementary>,
     /// How deep the expression or statement lies that is being checked, and the deepest so far: it runs as deep.
     pub(super) depth: u32,
     pub(super) deepest: u32,
@@ -84,7 +86,7 @@ impl<'c, 't> Body<'c, 't> {
     }
 
     pub(super) const fn new(checker: &'c mut Checker<'t>, scope: &'c Scope, unit: Option<u32>) -> Self {
-        Self { checker, scope, unit, loops: 0, depth: 0, deepest: 0 }
+        Self { checker, scope, unit, loops: 0, wanted: None, depth: 0, deepest: 0 }
     }
 
     /// Goes one level deeper.
@@ -105,8 +107,15 @@ impl<'c, 't> Body<'c, 't> {
         self.nested(|body| body.expression_here(expression))
     }
 
+    /// The same, where a value of a type is needed.
+    pub(super) fn expression_for(&mut self, expression: &Expression, type_: &Type) -> Option<Value> {
+        self.wanted = type_.elementary();
+        self.expression(expression)
+    }
+
     fn expression_here(&mut self, expression: &Expression) -> Option<Value> {
         let span = expression.span;
+        let wanted = self.wanted.take();
         match &expression.kind {
             ExpressionKind::Literal(literal) => self.literal(literal, span),
             ExpressionKind::Name(name) => self.name(name, span),
@@ -124,7 +133,7 @@ impl<'c, 't> Body<'c, 't> {
                 let (left, right) = (self.expression(left), self.expression(right));
                 self.binary(*operator, left?, right?, span)
             }
-            ExpressionKind::Call(call) => self.call(call),
+            ExpressionKind::Call(call) => self.call(call, wanted),
         }
     }
 
@@ -240,6 +249,9 @@ impl<'c, 't> Body<'c, 't> {
         match (&left.kind, &right.kind) {
             (Kind::Integer(a), Kind::Integer(b)) => self.fold_integers(code, *a, *b, span),
             (Kind::Integer(_) | Kind::Real(_), Kind::Integer(_) | Kind::Real(_)) => {
+                if !suits(code, Class::Real) {
+                    return self.refuse_binary(operator, &left, &right, span);
+                }
                 let a = elementary_of(self.checker, left, Elementary::Lreal)?;
                 let b = elementary_of(self.checker, right, Elementary::Lreal)?;
                 let value = self.combine(code, Elementary::Lreal, a, b, span)?;
@@ -348,7 +360,7 @@ impl<'c, 't> Body<'c, 't> {
             Binary::And => Some(a & b),
             Binary::Or => Some(a | b),
             Binary::Xor => Some(a ^ b),
-            Binary::Power => return Some(Value::untyped(Kind::Real((a as f64).powf(b as f64)), span)),
+            Binary::Power => return Some(Value::untyped(Kind::Real(libm::pow(a as f64, b as f64)), span)),
             _ => {
                 let holds = operators::compare(operator, Some(a.cmp(&b)));
                 return Some(Value::constant(Elementary::Bool, holds.into(), span));

@@ -81,11 +81,15 @@ impl Checker<'_> {
                 let message = format!("the array has {count} elements, and more are given");
                 return self.refuse(Problem::new(span, message));
             }
-            for place in written..written + repeat {
-                let from = place as usize * size;
-                self.write_initial(&array.element, &element.value, &mut image[from..from + size], scope)?;
-            }
+            let from = written as usize * size;
             written += repeat;
+            if repeat > 0 {
+                let first = &mut image[from..from + size];
+                self.write_initial(&array.element, &element.value, first, scope)?;
+            }
+            for place in 1..repeat as usize {
+                image.copy_within(from..from + size, from + place * size);
+            }
         }
         Some(())
     }

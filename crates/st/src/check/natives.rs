@@ -31,14 +31,20 @@ enum Generic {
 }
 
 impl Body<'_, '_> {
-    pub(super) fn call_native(&mut self, native: Native, call: &Call) -> Option<Value> {
+    /// `wanted` is the type that numbers without a type become, where nothing else says it.
+    pub(super) fn call_native(
+        &mut self,
+        native: Native,
+        call: &Call,
+        wanted: Option<Elementary>,
+    ) -> Option<Value> {
         let function = native.0;
         let given = self.native_pins(function, call)?;
         let mut looked = Vec::new();
         for (pin, expression) in given {
             looked.push((pin, self.look(function, pin, expression, call.span)?));
         }
-        let generic = self.generic(function, &looked, call.span)?;
+        let generic = self.generic(function, &looked, wanted, call.span)?;
         let capacity = text_capacity(function, &looked);
         let mut arguments = Vec::new();
         let mut elements = None;
@@ -157,7 +163,13 @@ impl Body<'_, '_> {
     }
 
     /// The type that the generic pins have in this call.
-    fn generic(&mut self, function: &Function, looked: &[(&Pin, Looked)], span: Span) -> Option<Generic> {
+    fn generic(
+        &mut self,
+        function: &Function,
+        looked: &[(&Pin, Looked)],
+        wanted: Option<Elementary>,
+        span: Span,
+    ) -> Option<Generic> {
         let exact = looked.iter().find_map(|(pin, looked)| match (pin.takes, looked) {
             (Takes::Variable(classes), Looked::Variable(located, span)) => Some((classes, located, *span)),
             _ => None,
@@ -210,19 +222,26 @@ impl Body<'_, '_> {
                     }
                 }
             }
-            None => self.literal_type(function, looked, classes, span),
+            None => self.literal_type(function, looked, classes, wanted, span),
         }
     }
 
-    /// Numbers only: the narrowest type from DINT on that holds them all, or LREAL.
+    /// Numbers only: the type that the result is for if it holds them all, else the narrowest from DINT on, or LREAL.
     fn literal_type(
         &mut self,
         function: &Function,
         looked: &[(&Pin, Looked)],
         classes: &[Class],
+        wanted: Option<Elementary>,
         span: Span,
     ) -> Option<Generic> {
         let literals = numbers_in(looked);
+        let holds_all = |elementary: &Elementary| {
+            classes.contains(&elementary.class()) && literals.iter().all(|kind| holds(*elementary, kind))
+        };
+        if let Some(wanted) = wanted.filter(holds_all) {
+            return Some(Generic::Elementary(wanted));
+        }
         let Some(first) = literals.first() else {
             return Some(Generic::Elementary(Elementary::Bool));
         };
@@ -381,6 +400,16 @@ fn numbers_in(looked: &[(&Pin, Looked)]) -> Vec<Kind> {
         _ => None,
     });
     kinds.collect()
+}
+
+/// Whether a number without a type can be of this type.
+fn holds(elementary: Elementary, kind: &Kind) -> bool {
+    match (kind, elementary.class()) {
+        (_, Class::Bool | Class::Time) => false,
+        (_, Class::Real) => true,
+        (Kind::Integer(number), _) => crate::convert::fits(elementary, *number),
+        _ => false,
+    }
 }
 
 /// The type that holds a number besides.

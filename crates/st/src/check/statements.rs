@@ -17,6 +17,9 @@ impl Body<'_, '_> {
     }
 
     fn statement(&mut self, statement: &ast::Statement) -> Option<Statement> {
+        if self.checker.is_given_up() {
+            return None;
+        }
         let span = statement.span;
         let kind = match &statement.kind {
             ast::StatementKind::Empty => return None,
@@ -68,8 +71,12 @@ impl Body<'_, '_> {
     }
 
     fn assign(&mut self, to: &Expression, value: &Expression) -> Option<StatementKind> {
-        let (target, value) = (self.target(to), self.expression(value));
-        let target = target?;
+        let Some(target) = self.target(to) else {
+            // Both sides are looked at, so that both tell what is wrong.
+            self.expression(value);
+            return None;
+        };
+        let value = self.expression_for(value, &target.type_);
         let fitting = coerce(self.checker, value?, &target.type_)?;
         Some(StatementKind::Assign(Assign { to: target.place, value: fitting.code, put: fitting.put }))
     }

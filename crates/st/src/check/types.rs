@@ -12,8 +12,14 @@ use crate::syntax::ast::{
 };
 use crate::types::*;
 
+/// Most slots of all types together.
+const TYPE_SLOTS_MAX: usize = 8 * SLOTS_MAX as usize;
+
 /// How deep types may lie in each other.
 const TYPE_DEPTH_MAX: u32 = 32;
+
+/// Most members of a structure, and most values of an enumeration, as an NJ/NX-series CPU Unit.
+const NAMES_MAX: usize = 2048;
 
 /// Most dimensions of an array.
 const DIMENSIONS_MAX: usize = 3;
@@ -32,9 +38,39 @@ impl<'t> Checker<'t> {
             };
             self.enter_name(&pou.name, named);
         }
-        // Enumerations first: their values are named without their types.
-        for declaration in &file.types {
+    }
+
+    /// Resolves the enumerations of a file: their values are named without their types.
+    pub(super) fn resolve_enumerations(&mut self, file: &'t File) {
+        let enumerations = file.types.iter().filter(|declaration| is_enumeration(declaration));
+        for declaration in enumerations {
             self.named_shape(&declaration.name.text, declaration.name.span);
+        }
+    }
+
+    /// Resolves the types of a file, those that nobody uses too.
+    pub(super) fn resolve_types(&mut self, file: &'t File) {
+        for declaration in &file.types {
+            if !self.is_given_up() {
+                self.named_shape(&declaration.name.text, declaration.name.span);
+            }
+        }
+    }
+
+    /// Whether a type is one of function block instances, as far as can be told before it is resolved.
+    pub(super) fn is_of_blocks(&self, kind: &TypeKind, level: u32) -> bool {
+        match kind {
+            _ if level > TYPE_DEPTH_MAX => false,
+            TypeKind::Array { element, .. } => self.is_of_blocks(&element.kind, level + 1),
+            TypeKind::Named(name) => match self.named.get(&key(name)) {
+                Some(Named::Block(..)) => true,
+                Some(Named::Type(declaration)) => match &declaration.definition {
+                    TypeDefinition::Alias { type_name, .. } => self.is_of_blocks(&type_name.kind, level + 1),
+                    _ => false,
+                },
+                _ => false,
+            },
+            _ => false,
         }
     }
 
@@ -90,7 +126,8 @@ impl<'t> Checker<'t> {
         }
         let element = self.shape(element, scope)?;
         let mut bound_list = Vec::new();
-        let mut slots = i128::from(element.type_.slots());
+        // A structure without members takes no slots, and its arrays are limited all the same.
+        let mut slots = i128::from(element.type_.slots().max(1));
         for (lower, upper) in bounds {
             let span = lower.span.to(upper.span);
             let lower = self.constant_integer(lower, scope)?;
@@ -148,8 +185,20 @@ impl<'t> Checker<'t> {
             _ => None,
         };
         self.type_depth -= 1;
+        let shape = shape.and_then(|shape| self.limit_types(shape, span));
         self.named.insert(key(name), shape.clone().map_or(Named::Wrong, Named::Shape));
         shape
+    }
+
+    /// Refuses types that are too large all together: of each, an initial value is kept.
+    fn limit_types(&mut self, shape: Shape, span: Span) -> Option<Shape> {
+        self.type_slots += shape.initial.len();
+        if self.type_slots <= TYPE_SLOTS_MAX {
+            return Some(shape);
+        }
+        let message =
+            format!("the types of the program are larger than {TYPE_SLOTS_MAX} values all together");
+        self.refuse(Problem::new(span, message))
     }
 
     fn unknown_type(&mut self, name: &str, span: Span) -> Option<Shape> {
@@ -182,6 +231,7 @@ impl<'t> Checker<'t> {
 
     fn structure(&mut self, name: &Name, declarations: &[VarDeclaration]) -> Option<Shape> {
         let scope = Scope::default();
+        self.limit_names("members", declarations.len(), name.span)?;
         let (mut members, mut initial) = (Vec::<Member>::new(), Vec::new());
         for declaration in declarations {
             let shape = self.shape(&declaration.type_name, &scope)?;
@@ -204,6 +254,13 @@ impl<'t> Checker<'t> {
         Some(Shape { type_: Type::Struct(Arc::new(structure)), initial })
     }
 
+    fn limit_names(&mut self, what: &str, count: usize, span: Span) -> Option<()> {
+        if count <= NAMES_MAX {
+            return Some(());
+        }
+        self.refuse(Problem::new(span, format!("this type has {count} {what}, {NAMES_MAX} are the most")))
+    }
+
     /// Refuses what no memory would hold.
     pub(super) fn limit(&mut self, slots: usize, span: Span) -> Option<()> {
         if slots <= SLOTS_MAX as usize {
@@ -219,6 +276,7 @@ impl<'t> Checker<'t> {
         declared: &[(Name, Option<Expression>)],
         initial: Option<&Name>,
     ) -> Option<Shape> {
+        self.limit_names("values", declared.len(), name.span)?;
         let mut values = Vec::<(String, i64)>::new();
         let mut next = 0_i128;
         for (value_name, number) in declared {
@@ -262,4 +320,8 @@ impl Shape {
         let initial = vec![0; type_.slots() as usize];
         Self { type_, initial }
     }
+}
+
+const fn is_enumeration(declaration: &TypeDeclaration) -> bool {
+    matches!(declaration.definition, TypeDefinition::Enum { .. })
 }
