@@ -44,7 +44,7 @@ impl<'c, 't> Constants<'c, 't> {
 
     /// Writes the value of a type into the image of its variable.
     pub(super) fn write(mut self, type_: &Type, expression: &Expression, image: &mut [u64]) -> Option<()> {
-        let value = self.body().expression(expression)?;
+        let value = self.body().expression_for(expression, type_)?;
         if let (Type::String(capacity), Kind::Type(Type::String(length)), Code::Address(place)) =
             (type_, &value.kind, &value.code)
         {

@@ -165,7 +165,7 @@ impl<'t> Checker<'t> {
             self.refuse_second(&declaration.name);
             return None;
         }
-        let symbol = self.symbol(section, declaration, plan, scope)?;
+        let symbol = self.symbol(section, declaration, plan, scope).unwrap_or(Symbol::Wrong);
         scope.symbols.insert(key(&declaration.name.text), symbol);
         Some(())
     }
@@ -290,6 +290,7 @@ impl<'t> Checker<'t> {
         let found = match &symbol {
             Symbol::Variable(located) => &located.type_,
             Symbol::Constant(type_, _) => type_,
+            Symbol::Wrong => return None,
         };
         if found == type_ {
             return Some(symbol);

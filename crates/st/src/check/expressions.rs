@@ -171,6 +171,7 @@ impl<'c, 't> Body<'c, 't> {
         match self.symbol(name) {
             Some(Symbol::Variable(located)) => return Some(load(&located, span)),
             Some(Symbol::Constant(type_, bits)) => return Some(Value::of(type_, Code::Constant(bits), span)),
+            Some(Symbol::Wrong) => return None,
             None => {}
         }
         match self.checker.enum_values.get(&key(name)).map(Vec::as_slice) {

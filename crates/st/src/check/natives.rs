@@ -183,6 +183,7 @@ impl Body<'_, '_> {
             };
         }
         let mut met: Option<Generic> = None;
+        let mut met_at = span;
         let mut classes: &[Class] = &[];
         for (pin, looked) in looked {
             let (Takes::Generic(of) | Takes::GenericOrText(of)) = pin.takes else { continue };
@@ -196,7 +197,10 @@ impl Body<'_, '_> {
                 other => return self.refuse_class(function, other, of, value.span),
             };
             met = match (met, found) {
-                (None, found) => Some(found),
+                (None, found) => {
+                    met_at = value.span;
+                    Some(found)
+                }
                 (Some(Generic::Elementary(a)), Generic::Elementary(b)) => match common(a, b) {
                     Some(both) => Some(Generic::Elementary(both)),
                     None => return self.refuse_mixture(function, a.name(), b.name(), value.span),
@@ -218,7 +222,7 @@ impl Body<'_, '_> {
                     Some(elementary) => Some(Generic::Elementary(elementary)),
                     None => {
                         let kind = Kind::Type(Type::Elementary(elementary));
-                        self.refuse_class(function, &kind, classes, span)
+                        self.refuse_class(function, &kind, classes, met_at)
                     }
                 }
             }

@@ -74,6 +74,7 @@ impl Body<'_, '_> {
                     let message = format!("`{name}` is a constant, and a variable is needed");
                     self.checker.refuse(Problem::new(expression.span, message))
                 }
+                Some(Symbol::Wrong) => None,
                 None => self.unknown(name, expression.span),
             },
             ExpressionKind::Member { of, member } => self.member(of, member),

@@ -19,6 +19,8 @@ pub(super) enum Symbol {
     Variable(Located),
     /// VAR CONSTANT of an elementary type: its value stands in the code.
     Constant(Type, u64),
+    /// Its declaration is wrong, and that has been told.
+    Wrong,
 }
 
 /// A variable, or a part of one.

@@ -12,9 +12,10 @@ impl<'t> Checker<'t> {
         for pou in &file.units {
             match pou.kind {
                 PouKind::Program => self.program(pou),
-                PouKind::FunctionBlock => {
+                PouKind::FunctionBlock if self.is_named(pou) => {
                     self.named_shape(&pou.name.text, pou.name.span);
                 }
+                PouKind::FunctionBlock => {}
                 PouKind::Function => self.uncalled_function(pou),
             }
         }
@@ -26,6 +27,11 @@ impl<'t> Checker<'t> {
             let problem = Problem::new(Span::default(), "there is no PROGRAM in it");
             self.refuse::<()>(problem.help("write PROGRAM name … END_PROGRAM, or statements alone"));
         }
+    }
+
+    /// Whether the unit could be entered under its name.
+    fn is_named(&self, pou: &Pou) -> bool {
+        self.named.contains_key(&super::scope::key(&pou.name.text))
     }
 
     fn program(&mut self, pou: &'t Pou) {
