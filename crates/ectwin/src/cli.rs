@@ -1,6 +1,7 @@
 //! What can stand on the command line.
 
-use std::num::{NonZeroU64, NonZeroUsize};
+use std::net::{Ipv4Addr, SocketAddr};
+use std::num::{NonZeroU64, NonZeroUsize, ParseIntError};
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -28,6 +29,8 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Check I/O allocation and PDO setting of a unit file against the setting rules
     Check(CheckArgs),
+    /// Print the I/O map of a unit: variables, types, places, Modbus addresses
+    Map(MapArgs),
     /// Write the ESI file (XML) of a unit, for the configuration tool of a master
     Esi(ExportArgs),
     /// Write the SII image (EEPROM) of a unit
@@ -68,9 +71,33 @@ pub(crate) struct RunArgs {
     /// Run this user program (Structured Text) instead of the one that the unit files name; changed, it is loaded anew
     #[arg(long, value_name = "FILE.st")]
     pub(crate) program: Option<PathBuf>,
+    /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone is one of 127.0.0.1
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = modbus_address)]
+    pub(crate) modbus: Option<SocketAddr>,
     /// Drop the waits of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
+}
+
+fn modbus_address(text: &str) -> Result<SocketAddr, String> {
+    let on_loopback = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+    let address = text.parse().or_else(|_| text.parse().map(on_loopback));
+    address.map_err(|_: ParseIntError| {
+        format!("{text:?} is no address: expected PORT or ADDR:PORT, such as 1502 or 127.0.0.1:1502")
+    })
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct MapArgs {
+    /// The unit file
+    #[arg(value_name = "FILE")]
+    pub(crate) unit: PathBuf,
+    /// Comma-separated values instead of text, with a line of column names
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) csv: bool,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 #[derive(Debug, Args)]
@@ -246,5 +273,16 @@ mod tests {
         assert_eq!(args.link.to_string(), "udp:127.0.0.1:34980");
         assert!(args.fast && args.pcap.is_none());
         assert!(Cli::try_parse_from(["ectwin", "run", "--link", "udp:127.0.0.1"]).is_err());
+    }
+
+    #[test]
+    fn modbus_is_served_on_loopback_unless_the_address_says_otherwise() {
+        let address = |text| modbus_address(text).map(|address| address.to_string());
+        assert_eq!(address("1502").unwrap(), "127.0.0.1:1502");
+        assert_eq!(address("0.0.0.0:502").unwrap(), "0.0.0.0:502");
+        assert_eq!(address("[::1]:0").unwrap(), "[::1]:0");
+        for wrong in ["", "65536", "127.0.0.1", "localhost:1502"] {
+            assert!(address(wrong).is_err_and(|message| message.contains("127.0.0.1:1502")), "{wrong}");
+        }
     }
 }

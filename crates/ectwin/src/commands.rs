@@ -11,6 +11,7 @@ mod list_indicators;
 mod list_nx_objects;
 mod list_objects;
 mod list_rules;
+mod map;
 mod merge;
 pub(crate) mod replay;
 mod run;
@@ -29,6 +30,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),
+        Command::Map(args) => map::run(&args),
         Command::St(St::Check(args)) => st_check::run(&args),
         Command::List(List::Events { json }) => list_events::run(json),
         Command::List(List::Objects { json }) => list_objects::run(json),

@@ -1,6 +1,7 @@
 //! How a command ends that could not do what it was asked: a message, the way out, an exit code.
 
 use std::io::{self, Write};
+use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -31,6 +32,8 @@ pub(crate) enum Failure {
     Unwritable { path: PathBuf, source: io::Error },
     /// The link cannot be opened.
     Link(OpenError),
+    /// Modbus TCP cannot be served there.
+    Modbus { address: SocketAddr, source: io::Error },
     /// The link was lost while it was in use.
     LinkLost(io::Error),
     /// A step of the demo failed.
@@ -64,7 +67,7 @@ impl Failure {
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
             Self::BadFile(_) | Self::Refused { .. } | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
-            Self::Link(_) => 3,
+            Self::Link(_) | Self::Modbus { .. } => 3,
         }
     }
 
@@ -81,11 +84,28 @@ impl Failure {
             }
             Self::Unwritable { path, source } => (format!("cannot write {}: {source}", path.display()), None),
             Self::Link(error) => (error.to_string(), Some(error.help())),
+            Self::Modbus { address, source } => {
+                (format!("Modbus TCP cannot be served at {address}: {source}"), help_to_listen(source))
+            }
             Self::LinkLost(error) => (format!("the link is lost: {error}"), None),
             #[cfg(feature = "ethercrab")]
             Self::Demo(reason) => (reason.clone(), None),
         }
     }
+}
+
+fn help_to_listen(error: &io::Error) -> Option<String> {
+    let help = match error.kind() {
+        io::ErrorKind::AddrInUse => "another program listens there; give another port, such as --modbus 1503",
+        io::ErrorKind::PermissionDenied => {
+            "ports below 1024 need a permission; give another, such as --modbus 1502"
+        }
+        io::ErrorKind::AddrNotAvailable => {
+            "no interface of this machine has this address; 0.0.0.0 stands for all of them"
+        }
+        _ => return None,
+    };
+    Some(help.to_owned())
 }
 
 fn help_to_read(error: &io::Error) -> String {

@@ -27,6 +27,7 @@ mod ethercrab_port;
 pub mod explain;
 mod live;
 mod memory_file;
+mod modbus_clients;
 mod program_files;
 mod setup;
 mod twin;
@@ -36,6 +37,7 @@ mod unit_side;
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::{Live, run};
+pub use modbus::{self, ModbusMap, Server as ModbusServer};
 pub use nx_ect101::unit_file;
 pub use nx_ect101::{
     CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, Lights,

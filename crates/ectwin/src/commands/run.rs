@@ -1,10 +1,11 @@
 //! `ectwin run FILE… --link LINK`.
 
 use std::fs::File;
+use std::net::{SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use ectwin::{Setup, Twin};
+use ectwin::{ModbusServer, Setup, Twin};
 use link::{Clock, Observer, Recorder, Statistics};
 use signal_hook::consts::{SIGINT, SIGTERM};
 
@@ -17,12 +18,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let setups = setups(args)?;
     let units = setups.len();
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
+    let listener = args.modbus.map(listen).transpose()?;
     let clock = Clock::start();
     let mut recorder = recorder(args, &clock)?;
     let stop = stop_on_signals().map_err(Failure::LinkLost)?;
 
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
-    let twin = Twin::power_on(setups.into_iter().map(with_system_time));
+    let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
+    let _modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
     // The port is open: a frame that comes from now on waits in it and is answered.
     output::print_line(format_args!("ready link={} units={units}", args.link))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
@@ -43,6 +46,16 @@ fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
         Ok(if args.fast { setup.fast() } else { setup })
     };
     args.units.iter().map(read).collect()
+}
+
+fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
+    TcpListener::bind(address).map_err(|source| Failure::Modbus { address, source })
+}
+
+fn serve_modbus(twin: &mut Twin, listener: TcpListener) -> Result<ModbusServer, Failure> {
+    let server = twin.serve_modbus(listener).map_err(Failure::LinkLost)?;
+    tracing::info!("Modbus TCP is served at {}", server.address());
+    Ok(server)
 }
 
 fn recorder(args: &RunArgs, clock: &Clock) -> Result<Option<Recorder>, Failure> {

@@ -7,6 +7,8 @@
 
 mod events;
 mod import;
+mod modbus;
+mod programs;
 mod run;
 
 use run::Run;

@@ -52,8 +52,15 @@ impl Run {
 
 /// Runs `body` with a Python that has pysoem in a network namespace, or skips `test`.
 pub(crate) fn with_pysoem(test: &str, body: impl FnOnce(&Path)) {
+    with_python(test, "pysoem", body);
+}
+
+/// Runs `body` with a Python that has these modules in a network namespace, or skips `test`.
+pub(crate) fn with_python(test: &str, modules: &str, body: impl FnOnce(&Path)) {
     let _alone = ONE_AT_A_TIME.lock();
-    let Some(python) = python_with("pysoem") else { return skip(test, "pysoem is not installed") };
+    let Some(python) = python_with(modules) else {
+        return skip(test, &format!("{modules}: not installed"));
+    };
     in_network_namespace(test, || body(&python));
 }
 
@@ -66,11 +73,21 @@ pub(crate) struct Line {
 impl Line {
     /// Makes a cable with this number and gives power to the units. A cable serves one master.
     pub(crate) fn start(cable: usize, units: &[PathBuf], capture: Option<&Path>) -> Self {
+        Self::start_with(cable, units, capture, &[])
+    }
+
+    /// The same with further options of `ectwin run`.
+    pub(crate) fn start_with(
+        cable: usize,
+        units: &[PathBuf],
+        capture: Option<&Path>,
+        options: &[&str],
+    ) -> Self {
         let (master_interface, unit_interface) = (format!("m{cable}"), format!("u{cable}"));
         add_veth_pair(&master_interface, &unit_interface);
         let link = format!("raw:{unit_interface}");
         let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
-        command.arg("run").args(units).args(["--link", &link]);
+        command.arg("run").args(units).args(["--link", &link]).args(options);
         if let Some(capture) = capture {
             command.arg("--pcap").arg(capture);
         }
@@ -82,11 +99,16 @@ impl Line {
 
     /// Runs a script of tests/masters at the other end. It has to succeed.
     pub(crate) fn run_master(&self, python: &Path, script: &str, arguments: &[&str]) {
+        let mut master = self.start_master(python, script, arguments);
+        assert_eq!(master.wait(), 0, "exit code of {script} {arguments:?}");
+    }
+
+    /// Starts a script of tests/masters at the other end.
+    pub(crate) fn start_master(&self, python: &Path, script: &str, arguments: &[&str]) -> MasterSide {
         let mut master = Command::new(python);
         master.arg(top_folder().join("tests/masters").join(script));
         master.arg(&self.master_interface).args(arguments);
-        let mut master = MasterSide::start(&self.master_interface, &master);
-        assert_eq!(master.wait(), 0, "exit code of {script} {arguments:?}");
+        MasterSide::start(&self.master_interface, &master)
     }
 
     /// Sends a signal to the command. Its exit code; none where the signal has killed it.

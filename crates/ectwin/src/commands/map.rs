@@ -1,0 +1,212 @@
+//! `ectwin map FILE`: the I/O map of a unit, with the Modbus addresses of its variables.
+
+use std::fmt::Write;
+
+use modbus::{MapRow, ModbusMap};
+use nx_ect101::{DataSet, Direction};
+use plc::{DeviceVariables, Variable, VariableAccess, VariableSource};
+use serde::Serialize;
+
+use crate::cli::MapArgs;
+use crate::failure::Failure;
+use crate::{output, unit_files};
+
+/// The JSON document.
+#[derive(Serialize)]
+struct Document {
+    variables: Vec<Row>,
+}
+
+/// A variable. The CSV file has these columns in this order; what there is not, is empty there.
+#[derive(Serialize)]
+struct Row {
+    port: Option<String>,
+    variable: String,
+    at: Option<String>,
+    r#type: String,
+    direction: Option<&'static str>,
+    access: &'static str,
+    modbus_table: Option<&'static str>,
+    modbus_first: Option<u16>,
+    modbus_last: Option<u16>,
+    forced_first: Option<u16>,
+    forced_last: Option<u16>,
+    nx_object: Option<String>,
+    pdo_entry: Option<String>,
+}
+
+const COLUMNS: [&str; 13] = [
+    "port",
+    "variable",
+    "at",
+    "type",
+    "direction",
+    "access",
+    "modbus_table",
+    "modbus_first",
+    "modbus_last",
+    "forced_first",
+    "forced_last",
+    "nx_object",
+    "pdo_entry",
+];
+
+pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
+    let (file, _) = unit_files::parse(&args.unit)?;
+    let rows = rows(&DeviceVariables::of_unit_file(&file));
+    let text = match (args.json, args.csv) {
+        (true, _) => output::json(&Document { variables: rows })?,
+        (false, true) => as_csv(&rows),
+        (false, false) => as_text(&rows),
+    };
+    output::print(text.as_bytes())
+}
+
+fn rows(variables: &DeviceVariables) -> Vec<Row> {
+    let map = ModbusMap::of(variables);
+    let addresses = |id| map.rows().iter().find(|row| row.variable == id);
+    variables.iter().map(|(id, variable)| row(variable, addresses(id))).collect()
+}
+
+fn row(variable: &Variable, addresses: Option<&MapRow>) -> Row {
+    let forced = addresses.and_then(|row| row.forced.as_ref());
+    let (direction, nx_object, pdo_entry) = match variable.source {
+        VariableSource::Entry { direction, kind, number } => {
+            let set = DataSet::of(direction, kind);
+            let entry = |index: u16| Some(format!("{index:04X}:{number:02X}"));
+            (Some(direction), entry(set.nx_entry.0), entry(set.pdo_entry.0))
+        }
+        _ => (None, None, None),
+    };
+    Row {
+        port: variable.port.clone(),
+        variable: variable.name.clone(),
+        at: variable.at.clone(),
+        r#type: variable.variable_type.to_string(),
+        direction: direction.map(Direction::id),
+        access: match variable.access {
+            VariableAccess::ReadOnly => "RO",
+            VariableAccess::ReadWrite => "RW",
+        },
+        modbus_table: addresses.map(|row| row.table.id()),
+        modbus_first: addresses.map(|row| *row.addresses.start()),
+        modbus_last: addresses.map(|row| *row.addresses.end()),
+        forced_first: forced.map(|forced| *forced.start()),
+        forced_last: forced.map(|forced| *forced.end()),
+        nx_object,
+        pdo_entry,
+    }
+}
+
+impl Row {
+    /// In the order of [`COLUMNS`].
+    fn cells(&self) -> [String; 13] {
+        let text = |text: &Option<String>| text.clone().unwrap_or_default();
+        let word = |word: Option<&str>| word.unwrap_or_default().to_owned();
+        let number = |number: Option<u16>| number.map(|number| number.to_string()).unwrap_or_default();
+        [
+            text(&self.port),
+            self.variable.clone(),
+            text(&self.at),
+            self.r#type.clone(),
+            word(self.direction),
+            self.access.to_owned(),
+            word(self.modbus_table),
+            number(self.modbus_first),
+            number(self.modbus_last),
+            number(self.forced_first),
+            number(self.forced_last),
+            text(&self.nx_object),
+            text(&self.pdo_entry),
+        ]
+    }
+}
+
+/// As RFC 4180 has it, but for the end of a line.
+fn as_csv(rows: &[Row]) -> String {
+    let mut text = COLUMNS.join(",") + "\n";
+    for row in rows {
+        text.push_str(&row.cells().map(|cell| quoted(&cell)).join(","));
+        text.push('\n');
+    }
+    text
+}
+
+fn quoted(cell: &str) -> String {
+    if cell.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", cell.replace('"', "\"\""))
+    } else {
+        cell.to_owned()
+    }
+}
+
+fn as_text(rows: &[Row]) -> String {
+    let width = |cell: fn(&Row) -> usize| rows.iter().map(cell).max().unwrap_or(0);
+    let (names, types) = (width(|row| row.variable.len()), width(|row| row.r#type.len()));
+    let mut text = format!("{:names$}  {:types$}  access  modbus\n", "variable", "type");
+    for row in rows {
+        let Row { variable, r#type, access, .. } = row;
+        let modbus = match (row.modbus_table, row.modbus_first, row.modbus_last) {
+            (Some(table), Some(first), Some(last)) => {
+                format!("{} {}", table.replace('_', " "), range(first, last))
+            }
+            _ => "-".to_owned(),
+        };
+        let forced = match (row.forced_first, row.forced_last) {
+            (Some(first), Some(last)) => format!(", forced at {}", range(first, last)),
+            _ => String::new(),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "{variable:names$}  {type:types$}  {access:<6}  {modbus}{forced}");
+    }
+    text
+}
+
+fn range(first: u16, last: u16) -> String {
+    if first == last { first.to_string() } else { format!("{first}..{last}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use ectwin::unit_file::UnitFile;
+
+    use super::*;
+
+    fn factory() -> Vec<Row> {
+        let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { panic!("the shortest unit file") };
+        rows(&DeviceVariables::of_unit_file(&file))
+    }
+
+    #[test]
+    fn the_csv_has_a_line_for_each_variable_with_every_column() {
+        let csv = as_csv(&factory());
+        let mut lines = csv.lines();
+        assert_eq!(lines.next(), Some(COLUMNS.join(",").as_str()));
+        assert!(lines.clone().all(|line| line.split(',').count() == COLUMNS.len()));
+        assert_eq!(
+            lines.nth(1),
+            Some(
+                "UINTs 02 M to C,N1_UINTs_02_M_to_C,IOBus://unit#1/UINTs 02 M to C,ARRAY[0..14] OF UINT,m_to_c,RO,\
+                 input_register,15,29,20015,20029,6000:02,7000:02"
+            )
+        );
+        assert_eq!(quoted("a \"b\", c"), "\"a \"\"b\"\", c\"");
+    }
+
+    #[test]
+    fn the_columns_are_the_keys_of_the_document() {
+        let rows = factory();
+        let json = serde_json::to_value(&rows[0]).unwrap();
+        let mut keys: Vec<_> = json.as_object().unwrap().keys().cloned().collect();
+        let mut columns = COLUMNS.to_vec();
+        keys.sort();
+        columns.sort_unstable();
+        assert_eq!(keys, columns);
+    }
+
+    #[test]
+    fn the_text_has_a_line_for_each_variable_below_its_head() {
+        let rows = factory();
+        assert_eq!(as_text(&rows).lines().count(), rows.len() + 1);
+    }
+}
