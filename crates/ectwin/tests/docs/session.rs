@@ -19,6 +19,7 @@ pub(crate) struct Session {
     folder: PathBuf,
     path: OsString,
     has_pysoem: bool,
+    has_pymodbus: bool,
     has_tshark: bool,
     /// `ectwin run`, until `kill %1` or the end of the page.
     running: Option<Process>,
@@ -40,12 +41,15 @@ impl Session {
         }
         let python = python_with("pysoem");
         let (has_pysoem, has_tshark) = (python.is_some(), testbed::has_program("tshark"));
+        // The first Python with both is the first with one of them: they are installed together.
+        let has_pymodbus = python_with("pysoem, pymodbus") == python && has_pysoem;
         let path = path(python.as_deref());
         Self {
             test,
             folder,
             path,
             has_pysoem,
+            has_pymodbus,
             has_tshark,
             running: None,
             last_exit_code: 0,
@@ -115,10 +119,12 @@ impl Session {
         let word = |name| command.split_whitespace().any(|word| word == name);
         let script = command.split_whitespace().find(|word| word.ends_with(".py"));
         let text = script.and_then(|script| std::fs::read_to_string(self.folder.join(script)).ok());
-        if text.is_some_and(|text| text.contains("pysoem") || text.contains("import bench"))
-            && !self.has_pysoem
-        {
+        let text = text.unwrap_or_default();
+        if (text.contains("pysoem") || text.contains("import bench")) && !self.has_pysoem {
             return Some("pysoem");
+        }
+        if text.contains("pymodbus") && !self.has_pymodbus {
+            return Some("pymodbus");
         }
         (word("tshark") && !self.has_tshark).then_some("tshark")
     }

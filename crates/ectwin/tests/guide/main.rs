@@ -10,4 +10,5 @@ mod events;
 mod frames_in_virtual_time;
 mod link_in_memory;
 mod messages;
+mod modbus;
 mod scenario;

@@ -1,0 +1,95 @@
+//! The map of docs/user/modbus.md is the one that the server answers by, and the command tells what it cannot serve.
+
+use std::collections::BTreeMap;
+use std::net::{TcpListener, UdpSocket};
+use std::ops::RangeInclusive;
+use std::path::Path;
+use std::process::Command;
+
+use ectwin::modbus::{ModbusMap, Table};
+use ectwin::unit_file::UnitFile;
+use plc::{DeviceVariables, VariableSource};
+
+/// As much of each data set as there is; the setting rules do not matter here.
+const EVERYTHING: &str = "model = \"nx-ect101\"\n[io_allocation]\n\
+    m_to_c = { uints = 40, bytes = 10, udint = 32 }\nc_to_m = { uints = 40, bytes = 10, udint = 32 }\n";
+
+/// First words of a row of the page.
+fn title(source: VariableSource, port: Option<&str>, name: &str) -> String {
+    match source {
+        VariableSource::Entry { number, .. } => {
+            port.unwrap_or(name).replacen(&format!("{number:02}"), "nn", 1)
+        }
+        VariableSource::SlaveStatusBit { .. } => "EtherCAT Slave Status, bit n".to_owned(),
+        VariableSource::UnitMessageActiveTable | VariableSource::UnitErrorFlagTable => format!("`{name}[n]`"),
+        _ => port.unwrap_or(name).to_owned(),
+    }
+}
+
+fn table(table: Table) -> &'static str {
+    match table {
+        Table::Coils => "coils",
+        Table::DiscreteInputs => "discrete inputs",
+        Table::InputRegisters => "input registers",
+        Table::HoldingRegisters => "holding registers",
+    }
+}
+
+fn shown(range: &RangeInclusive<u16>) -> String {
+    if range.start() == range.end() {
+        range.start().to_string()
+    } else {
+        format!("{} to {}", range.start(), range.end())
+    }
+}
+
+fn widen(all: &mut Option<RangeInclusive<u16>>, more: RangeInclusive<u16>) {
+    *all = Some(match all.take() {
+        Some(all) => *all.start().min(more.start())..=*all.end().max(more.end()),
+        None => more,
+    });
+}
+
+#[test]
+fn the_page_tells_every_place_of_the_map() {
+    let file = UnitFile::parse(EVERYTHING).unwrap();
+    let variables = DeviceVariables::of_unit_file(&file);
+    let map = ModbusMap::of(&variables);
+    let mut rows: BTreeMap<(String, &str), [Option<RangeInclusive<u16>>; 2]> = BTreeMap::new();
+    for row in map.rows() {
+        let variable = variables.get(row.variable).unwrap();
+        let title = title(variable.source, variable.port.as_deref(), &variable.name);
+        let [all, forced] = rows.entry((title, table(row.table))).or_default();
+        widen(all, row.addresses.clone());
+        if let Some(more) = row.forced.clone() {
+            widen(forced, more);
+        }
+    }
+    // The whole word, with its reserved bits.
+    rows.insert(("EtherCAT Slave Status, bit n".to_owned(), "discrete inputs"), [Some(0..=15), None]);
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user/modbus.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    for ((title, table), [all, forced]) in &rows {
+        let (start, end) = (format!("| {title} | {table} | "), {
+            let forced = forced.as_ref().map(|forced| format!("{} ", shown(forced))).unwrap_or_default();
+            format!(" | {} | {forced}|", shown(all.as_ref().unwrap()))
+        });
+        let stands = page.lines().any(|line| line.starts_with(&start) && line.ends_with(&end));
+        assert!(stands, "docs/user/modbus.md lacks a row `{start}…{end}`");
+    }
+}
+
+#[test]
+fn a_port_that_is_taken_ends_the_command_like_a_link_that_cannot_be_opened() {
+    let taken = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port().to_string();
+    // A link that can be opened: the port of another socket that has gone.
+    let link = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+    command.args(["run", concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml")]);
+    let output = command.args(["--link", &format!("udp:{link}"), "--modbus", &port]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{told}");
+    assert!(told.contains(&format!("Modbus TCP cannot be served at 127.0.0.1:{port}")), "{told}");
+    assert!(told.contains("help: another program listens there"), "{told}");
+}
