@@ -1,13 +1,16 @@
 //! The map of docs/user/modbus.md is the one that the server answers by, and the command tells what it cannot serve.
 
 use std::collections::BTreeMap;
-use std::net::{TcpListener, UdpSocket};
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream, UdpSocket};
 use std::ops::RangeInclusive;
 use std::path::Path;
 use std::process::Command;
 
+use ectwin::link::memory;
 use ectwin::modbus::{ModbusMap, Table};
 use ectwin::unit_file::UnitFile;
+use ectwin::{Setup, Twin};
 use plc::{DeviceVariables, VariableSource};
 
 /// As much of each data set as there is; the setting rules do not matter here.
@@ -77,6 +80,26 @@ fn the_page_tells_every_place_of_the_map() {
         let stands = page.lines().any(|line| line.starts_with(&start) && line.ends_with(&end));
         assert!(stands, "docs/user/modbus.md lacks a row `{start}…{end}`");
     }
+}
+
+#[test]
+fn each_unit_of_a_line_has_its_unit_identifier() {
+    let setups = (0..3).map(|_| Setup::from_toml("model = \"nx-ect101\"").unwrap());
+    let mut twin = Twin::power_on(setups);
+    let modbus = twin.serve_modbus(TcpListener::bind("127.0.0.1:0").unwrap()).unwrap();
+    let (_master, units) = memory::pair();
+    let live = twin.serve(units).unwrap();
+    let mut client = TcpStream::connect(modbus.address()).unwrap();
+    for unit_identifier in 1..=3 {
+        // Write Single Register: its own number to holding register 0 of each.
+        let request = [0, 1, 0, 0, 0, 6, unit_identifier, 0x06, 0, 0, 0, unit_identifier];
+        client.write_all(&request).unwrap();
+        let mut answer = [0; 12];
+        client.read_exact(&mut answer).unwrap();
+        assert_eq!(answer, request);
+    }
+    let written: Vec<u8> = (0..3).map(|position| live.look(position, |unit| unit.io().c_to_m()[0])).collect();
+    assert_eq!(written, [1, 2, 3]);
 }
 
 #[test]
