@@ -21,11 +21,32 @@ Every key, sentence, place and fault of a scenario file. [Write a scenario](writ
 | `seed` | seed of the dice, a number | 1 |
 | `limit` | the moment behind which nothing goes on: who still waits then has waited in vain | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
-| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table | one unit at its factory setting |
+| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program`, to run another program than that of the unit file | one unit at its factory setting |
+| `master` | a table: the [user program of the master](#the-masters-user-program) | it only does what steps order |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |
 | `steps` | list of steps | refused: every file needs it |
 
-Paths are seen from the scenario file. A unit may run the programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`.
+Paths are seen from the scenario file, the program of a unit file from that file. A unit may run the programs `"builtin:copy"`,
+`"builtin:messages"` and `"builtin:pulse"`, or a file in Structured Text.
+
+## The master's user program
+The scripted master can run a program in Structured Text of its own, as an NJ/NX-series CPU Unit does with its built-in port
+(manual, A-4-3).
+
+| key of `master` | value | left out |
+|---|---|---|
+| `program` | path of a program in Structured Text | refused |
+| `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E001"`, `"E002"`, … by the node address, which is the place in the line |
+| `task_period` | 125us to 1s | the cycle of the process data, in step with them |
+
+In each period it takes in what the slaves have sent, runs once, and gives out what goes to them with the next cycle. It has
+
+- each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
+  replace what steps set. An entry that is not mapped at the moment keeps its value;
+- `_EC_PDSlavTbl[n]`: slave `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP, SAFE-OP or OP. For that
+  the master reads AL status of each slave in each period; without an answer twice in a row, the slave is not there.
+
+It has no NX bus: NX_ReadObj and NX_WriteObj end with an error (16#400).
 
 ## Steps
 A step is a table, and happens behind the step in front of it. It tells one of these:

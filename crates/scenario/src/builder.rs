@@ -25,6 +25,10 @@ use crate::scenario::{Scenario, ScenarioErrors};
 pub struct ScenarioBuilder {
     title: String,
     units: Vec<String>,
+    /// Names and texts of user programs.
+    programs: Vec<(String, String)>,
+    /// The master's own program.
+    master: Option<String>,
     steps: Vec<String>,
     /// What the next step says of its moment.
     moment: Vec<(&'static str, String)>,
@@ -61,12 +65,31 @@ tellers! {
 impl ScenarioBuilder {
     /// A scenario with this title, without steps.
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), units: Vec::new(), steps: Vec::new(), moment: Vec::new() }
+        Self {
+            title: title.to_owned(),
+            units: Vec::new(),
+            programs: Vec::new(),
+            master: None,
+            steps: Vec::new(),
+            moment: Vec::new(),
+        }
     }
 
     /// Adds a unit at the end of the line, by the text of its unit file. Without any it is one default unit.
     pub fn unit(mut self, unit_file: &str) -> Self {
         self.units.push(unit_file.to_owned());
+        self
+    }
+
+    /// A user program in Structured Text that units, steps or [`Self::master_program`] name so.
+    pub fn program(mut self, name: &str, text: &str) -> Self {
+        self.programs.push((name.to_owned(), text.to_owned()));
+        self
+    }
+
+    /// The scripted master runs the program of this name in its process data cycle.
+    pub fn master_program(mut self, name: &str) -> Self {
+        self.master = Some(name.to_owned());
         self
     }
 
@@ -102,12 +125,16 @@ impl ScenarioBuilder {
     pub fn finish(self) -> Result<Scenario, ScenarioErrors> {
         let places: Vec<String> = (0..self.units.len()).map(|at| format!("{at:?}")).collect();
         let units: Vec<String> = places.iter().map(|place| toml_string(place)).collect();
-        let head =
-            format!("title = {}\nunits = [{}]\nsteps = [\n", toml_string(&self.title), units.join(", "));
-        let text = format!("{head}{}\n]\n", self.steps.join(",\n"));
-        Scenario::parse(&text, |place| {
-            let text = places.iter().position(|known| known == place).and_then(|at| self.units.get(at));
-            text.cloned().ok_or_else(|| "no such unit".to_owned())
+        let master = self.master.as_ref();
+        let master = master.map(|name| format!("master = {{ program = {} }}\n", toml_string(name)));
+        let master = master.unwrap_or_default();
+        let (title, units) = (toml_string(&self.title), units.join(", "));
+        let head = format!("title = {title}\nunits = [{units}]\nsteps = [\n");
+        let text = format!("{head}{}\n]\n{master}", self.steps.join(",\n"));
+        Scenario::parse(&text, |name| {
+            let unit = places.iter().position(|known| known == name).and_then(|at| self.units.get(at));
+            let program = self.programs.iter().find(|(known, _)| known == name).map(|(_, text)| text);
+            unit.or(program).cloned().ok_or_else(|| "no such unit and no such program".to_owned())
         })
     }
 

@@ -1,11 +1,14 @@
 //! Conditions: what can hold in a world, and what is seen where it does not.
 
+mod program;
+
 use core::fmt;
 
 use nx_ect101::{EventCode, EventLevel, Pattern};
 use wire::{AlState, ObjectIndex, SubIndex};
 
 use crate::orders::UnitSet;
+use crate::programs::Controller;
 use crate::sentence::IndicatorName;
 use crate::world::World;
 
@@ -21,6 +24,13 @@ pub enum Condition {
     NewMessages { units: UnitSet, available: bool },
     Object { unit: usize, entry: (u16, u8), value: Vec<u8> },
     Variable { name: String, bytes: Vec<u8> },
+    Value { name: String, value: String },
+    ProgramVariable { of: Controller, name: String, value: String },
+    UserDefinedError { at: Controller, code: u16, times: Option<u64> },
+    NoUserDefinedError(Controller),
+    TaskOverrun { of: Controller, seen: bool },
+    ProgramError { of: Controller, position: Option<(usize, usize)> },
+    NoProgramError(Controller),
     Register { unit: usize, offset: u16, value: Vec<u8> },
     Outputs { unit: usize, bytes: Vec<u8> },
     Inputs { unit: usize, at: usize, bytes: Vec<u8> },
@@ -73,6 +83,13 @@ impl Condition {
             | Self::SdoGave(_)
             | Self::SdoTaken
             | Self::Variable { .. }
+            | Self::Value { .. }
+            | Self::ProgramVariable { .. }
+            | Self::UserDefinedError { .. }
+            | Self::NoUserDefinedError(_)
+            | Self::TaskOverrun { .. }
+            | Self::ProgramError { .. }
+            | Self::NoProgramError(_)
             | Self::CaptureReplayed
             | Self::AnswersDiffer { .. }
             | Self::Emergency { .. } => None,
@@ -81,9 +98,10 @@ impl Condition {
 
     /// Whether it holds now; else what is seen instead.
     pub(crate) fn check(&self, world: &mut World) -> Result<(), Seen> {
-        match self.units() {
-            Some(units) => units.positions(world.count()).try_for_each(|at| self.check_unit(at, world)),
-            None => self.check_master(world),
+        match (self.units(), self.controller()) {
+            (Some(units), _) => units.positions(world.count()).try_for_each(|at| self.check_unit(at, world)),
+            (None, Some(controller)) => self.check_program(controller, world),
+            (None, None) => self.check_master(world),
         }
     }
 
@@ -172,12 +190,11 @@ impl Condition {
     }
 
     fn check_master(&self, world: &mut World) -> Result<(), Seen> {
-        if let Self::Variable { name, bytes } = self {
-            return begins(&world.variable(name).unwrap_or_default(), bytes);
-        }
         let world = &*world;
         let master = world.master();
         match self {
+            Self::Variable { name, bytes } => begins(&world.variable(name).unwrap_or_default(), bytes),
+            Self::Value { name, value } => is_text(world.variable_text(name), value),
             Self::Cycles(cycles) => {
                 holds(master.cycles() >= *cycles, || format!("{} cycles are done", master.cycles()))
             }
@@ -224,6 +241,13 @@ fn holds(condition: bool, seen: impl FnOnce() -> Seen) -> Result<(), Seen> {
 fn begins(seen: &[u8], wanted: &[u8]) -> Result<(), Seen> {
     let head = seen.get(..wanted.len()).unwrap_or(seen);
     holds(head == wanted, || format!("they are {}", hex(head)))
+}
+
+fn is_text(seen: Option<String>, wanted: &str) -> Result<(), Seen> {
+    holds(seen.as_deref() == Some(wanted), || match seen {
+        Some(seen) => format!("it is {seen}"),
+        None => "it is not there".to_owned(),
+    })
 }
 
 fn truth(value: bool) -> &'static str {

@@ -9,6 +9,7 @@ mod expectation;
 mod line;
 mod master;
 mod orders;
+mod programs;
 mod random;
 mod recorded;
 mod recording;
@@ -17,15 +18,18 @@ mod scenario;
 mod search;
 pub mod sentence;
 pub mod sentences;
+mod story;
 mod world;
 
 pub use builder::ScenarioBuilder;
 pub use capture::NotACapture;
 pub use expectation::Condition;
+pub use master::MasterProgram;
 pub use orders::{
     Choice, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder, Mode, Order,
     UnitOrder, UnitSet,
 };
+pub use programs::{Controller, ProgramFile};
 pub use recorded::RecordedFrames;
 pub use recording::Recording;
 pub use replay::{Failure, Report};

@@ -3,8 +3,11 @@
 
 mod operation;
 mod process_data;
+mod program;
 mod sdo;
 mod slave;
+mod states;
+mod variables;
 
 use std::collections::VecDeque;
 
@@ -12,10 +15,17 @@ use time::{Duration, Instant};
 use wire::{AlState, Returned, returned_datagrams};
 
 use crate::orders::{FrameKind, MasterOrder, UnitSet};
+use crate::story::Story;
 
 use operation::{Operation, Outcome, Step};
 use process_data::ProcessData;
+use program::Task;
 use slave::Slave;
+use states::States;
+
+pub use program::MasterProgram;
+pub(crate) use slave::changed_settings;
+pub(crate) use variables::MasterVariables;
 
 /// How long an answer may take before the frame counts as lost.
 const ANSWER_PATIENCE: Duration = Duration::from_millis(2);
@@ -34,6 +44,12 @@ pub(crate) struct Master {
     /// What the first operation waits for.
     waiting: Waiting,
     process_data: ProcessData,
+    /// Its own user program, if it has one.
+    task: Option<Task>,
+    /// What the user program knows of the slaves; without one nobody looks.
+    states: States,
+    /// What the user program has told.
+    told: Story,
     /// It looks into the mailboxes then, if it has nothing else to do.
     next_listen: Instant,
     /// Units whose mailboxes it looks into.
@@ -87,6 +103,9 @@ impl Master {
             operations: VecDeque::new(),
             waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
             process_data: ProcessData::new(units, cycle),
+            task: None,
+            states: States::new(units),
+            told: Story::default(),
             next_listen: Instant::NEVER,
             listens: vec![false; units],
             ticket: 0,
@@ -96,6 +115,12 @@ impl Master {
             emergencies: Vec::new(),
             story: Vec::new(),
         }
+    }
+
+    /// Gives it a user program of its own, which begins now.
+    pub(crate) fn with_program(mut self, program: MasterProgram, now: Instant) -> Self {
+        self.task = Some(Task::new(program, now));
+        self
     }
 
     /// Takes an order.
@@ -151,7 +176,8 @@ impl Master {
             MasterOrder::Restart => {
                 let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
                 let ticket = self.ticket + 1;
-                *self = Self { ticket, ..Self::new(units, cycle) };
+                let task = self.task.take().map(|task| task.restart(now));
+                *self = Self { ticket, task, ..Self::new(units, cycle) };
             }
         }
     }
@@ -179,15 +205,18 @@ impl Master {
     /// When it sends next, or loses patience.
     pub(crate) fn deadline(&self) -> Instant {
         let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
-        self.waiting.at.min(self.process_data.deadline()).min(listen)
+        let task = self.task.as_ref().map_or(Instant::NEVER, Task::deadline);
+        self.waiting.at.min(self.process_data.deadline()).min(listen).min(task)
     }
 
     /// What it sends now.
     pub(crate) fn send(&mut self, now: Instant) -> Vec<Sent> {
         let mut frames = Vec::new();
-        if self.process_data.deadline() <= now {
+        let is_cycle = self.process_data.deadline() <= now;
+        if is_cycle {
             frames.extend(self.process_data.send(now, &mut self.ticket));
         }
+        frames.extend(self.begin_task(now, is_cycle));
         if self.operations.is_empty() && self.next_listen <= now {
             self.listen(now);
         }
@@ -195,6 +224,24 @@ impl Master {
             frames.extend(self.send_operation(now));
         }
         frames
+    }
+
+    /// A period of the user program begins: it wants to know the states of the slaves.
+    fn begin_task(&mut self, now: Instant, is_cycle: bool) -> Vec<Sent> {
+        let Some(task) = &mut self.task else { return Vec::new() };
+        if is_cycle {
+            task.in_step(now);
+        }
+        let begins = task.begin(now, self.process_data.cycle());
+        if begins { self.states.send(&mut self.ticket) } else { Vec::new() }
+    }
+
+    /// Runs the user program, if its period has begun and the frames of this moment are back.
+    pub(crate) fn scan(&mut self, now: Instant) {
+        let scan = |task: &mut Task| task.scan(now, &mut self.process_data, &self.states);
+        if let Some(events) = self.task.as_mut().and_then(scan) {
+            self.story.extend(self.told.period(events.into_iter()));
+        }
     }
 
     /// Looks into the mailboxes, for emergencies.
@@ -223,7 +270,9 @@ impl Master {
     /// A frame comes back. What nobody waits for any more is passed over, as a master does.
     pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8], now: Instant) {
         let datagrams = returned_datagrams(frame);
-        if self.process_data.receive(ticket, &datagrams) || self.waiting.ticket != Some(ticket) {
+        let is_cyclic =
+            self.process_data.receive(ticket, &datagrams) || self.states.receive(ticket, &datagrams);
+        if is_cyclic || self.waiting.ticket != Some(ticket) {
             return;
         }
         self.waiting.ticket = None;
@@ -257,6 +306,9 @@ impl Master {
                 Step::Do(operation) => self.operations.push_front(operation),
                 Step::Exchange { unit, outputs_bytes, inputs_bytes } => {
                     self.process_data.open(unit, outputs_bytes, inputs_bytes, now);
+                    if let (Some(task), Some(slave)) = (&mut self.task, self.slaves.get(unit)) {
+                        task.open(unit, slave.settings());
+                    }
                 }
                 Step::Close(unit) => self.process_data.close(unit),
                 Step::Listen { unit, listens } => {
@@ -323,6 +375,16 @@ impl Master {
 
     pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
         self.process_data.working_counter(unit)
+    }
+
+    /// What its user program has told.
+    pub(crate) const fn told(&self) -> &Story {
+        &self.told
+    }
+
+    /// The value of a variable of its user program as text.
+    pub(crate) fn program_variable(&self, name: &str) -> Option<String> {
+        self.task.as_ref()?.value(name)
     }
 
     /// What it has to tell since the last call.

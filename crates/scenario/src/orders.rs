@@ -150,6 +150,31 @@ pub enum CpuOrder {
     SetInputs(usize, Vec<u8>),
     /// The system time jumps ahead.
     JumpTime(UnitSet, Duration),
+    /// Fixes a device variable, or an element of it, at a value until it is released.
+    Force {
+        /// Its name.
+        variable: String,
+        /// The value as text.
+        value: String,
+    },
+    /// Writes a device variable, or an element of it, once.
+    Write {
+        /// Its name.
+        variable: String,
+        /// The value as text.
+        value: String,
+    },
+    /// Releases a device variable, or an element of it.
+    Release(String),
+    /// Releases everything.
+    ReleaseAll(UnitSet),
+    /// Replaces the user program, in PROGRAM mode.
+    Load {
+        /// Of which unit.
+        unit: usize,
+        /// The file, as the step names it.
+        file: String,
+    },
 }
 
 /// What happens to the line between the master and the units.

@@ -10,7 +10,9 @@ use time::Duration;
 use capture::NotACapture;
 
 use crate::expectation::Condition;
+use crate::master::MasterProgram;
 use crate::orders::Order;
+use crate::programs::{LoadedProgram, ProgramFile};
 use crate::recorded::RecordedFrames;
 
 pub use error::{ScenarioError, ScenarioErrors};
@@ -28,6 +30,10 @@ pub struct Scenario {
     pub units: Vec<UnitSource>,
     /// Cycle of the process data.
     pub cycle: Duration,
+    /// The master's own user program; none: it only does what steps order.
+    pub master: Option<MasterProgram>,
+    /// Programs that steps load into CPU Units.
+    pub(crate) programs: Vec<LoadedProgram>,
     /// What happens, in this order.
     pub steps: Vec<Step>,
     /// The capture whose frames a recorded master sends, as the file names it.
@@ -76,21 +82,24 @@ pub struct UnitSource {
 }
 
 /// What a CPU Unit runs.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum UserProgram {
     /// Nothing: the data stay as they are set.
     None,
     /// A program that needs no file.
     Builtin(Builtin),
+    /// A program in Structured Text.
+    StructuredText(Box<ProgramFile>),
     /// A program of a test, made anew for each replay.
     Custom(fn() -> Box<dyn Program + Send>),
 }
 
 impl UserProgram {
-    pub(crate) fn start(self) -> Box<dyn Program + Send> {
+    pub(crate) fn start(&self) -> Box<dyn Program + Send> {
         match self {
             Self::None => Box::new(|_: &mut Io| {}),
             Self::Builtin(builtin) => builtin.program(),
+            Self::StructuredText(file) => Box::new(file.program.clone()),
             Self::Custom(make) => make(),
         }
     }

@@ -163,6 +163,14 @@ value! {
     frames: Frames -> (crate::Choice, crate::FrameKind);
     /// The name of a device variable.
     variable: Variable -> String;
+    /// Whose program.
+    controller: Controller -> crate::Controller;
+    /// The name of a variable of a program, or of a file.
+    name: Name -> String;
+    /// All words to the end.
+    text: Text -> String;
+    /// Line and column, both from 1.
+    position: Position -> (usize, usize);
 }
 
 pub use place::IndicatorName;

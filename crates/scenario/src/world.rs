@@ -14,9 +14,11 @@ use wire::{AlStatus, AlStatusCode};
 use crate::expectation::StateName;
 use crate::line::Line;
 use crate::master::{Master, Sent, Ticket};
+use crate::programs::LoadedProgram;
 use crate::recorded::Recorded;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, UnitSource};
+use crate::story::Story;
 
 /// The system time of the CPU Units at the beginning: 2026-01-01 00:00:00 UTC.
 pub(crate) const SYSTEM_TIME_NS: u64 = 1_767_225_600_000_000_000;
@@ -29,12 +31,15 @@ pub(crate) struct World {
     recorded: Recorded,
     now: Instant,
     watched: Vec<Watched>,
+    /// What steps load into CPU Units.
+    programs: Vec<LoadedProgram>,
     recording: Recording,
 }
 
 struct Cpu {
     unit: CpuUnit,
     is_running: bool,
+    told: Story,
 }
 
 /// What the watcher has seen of a unit last.
@@ -52,20 +57,26 @@ impl World {
         let mut cpus = Vec::new();
         let units = scenario.units.iter().map(|source| {
             let (config, unit, cpu) = powered(source, now);
-            cpus.push(Cpu { unit: cpu, is_running: true });
+            cpus.push(Cpu { unit: cpu, is_running: true, told: Story::default() });
             (config, unit)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
         let watched = (0..count).map(|_| Watched::default()).collect();
+        let master = Master::new(count, scenario.cycle);
+        let master = match &scenario.master {
+            Some(program) => master.with_program(program.clone(), now),
+            None => master,
+        };
         let mut world = Self {
             network,
             cpus,
             line: Line::new(seed),
-            master: Master::new(count, scenario.cycle),
+            master,
             recorded: Recorded::new(scenario.recorded.clone()),
             now,
             watched,
+            programs: scenario.programs.clone(),
             recording,
         };
         world.happen();
@@ -110,11 +121,17 @@ impl World {
         self.happen();
     }
 
-    /// Everything that is due now, in the one order: CPU Units, units, late frames, master.
+    /// Everything that is due now, in the one order: CPU Units, units, late frames, master and its user program.
     fn happen(&mut self) {
         let now = self.now;
-        for cpu in self.cpus.iter_mut().filter(|cpu| cpu.is_running && cpu.unit.deadline() <= now) {
-            cpu.unit.cycle(now);
+        for (at, cpu) in self.cpus.iter_mut().enumerate() {
+            if cpu.is_running && cpu.unit.deadline() <= now {
+                cpu.unit.cycle(now);
+                let events = cpu.unit.take_events().map(|record| record.event);
+                for words in cpu.told.period(events) {
+                    self.recording.tell(now, &format!("cpu {}", at + 1), &words);
+                }
+            }
         }
         self.network.poll(now);
         while let Some(delayed) = self.line.due(now) {
@@ -123,6 +140,7 @@ impl World {
         for sent in self.master.send(now) {
             self.transmit(sent);
         }
+        self.master.scan(now);
         while let Some((number, frame)) = self.recorded.send(now) {
             self.transmit(Sent { ticket: Ticket::Recorded(number), kind: crate::FrameKind::Any, frame });
         }

@@ -67,6 +67,35 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ unit = \"turn the ID switch of unit 1 to 256\" }", "from 0 to 255", ""),
         ("{ master = \"let unit 1 map 0x11601 as 7000:01\" }", "from 0 to 65535", ""),
         ("{ expect = \"variable N2_UINTs_01_M_to_C is 01\" }", "no unit has the device variable", "named N1"),
+        (
+            "{ expect = \"variable N1_UINTs_01_M_to_C[15] has the value 1\" }",
+            "no unit has the device variable",
+            "",
+        ),
+        ("{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }", "beyond UINT", "is UINT"),
+        (
+            "{ cpu = \"force N1_UINTs_01_C_to_M to 1\" }",
+            "not a list of 15 elements",
+            "is ARRAY[0..14] OF UINT",
+        ),
+        ("{ cpu = \"force N1_UINTs_01_C_to_M[0] to\" }", "expected a value", "force {variable} to {value}"),
+        ("{ cpu = \"release N9_UINTs_01_C_to_M\" }", "no unit has the device variable", "named N1"),
+        (
+            "{ cpu = \"write N1_UINTs_01_M_to_C[0] as 1\" }",
+            "cannot be written",
+            "`force N1_UINTs_01_M_to_C[0]",
+        ),
+        ("{ cpu = \"load a.st into unit 2\" }", "names a unit", "1 unit"),
+        ("{ cpu = \"load a.st into unit 1\" }", "the program a.st cannot be read", ""),
+        ("{ expect = \"program variable x of unit 1 is 1\" }", "of unit 1 has no variable x", ""),
+        ("{ expect = \"program variable x of unit 2 is 1\" }", "names a unit", "1 unit"),
+        (
+            "{ expect = \"program variable x of the master is 1\" }",
+            "no user program of its own",
+            "master = {",
+        ),
+        ("{ never = \"user-defined error 0 at the master\" }", "from 1 to 40000", ""),
+        ("{ never = \"program error of unit 1 at 5:0\" }", "line and column, both from 1", ""),
         ("{ random = 3 }", "needs the time", "within = \"1s\""),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
         ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
@@ -137,9 +166,9 @@ fn a_cycle_that_never_ends_is_refused() {
 }
 
 #[test]
-fn a_program_that_is_no_builtin_is_refused() {
+fn a_program_that_is_not_there_is_refused() {
     let text =
         "title = \"t\"\nunits = [{ model = \"nx-ect101\", cpu = { program = \"echo.st\" } }]\nsteps = []";
     let errors = errors(text);
-    assert!(errors.contains("echo.st is not known") && errors.contains("builtin:copy"), "{errors}");
+    assert!(errors.contains("echo.st is not there") && errors.contains("builtin:copy"), "{errors}");
 }

@@ -128,6 +128,16 @@ impl ProcessData {
         self.units.get(unit).and_then(|image| image.bytes.get(image.outputs_bytes..)).unwrap_or_default()
     }
 
+    /// Outputs as they go with the next cycle; those that nobody has set are left out.
+    pub(crate) fn outputs(&self, unit: usize) -> &[u8] {
+        self.units.get(unit).map_or(&[], |image| &image.outputs)
+    }
+
+    /// Whether the process data of a unit go and come.
+    pub(crate) fn is_exchanging(&self, unit: usize) -> bool {
+        self.next != Instant::NEVER && self.units.get(unit).is_some_and(|image| image.is_open)
+    }
+
     pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
         self.units.get(unit)?.working_counter
     }

@@ -4,6 +4,7 @@ use nx_ect101::unit_file::EntryAddress;
 use nx_ect101::{Assignment, Direction, ObjectIndex, PdoEntry, PdoSettings, SubIndex, layout};
 
 use super::operation::Operation;
+use crate::orders::MasterOrder;
 
 /// One unit as its master sees it.
 #[derive(Debug)]
@@ -45,22 +46,23 @@ impl Slave {
         }
     }
 
+    /// What the master has set, or sets the next time that PRE-OP is passed.
+    pub(crate) const fn settings(&self) -> &PdoSettings {
+        &self.pdo
+    }
+
     /// Whether the master has yet to take it to INIT, as it does with every unit that it finds; the first time.
     pub(crate) const fn take_reset(&mut self) -> bool {
         !core::mem::replace(&mut self.is_reset, true)
     }
 
     pub(crate) fn map(&mut self, pdo: u16, entries: &[(u16, u8)]) {
-        let address =
-            |&(index, sub): &(u16, u8)| EntryAddress { index: ObjectIndex(index), sub: SubIndex(sub) };
-        self.pdo.map(ObjectIndex(pdo), entries.iter().map(address).map(PdoEntry::at));
+        map(&mut self.pdo, pdo, entries);
         self.startup.push(Startup::Mapping(pdo));
     }
 
     pub(crate) fn assign(&mut self, index: u16, pdos: &[u16]) {
-        let direction = Direction::ALL.into_iter().find(|&way| Assignment::of(way).object.0 == index);
-        if let Some(direction) = direction {
-            self.pdo.assign(direction, pdos.iter().copied().map(ObjectIndex));
+        if let Some(direction) = assign(&mut self.pdo, index, pdos) {
             self.startup.push(Startup::Assignment(direction, index));
         }
     }
@@ -196,4 +198,25 @@ impl Slave {
         fmmu.extend([0, kind, u8::from(length_bytes > 0), 0, 0, 0]);
         Operation::write(self.unit, 0x0600 + 16 * number, fmmu).within_an_order()
     }
+}
+
+/// The PDO settings behind an order that maps or assigns.
+pub(crate) fn changed_settings(settings: &mut PdoSettings, order: &MasterOrder) {
+    match order {
+        MasterOrder::Map(_, pdo, entries) => map(settings, *pdo, entries),
+        MasterOrder::Assign(_, index, pdos) => drop(assign(settings, *index, pdos)),
+        _ => {}
+    }
+}
+
+fn map(settings: &mut PdoSettings, pdo: u16, entries: &[(u16, u8)]) {
+    let address = |&(index, sub): &(u16, u8)| EntryAddress { index: ObjectIndex(index), sub: SubIndex(sub) };
+    settings.map(ObjectIndex(pdo), entries.iter().map(address).map(PdoEntry::at));
+}
+
+/// The direction of the assignment object; none if it is none.
+fn assign(settings: &mut PdoSettings, index: u16, pdos: &[u16]) -> Option<Direction> {
+    let direction = Direction::ALL.into_iter().find(|&way| Assignment::of(way).object.0 == index)?;
+    settings.assign(direction, pdos.iter().copied().map(ObjectIndex));
+    Some(direction)
 }

@@ -4,7 +4,7 @@ use nx_ect101::{EventCode, Fault, Pattern};
 use time::Duration;
 use wire::AlState;
 
-use crate::{Choice, FrameKind, UnitSet};
+use crate::{Choice, Controller, FrameKind, UnitSet};
 
 /// What stands in a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +41,14 @@ pub enum Value {
     Frames((Choice, FrameKind)),
     /// `N1_UINTs_01_M_to_C`.
     Variable(String),
+    /// `the master`, `unit 2`.
+    Controller(Controller),
+    /// A word: the name of a variable of a program, or of a file.
+    Name(String),
+    /// All words to the end.
+    Text(String),
+    /// `5:9`, line and column.
+    Position((usize, usize)),
 }
 
 /// An indicator of a unit.
@@ -155,6 +163,26 @@ const PLACES: &[Place] = &[
     place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
         one(words, |word| word.contains('_').then(|| Value::Variable(word.to_owned())))
     }),
+    place(
+        "controller",
+        "`the master`, or `unit` and the number of the unit whose CPU Unit is meant",
+        controller,
+    ),
+    place("name", "the name of a variable of a program, such as counter, Main.counter or timer.Q", |words| {
+        one(words, |word| Some(Value::Name(word.to_owned())))
+    }),
+    place("program", "the path of a program, without spaces, such as programs/a-3-3.st", |words| {
+        one(words, |word| Some(Value::Name(word.to_owned())))
+    }),
+    place(
+        "value",
+        "a value as Structured Text writes it, such as 5, 16#1F, TRUE, T#20ms or [1, 2, 13(0)]",
+        |words| (!words.is_empty()).then(|| (Value::Text(words.join(" ")), words.len())),
+    ),
+    place("error", "the code of a user-defined error from 1 to 40000, such as 16#101", |words| {
+        limited(words, 1, 40_000)
+    }),
+    place("position", "line and column, both from 1, such as 5:9", |words| one(words, position)),
 ];
 
 fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
@@ -174,6 +202,20 @@ fn units(words: &[&str]) -> Option<(Value, usize)> {
     }
 }
 
+fn controller(words: &[&str]) -> Option<(Value, usize)> {
+    let found = match words {
+        ["the", "master", ..] => Controller::Master,
+        _ => Controller::Unit(unit(words)?),
+    };
+    Some((Value::Controller(found), 2))
+}
+
+fn position(word: &str) -> Option<Value> {
+    let (line, column) = word.split_once(':')?;
+    let from_1 = |digits: &str| digits.parse::<usize>().ok().filter(|&number| number > 0);
+    Some(Value::Position((from_1(line)?, from_1(column)?)))
+}
+
 fn state(word: &str) -> Option<Value> {
     let state = match word {
         "INIT" => AlState::Init,
@@ -187,7 +229,7 @@ fn state(word: &str) -> Option<Value> {
 }
 
 fn number(word: &str) -> Option<u64> {
-    match word.strip_prefix("0x") {
+    match word.strip_prefix("0x").or_else(|| word.strip_prefix("16#")) {
         Some(digits) => u64::from_str_radix(digits, 16).ok(),
         None => word.parse().ok(),
     }

@@ -2,6 +2,7 @@
 
 use device::Start;
 use nx_ect101::NxEct101;
+use plc::Io;
 
 use super::{Cpu, World};
 use crate::UnitSet;
@@ -34,7 +35,10 @@ impl World {
     pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
         let now = self.now;
         match order {
-            CpuOrder::SetMode(units, mode) => self.each_cpu(*units, |cpu| cpu.unit.set_mode(*mode)),
+            CpuOrder::SetMode(units, mode) => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_mode(*mode));
+                self.tell_of_cpus();
+            }
             CpuOrder::SetIoRefreshing(units, on) => {
                 self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
             }
@@ -47,8 +51,33 @@ impl World {
                     *input = *byte;
                 }
             }),
+            CpuOrder::Force { variable, value } => self.set_variable(variable, value, Io::force),
+            CpuOrder::Write { variable, value } => self.set_variable(variable, value, Io::write),
+            CpuOrder::Release(variable) => self.release(variable),
+            CpuOrder::ReleaseAll(units) => self.each_cpu(*units, |cpu| cpu.unit.io_mut().release_all()),
+            CpuOrder::Load { unit, file } => self.load(*unit, file),
         }
         self.advance(now);
+    }
+
+    /// Loads a program, which its CPU Unit refuses in RUN mode.
+    fn load(&mut self, at: usize, file: &str) {
+        let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
+        let (Some(program), Some(cpu)) = (program, self.cpus.get_mut(at)) else { return };
+        if let Err(refusal) = cpu.unit.load(Box::new(program.file.program.clone())) {
+            self.recording.tell(self.now, &format!("cpu {}", at + 1), &refusal.to_string());
+        }
+        self.tell_of_cpus();
+    }
+
+    /// What CPU Units have told since their last task periods.
+    fn tell_of_cpus(&mut self) {
+        for (at, cpu) in self.cpus.iter_mut().enumerate() {
+            let events = cpu.unit.take_events().map(|record| record.event);
+            for words in cpu.told.between(events) {
+                self.recording.tell(self.now, &format!("cpu {}", at + 1), &words);
+            }
+        }
     }
 
     pub(crate) fn line_order(&mut self, order: &LineOrder) {

@@ -1,0 +1,227 @@
+//! The master's own user program in Structured Text: a task that runs behind each process data cycle.
+
+use core::task::Poll;
+
+use nx_ect101::{Direction, PdoSettings};
+use plc::{CpuEvent, ProgramEvent, ProgramTrouble, STATEMENT_BUDGET_DEFAULT};
+use st::{
+    Alarm, External, Fault, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems, Stopped,
+};
+use time::{Duration, Instant};
+use wire::AlState;
+
+use super::process_data::ProcessData;
+use super::states::States;
+use super::variables::{self, MasterVariables, Place, SLAVES_MAX, Source};
+
+/// Input Value Out of Range: a master has no NX bus, so there is no unit of any number.
+const NO_NX_UNIT: NxFault = NxFault { error_id: 0x0400, error_id_ex: 0 };
+
+/// The user program of the master, read and checked.
+#[derive(Clone, Debug)]
+pub struct MasterProgram {
+    /// The file, as the scenario names it.
+    pub name: String,
+    /// Period of the task; none: that of the process data, and in step with them.
+    pub task_period: Option<Duration>,
+    instance: Instance,
+    bindings: Vec<Binding>,
+}
+
+/// A variable of the master that the program names.
+#[derive(Clone, Debug)]
+struct Binding {
+    external: External,
+    source: Source,
+}
+
+impl MasterProgram {
+    /// Reads and checks a program.
+    pub(crate) fn compile(
+        name: &str,
+        text: &str,
+        variables: &MasterVariables,
+        task_period: Option<Duration>,
+    ) -> Result<Self, Problems> {
+        let program = st::compile(text, &variables.globals)?;
+        let bindings = program.externals().iter().map(|external| Binding {
+            source: variables.sources[external.global],
+            external: external.clone(),
+        });
+        let bindings = bindings.collect();
+        Ok(Self { name: name.to_owned(), task_period, instance: program.start(), bindings })
+    }
+
+    /// The program with all its variables.
+    pub(crate) const fn instance(&self) -> &Instance {
+        &self.instance
+    }
+}
+
+/// The program in operation.
+#[derive(Debug)]
+pub(crate) struct Task {
+    program: MasterProgram,
+    /// Where the entry of each binding lies; none as long as its slave has no process data.
+    places: Vec<Option<Place>>,
+    next: Instant,
+    /// When its last period began.
+    last: Option<Instant>,
+    is_due: bool,
+    /// The bytes of a variable on their way.
+    bytes: Vec<u8>,
+}
+
+impl Task {
+    pub(crate) fn new(program: MasterProgram, now: Instant) -> Self {
+        let places = vec![None; program.bindings.len()];
+        Self { program, places, next: now, last: None, is_due: false, bytes: Vec::with_capacity(SLAVES_MAX) }
+    }
+
+    /// The master starts anew: what is declared with RETAIN stays.
+    pub(crate) fn restart(mut self, now: Instant) -> Self {
+        self.program.instance.restart();
+        Self::new(self.program, now)
+    }
+
+    pub(crate) const fn deadline(&self) -> Instant {
+        self.next
+    }
+
+    pub(crate) fn value(&self, name: &str) -> Option<String> {
+        self.program.instance.value(name)
+    }
+
+    /// A cycle of the process data begins, and a task without a period of its own with it.
+    pub(crate) fn in_step(&mut self, now: Instant) {
+        if self.program.task_period.is_none() {
+            self.next = now;
+        }
+    }
+
+    /// Whether its period begins now; it scans when the frames of this moment are back.
+    pub(crate) fn begin(&mut self, now: Instant, cycle: Duration) -> bool {
+        if self.next <= now {
+            // Process data may begin at a moment at which it has scanned already.
+            self.is_due = self.last != Some(now);
+            self.last = Some(now);
+            self.next = now + self.program.task_period.unwrap_or(cycle);
+        }
+        self.is_due
+    }
+
+    /// A slave has process data now, which lie as these settings say.
+    pub(crate) fn open(&mut self, unit: usize, settings: &PdoSettings) {
+        for (place, binding) in self.places.iter_mut().zip(&self.program.bindings) {
+            if let Source::Entry { unit: own, direction, address } = binding.source
+                && own == unit
+            {
+                *place = variables::place(settings, direction, address);
+            }
+        }
+    }
+
+    /// One scan, if its period has begun: takes in what the slaves sent, and gives out what goes to them with the
+    /// next cycle. None if it is not due.
+    pub(crate) fn scan(
+        &mut self,
+        now: Instant,
+        data: &mut ProcessData,
+        states: &States,
+    ) -> Option<Vec<CpuEvent>> {
+        if !core::mem::take(&mut self.is_due) {
+            return None;
+        }
+        self.take_in(data, states);
+        let mut host = MasterHost::default();
+        let now_ns = now.saturating_since(Instant::ZERO).as_nanos();
+        let result = self.program.instance.scan(now_ns, STATEMENT_BUDGET_DEFAULT, &mut host);
+        self.give_out(data);
+        let failed = result.err().map(|stopped| self.report(&stopped));
+        Some(host.told.into_iter().chain(failed).map(CpuEvent::Program).collect())
+    }
+
+    fn take_in(&mut self, data: &ProcessData, states: &States) {
+        let Self { program: MasterProgram { instance, bindings, .. }, places, bytes, .. } = self;
+        for (binding, place) in bindings.iter().zip(places) {
+            bytes.clear();
+            match binding.source {
+                Source::ProcessDataTable => bytes.extend(table(|unit| {
+                    states.state(unit) == Some(AlState::Op) && data.is_exchanging(unit)
+                })),
+                Source::MailboxTable => bytes.extend(table(|unit| {
+                    matches!(states.state(unit), Some(AlState::PreOp | AlState::SafeOp | AlState::Op))
+                })),
+                Source::Entry { unit, direction, .. } => {
+                    let image = match direction {
+                        Direction::MToC => data.outputs(unit),
+                        Direction::CToM => data.inputs(unit),
+                    };
+                    let Some(place) = *place else { continue };
+                    place.take(image, bytes);
+                }
+            }
+            instance.load(&binding.external, bytes);
+        }
+    }
+
+    fn give_out(&mut self, data: &mut ProcessData) {
+        let Self { program: MasterProgram { instance, bindings, .. }, places, bytes, .. } = self;
+        for (binding, place) in bindings.iter().zip(places) {
+            if let (Source::Entry { unit, .. }, Some(place), true) =
+                (binding.source, *place, binding.external.written)
+            {
+                bytes.clear();
+                bytes.resize(binding.external.size_bytes(), 0);
+                instance.store(&binding.external, bytes);
+                data.set_outputs(unit, place.start / 8, bytes);
+            }
+        }
+    }
+
+    fn report(&self, stopped: &Stopped) -> ProgramEvent {
+        if stopped.fault == Fault::BudgetUsedUp {
+            return ProgramEvent::TaskOverrun { budget_statements: STATEMENT_BUDGET_DEFAULT };
+        }
+        let (line, column) = stopped.span.line_and_column(self.program.instance.program().source());
+        ProgramEvent::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
+    }
+}
+
+/// An element for each node address, from 1 on.
+fn table(is_set: impl Fn(usize) -> bool) -> impl Iterator<Item = u8> {
+    (0..SLAVES_MAX).map(move |unit| u8::from(is_set(unit)))
+}
+
+/// What the program asks of the world around it.
+#[derive(Default)]
+struct MasterHost {
+    told: Vec<ProgramEvent>,
+}
+
+impl Host for MasterHost {
+    fn nx_read(&mut self, _: u16, _: u16, _: u8) -> Result<NxCallNumber, NxFault> {
+        Err(NO_NX_UNIT)
+    }
+
+    fn nx_write(&mut self, _: u16, _: u16, _: u8, _: &[u8]) -> Result<NxCallNumber, NxFault> {
+        Err(NO_NX_UNIT)
+    }
+
+    fn nx_result(
+        &mut self,
+        _: NxCallNumber,
+        _: &mut [u8; NX_OBJECT_BYTES_MAX],
+    ) -> Poll<Result<usize, NxFault>> {
+        Poll::Ready(Err(NO_NX_UNIT))
+    }
+
+    fn set_alarm(&mut self, alarm: Alarm) {
+        let Alarm { code, info_1, info_2 } = alarm;
+        self.told.push(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
+    }
+
+    fn reset_alarm(&mut self, _: u16) {
+        self.told.push(ProgramEvent::UserDefinedErrorsReset);
+    }
+}

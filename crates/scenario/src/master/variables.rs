@@ -1,0 +1,200 @@
+//! The variables that the master's user program has: the PDO entries of its slaves as device variables, and the
+//! system-defined tables (manual, A-4-3 and A-5-1).
+
+use nx_ect101::unit_file::EntryAddress;
+use nx_ect101::{DataSet, DataSetKind, Direction, PdoEntry, PdoSettings, object_table};
+use st::Global;
+
+/// Slaves that the tables have an element for; the first is that of node address 1.
+pub(crate) const SLAVES_MAX: usize = 192;
+
+/// What a variable tells or orders.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// `_EC_PDSlavTbl`: the slaves that are in OP and exchange process data.
+    ProcessDataTable,
+    /// `_EC_MBXSlavTbl`: the slaves that have a mailbox.
+    MailboxTable,
+    /// An entry of a PDO of the unit at this position.
+    Entry { unit: usize, direction: Direction, address: EntryAddress },
+}
+
+/// The variables of one master.
+#[derive(Clone, Debug)]
+pub(crate) struct MasterVariables {
+    pub(crate) globals: Vec<Global>,
+    /// What each of them tells.
+    pub(crate) sources: Vec<Source>,
+}
+
+impl MasterVariables {
+    /// Those that every master has.
+    pub(crate) fn new() -> Self {
+        let mut variables = Self { globals: Vec::new(), sources: Vec::new() };
+        variables.add("_EC_PDSlavTbl", Source::ProcessDataTable);
+        variables.add("_EC_MBXSlavTbl", Source::MailboxTable);
+        variables
+    }
+
+    fn add(&mut self, name: &str, source: Source) {
+        self.globals.push(Global {
+            name: name.to_owned(),
+            at: None,
+            type_name: format!("ARRAY[1..{SLAVES_MAX}] OF BOOL"),
+            writable: false,
+            constant: None,
+        });
+        self.sources.push(source);
+    }
+
+    /// Adds the PDO entries that a unit has by these settings, as far as they are not there already.
+    pub(crate) fn add_slave(&mut self, unit: usize, device_name: &str, settings: &PdoSettings) {
+        for direction in Direction::ALL {
+            for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
+                self.add_entry(unit, device_name, direction, entry);
+            }
+        }
+    }
+
+    fn add_entry(&mut self, unit: usize, device_name: &str, direction: Direction, entry: &PdoEntry) {
+        let address = EntryAddress { index: entry.index, sub: entry.sub };
+        let source = Source::Entry { unit, direction, address };
+        let (objects, type_name) = (object_table(), type_of(direction, entry));
+        let object = objects.entry(entry.index, entry.sub);
+        let (Some(object), Some(type_name), false) = (object, type_name, self.sources.contains(&source))
+        else {
+            return;
+        };
+        let port = &object.name;
+        let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
+        self.globals.push(Global {
+            name: format!("{device_name}_{words}"),
+            at: Some(format!("ECAT://node#{}/{port}", unit + 1)),
+            type_name: type_name.to_owned(),
+            writable: direction == Direction::MToC,
+            constant: None,
+        });
+        self.sources.push(source);
+    }
+}
+
+/// None for padding and for what is no type of a variable.
+fn type_of(direction: Direction, entry: &PdoEntry) -> Option<&'static str> {
+    let is_of = |set: &&DataSet| set.direction == direction && set.pdo_entry == entry.index;
+    match (DataSet::all().iter().find(is_of), entry.bit_length) {
+        (Some(set), _) => Some(match set.kind {
+            DataSetKind::Uints => "ARRAY[0..14] OF UINT",
+            DataSetKind::Bytes => "ARRAY[0..9] OF BYTE",
+            DataSetKind::Udint => "UDINT",
+        }),
+        (None, 1) => Some("BOOL"),
+        (None, 8) => Some("USINT"),
+        _ => None,
+    }
+}
+
+/// Where an entry lies in the process data of its direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Place {
+    /// Its first bit.
+    pub(crate) start: usize,
+    /// How many it has.
+    pub(crate) length: usize,
+}
+
+/// The place of an entry by these settings; none if it is not mapped.
+pub(crate) fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
+    let mut start = 0;
+    for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
+        let length = usize::from(entry.bit_length);
+        if (entry.index, entry.sub) == (address.index, address.sub) {
+            return Some(Place { start, length });
+        }
+        start += length;
+    }
+    None
+}
+
+impl Place {
+    /// The value as a variable has it: whole bytes, or a bit as 0 or 1. What has not come yet is 0.
+    pub(crate) fn take(self, image: &[u8], value: &mut Vec<u8>) {
+        let rest = image.get(self.start / 8..).unwrap_or_default();
+        if self.length == 1 {
+            let byte = rest.first().copied().unwrap_or(0);
+            return value.push(byte >> (self.start % 8) & 1);
+        }
+        let length_bytes = self.length.div_ceil(8);
+        value.extend(rest.iter().take(length_bytes));
+        value.resize(value.len().max(length_bytes), 0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nx_ect101::ObjectIndex;
+
+    /// The factory setting and, of each direction, the first UDINT.
+    fn settings() -> PdoSettings {
+        let mut settings = PdoSettings::factory();
+        settings.assign(Direction::MToC, [0x1601, 0x1603].map(ObjectIndex));
+        settings.assign(Direction::CToM, [0x1A00, 0x1A01, 0x1A03, 0x1BFE, 0x1BFF].map(ObjectIndex));
+        settings
+    }
+
+    #[test]
+    fn the_entries_of_a_slave_have_the_manuals_names() {
+        let mut variables = MasterVariables::new();
+        variables.add_slave(0, "E001", &settings());
+        let find = |name: &str| variables.globals.iter().find(|global| global.name == name);
+        for (name, at, type_name, writable) in [
+            ("E001_UDINT_01_C_to_M", "ECAT://node#1/UDINT 01 C to M", "UDINT", false),
+            ("E001_UINTs_06_M_to_C", "ECAT://node#1/UINTs 06 M to C", "ARRAY[0..14] OF UINT", true),
+            (
+                "E001_Data_from_CPU_Unit_to_EtherCAT_Master_Valid",
+                "ECAT://node#1/Data from CPU Unit to EtherCAT Master Valid",
+                "BOOL",
+                false,
+            ),
+            ("E001_Sysmac_Error_Status", "ECAT://node#1/Sysmac Error Status", "USINT", false),
+            ("E001_New_Messages_Available", "ECAT://node#1/New Messages Available", "BOOL", false),
+        ] {
+            let global = find(name).unwrap_or_else(|| panic!("{name}"));
+            assert_eq!(
+                (global.at.as_deref(), global.type_name.as_str(), global.writable),
+                (Some(at), type_name, writable)
+            );
+        }
+        let before = variables.globals.len();
+        variables.add_slave(0, "E001", &settings());
+        assert_eq!(variables.globals.len(), before, "each entry once");
+    }
+
+    #[test]
+    fn entries_lie_behind_each_other() {
+        let address = |index, sub| EntryAddress { index: ObjectIndex(index), sub: nx_ect101::SubIndex(sub) };
+        let place = |direction, index, sub| {
+            let place = place(&settings(), direction, address(index, sub));
+            place.map(|place| (place.start, place.length))
+        };
+        assert_eq!(place(Direction::CToM, 0x6003, 2), Some((1, 1)));
+        assert_eq!(place(Direction::CToM, 0x6000, 1), Some((16, 240)));
+        assert_eq!(place(Direction::CToM, 0x6002, 1), Some((16 + 6 * 240, 32)));
+        assert_eq!(place(Direction::MToC, 0x7002, 1), Some((6 * 240, 32)));
+        assert_eq!(place(Direction::MToC, 0x7001, 1), None);
+    }
+
+    #[test]
+    fn a_bit_is_taken_as_a_bool() {
+        let taken = |start, length, image: &[u8]| {
+            let mut value = Vec::new();
+            Place { start, length }.take(image, &mut value);
+            value
+        };
+        assert_eq!(
+            (taken(1, 1, &[0x02]), taken(2, 1, &[0x02]), taken(9, 1, &[0x02])),
+            (vec![1], vec![0], vec![0])
+        );
+        assert_eq!((taken(8, 16, &[1, 2, 3]), taken(8, 16, &[1, 2])), (vec![2, 3], vec![2, 0]));
+    }
+}

@@ -1,0 +1,125 @@
+//! The master's own user program: its file, its device names, its period.
+
+use core::ops::Range;
+
+use nx_ect101::PdoSettings;
+use serde::Deserialize;
+use time::Duration;
+use toml::Spanned;
+
+use super::{Reader, StepEntry};
+use crate::master::{MasterProgram, MasterVariables, changed_settings};
+use crate::orders::MasterOrder;
+use crate::sentence;
+use crate::sentences::MASTER;
+
+/// Shortest and longest period of the master's task.
+const TASK_PERIODS: [Duration; 2] = [Duration::from_micros(125), Duration::from_secs(1)];
+/// Most characters of a device name.
+const NAME_MAX: usize = 127;
+
+/// What a scenario says of the master.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MasterEntry {
+    program: Spanned<String>,
+    device_names: Option<Spanned<Vec<String>>>,
+    task_period: Option<Spanned<String>>,
+}
+
+impl Reader<'_> {
+    pub(super) fn master_program(
+        &mut self,
+        entry: Spanned<MasterEntry>,
+        steps: &[Spanned<StepEntry>],
+    ) -> Option<MasterProgram> {
+        let MasterEntry { program, device_names, task_period } = entry.into_inner();
+        let names = self.device_names(device_names)?;
+        let task_period = match task_period {
+            Some(period) => Some(self.task_period(&period)?),
+            None => None,
+        };
+        let variables = variables(&names, steps);
+        let text = self.program_text(program.get_ref(), program.span())?;
+        match MasterProgram::compile(program.get_ref(), &text, &variables, task_period) {
+            Ok(compiled) => Some(compiled),
+            Err(problems) => {
+                self.refuse_program(program.get_ref(), program.span(), &problems);
+                None
+            }
+        }
+    }
+
+    /// A name for each unit: those that the file gives, then E001, E002 and so on by the node address.
+    fn device_names(&mut self, given: Option<Spanned<Vec<String>>>) -> Option<Vec<String>> {
+        let count = self.units.len();
+        let (span, mut names) = match given {
+            Some(given) => (given.span(), given.into_inner()),
+            None => (0..0, Vec::new()),
+        };
+        if names.len() > count {
+            let message = format!("{} device names for {count} units", names.len());
+            self.refuse(span, message, "one for each unit at most, in the order of the line");
+            return None;
+        }
+        names.extend((names.len()..count).map(|unit| format!("E{:03}", unit + 1)));
+        self.check_names(&names, span).map(|()| names)
+    }
+
+    fn check_names(&mut self, names: &[String], span: Range<usize>) -> Option<()> {
+        for (at, name) in names.iter().enumerate() {
+            if !is_identifier(name) {
+                self.refuse(
+                    span,
+                    format!("`{name}` is no device name"),
+                    "letters, digits and _, such as E001",
+                );
+                return None;
+            }
+            if names[..at].iter().any(|other| other.eq_ignore_ascii_case(name)) {
+                self.refuse(span, format!("two units have the device name {name}"), "");
+                return None;
+            }
+        }
+        Some(())
+    }
+
+    fn task_period(&mut self, text: &Spanned<String>) -> Option<Duration> {
+        let period = self.duration(text)?;
+        let [shortest, longest] = TASK_PERIODS;
+        if !(shortest..=longest).contains(&period) {
+            let message = format!("a task period of {period} is not between {shortest} and {longest}");
+            self.refuse(text.span(), message, "");
+            return None;
+        }
+        Some(period)
+    }
+}
+
+/// The variables of all PDO entries that the master has by the factory setting, and by the orders of the steps.
+fn variables(names: &[String], steps: &[Spanned<StepEntry>]) -> MasterVariables {
+    let mut variables = MasterVariables::new();
+    let mut settings = vec![PdoSettings::factory(); names.len()];
+    for (unit, name) in names.iter().enumerate() {
+        variables.add_slave(unit, name, &settings[unit]);
+    }
+    for order in steps.iter().filter_map(master_order) {
+        let (MasterOrder::Map(unit, ..) | MasterOrder::Assign(unit, ..)) = order else { continue };
+        if let (Some(settings), Some(name)) = (settings.get_mut(unit), names.get(unit)) {
+            changed_settings(settings, &order);
+            variables.add_slave(unit, name, settings);
+        }
+    }
+    variables
+}
+
+fn master_order(step: &Spanned<StepEntry>) -> Option<MasterOrder> {
+    let text = step.get_ref().master.as_ref()?;
+    sentence::read(MASTER, text.get_ref()).ok()
+}
+
+fn is_identifier(name: &str) -> bool {
+    let starts = name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+    let rest = name.chars().all(|character| character.is_ascii_alphanumeric() || character == '_');
+    starts && rest && !name.ends_with('_') && !name.contains("__") && name.len() <= NAME_MAX
+}

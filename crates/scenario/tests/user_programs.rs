@@ -1,0 +1,180 @@
+//! User programs in scenarios: read with all that is wrong with them, in step with the exchange, the same each time.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use scenario::{Recording, Report, Scenario, ScenarioBuilder};
+use time::Duration;
+
+const A_4_3: &str = include_str!("../../../scenarios/programs/a-4-3.st");
+const A_4_4: &str = include_str!("../../../scenarios/programs/a-4-4.st");
+
+/// A unit with a UDINT to the master, and the program `unit.st`.
+const UNIT: &str = "model = \"nx-ect101\"\nio_allocation.m_to_c.uints = 6\nio_allocation.c_to_m.uints = 6\n\
+                    io_allocation.c_to_m.udint = 1\ncpu.program = \"unit.st\"\n";
+
+fn with_udint(title: &str, unit_file: &str) -> ScenarioBuilder {
+    let scenario = ScenarioBuilder::new(title).unit(unit_file);
+    let scenario = scenario.master("let unit 1 map 0x1A03 as 6002:01");
+    scenario.master("let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1A03 1BFE")
+}
+
+fn errors(text: &str, files: &[(&str, &str)]) -> Vec<String> {
+    let read = |name: &str| {
+        let file = files.iter().find(|(known, _)| *known == name);
+        file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "no such file".to_owned())
+    };
+    match Scenario::parse(text, read) {
+        Ok(_) => Vec::new(),
+        Err(errors) => errors.iter().map(|error| format!("{} / {}", error.message, error.help)).collect(),
+    }
+}
+
+#[test]
+fn all_that_is_wrong_with_a_program_is_told_with_its_place() {
+    let wrong = "N1_UINTs_01_C_to_N[0] := 1;\nN1_UINTs_01_M_to_C[0] := 2;\n";
+    let text = "title = \"t\"\nunits = [\"units/a.toml\"]\nsteps = []";
+    let unit = "model = \"nx-ect101\"\n[cpu]\nprogram = \"wrong.st\"\n";
+    let errors = errors(text, &[("units/a.toml", unit), ("units/wrong.st", wrong)]);
+    assert_eq!(
+        errors,
+        [
+            "units/wrong.st:1:1: there is no variable `N1_UINTs_01_C_to_N` / is `N1_UINTs_01_C_to_M` meant?",
+            "units/wrong.st:2:1: this cannot be written: it comes from the unit / ",
+        ]
+    );
+}
+
+#[test]
+fn another_program_than_that_of_the_unit_file_is_seen_from_the_scenario() {
+    let text = "title = \"t\"\nunits = [{ file = \"units/a.toml\", program = \"own.st\" }]\n\
+                steps = [{ expect = \"program variable x of unit 1 is 5\" }]";
+    let unit = "model = \"nx-ect101\"\n[cpu]\nprogram = \"wrong.st\"\n";
+    assert_eq!(errors(text, &[("units/a.toml", unit), ("own.st", "VAR x : INT; END_VAR x := 5;")]), [""; 0]);
+}
+
+#[test]
+fn the_masters_program_is_checked_against_the_entries_that_the_steps_map() {
+    let text =
+        |steps: &str, master: &str| format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = [{steps}]");
+    let reads = |program: &str, steps: &str, master: &str| errors(&text(steps, master), &[("m.st", program)]);
+    let udint = "VAR x : UDINT; END_VAR x := E001_UDINT_01_C_to_M;";
+    let mapped = "{ master = \"let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1A03\" }";
+    assert_eq!(reads(udint, mapped, "program = \"m.st\""), [""; 0]);
+    assert_eq!(
+        reads(udint, "", "program = \"m.st\"")[0].split(" / ").next(),
+        Some("m.st:1:29: there is no variable `E001_UDINT_01_C_to_M`")
+    );
+    let master = "program = \"m.st\", device_names = [\"ECT\"]";
+    assert_eq!(reads("ECT_UINTs_01_M_to_C[0] := ECT_UINTs_06_C_to_M[14];", "", master), [""; 0]);
+    let written = "E001_UINTs_01_C_to_M[0] := 1;";
+    assert!(reads(written, "", "program = \"m.st\"")[0].contains("cannot be written"));
+}
+
+#[test]
+fn what_is_wrong_with_the_master_is_told() {
+    for (master, message) in [
+        ("program = \"no.st\"", "the program no.st cannot be read: no such file"),
+        ("program = \"m.st\", device_names = [\"E 1\"]", "`E 1` is no device name"),
+        ("program = \"m.st\", device_names = [\"A\", \"B\"]", "2 device names for 1 units"),
+        ("program = \"m.st\", task_period = \"0ms\"", "a task period of 0s is not between 125us and 1s"),
+        ("device_names = []", "missing field `program`"),
+        ("program = \"m.st\", period = \"1ms\"", "unknown field `period`"),
+    ] {
+        let errors = errors(&format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = []"), &[("m.st", ";")]);
+        assert!(errors.len() == 1 && errors[0].contains(message), "{message}: {errors:?}");
+    }
+}
+
+/// How long the alarm takes, with PROGRAM mode so long behind OP.
+fn until_the_alarm(task_period_us: u64, mode_after_us: u64) -> Duration {
+    let unit = format!("{UNIT}cpu.task_period = \"{task_period_us}us\"\n");
+    let scenario = with_udint("A-4", &unit).program("unit.st", A_4_4).program("master.st", A_4_3);
+    let scenario = scenario.master_program("master.st").never("program error of the master");
+    let scenario = scenario
+        .master("take unit 1 to OP")
+        .when("unit 1 is in OP")
+        .expect("no user-defined error at the master");
+    let from = Duration::from_millis(150);
+    let scenario = scenario.at(from).expect("program variable CPUUnit_RunMode of the master is TRUE");
+    let mode_at = from + Duration::from_micros(mode_after_us);
+    let scenario = scenario.at(mode_at).cpu("set unit 1 to PROGRAM mode");
+    let scenario = scenario.expect("no user-defined error at the master").within(Duration::from_millis(100));
+    let scenario = scenario.expect("user-defined error 16#101 at the master");
+    let scenario = scenario.expect("program variable CPUUnit_RunMode of the master is FALSE");
+    let report = scenario.finish().expect("a right scenario").replay(1, Recording::new(false, false));
+    assert_eq!(report.failure, None);
+    Duration::from_nanos(report.lasted.as_nanos() - mode_at.as_nanos())
+}
+
+/// I/O response time at most (manual, 7-9-1), without transmission: T_master + 3·T_slave + 2·T_cpu.
+fn response_us(task_period_us: u64) -> u64 {
+    1_000 + 3 * 1_000 + 2 * task_period_us
+}
+
+#[test]
+fn program_mode_is_detected_within_20_ms_and_the_response_time_whatever_the_phases() {
+    // A pulse that is quicker than refresh and master would be lost between two looks of theirs.
+    for task_period_us in [1_000, 2_000, 4_000] {
+        // The pulse is high every other task period; the master's timer runs in steps of its cycle.
+        let least = Duration::from_micros(20_000 - 2 * task_period_us);
+        let most = Duration::from_micros(20_000 + response_us(task_period_us) + 1_000);
+        for mode_after_us in (0..8_000).step_by(370) {
+            let passed = until_the_alarm(task_period_us, mode_after_us);
+            assert!(
+                (least..=most).contains(&passed),
+                "{passed} with {task_period_us} us, {mode_after_us} us"
+            );
+        }
+    }
+}
+
+/// A program that never ends, beside a master that counts.
+fn endless() -> Report {
+    let scenario = with_udint("endless", &format!("{UNIT}cpu.statement_budget = 2000\n"))
+        .program(
+            "unit.st",
+            "VAR n : UDINT; END_VAR n := n + 1; N1_UDINT_01_C_to_M := n; WHILE TRUE DO ; END_WHILE;",
+        )
+        .program(
+            "master.st",
+            "VAR last : UDINT; news : UINT; END_VAR\n\
+            IF E001_UDINT_01_C_to_M <> last THEN news := news + 1; last := E001_UDINT_01_C_to_M; END_IF;\n\
+            E001_UINTs_01_M_to_C[0] := news;",
+        )
+        .master_program("master.st")
+        .master("take unit 1 to OP")
+        .within(Duration::from_millis(300))
+        .expect("unit 1 is in OP")
+        .expect("task overrun of unit 1")
+        .after(Duration::from_millis(500))
+        .expect("unit 1 is in OP")
+        .expect("no task overrun of the master")
+        .expect("the working counter of unit 1 is 3")
+        .expect("no program error of unit 1");
+    scenario.finish().expect("a right scenario").replay(1, Recording::new(true, true))
+}
+
+#[test]
+fn a_program_without_end_does_not_stop_the_exchange_and_is_told_once() {
+    let (first, second) = (endless(), endless());
+    assert_eq!(first.failure, None, "{}", first.recording.trace().unwrap_or_default());
+    assert!(first.cycles > 500, "{}", first.cycles);
+    let trace = first.recording.trace().unwrap_or_default();
+    assert_eq!(trace.matches("task overrun: a scan had used up its 2000 statements").count(), 1, "{trace}");
+    assert_eq!(first.recording.trace(), second.recording.trace());
+    assert_eq!(first.recording.into_capture(), second.recording.into_capture());
+}
+
+#[test]
+fn a_master_without_nx_bus_refuses_nx_objects() {
+    let program = "VAR_GLOBAL unit : _sNXUNIT_ID; object : _sNXOBJ_ACCESS; END_VAR\n\
+        PROGRAM Main VAR read : NX_ReadObj; value : ARRAY[0..1] OF BYTE; END_VAR\n\
+        read(Execute := TRUE, UnitProxy := unit, Obj := object, TimeOut := 0, ReadDat := value); END_PROGRAM";
+    let scenario =
+        ScenarioBuilder::new("no NX bus").program("master.st", program).master_program("master.st");
+    let scenario =
+        scenario.within(Duration::from_millis(5)).expect("program variable read.Error of the master is TRUE");
+    let scenario = scenario.expect("program variable read.ErrorID of the master is 16#400");
+    let report = scenario.finish().expect("a right scenario").replay(1, Recording::new(false, false));
+    assert_eq!(report.failure, None);
+}
