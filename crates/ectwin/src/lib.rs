@@ -46,6 +46,7 @@ pub use nx_ect101::{
 pub use plc::{
     CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
     NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,
+    Target, Validity, Variable, VariableAccess, VariableError, VariableId, VariableType, VariableValue,
 };
 pub use scenario;
 pub use setup::{Setup, SetupError};

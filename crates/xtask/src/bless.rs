@@ -7,8 +7,12 @@ use crate::tools;
 const BLESS: &str = "ECTWIN_BLESS";
 
 /// The tests, by package: each compares files with what it would write.
-const TESTS: &[(&str, &str)] =
-    &[("ectwin-nx-ect101", "allocation_page"), ("ectwin", "event_pages"), ("ectwin", "scenario_reference")];
+const TESTS: &[(&str, &str)] = &[
+    ("ectwin-nx-ect101", "allocation_page"),
+    ("ectwin", "event_pages"),
+    ("ectwin", "scenario_reference"),
+    ("ectwin", "structured_text_reference"),
+];
 
 /// Runs them all.
 pub(crate) fn bless() -> Outcome {

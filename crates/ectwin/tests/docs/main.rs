@@ -7,6 +7,7 @@
 //! | `console` | each `$ ` line is run in a shell, and its output compared with the lines below it |
 //! | `rust` | stands word for word in a test, in crates/ectwin/tests |
 //! | `toml` | is a unit file without mistakes |
+//! | `st` | is a program without problems, for a unit at its factory setting |
 //! | `sh` | is good syntax for a shell |
 //! | `toml`, `python`, … with a file name | lies under that name in the folder where the `console` blocks run |
 //! | `text`, `json`, `yaml`, `mermaid` | nothing |
@@ -29,7 +30,7 @@ fn blocks<'p>(pages: &'p [Page], language: &'p str) -> impl Iterator<Item = (&'p
 
 #[test]
 fn every_block_has_a_language_that_is_held_to_something() {
-    let known = ["console", "rust", "toml", "sh", "python", "text", "json", "yaml", "mermaid"];
+    let known = ["console", "rust", "toml", "st", "sh", "python", "text", "json", "yaml", "mermaid"];
     for page in &pages::read() {
         for block in &page.blocks {
             let place = page.place(block);
@@ -60,6 +61,15 @@ fn every_toml_block_is_a_unit_file() {
         if let Err(error) = Setup::from_toml(&block.text) {
             panic!("{}: {error}", page.place(block));
         }
+    }
+}
+
+#[test]
+fn every_st_block_is_a_program_without_problems() {
+    for (page, block) in blocks(&pages::read(), "st").filter(|(_, block)| block.file_name.is_none()) {
+        let place = page.place(block);
+        let setup = Setup::from_toml("model = \"nx-ect101\"").unwrap_or_else(|error| panic!("{error}"));
+        setup.structured_text(&block.text).map(drop).unwrap_or_else(|problems| panic!("{place}: {problems}"));
     }
 }
 

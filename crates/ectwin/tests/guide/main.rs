@@ -3,7 +3,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
+mod cpu_events;
+mod cpu_programs;
 mod cpu_unit;
+mod cpu_variables;
 #[cfg(feature = "ethercrab")]
 mod ethercrab_in_memory;
 mod events;

@@ -96,3 +96,30 @@ fn a_message_goes_to_the_program_and_comes_back() {
     assert!(twin.unit(0).io().status().ready_to_write_message);
     assert_eq!(write_message(&mut twin, &[b'b'; 200]), Ok(()));
 }
+
+/// The program in Structured Text that docs/user/structured-text.md shows.
+fn program_of_the_page() -> &'static str {
+    let page = include_str!("../../../../docs/user/structured-text.md");
+    page.split("```st\n")
+        .filter_map(|block| block.split("```").next())
+        .find(|st| st.contains("NX_WriteObj;"))
+        .unwrap()
+}
+
+#[test]
+fn structured_text_sends_each_message_back() {
+    let setup = Setup::from_toml("model = \"nx-ect101\"").unwrap();
+    let mut twin = Twin::power_on([setup.structured_text(program_of_the_page()).unwrap()]);
+    datagram(&mut twin, APWR, 0x0800, &[0x00, 0x10, 0x90, 0x01, 0x26, 0, 1, 0]);
+    datagram(&mut twin, APWR, 0x0808, &[0x00, 0x12, 0x90, 0x01, 0x22, 0, 1, 0]);
+    datagram(&mut twin, APWR, 0x0120, &[0x02, 0]);
+    twin.run_for(Duration::from_millis(10));
+
+    for letter in [b'a', b'b', b'c'] {
+        assert_eq!(write_message(&mut twin, &[letter; 200]), Ok(()));
+        twin.run_for(Duration::from_millis(20));
+        assert_eq!(read_message(&mut twin), [letter; 200]);
+        twin.run_for(Duration::from_millis(20));
+    }
+    assert_eq!(twin.unit(0).cpu().take_events().len(), 0, "nothing was refused");
+}
