@@ -208,7 +208,8 @@ pub(crate) enum NativeArgument {
     /// One argument: where a variable of one slot lies, to be read and written; or a STRING or enumeration.
     Reference(Place),
     /// Three arguments: where an element lies, how many elements there are from it on, how many slots each has.
-    Elements { place: Place, element_slots: u32 },
+    /// Of what is no element of an array there is one.
+    Elements { place: Place, element_slots: u32, in_array: bool },
     /// Two arguments: where a variable lies, and its layout's number; both stand in a reference of the type ANY.
     Any(Place),
 }

@@ -171,7 +171,7 @@ impl Machine<'_> {
     /// FOR: the limit and the step are evaluated once; the variable is beyond the limit when it is over. Where the
     /// variable's type ends, the loop ends too.
     fn count(&mut self, ring: &For) -> Result<Flow, Fault> {
-        let elementary = ring.elementary;
+        let (at, elementary) = (self.at, ring.elementary);
         let from = self.value(&ring.from)?;
         let to = integer(elementary, self.value(&ring.to)?);
         let by = integer(elementary, self.value(&ring.by)?);
@@ -191,6 +191,7 @@ impl Machine<'_> {
                 Flow::Next | Flow::Continue => {}
             }
             self.spend(1)?;
+            self.at = at;
             let next = integer(elementary, self.memory.get(variable)) + by;
             self.memory.set(variable, wrap(elementary, next as u64));
             if integer(elementary, self.memory.get(variable)) != next {
@@ -200,6 +201,7 @@ impl Machine<'_> {
     }
 
     fn repeat_while(&mut self, condition: &Code, body: &[Statement]) -> Result<Flow, Fault> {
+        let at = self.at;
         while self.value(condition)? != 0 {
             match self.body(body)? {
                 Flow::Exit => break,
@@ -207,11 +209,14 @@ impl Machine<'_> {
                 Flow::Next | Flow::Continue => {}
             }
             self.spend(1)?;
+            // What goes wrong in the condition lies at the loop, not at its last statement.
+            self.at = at;
         }
         Ok(Flow::Next)
     }
 
     fn repeat_until(&mut self, body: &[Statement], until: &Code) -> Result<Flow, Fault> {
+        let at = self.at;
         loop {
             match self.body(body)? {
                 Flow::Exit => break,
@@ -219,6 +224,7 @@ impl Machine<'_> {
                 Flow::Next | Flow::Continue => {}
             }
             self.spend(1)?;
+            self.at = at;
             if self.value(until)? != 0 {
                 break;
             }
@@ -279,10 +285,21 @@ impl Machine<'_> {
         let units = self.units;
         self.body(&units[call.unit as usize].body)?;
         self.at = at;
+        let result = self.result(call.result)?;
+        let mut values = ArrayVec::<u64, ARGUMENTS_MAX>::new();
         for output in &call.outputs {
-            self.assign(output)?;
+            values.push(self.value(&output.value)?);
         }
-        Ok(match call.result {
+        // An index of an output's target may call the same function again: its values have been taken by now.
+        for (output, value) in call.outputs.iter().zip(values) {
+            let to = self.slot(&output.to)?;
+            self.put(to, value, output.put)?;
+        }
+        Ok(result)
+    }
+
+    fn result(&mut self, result: FunctionResult) -> Result<u64, Fault> {
+        Ok(match result {
             FunctionResult::None => 0,
             FunctionResult::Value(slot) => self.memory.get(slot),
             FunctionResult::Copied { from, to, slots } => {
@@ -299,8 +316,9 @@ impl Machine<'_> {
             match argument {
                 NativeArgument::Value(code) => arguments.push(self.value(code)?),
                 NativeArgument::Reference(place) => arguments.push(self.slot(place)?.into()),
-                NativeArgument::Elements { place, element_slots } => {
-                    let (slot, elements) = self.elements(place)?;
+                NativeArgument::Elements { place, element_slots, in_array } => {
+                    let (slot, behind) = self.elements(place)?;
+                    let elements = if *in_array { behind } else { 1 };
                     arguments.extend([slot.into(), elements.into(), (*element_slots).into()]);
                 }
                 NativeArgument::Any(place) => {

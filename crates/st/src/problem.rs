@@ -3,6 +3,9 @@
 use core::fmt;
 use core::ops::Range;
 
+/// Longest message that is told as it is.
+const MESSAGE_BYTES_MAX: usize = 300;
+
 /// A place in the source, in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {
@@ -58,15 +61,25 @@ impl Problem {
     /// A problem without help.
     #[must_use]
     pub fn new(span: Span, message: impl Into<String>) -> Self {
-        Self { span, message: message.into(), help: None }
+        Self { span, message: shortened(message.into()), help: None }
     }
 
     /// The same with help.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
-        self.help = Some(help.into());
+        self.help = Some(shortened(help.into()));
         self
     }
+}
+
+/// A message without its middle where that is long: what it quotes of a source may have no end.
+fn shortened(text: String) -> String {
+    if text.len() <= MESSAGE_BYTES_MAX {
+        return text;
+    }
+    let kept = MESSAGE_BYTES_MAX / 3;
+    let (start, end) = (text.floor_char_boundary(kept), text.ceil_char_boundary(text.len() - kept));
+    format!("{}…{}", &text[..start], &text[end..])
 }
 
 /// Everything that is wrong with a program, in the order of the source; never empty.

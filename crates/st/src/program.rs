@@ -12,7 +12,7 @@ use crate::machine::{Layout, Machine};
 use crate::memory::Memory;
 use crate::problem::{Problems, Span};
 use crate::syntax::parse;
-use crate::types::Type;
+use crate::types::{Role, Type};
 use crate::value;
 
 /// The blocks and types of the library, in Structured Text.
@@ -243,12 +243,13 @@ fn collect_retained(all: &mut Vec<Retained>, path: String, type_: &Type, slot: S
             all.push(Retained { path, type_: type_name, slot, slots: type_.slots() });
         }
         Type::Block(block) => {
-            for member in &block.members {
+            // A VAR_IN_OUT lies where its caller says, not here.
+            for member in block.members.iter().filter(|member| member.role != Role::InOut) {
                 let path = format!("{path}.{}", member.name.to_ascii_uppercase());
                 collect_retained(all, path, &member.type_, slot + member.offset, member.retain);
             }
         }
-        Type::Array(array) if holds_blocks(&array.element) => {
+        Type::Array(array) if array.element.holds_blocks() => {
             let slots = array.element.slots();
             for element in 0..array.elements() {
                 let path = format!("{path} {array} {element}");
@@ -256,14 +257,6 @@ fn collect_retained(all: &mut Vec<Retained>, path: String, type_: &Type, slot: S
             }
         }
         _ => {}
-    }
-}
-
-fn holds_blocks(type_: &Type) -> bool {
-    match type_ {
-        Type::Block(_) => true,
-        Type::Array(array) => holds_blocks(&array.element),
-        _ => false,
     }
 }
 

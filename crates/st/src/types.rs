@@ -121,6 +121,15 @@ impl Type {
         }
     }
 
+    /// Whether it is a function block instance, or an array of them.
+    pub(crate) fn holds_blocks(&self) -> bool {
+        match self {
+            Self::Block(_) => true,
+            Self::Array(array) => array.element.holds_blocks(),
+            _ => false,
+        }
+    }
+
     pub(crate) const fn elementary(&self) -> Option<Elementary> {
         match self {
             Self::Elementary(elementary) => Some(*elementary),

@@ -13,11 +13,15 @@ use crate::code::{
 };
 use crate::convert::widens;
 use crate::elementary::Elementary;
+use crate::host::NX_OBJECT_BYTES_MAX;
 use crate::library;
 use crate::machine::{ARGUMENTS_MAX, Layout};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Argument, Call, Expression, ExpressionKind, Name};
 use crate::types::{Block, Member, Role, Type, member};
+
+/// Most values of a variable that is passed as ANY: more than the bytes of an NX object.
+const ANY_SLOTS_MAX: u32 = 256;
 
 /// An argument with the pin that it is for.
 enum Given<'a> {
@@ -140,7 +144,7 @@ impl<'t> Body<'_, 't> {
                 None => self.required(pin, &signature.name, call.span)?,
             }
         }
-        if inputs.len() > ARGUMENTS_MAX {
+        if inputs.len().max(outputs.len()) > ARGUMENTS_MAX {
             let message = format!("a call has {ARGUMENTS_MAX} arguments at most");
             return self.checker.refuse(Problem::new(call.span, message));
         }
@@ -173,7 +177,12 @@ impl<'t> Body<'_, 't> {
     ) -> Option<Assign> {
         let target = self.target(to)?;
         let place = Place { base: Base::Memory, offset: pin.offset, indices: Vec::new() };
-        let located = Located { place, type_: pin.type_.clone(), access: super::scope::Access::Write };
+        let located = Located {
+            place,
+            type_: pin.type_.clone(),
+            access: super::scope::Access::Write,
+            is_element: false,
+        };
         let mut value = super::expressions::load(&located, span);
         if negated {
             self.negatable(&pin.type_, span)?;
@@ -261,12 +270,23 @@ impl<'t> Body<'_, 't> {
     }
 
     fn any(&mut self, located: &Located, span: Span) -> Option<Fitting> {
+        // A variable that is a little too long is told by the instruction's ErrorID; a huge one is not laid out at all.
+        if located.type_.slots() > ANY_SLOTS_MAX {
+            let message = format!(
+                "{} is far longer than an NX object, which has {NX_OBJECT_BYTES_MAX} bytes at most",
+                located.type_
+            );
+            return self.checker.refuse(Problem::new(span, message));
+        }
         let Some(values) = super::places::flatten(&located.type_) else {
             let message = format!("{} has no bytes to send: a STRING or a block is in it", located.type_);
             return self.checker.refuse(Problem::new(span, message));
         };
-        let layout = self.checker.out.layouts.len() as u32;
-        self.checker.out.layouts.push(Layout { values });
+        let layouts = &mut self.checker.out.layouts;
+        if layouts.last().is_none_or(|last| last.values != values) {
+            layouts.push(Layout { values });
+        }
+        let layout = (layouts.len() - 1) as u32;
         Some(Fitting { code: Code::Address(located.place.clone()), put: Put::Any { layout } })
     }
 
@@ -401,6 +421,10 @@ impl<'t> Body<'_, 't> {
             Some(library::Of::Elementary(from)) => {
                 let code = super::numbers::elementary_of(self.checker, value, from)?;
                 Value::of(Type::Elementary(from), code, expression.span)
+            }
+            Some(library::Of::Text) if !matches!(value.kind, Kind::Type(Type::String(_))) => {
+                let message = format!("this is {}, where a STRING is needed", value.kind);
+                return self.checker.refuse(Problem::new(value.span, message));
             }
             Some(library::Of::Text) | None => self.typed(value),
         };

@@ -122,13 +122,13 @@ impl<'t> Checker<'t> {
     }
 
     fn refuse_block(&mut self, type_: &Type, span: Span) -> Option<()> {
-        match type_ {
-            Type::Block(_) => self.refuse(
-                Problem::new(span, "a function has no function block instances")
-                    .help("a function keeps nothing from call to call: make it a FUNCTION_BLOCK"),
-            ),
-            _ => Some(()),
+        if !type_.holds_blocks() {
+            return Some(());
         }
+        self.refuse(
+            Problem::new(span, "a function has no function block instances")
+                .help("a function keeps nothing from call to call: make it a FUNCTION_BLOCK"),
+        )
     }
 
     fn section(&mut self, section: &VarSection, plan: &mut Plan, scope: &mut Scope) {

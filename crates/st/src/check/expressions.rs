@@ -128,13 +128,29 @@ impl<'c, 't> Body<'c, 't> {
                 let operand = self.expression(operand)?;
                 self.unary(*operator, operand, span)
             }
-            ExpressionKind::Binary { operator, left, right } => {
-                // Both are looked at, so that both tell what is wrong.
-                let (left, right) = (self.expression(left), self.expression(right));
-                self.binary(*operator, left?, right?, span)
-            }
+            ExpressionKind::Binary { .. } => self.chain(expression),
             ExpressionKind::Call(call) => self.call(call, wanted),
         }
+    }
+
+    /// Operators one behind the other, `a + b + c`: a loop, because there may be hundreds. The first two operands lie
+    /// deepest. All operands are looked at, so that each tells what is wrong with it.
+    fn chain(&mut self, expression: &Expression) -> Option<Value> {
+        let mut operations = Vec::new();
+        let mut first = expression;
+        while let ExpressionKind::Binary { operator, left, right } = &first.kind {
+            operations.push((*operator, right, first.span));
+            first = left;
+        }
+        let own_depth = self.depth;
+        self.depth += operations.len().saturating_sub(1) as u32;
+        let mut value = self.expression(first);
+        for (operator, right, span) in operations.into_iter().rev() {
+            let operands = value.zip(self.expression(right));
+            value = operands.and_then(|(left, right)| self.binary(operator, left, right, span));
+            self.depth = self.depth.saturating_sub(1).max(own_depth);
+        }
+        value
     }
 
     /// A condition: a BOOL.

@@ -333,10 +333,16 @@ impl Body<'_, '_> {
         span: Span,
         elements: &mut Option<Type>,
     ) -> Option<NativeArgument> {
+        // Behind a member of an element lie the other members of that element, not its like.
+        let is_element = located.is_element || matches!(located.type_, Type::Array(_));
         let located = match &located.type_ {
             Type::Array(array) => first_element(&located, array),
             _ => located,
         };
+        if located.type_.holds_blocks() {
+            let message = format!("an instance of {} cannot be copied", located.type_);
+            return self.checker.refuse(Problem::new(span, message));
+        }
         match elements {
             Some(before) if *before != located.type_ => {
                 let message = format!("the elements are {before} and {}", located.type_);
@@ -345,7 +351,7 @@ impl Body<'_, '_> {
             _ => *elements = Some(located.type_.clone()),
         }
         let element_slots = located.type_.slots();
-        Some(NativeArgument::Elements { place: located.place, element_slots })
+        Some(NativeArgument::Elements { place: located.place, element_slots, in_array: is_element })
     }
 
     fn native_value(
@@ -392,7 +398,7 @@ fn first_element(located: &Located, array: &crate::types::Array) -> Located {
     let element = Element { dimensions, element_slots: array.element.slots(), elements: array.elements() };
     let mut place = located.place.clone();
     place.indices.push(element);
-    Located { place, type_: array.element.clone(), access: located.access }
+    Located { place, type_: array.element.clone(), access: located.access, is_element: true }
 }
 
 /// The numbers without types among the generic arguments.

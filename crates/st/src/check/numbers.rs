@@ -28,7 +28,7 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
         }
         (Kind::Type(type_), _) if type_ == target => match target {
             Type::Enum(_) => Some(Fitting { code: value.code, put: Put::Value }),
-            Type::Array(_) | Type::Struct(_) => {
+            Type::Array(_) | Type::Struct(_) if !target.holds_blocks() => {
                 Some(Fitting { code: value.code, put: Put::Slots(target.slots()) })
             }
             _ => checker.refuse(

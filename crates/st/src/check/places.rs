@@ -142,7 +142,7 @@ impl Body<'_, '_> {
         };
         let mut place = located.place.clone();
         place.offset += found.offset;
-        Some(Located { place, type_: found.type_.clone(), access })
+        Some(Located { place, type_: found.type_.clone(), access, is_element: false })
     }
 
     fn element(&mut self, of: &Expression, indices: &[Expression], span: Span) -> Option<Located> {
@@ -164,7 +164,7 @@ impl Body<'_, '_> {
         let (element_slots, elements) = (array.element.slots(), array.elements());
         let mut place = located.place.clone();
         place.indices.push(Element { dimensions, element_slots, elements });
-        Some(Located { place, type_: array.element.clone(), access: located.access })
+        Some(Located { place, type_: array.element.clone(), access: located.access, is_element: true })
     }
 
     fn dimensions(&mut self, array: &Array, indices: &[Expression]) -> Option<Vec<Dimension>> {

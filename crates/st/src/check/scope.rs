@@ -29,6 +29,8 @@ pub(super) struct Located {
     pub(super) place: Place,
     pub(super) type_: Type,
     pub(super) access: Access,
+    /// Whether it is an element of an array, and others lie behind it.
+    pub(super) is_element: bool,
 }
 
 /// Who may write a variable.
@@ -43,11 +45,16 @@ pub(super) enum Access {
 
 impl Located {
     pub(super) fn in_memory(slot: Slot, type_: Type, access: Access) -> Self {
-        Self { place: Place { base: Base::Memory, offset: slot, indices: Vec::new() }, type_, access }
+        Self {
+            place: Place { base: Base::Memory, offset: slot, indices: Vec::new() },
+            type_,
+            access,
+            is_element: false,
+        }
     }
 
     pub(super) fn at(base: Base, offset: u32, type_: Type, access: Access) -> Self {
-        Self { place: Place { base, offset, indices: Vec::new() }, type_, access }
+        Self { place: Place { base, offset, indices: Vec::new() }, type_, access, is_element: false }
     }
 }
 

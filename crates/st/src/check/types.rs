@@ -236,7 +236,7 @@ impl<'t> Checker<'t> {
         for declaration in declarations {
             let shape = self.shape(&declaration.type_name, &scope)?;
             let shape = self.with_initial(shape, declaration.initial.as_ref(), &scope)?;
-            if matches!(shape.type_, Type::Block(_)) {
+            if shape.type_.holds_blocks() {
                 let message = "a structure holds no function block instance";
                 return self.refuse(Problem::new(declaration.type_name.span, message));
             }
