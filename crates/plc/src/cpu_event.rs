@@ -92,6 +92,10 @@ impl CpuEvent {
                 *missed_periods = missed_periods.saturating_add(*more);
                 true
             }
+            // An index that runs on is the same error with another number.
+            (Self::Program(ProgramEvent::Error(this)), Self::Program(ProgramEvent::Error(other))) => {
+                this == other || (this.line > 0 && (this.line, this.column) == (other.line, other.column))
+            }
             (this, other) => this == other,
         }
     }
