@@ -18,8 +18,11 @@ use crate::value::{integer, wrap};
 /// Most arguments of a call in slots.
 pub(crate) const ARGUMENTS_MAX: usize = 64;
 
-/// How many slots a statement copies for one of the budget.
-const SLOTS_FOR_ONE: u32 = 16;
+/// How many steps cost as much as a statement: operators and variables that are evaluated, labels of CASE that are
+/// compared.
+const STEPS_FOR_ONE: u64 = 32;
+/// How many steps it is to copy a slot.
+const STEPS_FOR_SLOT: u64 = 2;
 
 /// A program while it scans.
 pub(crate) struct Machine<'m> {
@@ -32,6 +35,8 @@ pub(crate) struct Machine<'m> {
     pub(crate) now_ns: u64,
     /// How many statements may still run.
     pub(crate) budget: u64,
+    /// Steps that have not been taken from the budget yet.
+    pub(crate) steps: u64,
     /// Where the function block instance begins whose body runs.
     pub(crate) instance: Slot,
     /// The statement or index that runs, to tell where a fault was.
@@ -66,7 +71,7 @@ impl Machine<'_> {
     fn freshen(&mut self, unit: u32) -> Result<(), Fault> {
         for range in &self.units[unit as usize].fresh {
             let slots = range.end - range.start;
-            self.spend((slots / SLOTS_FOR_ONE).into())?;
+            self.step(STEPS_FOR_SLOT * u64::from(slots) + 1)?;
             let initial = &self.initial[range.start as usize..range.end as usize];
             self.memory.slice_mut(range.start, slots).copy_from_slice(initial);
         }
@@ -87,10 +92,27 @@ impl Machine<'_> {
         }
     }
 
+    /// Uses up a statement, or a turn of a loop: its first steps cost no more.
+    fn spend_one(&mut self) -> Result<(), Fault> {
+        self.steps = 0;
+        self.spend(1)
+    }
+
+    /// Uses up a part of a statement: what one statement evaluates has no end of its own.
+    pub(crate) fn step(&mut self, steps: u64) -> Result<(), Fault> {
+        self.steps += steps;
+        if self.steps < STEPS_FOR_ONE {
+            return Ok(());
+        }
+        let statements = self.steps / STEPS_FOR_ONE;
+        self.steps %= STEPS_FOR_ONE;
+        self.spend(statements)
+    }
+
     fn body(&mut self, body: &[Statement]) -> Result<Flow, Fault> {
         for statement in body {
             self.at = statement.span;
-            self.spend(1)?;
+            self.spend_one()?;
             match self.statement(&statement.kind)? {
                 Flow::Next => {}
                 other => return Ok(other),
@@ -128,7 +150,7 @@ impl Machine<'_> {
         match put {
             Put::Value => self.memory.set(to, value),
             Put::Slots(slots) => {
-                self.spend((slots / SLOTS_FOR_ONE).into())?;
+                self.step(STEPS_FOR_SLOT * u64::from(slots))?;
                 self.memory.copy(slot_of(value), to, slots);
             }
             Put::Text(capacity) => self.put_text(to, slot_of(value), capacity)?,
@@ -163,9 +185,13 @@ impl Machine<'_> {
 
     fn case(&mut self, selector: &Case, arms: &[CaseArm], otherwise: &[Statement]) -> Result<Flow, Fault> {
         let value = integer(selector.elementary, self.value(&selector.value)?);
-        let chosen =
-            arms.iter().find(|arm| arm.labels.iter().any(|(from, to)| (from..=to).contains(&&value)));
-        self.body(chosen.map_or(otherwise, |arm| &arm.body))
+        for arm in arms {
+            self.step(arm.labels.len() as u64)?;
+            if arm.labels.iter().any(|(from, to)| (from..=to).contains(&&value)) {
+                return self.body(&arm.body);
+            }
+        }
+        self.body(otherwise)
     }
 
     /// FOR: the limit and the step are evaluated once; the variable is beyond the limit when it is over. Where the
@@ -190,7 +216,7 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend(1)?;
+            self.spend_one()?;
             self.at = at;
             let next = integer(elementary, self.memory.get(variable)) + by;
             self.memory.set(variable, wrap(elementary, next as u64));
@@ -208,7 +234,7 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend(1)?;
+            self.spend_one()?;
             // What goes wrong in the condition lies at the loop, not at its last statement.
             self.at = at;
         }
@@ -223,7 +249,7 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend(1)?;
+            self.spend_one()?;
             self.at = at;
             if self.value(until)? != 0 {
                 break;
@@ -234,6 +260,7 @@ impl Machine<'_> {
 
     /// The value of an expression.
     pub(crate) fn value(&mut self, code: &Code) -> Result<u64, Fault> {
+        self.step(1)?;
         match code {
             Code::Constant(value) => Ok(*value),
             Code::Load(place) => self.slot(place).map(|slot| self.memory.get(slot)),
@@ -261,7 +288,9 @@ impl Machine<'_> {
 
     fn compare_text(&mut self, operator: Binary, left: &Code, right: &Code) -> Result<u64, Fault> {
         let (left, right) = (self.value(left)?, self.value(right)?);
-        Ok(self.order_of_texts(operator, slot_of(left), slot_of(right)).into())
+        let (left, right) = (slot_of(left), slot_of(right));
+        self.step((self.memory.text_length(left) + self.memory.text_length(right)) as u64 / 4)?;
+        Ok(self.order_of_texts(operator, left, right).into())
     }
 
     // Its texts are large: they must not lie in the frames of the evaluation around them.
@@ -281,7 +310,7 @@ impl Machine<'_> {
         for ((slot, _, put), value) in call.inputs.iter().zip(values) {
             self.put(*slot, value, *put)?;
         }
-        self.spend(1)?;
+        self.spend_one()?;
         let units = self.units;
         self.body(&units[call.unit as usize].body)?;
         self.at = at;
@@ -303,7 +332,7 @@ impl Machine<'_> {
             FunctionResult::None => 0,
             FunctionResult::Value(slot) => self.memory.get(slot),
             FunctionResult::Copied { from, to, slots } => {
-                self.spend((slots / SLOTS_FOR_ONE).into())?;
+                self.step(STEPS_FOR_SLOT * u64::from(slots))?;
                 self.memory.copy(from, to, slots);
                 to.into()
             }

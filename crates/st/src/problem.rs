@@ -78,8 +78,9 @@ fn shortened(text: String) -> String {
         return text;
     }
     let kept = MESSAGE_BYTES_MAX / 3;
-    let (start, end) = (text.floor_char_boundary(kept), text.ceil_char_boundary(text.len() - kept));
-    format!("{}…{}", &text[..start], &text[end..])
+    let start: String = text.chars().take(kept).collect();
+    let end: Vec<char> = text.chars().rev().take(kept).collect();
+    start + "…" + &end.into_iter().rev().collect::<String>()
 }
 
 /// Everything that is wrong with a program, in the order of the source; never empty.

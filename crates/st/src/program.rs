@@ -152,6 +152,7 @@ impl Instance {
             host,
             now_ns,
             budget,
+            steps: 0,
             instance: 0,
             at: Span::default(),
         };

@@ -107,6 +107,10 @@ impl<'t> Checker<'t> {
         }
         let result = match &pou.result {
             Some(type_name) => {
+                if scope.symbols.contains_key(&key(&pou.name.text)) {
+                    // The result is a variable of this name.
+                    self.refuse_second(&pou.name);
+                }
                 let shape = self.shape(type_name, &scope)?;
                 self.refuse_block(&shape.type_, type_name.span)?;
                 let slot = self.place_fresh(&shape, type_name.span, &mut scope)?;
@@ -232,8 +236,8 @@ impl<'t> Checker<'t> {
             }
             Home::Fresh | Home::Instance => {
                 let offset = plan.initial.len() as u32;
+                self.limit(plan.initial.len() + shape.initial.len(), span)?;
                 plan.initial.extend_from_slice(&shape.initial);
-                self.limit(plan.initial.len(), span)?;
                 let (name, retain) = (name.text.clone(), section.retain);
                 plan.members.push(Member { name, type_: type_.clone(), offset, role, retain });
                 Some(Located::at(Base::Instance, offset, type_, access))

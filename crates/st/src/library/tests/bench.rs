@@ -50,6 +50,7 @@ impl Bench {
             host,
             now_ns: 77,
             budget: self.budget,
+            steps: 0,
             instance: 0,
             at: Span::default(),
         };
