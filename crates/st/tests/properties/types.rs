@@ -1,0 +1,121 @@
+//! The elementary types and how they widen, as IEC 61131-3 prints it: table 10 and figure 12.
+
+/// What can be done with a type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Bool,
+    Bits,
+    Signed,
+    Unsigned,
+    Real,
+    Time,
+}
+
+/// A type by its row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Type {
+    pub(crate) name: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) bits: u32,
+}
+
+const fn row(name: &'static str, kind: Kind, bits: u32) -> Type {
+    Type { name, kind, bits }
+}
+
+pub(crate) const BOOL: Type = row("BOOL", Kind::Bool, 1);
+pub(crate) const INT: Type = row("INT", Kind::Signed, 16);
+pub(crate) const REAL: Type = row("REAL", Kind::Real, 32);
+pub(crate) const LREAL: Type = row("LREAL", Kind::Real, 64);
+pub(crate) const LINT: Type = row("LINT", Kind::Signed, 64);
+pub(crate) const TIME: Type = row("TIME", Kind::Time, 64);
+
+pub(crate) const ALL: [Type; 16] = [
+    BOOL,
+    row("BYTE", Kind::Bits, 8),
+    row("WORD", Kind::Bits, 16),
+    row("DWORD", Kind::Bits, 32),
+    row("LWORD", Kind::Bits, 64),
+    row("SINT", Kind::Signed, 8),
+    INT,
+    row("DINT", Kind::Signed, 32),
+    LINT,
+    row("USINT", Kind::Unsigned, 8),
+    row("UINT", Kind::Unsigned, 16),
+    row("UDINT", Kind::Unsigned, 32),
+    row("ULINT", Kind::Unsigned, 64),
+    REAL,
+    LREAL,
+    TIME,
+];
+
+/// Which type becomes which by itself, step by step.
+const STEPS: [(&str, &str); 18] = [
+    ("BOOL", "BYTE"),
+    ("BYTE", "WORD"),
+    ("WORD", "DWORD"),
+    ("DWORD", "LWORD"),
+    ("SINT", "INT"),
+    ("INT", "DINT"),
+    ("DINT", "LINT"),
+    ("USINT", "UINT"),
+    ("UINT", "UDINT"),
+    ("UDINT", "ULINT"),
+    ("USINT", "INT"),
+    ("UINT", "DINT"),
+    ("UDINT", "LINT"),
+    ("INT", "REAL"),
+    ("UINT", "REAL"),
+    ("DINT", "LREAL"),
+    ("UDINT", "LREAL"),
+    ("REAL", "LREAL"),
+];
+
+/// Whether a value of the one type becomes one of the other by itself.
+pub(crate) fn widens(from: Type, to: Type) -> bool {
+    from == to
+        || STEPS.iter().any(|(step_from, step_to)| *step_from == from.name && widens(named(step_to), to))
+}
+
+/// The type in which two operands meet: the one of them that holds both, else the narrowest integer, else the
+/// narrowest real.
+pub(crate) fn meet(left: Type, right: Type) -> Option<Type> {
+    if widens(left, right) {
+        return Some(right);
+    }
+    if widens(right, left) {
+        return Some(left);
+    }
+    let both = |candidate: &&Type| widens(left, **candidate) && widens(right, **candidate);
+    let integers = ALL.iter().filter(|candidate| candidate.is_integer()).filter(both);
+    let narrowest = integers.min_by_key(|candidate| candidate.bits);
+    narrowest.or_else(|| ALL.iter().filter(|candidate| candidate.kind == Kind::Real).find(both)).copied()
+}
+
+pub(crate) fn named(name: &str) -> Type {
+    ALL.into_iter().find(|row| row.name == name).expect("a type of the table")
+}
+
+impl Type {
+    pub(crate) fn is_integer(self) -> bool {
+        matches!(self.kind, Kind::Signed | Kind::Unsigned)
+    }
+
+    pub(crate) fn is_number(self) -> bool {
+        self.is_integer() || self.kind == Kind::Real
+    }
+
+    /// Least and greatest value, of all types but the reals.
+    pub(crate) fn limits(self) -> (i128, i128) {
+        match self.kind {
+            Kind::Signed | Kind::Time => (-(1_i128 << (self.bits - 1)), (1_i128 << (self.bits - 1)) - 1),
+            _ => (0, (1_i128 << self.bits) - 1),
+        }
+    }
+
+    /// A number modulo 2^bits, within the limits.
+    pub(crate) fn wrapped(self, number: i128) -> i128 {
+        let (least, _) = self.limits();
+        (number - least).rem_euclid(1_i128 << self.bits) + least
+    }
+}
