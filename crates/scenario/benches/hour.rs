@@ -1,4 +1,5 @@
-//! How long an hour of virtual time takes: one unit in OP, process data every 1 ms, CPU task of 1 ms.
+//! How long an hour of virtual time takes: one unit in OP, process data every 1 ms, CPU task of 1 ms; without a user
+//! program, with the manual's A-3-3, and with A-4-4 and A-4-3 at the master besides.
 //!
 //! `cargo bench -p ectwin-scenario --bench hour`
 
@@ -6,17 +7,65 @@ use std::time::Instant;
 
 use scenario::{Recording, Scenario};
 
-const HOUR: &str = r#"
+const HOURS: [(&str, &str); 3] = [
+    (
+        "no program",
+        r#"
 title = "an hour in OP"
 limit = "3601s"
 steps = [
   { master = "take all units to OP" },
   { at = "3600s", expect = "unit 1 is in OP" },
 ]
-"#;
+"#,
+    ),
+    (
+        "A-3-3",
+        r#"
+title = "an hour in OP"
+limit = "3601s"
+units = [{ model = "nx-ect101", cpu.program = "a-3-3.st" }]
+steps = [
+  { master = "take all units to OP" },
+  { at = "3600s", expect = "unit 1 is in OP" },
+]
+"#,
+    ),
+    (
+        "A-4-4, A-4-3 at the master",
+        r#"
+title = "an hour in OP"
+limit = "3601s"
+master = { program = "a-4-3.st" }
+units = [{ model = "nx-ect101", io_allocation = { m_to_c = { uints = 6 }, c_to_m = { uints = 6, udint = 1 } }, cpu.program = "a-4-4.st" }]
+steps = [
+  { master = "let unit 1 map 0x1A03 as 6002:01" },
+  { master = "let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1A03 1BFE" },
+  { master = "take all units to OP" },
+  { at = "3600s", expect = "program variable CPUUnit_RunMode of the master is TRUE" },
+]
+"#,
+    ),
+];
+
+const PROGRAMS: [(&str, &str); 3] = [
+    ("a-3-3.st", include_str!("../../../scenarios/programs/a-3-3.st")),
+    ("a-4-3.st", include_str!("../../../scenarios/programs/a-4-3.st")),
+    ("a-4-4.st", include_str!("../../../scenarios/programs/a-4-4.st")),
+];
 
 fn main() {
-    let scenario = match Scenario::parse(HOUR, |_| Err("no files here".to_owned())) {
+    for (name, text) in HOURS {
+        measure(name, text);
+    }
+}
+
+fn measure(name: &str, text: &str) {
+    let program = |path: &str| {
+        let program = PROGRAMS.iter().find(|(known, _)| *known == path);
+        program.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "no such program".to_owned())
+    };
+    let scenario = match Scenario::parse(text, program) {
         Ok(scenario) => scenario,
         Err(errors) => panic!("{errors}"),
     };
@@ -29,7 +78,7 @@ fn main() {
     let Some((elapsed, cycles)) = best.min() else { return };
     let seconds = elapsed.as_secs_f64();
     println!(
-        "1 h of virtual time, {cycles} cycles: {seconds:.2} s, {:.0} times as fast as reality",
+        "{name}: 1 h of virtual time, {cycles} cycles: {seconds:.2} s, {:.0} times as fast as reality",
         3600.0 / seconds
     );
 }

@@ -2,6 +2,7 @@
 //! data beside.
 
 mod operation;
+mod orders;
 mod process_data;
 mod program;
 mod sdo;
@@ -14,7 +15,7 @@ use std::collections::VecDeque;
 use time::{Duration, Instant};
 use wire::{AlState, Returned, returned_datagrams};
 
-use crate::orders::{FrameKind, MasterOrder, UnitSet};
+use crate::orders::FrameKind;
 use crate::story::Story;
 
 use operation::{Operation, Outcome, Step};
@@ -121,79 +122,6 @@ impl Master {
     pub(crate) fn with_program(mut self, program: MasterProgram, now: Instant) -> Self {
         self.task = Some(Task::new(program, now));
         self
-    }
-
-    /// Takes an order.
-    pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
-        match order {
-            MasterOrder::Take(units, state) => {
-                self.queue_for(units, now, |unit| Operation::take(unit, state))
-            }
-            MasterOrder::Request { units, state, acknowledge } => {
-                let bits = state.bits() | if acknowledge { 0x10 } else { 0 };
-                self.queue_for(units, now, |unit| {
-                    Operation::write(unit, 0x0120, bits.to_le_bytes().to_vec())
-                });
-            }
-            MasterOrder::WriteRegister(unit, offset, bytes) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::write(unit, offset, bytes.clone()));
-            }
-            MasterOrder::WriteInHalves(unit, offset, bytes) => {
-                let (first, second) = bytes.split_at(bytes.len().div_ceil(2));
-                let behind = offset.wrapping_add(first.len() as u16);
-                for (offset, half) in [(offset, first), (behind, second)] {
-                    let half = half.to_vec();
-                    self.queue_for(UnitSet::One(unit), now, |unit| {
-                        Operation::write(unit, offset, half.clone())
-                    });
-                }
-            }
-            MasterOrder::WriteSdo(unit, entry, bytes) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::download(unit, entry, &bytes));
-            }
-            MasterOrder::ReadSdo(unit, entry) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::upload(unit, entry));
-            }
-            MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
-            MasterOrder::StopExchange => self.process_data.stop(),
-            MasterOrder::SetOutputs(unit, at, bytes) => self.process_data.set_outputs(unit, at, &bytes),
-            MasterOrder::Map(unit, pdo, entries) => self.with_slave(unit, |slave| slave.map(pdo, &entries)),
-            MasterOrder::Assign(unit, index, pdos) => {
-                self.with_slave(unit, |slave| slave.assign(index, &pdos))
-            }
-            MasterOrder::SyncManagerLength { unit, number, length_bytes } => {
-                self.with_slave(unit, |slave| slave.wrong_length(number, length_bytes));
-            }
-            MasterOrder::SyncManagerControl { unit, number, control } => {
-                self.with_slave(unit, |slave| slave.wrong_control(number, control));
-            }
-            MasterOrder::MailboxCounter(counter) => self.mailbox.stuck_counter = Some(counter),
-            MasterOrder::ReadNoMailbox => self.mailbox.reads_nothing = true,
-            MasterOrder::Behave => {
-                self.mailbox = MailboxHabits { counter: self.mailbox.counter, ..MailboxHabits::default() };
-                self.slaves.iter_mut().for_each(Slave::behave);
-            }
-            MasterOrder::Restart => {
-                let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
-                let ticket = self.ticket + 1;
-                let task = self.task.take().map(|task| task.restart(now));
-                *self = Self { ticket, task, ..Self::new(units, cycle) };
-            }
-        }
-    }
-
-    fn with_slave(&mut self, unit: usize, change: impl FnOnce(&mut Slave)) {
-        if let Some(slave) = self.slaves.get_mut(unit) {
-            change(slave);
-        }
-    }
-
-    fn queue_for(&mut self, units: UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
-        let was_idle = self.operations.is_empty();
-        self.operations.extend(units.positions(self.slaves.len()).map(operation));
-        if was_idle {
-            self.begin(now);
-        }
     }
 
     /// The first operation starts.

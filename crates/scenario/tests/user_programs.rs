@@ -178,3 +178,76 @@ fn a_master_without_nx_bus_refuses_nx_objects() {
     let report = scenario.finish().expect("a right scenario").replay(1, Recording::new(false, false));
     assert_eq!(report.failure, None);
 }
+
+const COUNTING: &str = "VAR RETAIN runs : UINT; END_VAR VAR began : BOOL; scans : UDINT; here, mailbox : BOOL; END_VAR\n\
+    IF NOT began THEN began := TRUE; runs := runs + 1; END_IF;\n\
+    scans := scans + 1;\n\
+    here := _EC_PDSlavTbl[2]; mailbox := _EC_MBXSlavTbl[2];\n\
+    Far_UINTs_06_M_to_C[14] := Near_UINTs_06_C_to_M[14] + 1;";
+
+/// Two units, the first of which sends 41, and a master that scans every 4 ms.
+fn two_units(steps: &str) -> Report {
+    let text = format!(
+        "title = \"two units\"\nmaster = {{ program = \"m.st\", device_names = [\"Near\", \"Far\"], \
+         task_period = \"4ms\" }}\nunits = [{{ model = \"nx-ect101\", cpu.program = \"u.st\" }}, \
+         {{ model = \"nx-ect101\", name = \"N2\", serial = 2 }}]\nsteps = [{steps}]"
+    );
+    let files = |name: &str| match name {
+        "m.st" => Ok(COUNTING.to_owned()),
+        "u.st" => Ok("N1_UINTs_06_C_to_M[14] := 41;".to_owned()),
+        other => Err(format!("no {other}")),
+    };
+    let scenario = Scenario::parse(&text, files).unwrap_or_else(|errors| panic!("{errors}"));
+    let report = scenario.replay(1, Recording::new(true, false));
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+    report
+}
+
+#[test]
+fn what_the_master_writes_goes_to_the_unit_that_it_names() {
+    two_units(
+        "{ master = \"take all units to OP\" },\n\
+         { expect = \"all units are in OP\", within = \"300ms\" },\n\
+         { expect = \"variable N2_UINTs_06_M_to_C[14] has the value 42\", within = \"10ms\" },\n\
+         { expect = \"variable N1_UINTs_06_M_to_C[14] has the value 0\" }",
+    );
+}
+
+#[test]
+fn a_task_period_of_its_own_is_kept_whatever_the_exchange_does() {
+    two_units(
+        "{ at = \"99ms\", expect = \"program variable scans of the master is 25\" },\n\
+         { master = \"take all units to OP\" },\n\
+         { at = \"299ms\", expect = \"program variable scans of the master is 75\" },\n\
+         { master = \"stop process data\" },\n\
+         { at = \"399ms\", expect = \"program variable scans of the master is 100\" }",
+    );
+}
+
+#[test]
+fn the_tables_follow_the_states_that_the_master_sees() {
+    two_units(
+        "{ at = \"10ms\", expect = \"program variable mailbox of the master is FALSE\" },\n\
+         { master = \"take all units to PRE-OP\" },\n\
+         { expect = \"program variable mailbox of the master is TRUE\", within = \"50ms\" },\n\
+         { master = \"take all units to SAFE-OP\" },\n\
+         { expect = \"unit 2 is in SAFE-OP\", within = \"50ms\" },\n\
+         { expect = \"program variable here of the master is FALSE\", for = \"20ms\" },\n\
+         { master = \"take all units to OP\" },\n\
+         { expect = \"program variable here of the master is TRUE\", within = \"50ms\" },\n\
+         { line = \"unplug cable 2\" },\n\
+         { expect = \"program variable here of the master is FALSE\", within = \"8ms\" },\n\
+         { expect = \"program variable mailbox of the master is FALSE\" },\n\
+         { expect = \"program variable _EC_PDSlavTbl[2] of the master is FALSE\" }",
+    );
+}
+
+#[test]
+fn a_master_that_restarts_begins_its_program_anew_and_keeps_what_is_retained() {
+    two_units(
+        "{ at = \"99ms\", expect = \"program variable runs of the master is 1\" },\n\
+         { master = \"restart\" },\n\
+         { after = \"9ms\", expect = \"program variable runs of the master is 2\" },\n\
+         { expect = \"program variable scans of the master is 3\" }",
+    );
+}
