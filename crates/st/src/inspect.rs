@@ -30,24 +30,26 @@ impl Instance {
 
     /// The names of all variables that lie under a name: `x`, or `Main.x` with the PROGRAM that has it.
     pub fn names(&self) -> impl Iterator<Item = String> {
-        self.variables().iter().map(|variable| match variable.owner.as_str() {
-            "" => variable.name.clone(),
-            owner => format!("{owner}.{}", variable.name),
+        self.variables().iter().map(|variable| match variable.owner.as_deref() {
+            None | Some("") => variable.name.clone(),
+            Some(owner) => format!("{owner}.{}", variable.name),
         })
     }
 
     fn find(&self, path: &str) -> Option<(Type, Slot)> {
         let mut parts = split(path);
         let first = parts.next()?;
-        let named =
-            |name: &str| self.variables().iter().find(|variable| variable.name.eq_ignore_ascii_case(name));
-        let start = match named(first) {
+        let named = |name: &str, is_owner: &dyn Fn(Option<&str>) -> bool| {
+            self.variables().iter().find(|variable| {
+                variable.name.eq_ignore_ascii_case(name) && is_owner(variable.owner.as_deref())
+            })
+        };
+        // A program's own variable hides the global one of its name.
+        let own = named(first, &|owner| owner.is_some()).or_else(|| named(first, &|owner| owner.is_none()));
+        let start = match own {
             Some(variable) => variable,
             None => {
-                let name = parts.next()?;
-                self.variables().iter().find(|variable| {
-                    variable.owner.eq_ignore_ascii_case(first) && variable.name.eq_ignore_ascii_case(name)
-                })?
+                named(parts.next()?, &|owner| owner.is_some_and(|owner| owner.eq_ignore_ascii_case(first)))?
             }
         };
         parts.try_fold((start.type_.clone(), start.slot), |(type_, slot), part| step(&type_, slot, part))

@@ -13,6 +13,7 @@ mod memory;
 mod operators;
 mod problem;
 mod program;
+mod retain;
 mod syntax;
 mod types;
 mod value;

@@ -319,7 +319,7 @@ impl Machine<'_> {
         for output in &call.outputs {
             values.push(self.value(&output.value)?);
         }
-        // An index of an output's target may call the same function again: its values have been taken by now.
+        // An index of an output's target may call the same function again: its elementary values have been taken by now.
         for (output, value) in call.outputs.iter().zip(values) {
             let to = self.slot(&output.to)?;
             self.put(to, value, output.put)?;
@@ -363,8 +363,11 @@ impl Machine<'_> {
     fn call_block(&mut self, call: &BlockCall) -> Result<(), Fault> {
         let (caller, at) = (self.instance, self.at);
         let instance = self.slot(&call.instance)?;
-        for (offset, code, put) in &call.inputs {
-            let value = self.value(code)?;
+        let mut values = ArrayVec::<u64, ARGUMENTS_MAX>::new();
+        for (_, code, _) in &call.inputs {
+            values.push(self.value(code)?);
+        }
+        for ((offset, _, put), value) in call.inputs.iter().zip(values) {
             self.put(instance + offset, value, *put)?;
         }
         self.instance = instance;

@@ -11,8 +11,9 @@ use crate::host::Host;
 use crate::machine::{Layout, Machine};
 use crate::memory::Memory;
 use crate::problem::{Problems, Span};
+use crate::retain::{self, Retained};
 use crate::syntax::parse;
-use crate::types::{Role, Type};
+use crate::types::Type;
 use crate::value;
 
 /// The blocks and types of the library, in Structured Text.
@@ -47,8 +48,8 @@ pub struct External {
 /// A variable that lies in the memory under a name.
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
-    /// The PROGRAM that it belongs to; empty: it is global.
-    pub(crate) owner: String,
+    /// The PROGRAM that it belongs to, whose name may be empty; none: it is global.
+    pub(crate) owner: Option<String>,
     pub(crate) name: String,
     pub(crate) type_: Type,
     pub(crate) slot: Slot,
@@ -65,6 +66,7 @@ pub struct Program {
 struct Inner {
     source: String,
     checked: Checked,
+    retained: Vec<Retained>,
 }
 
 /// Reads and checks a program. What it takes for granted are the library and `globals`.
@@ -86,7 +88,8 @@ pub fn compile(source: &str, globals: &[Global]) -> Result<Program, Problems> {
     assert!(wrong.is_empty(), "the device variables: {}", Problems::new(&declarations, wrong));
     let surroundings = Surroundings { prelude: &prelude, declared: &declared, globals };
     let checked = check(&file, &surroundings).map_err(|problems| Problems::new(source, problems))?;
-    Ok(Program { inner: Arc::new(Inner { source: source.to_owned(), checked }) })
+    let retained = retain::of(&checked.variables);
+    Ok(Program { inner: Arc::new(Inner { source: source.to_owned(), checked, retained }) })
 }
 
 fn declarations(globals: &[Global]) -> String {
@@ -175,21 +178,26 @@ impl Instance {
 
     /// Begins again: variables have their initial values, but those with RETAIN, which stay.
     pub fn restart(&mut self) {
-        let next = self.program.start();
-        *self = self.succeeded_by(next);
+        let mut next = self.program.start();
+        for kept in &self.program.inner.retained {
+            let values = self.memory.slice(kept.slot, kept.slots);
+            next.memory.slice_mut(kept.slot, kept.slots).copy_from_slice(values);
+        }
+        *self = next;
     }
 
     /// Gives over to a changed program: variables with RETAIN keep their values where name and type are the same.
     #[must_use]
     pub fn succeeded_by(&self, mut next: Self) -> Self {
-        let old: HashMap<_, _> = self
-            .retained()
-            .into_iter()
-            .map(|before| ((before.path, before.type_), (before.slot, before.slots)))
-            .collect();
-        for kept in next.retained() {
-            if let Some((slot, slots)) = old.get(&(kept.path, kept.type_)) {
-                next.memory.slice_mut(kept.slot, *slots).copy_from_slice(self.memory.slice(*slot, *slots));
+        let old = self.program.inner.retained.iter();
+        let old: HashMap<_, _> = old.map(|before| ((&before.path, &before.shape), before)).collect();
+        let program = next.program.clone();
+        for kept in &program.inner.retained {
+            let before = old.get(&(&kept.path, &kept.shape));
+            // The same shape is as long.
+            if let Some(before) = before.filter(|before| before.slots == kept.slots) {
+                let values = self.memory.slice(before.slot, before.slots);
+                next.memory.slice_mut(kept.slot, kept.slots).copy_from_slice(values);
             }
         }
         next
@@ -218,67 +226,6 @@ impl Instance {
     pub(crate) fn variables(&self) -> &[Variable] {
         &self.program.inner.checked.variables
     }
-
-    fn retained(&self) -> Vec<Retained> {
-        let mut all = Vec::new();
-        for variable in self.variables() {
-            let path = format!("{}.{}", variable.owner, variable.name).to_ascii_uppercase();
-            collect_retained(&mut all, path, &variable.type_, variable.slot, variable.retain);
-        }
-        all
-    }
-}
-
-/// A part of the memory that outlives a restart.
-struct Retained {
-    path: String,
-    type_: String,
-    slot: Slot,
-    slots: u32,
-}
-
-fn collect_retained(all: &mut Vec<Retained>, path: String, type_: &Type, slot: Slot, retain: bool) {
-    match type_ {
-        _ if retain => {
-            let type_name = format!("{type_} {:?}", shape_of(type_));
-            all.push(Retained { path, type_: type_name, slot, slots: type_.slots() });
-        }
-        Type::Block(block) => {
-            // A VAR_IN_OUT lies where its caller says, not here.
-            for member in block.members.iter().filter(|member| member.role != Role::InOut) {
-                let path = format!("{path}.{}", member.name.to_ascii_uppercase());
-                collect_retained(all, path, &member.type_, slot + member.offset, member.retain);
-            }
-        }
-        Type::Array(array) if array.element.holds_blocks() => {
-            let slots = array.element.slots();
-            for element in 0..array.elements() {
-                let path = format!("{path} {array} {element}");
-                collect_retained(all, path, &array.element, slot + element * slots, false);
-            }
-        }
-        _ => {}
-    }
-}
-
-/// What a type is made of, so that a structure that was changed is another one.
-fn shape_of(type_: &Type) -> Vec<(String, String)> {
-    match type_ {
-        Type::Struct(structure) => members_of(&structure.members),
-        Type::Block(block) => members_of(&block.members),
-        Type::Array(array) => shape_of(&array.element),
-        Type::Enum(enumeration) => {
-            enumeration.values.iter().map(|(name, number)| (name.clone(), number.to_string())).collect()
-        }
-        Type::Elementary(_) | Type::String(_) | Type::Any => Vec::new(),
-    }
-}
-
-fn members_of(members: &[crate::types::Member]) -> Vec<(String, String)> {
-    let member = |member: &crate::types::Member| {
-        (member.name.to_ascii_uppercase(), format!("{} {:?}", member.type_, shape_of(&member.type_)))
-    };
-    members.iter().map(member).collect()
 }
 
 impl External {

@@ -144,13 +144,18 @@ impl<'t> Body<'_, 't> {
                 None => self.required(pin, &signature.name, call.span)?,
             }
         }
-        if inputs.len().max(outputs.len()) > ARGUMENTS_MAX {
-            let message = format!("a call has {ARGUMENTS_MAX} arguments at most");
-            return self.checker.refuse(Problem::new(call.span, message));
-        }
+        self.limit_arguments(inputs.len().max(outputs.len()), call.span)?;
         let (kind, result) = self.function_result(signature, call.span)?;
         let code = Code::Call(Box::new(FunctionCall { unit: signature.unit, inputs, outputs, result }));
         Some(Value { kind, code, span: call.span })
+    }
+
+    fn limit_arguments(&mut self, count: usize, span: Span) -> Option<()> {
+        if count <= ARGUMENTS_MAX {
+            return Some(());
+        }
+        let message = format!("a call has {ARGUMENTS_MAX} arguments at most");
+        self.checker.refuse(Problem::new(span, message))
     }
 
     fn function_result(&mut self, signature: &Signature, span: Span) -> Option<(Kind, FunctionResult)> {
@@ -212,6 +217,7 @@ impl<'t> Body<'_, 't> {
                 None => self.required(pin, &block.name, call.span)?,
             }
         }
+        self.limit_arguments(inputs.len(), call.span)?;
         let call = BlockCall { unit: block.unit, instance: instance.place, inputs, outputs };
         Some(StatementKind::CallBlock(call))
     }
@@ -233,7 +239,9 @@ impl<'t> Body<'_, 't> {
             }
             (Type::String(_), Type::String(capacity)) => (None, Put::Text(*capacity)),
             (Type::Enum(_), _) if pin.type_ == target.type_ => (None, Put::Value),
-            (Type::Array(_) | Type::Struct(_), _) if pin.type_ == target.type_ => {
+            (Type::Array(_) | Type::Struct(_), _)
+                if pin.type_ == target.type_ && !pin.type_.holds_blocks() =>
+            {
                 (None, Put::Slots(pin.type_.slots()))
             }
             (from, into) => {

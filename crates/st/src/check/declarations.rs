@@ -18,8 +18,8 @@ const OWN_INPUT: &str = "it is an input";
 
 /// Where the variables of a unit go.
 enum Home {
-    /// Into the memory: PROGRAM, and VAR_GLOBAL with an empty owner.
-    Memory { owner: String },
+    /// Into the memory: PROGRAM, and VAR_GLOBAL without an owner.
+    Memory { owner: Option<String> },
     /// Into the memory, with their initial values at each call: FUNCTION.
     Fresh,
     /// Into the instances of a function block.
@@ -60,7 +60,7 @@ impl<'t> Checker<'t> {
             return self.refuse_second(&declaration.name);
         }
         let mut scope = Scope::default();
-        let mut plan = Plan::new(Home::Memory { owner: String::new() });
+        let mut plan = Plan::new(Home::Memory { owner: None });
         self.declare(section, declaration, &mut plan, &mut scope);
         self.globals.extend(scope.symbols);
     }
@@ -73,7 +73,7 @@ impl<'t> Checker<'t> {
     /// The variables of a PROGRAM.
     pub(super) fn program_scope(&mut self, pou: &Pou) -> Scope {
         let mut scope = Scope::default();
-        let mut plan = Plan::new(Home::Memory { owner: pou.name.text.clone() });
+        let mut plan = Plan::new(Home::Memory { owner: Some(pou.name.text.clone()) });
         for section in &pou.sections {
             self.section(section, &mut plan, &mut scope);
         }
@@ -91,6 +91,10 @@ impl<'t> Checker<'t> {
         }
         self.origin = outer;
         self.limit(plan.initial.len(), pou.name.span)?;
+        if plan.initial.is_empty() {
+            // An instance without variables is somewhere all the same.
+            plan.initial.push(0);
+        }
         let slots = plan.initial.len() as u32;
         let block = Block { name: pou.name.text.clone(), unit, members: plan.members, slots };
         self.pending.push(Pending { pou, unit, scope, origin });
@@ -182,7 +186,10 @@ impl<'t> Checker<'t> {
         scope: &mut Scope,
     ) -> Option<Symbol> {
         let shape = self.shape(&declaration.type_name, scope)?;
-        if section.kind == VarKind::External || declaration.at.is_some() {
+        if section.kind == VarKind::External
+            || declaration.at.is_some()
+            || self.is_device(section, declaration)
+        {
             return self.external(declaration, &shape.type_);
         }
         if section.kind == VarKind::InOut {
@@ -193,7 +200,10 @@ impl<'t> Checker<'t> {
             return self.in_out(declaration, shape.type_, plan, scope);
         }
         let shape = self.with_initial(shape, declaration.initial.as_ref(), scope)?;
-        if section.constant && matches!(shape.type_, Type::Elementary(_) | Type::Enum(_)) {
+        if section.constant
+            && role(section.kind) == Role::Internal
+            && matches!(shape.type_, Type::Elementary(_) | Type::Enum(_))
+        {
             return Some(Symbol::Constant(shape.type_, shape.initial[0]));
         }
         let access = if section.constant { Access::ReadOnly(CONSTANT) } else { Access::Write };
@@ -285,6 +295,13 @@ impl<'t> Checker<'t> {
         Some(Symbol::Variable(located))
     }
 
+    /// A global variable with the name of a device variable is that one, as in a list of global variables.
+    fn is_device(&self, section: &VarSection, declaration: &VarDeclaration) -> bool {
+        let name = &declaration.name.text;
+        section.kind == VarKind::Global
+            && self.surroundings.globals.iter().any(|global| global.name.eq_ignore_ascii_case(name))
+    }
+
     /// VAR_EXTERNAL, or a variable with AT: a device variable, or a VAR_GLOBAL of the file.
     fn external(&mut self, declaration: &VarDeclaration, type_: &Type) -> Option<Symbol> {
         let symbol = match &declaration.at {
@@ -361,7 +378,7 @@ impl<'t> Checker<'t> {
             None => self.refreshed(place, slot, &shape.type_)?,
         };
         self.out.variables.push(Variable {
-            owner: String::new(),
+            owner: None,
             name: global.name.clone(),
             type_: shape.type_.clone(),
             slot,

@@ -7,7 +7,7 @@ use crate::convert::{convert, fits, widens};
 use crate::elementary::{Class, Elementary};
 use crate::problem::Problem;
 use crate::types::Type;
-use crate::value::{range, real_bits};
+use crate::value::{range, real, real_bits};
 
 /// A value that fits its target, and how it is put there.
 #[derive(Debug)]
@@ -47,9 +47,7 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
 pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Elementary) -> Option<Code> {
     match value.kind {
         Kind::Integer(number) => integer_of(checker, number, target, &value),
-        Kind::Real(number) if target.class() == Class::Real => {
-            Some(Code::Constant(real_bits(target, number)))
-        }
+        Kind::Real(number) if target.class() == Class::Real => real_of(checker, number, target, &value),
         Kind::Type(Type::Elementary(from)) if widens(from, target) => {
             Some(converted(value.code, from, target))
         }
@@ -77,6 +75,15 @@ pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Ele
         Kind::Nothing => checker
             .refuse(Problem::new(value.span, "this function gives no result").help("call it as a statement")),
     }
+}
+
+fn real_of(checker: &mut Checker<'_>, number: f64, target: Elementary, value: &Value) -> Option<Code> {
+    let bits = real_bits(target, number);
+    if real(target, bits).is_infinite() && number.is_finite() {
+        let message = format!("{number:e} does not fit {target}");
+        return checker.refuse(Problem::new(value.span, message));
+    }
+    Some(Code::Constant(bits))
 }
 
 fn integer_of(checker: &mut Checker<'_>, number: i128, target: Elementary, value: &Value) -> Option<Code> {

@@ -7,6 +7,9 @@ use crate::problem::{Problem, Span};
 /// holds that.
 const DEPTH_MAX: u32 = 1_000;
 
+/// A call takes as much of the stack as so many levels besides: its arguments lie there.
+const CALL_LEVELS: u32 = 3;
+
 impl Checker<'_> {
     /// Refuses calls that come back to where they began, and those that go too deep.
     pub(super) fn refuse_recursion(&mut self) {
@@ -37,7 +40,7 @@ impl Checker<'_> {
         let own = self.own_depths.get(&(unit as u32)).copied().unwrap_or(0);
         let mut deepest = own;
         for (callee, span) in core::mem::take(&mut graph.callees[unit]) {
-            let depth = own + self.depth(callee as usize, span, level + 1, graph);
+            let depth = own + CALL_LEVELS + self.depth(callee as usize, span, level + 1, graph);
             if depth > DEPTH_MAX && deepest <= DEPTH_MAX {
                 let message =
                     format!("statements, expressions and calls lie deeper than {DEPTH_MAX} in each other");

@@ -75,7 +75,9 @@ impl<'t> Checker<'t> {
     }
 
     fn enter_name(&mut self, name: &Name, named: Named<'t>) {
-        let taken = library::function(&name.text).is_some() || self.named.contains_key(&key(&name.text));
+        let taken = library::function(&name.text).is_some()
+            || library::Conversion::named(&name.text).is_some()
+            || self.named.contains_key(&key(&name.text));
         if taken {
             let message = format!("the name `{}` is taken", name.text);
             self.refuse::<()>(
