@@ -83,6 +83,19 @@ fn a_chain_of_calls_is_accepted_as_deep_as_it_can_run_and_refused_beyond() {
 }
 
 #[test]
+fn a_chain_of_calls_as_statements() {
+    for length in [100, 200, 300, 400, 990] {
+        let functions: String =
+            (0..length).map(|place| format!("FUNCTION F{place} F{}(); END_FUNCTION\n", place + 1)).collect();
+        let last = format!("FUNCTION F{length} VAR s : STRING; END_VAR s := CONCAT(s, 'x'); END_FUNCTION\n");
+        match run(functions + &last + "PROGRAM Main F0(); END_PROGRAM") {
+            Ok(result) => assert_eq!(result, Ok(())),
+            Err(problems) => assert!(length > 200 && problems.contains("deeper than"), "{problems}"),
+        }
+    }
+}
+
+#[test]
 fn instances_in_instances() {
     for depth in [10, 30, 60, 100, 300] {
         let blocks = (0..depth).map(|place| {
