@@ -140,6 +140,8 @@ impl Program for StructuredText {
     fn succeed(&mut self, legacy: &dyn Any) {
         if let Some(before) = legacy.downcast_ref::<Self>() {
             self.instance = before.instance.succeeded_by(self.instance.clone());
+            // A retained instance of NX_ReadObj must not take the answer of another call for its own.
+            self.calls.go_on_from(&before.calls);
         }
     }
 }

@@ -36,6 +36,11 @@ impl PendingCalls {
         self.last_number
     }
 
+    /// Gives no number again that another program has given.
+    pub(super) const fn go_on_from(&mut self, before: &Self) {
+        self.last_number = before.last_number;
+    }
+
     /// Forgets all of them: the program that made them begins anew.
     pub(super) fn forget(&mut self, client: &mut NxObjectClient) {
         for (_, call) in self.calls.drain(..) {
