@@ -90,7 +90,7 @@ impl<'t> Checker<'t> {
             self.section(section, &mut plan, &mut scope);
         }
         self.origin = outer;
-        self.limit(plan.initial.len(), pou.name.span)?;
+        self.limit_names("variables", plan.members.len(), pou.name.span)?;
         if plan.initial.is_empty() {
             // An instance without variables is somewhere all the same.
             plan.initial.push(0);

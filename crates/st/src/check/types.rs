@@ -18,7 +18,7 @@ const TYPE_SLOTS_MAX: usize = 8 * SLOTS_MAX as usize;
 /// How deep types may lie in each other.
 const TYPE_DEPTH_MAX: u32 = 32;
 
-/// Most members of a structure, and most values of an enumeration, as an NJ/NX-series CPU Unit.
+/// Most members of a structure, most values of an enumeration, as an NJ/NX-series CPU Unit; most variables of a block.
 const NAMES_MAX: usize = 2048;
 
 /// Most dimensions of an array.
@@ -252,11 +252,15 @@ impl<'t> Checker<'t> {
             let name = declaration.name.text.clone();
             members.push(Member { name, type_: shape.type_, offset, role: Role::Internal, retain: false });
         }
+        if initial.is_empty() {
+            // A structure without members is somewhere all the same, and many of them fill a memory.
+            initial.push(0);
+        }
         let structure = Structure { name: name.text.clone(), members, slots: initial.len() as u32 };
         Some(Shape { type_: Type::Struct(Arc::new(structure)), initial })
     }
 
-    fn limit_names(&mut self, what: &str, count: usize, span: Span) -> Option<()> {
+    pub(super) fn limit_names(&mut self, what: &str, count: usize, span: Span) -> Option<()> {
         if count <= NAMES_MAX {
             return Some(());
         }
