@@ -68,8 +68,9 @@ pub(crate) struct RunArgs {
     /// Write every frame to this file (pcapng)
     #[arg(long, value_name = "FILE")]
     pub(crate) pcap: Option<PathBuf>,
-    /// Run this user program (Structured Text) instead of the one that the unit files name; changed, it is loaded anew
-    #[arg(long, value_name = "FILE.st")]
+    /// Run this user program instead of the one that the unit files name: FILE.st in Structured Text, or FILE.wasm
+    /// where the feature `wasm` is built in; changed, it is loaded anew
+    #[arg(long, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone is one of 127.0.0.1
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = modbus_address)]

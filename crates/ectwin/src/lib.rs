@@ -28,6 +28,7 @@ pub mod explain;
 mod live;
 mod memory_file;
 mod modbus_clients;
+mod program_file;
 mod program_files;
 mod setup;
 mod twin;

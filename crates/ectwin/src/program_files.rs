@@ -1,14 +1,15 @@
 //! User programs in files while they run: a changed file is loaded anew, and what the CPU Units tell is logged.
 
-use std::fs::Metadata;
 use std::io;
+use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration as WallDuration, SystemTime};
 
-use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, ProgramEvent, StructuredText};
+use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, Program, ProgramEvent};
 use time::{Duration, Instant};
 
+use crate::program_file::{self, ProgramFileError};
 use crate::setup::WatchedProgram;
 
 /// How often the files are looked at.
@@ -18,7 +19,7 @@ const TELL_AGAIN: Duration = Duration::from_millis(1_000);
 
 /// Programs that have been changed, on their way to their CPU Units. Dropping it ends the watch.
 pub(crate) struct ProgramChanges {
-    changed: Receiver<(usize, Box<StructuredText>)>,
+    changed: Receiver<Changed>,
     _watch: Option<Sender<()>>,
 }
 
@@ -60,38 +61,50 @@ impl ProgramChanges {
     }
 }
 
-/// A file and what it looked like last.
+/// The position of a unit, and its new program.
+type Changed = (usize, Box<dyn Program + Send>);
+
+/// A file, what it looked like when its program was read, and what it looked like last.
 struct WatchedFile {
     position: usize,
     program: WatchedProgram,
-    seen: Option<(SystemTime, u64)>,
+    read: Option<FileStamp>,
+    seen: Option<FileStamp>,
 }
+
+/// What tells a changed file: when it was written last, and its length in bytes.
+pub(crate) type FileStamp = (SystemTime, u64);
 
 impl WatchedFile {
     fn new((position, program): (usize, WatchedProgram)) -> Self {
-        let seen = stamp(&program);
-        Self { position, program, seen }
+        let read = program.stamp;
+        Self { position, program, read, seen: read }
     }
 
     /// The program, if its file has changed and it is right. A wrong one is told, and the old one goes on.
-    fn changed(&mut self) -> Option<(usize, Box<StructuredText>)> {
+    fn changed(&mut self) -> Option<Changed> {
         // While an editor replaces it, the file may not be there for a moment.
-        let seen = stamp(&self.program)?;
-        if self.seen.replace(seen) == Some(seen) {
+        let stamp = stamp(&self.program.path)?;
+        // One that is being written changes from look to look: it is read when it stands still.
+        if self.seen.replace(stamp) != Some(stamp) || self.read == Some(stamp) {
             return None;
         }
         let path = self.program.path.display();
-        let source = std::fs::read_to_string(&self.program.path)
-            .inspect_err(|error| tracing::warn!("{path} cannot be read: {error}; the old program goes on"))
-            .ok()?;
-        match StructuredText::compile(&source, &self.program.variables) {
+        let WatchedProgram { variables, budget_statements, .. } = &self.program;
+        match program_file::load(&self.program.path, variables, *budget_statements) {
             Ok(program) => {
                 tracing::info!("{path} has changed, and is loaded");
-                Some((self.position, Box::new(program.with_budget(self.program.budget_statements))))
+                Some((self.position, program))
             }
-            Err(problems) => {
-                for line in problems.to_string().lines() {
-                    tracing::warn!("{path}:{line}");
+            Err(ProgramFileError::Unreadable(error)) => {
+                tracing::warn!("{path} cannot be read: {error}; the old program goes on");
+                None
+            }
+            Err(wrong) => {
+                // A problem in Structured Text begins with its place.
+                let gap = if matches!(wrong, ProgramFileError::WebAssembly(_)) { " " } else { "" };
+                for line in wrong.to_string().lines() {
+                    tracing::warn!("{path}:{gap}{line}");
                 }
                 tracing::warn!("{path} has changed and is wrong: the old program goes on");
                 None
@@ -100,15 +113,17 @@ impl WatchedFile {
     }
 }
 
-fn stamp(program: &WatchedProgram) -> Option<(SystemTime, u64)> {
-    let of = |metadata: Metadata| Some((metadata.modified().ok()?, metadata.len()));
-    std::fs::metadata(&program.path).ok().and_then(of)
+/// What a file looks like now; none if it is not there.
+pub(crate) fn stamp(path: &Path) -> Option<FileStamp> {
+    let metadata = std::fs::metadata(path).ok()?;
+    Some((metadata.modified().ok()?, metadata.len()))
 }
 
 /// What CPU Units tell, on its way into the log.
 #[derive(Debug, Default)]
 pub(crate) struct Reports {
     next: Instant,
+    lost: u64,
 }
 
 impl Reports {
@@ -118,10 +133,20 @@ impl Reports {
             return;
         }
         self.next = now + TELL_AGAIN;
+        self.tell_all(cpus);
+    }
+
+    /// Logs what has not been logged.
+    pub(crate) fn tell_all(&mut self, cpus: &mut [CpuUnit]) {
         for (position, cpu) in cpus.iter_mut().enumerate() {
             for record in cpu.take_events() {
                 tell(position + 1, &record);
             }
+        }
+        let lost = cpus.iter().map(CpuUnit::events_lost).sum();
+        if lost > self.lost {
+            tracing::warn!("{} events of CPU Units were lost: too many at once", lost - self.lost);
+            self.lost = lost;
         }
     }
 }

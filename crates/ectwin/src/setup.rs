@@ -2,6 +2,7 @@
 
 mod error;
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use nx_ect101::unit_file::{Located, UnitFile};
@@ -10,17 +11,20 @@ use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, Structure
 use time::Instant;
 
 use crate::memory_file::MemoryFile;
+use crate::program_file::{self, ProgramFileError};
+use crate::program_files::{self, FileStamp};
 
 pub use error::SetupError;
 
 /// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
 /// `builtin:copy`, which copies what comes from the master back to it ([`plc::Echo`], the manual's example A-3); or
 /// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]); or `builtin:pulse`, which counts
-/// ([`plc::Pulse`], A-4); or a file in Structured Text ([`plc::StructuredText`]).
+/// ([`plc::Pulse`], A-4); or a file ([`Setup::program_file`]).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
-    program_file: Option<PathBuf>,
+    /// The file of the program, and what it looked like before it was read.
+    program_file: Option<(PathBuf, Option<FileStamp>)>,
     system_time_ns: Option<u64>,
     memory: Option<MemoryFile>,
 }
@@ -61,13 +65,13 @@ impl Setup {
         Ok(self.program(program))
     }
 
-    /// Gives the CPU Unit the user program in this file, in Structured Text.
+    /// Gives the CPU Unit the user program in this file: in WebAssembly if its name ends with `.wasm` and the build has
+    /// the feature `wasm`, else in Structured Text.
     ///
     /// # Errors
-    /// [`SetupError::ProgramUnreadable`], [`SetupError::ProgramWrong`].
+    /// [`SetupError::ProgramUnreadable`], [`SetupError::ProgramWrong`], [`SetupError::WebAssemblyWrong`].
     pub fn program_file(mut self, path: &Path) -> Result<Self, SetupError> {
-        self.program = Box::new(self.compile_file(path, None)?);
-        self.program_file = Some(path.to_owned());
+        self.take_program_file(path.to_owned(), None)?;
         Ok(self)
     }
 
@@ -124,9 +128,9 @@ impl Setup {
 
     /// The file of the user program, if it is in one.
     pub(crate) fn watched_program(&self) -> Option<WatchedProgram> {
-        let path = self.program_file.clone()?;
+        let (path, stamp) = self.program_file.clone()?;
         let budget_statements = self.file.cpu.statement_budget.value;
-        Some(WatchedProgram { path, variables: self.device_variables(), budget_statements })
+        Some(WatchedProgram { path, stamp, variables: self.device_variables(), budget_statements })
     }
 
     pub(crate) fn power_on(self, now: Instant) -> Powered {
@@ -167,24 +171,32 @@ impl Setup {
             let reason = "a text has no folder to find it in".to_owned();
             return Err(SetupError::ProgramUnreadable { path, reason, span: Some(span) });
         };
-        let path = folder.join(&name.value);
-        self.program = Box::new(self.compile_file(&path, Some(span))?);
-        self.program_file = Some(path);
+        self.take_program_file(folder.join(&name.value), Some(span))?;
         Ok(self)
     }
 
-    fn compile_file(
+    fn take_program_file(&mut self, path: PathBuf, span: Option<Range<usize>>) -> Result<(), SetupError> {
+        let stamp = program_files::stamp(&path);
+        self.program = self.load_file(&path, span)?;
+        self.program_file = Some((path, stamp));
+        Ok(())
+    }
+
+    fn load_file(
         &self,
         path: &Path,
-        span: Option<std::ops::Range<usize>>,
-    ) -> Result<StructuredText, SetupError> {
-        let source = std::fs::read_to_string(path).map_err(|error| SetupError::ProgramUnreadable {
-            path: path.display().to_string(),
-            reason: error.to_string(),
-            span,
-        })?;
+        span: Option<Range<usize>>,
+    ) -> Result<Box<dyn Program + Send>, SetupError> {
+        let budget_statements = self.file.cpu.statement_budget.value;
+        let loaded = program_file::load(path, &self.device_variables(), budget_statements);
         let path = path.display().to_string();
-        self.compile(&source).map_err(|problems| SetupError::ProgramWrong { path, problems })
+        loaded.map_err(|error| match error {
+            ProgramFileError::Unreadable(error) => {
+                SetupError::ProgramUnreadable { path, reason: error.to_string(), span }
+            }
+            ProgramFileError::StructuredText(problems) => SetupError::ProgramWrong { path, problems },
+            ProgramFileError::WebAssembly(reason) => SetupError::WebAssemblyWrong { path, reason },
+        })
     }
 
     fn compile(&self, source: &str) -> Result<StructuredText, st::Problems> {
@@ -205,6 +217,8 @@ pub(crate) struct Powered {
 #[derive(Debug)]
 pub(crate) struct WatchedProgram {
     pub(crate) path: PathBuf,
+    /// What the file looked like before it was read.
+    pub(crate) stamp: Option<FileStamp>,
     pub(crate) variables: DeviceVariables,
     pub(crate) budget_statements: u64,
 }

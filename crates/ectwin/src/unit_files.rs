@@ -66,6 +66,12 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> Vec<FileProblem> {
         SetupError::ProgramUnreadable { span: None, .. } => {
             vec![FileProblem::of_file(error.to_string(), "check the path and its permissions")]
         }
+        SetupError::WebAssemblyWrong { .. } => {
+            vec![FileProblem::of_file(
+                error.to_string(),
+                "docs/user/wasm-programs.md tells what a module has to be",
+            )]
+        }
         SetupError::ProgramWrong { path, problems } => of_program(Path::new(path), problems),
         SetupError::Storage { span, .. } => {
             vec![FileProblem::at(span.clone(), error, "seen from the folder of this file", source())]

@@ -37,6 +37,7 @@ const FLOORS: &[Row] = &[
     row("st", 5, Only(&[])),
     row("plc", 6, Only(&["time", "st", "nx-ect101"])),
     row("scenario", 7, AnyFloorBelow),
+    row("wasm", 7, Only(&["time", "plc"])),
     row("modbus", 8, Only(&["nx-ect101", "plc"])),
     row("link", 8, Only(&["time", "capture", "segment"])),
     row("storage", 8, Only(&[])),

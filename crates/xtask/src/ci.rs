@@ -12,7 +12,7 @@ use crate::{Outcome, arrows, tidy};
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Leave out what takes long: the real masters, doc tests, documentation, licences
+    /// Leave out what takes long: the real masters, optional features, doc tests, documentation, licences
     #[arg(long)]
     quick: bool,
     /// A test that cannot run here is a failure (this is so too when CI=true)
@@ -34,6 +34,7 @@ const STEPS: &[Step] = &[
     Step { name: "licences", in_quick: false, run: |_| tools::licences() },
     Step { name: "clippy", in_quick: true, run: |_| tools::clippy() },
     Step { name: "tests", in_quick: true, run: tests_step::tests },
+    Step { name: "features", in_quick: false, run: |_| tests_step::features() },
     Step { name: "doc tests", in_quick: false, run: |_| tests_step::doc_tests() },
     Step { name: "documentation", in_quick: false, run: |_| tools::documentation() },
 ];

@@ -15,6 +15,10 @@ pub(crate) enum Scope {
 /// The test binary in which real masters drive the built command: half a minute of real time.
 const MASTERS: &str = "masters";
 
+/// Features that are off by default, and the test binaries that are built only with them.
+const FEATURES: &str = "ectwin/wasm";
+const FEATURE_TESTS: &[&str] = &["wasm_programs"];
+
 pub(crate) fn tests(scope: Scope) -> Outcome {
     if has_cargo("nextest") { nextest(scope) } else { cargo_test(scope) }
 }
@@ -33,6 +37,17 @@ fn cargo_test(scope: Scope) -> Outcome {
         return cargo(&["test", "--workspace", "--locked", "--no-fail-fast", "--lib", "--bins"]);
     }
     cargo(&["test", "--workspace", "--locked", "--no-fail-fast", "--lib", "--bins", "--tests"])
+}
+
+/// What the default build leaves out: features of the command that are off unless one asks for them.
+///
+/// All of the workspace is named, so that nothing but the command itself is built a second time.
+pub(crate) fn features() -> Outcome {
+    let scope = ["--workspace", "--locked", "--features", FEATURES];
+    cargo(&[&["clippy", "--all-targets", "--quiet"], &scope[..], &["--", "-D", "warnings"]].concat())?;
+    let runner: &[&str] = if has_cargo("nextest") { &["nextest", "run"] } else { &["test"] };
+    let tests = FEATURE_TESTS.iter().flat_map(|name| ["--test", *name]);
+    cargo(&[runner, &scope[..], &tests.collect::<Vec<_>>(), &["--no-fail-fast"]].concat())
 }
 
 pub(crate) fn doc_tests() -> Outcome {

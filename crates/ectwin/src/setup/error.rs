@@ -27,6 +27,13 @@ pub enum SetupError {
         /// What is wrong with it, and where.
         problems: st::Problems,
     },
+    /// Its user program is a module in WebAssembly that is wrong, or that this build does not run.
+    WebAssemblyWrong {
+        /// The path.
+        path: String,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The file of its non-volatile memory cannot be used.
     Storage {
         /// The path.
@@ -56,6 +63,7 @@ impl fmt::Display for SetupError {
                 }
                 Ok(())
             }
+            Self::WebAssemblyWrong { path, reason } => write!(formatter, "{path}: {reason}"),
             Self::Storage { path, reason, .. } => {
                 write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")
             }

@@ -5,7 +5,7 @@ use core::ops::Range;
 
 use arrayvec::ArrayVec;
 use nx_ect101::Direction;
-use st::Elementary;
+use st::{Class, Elementary};
 
 use super::memory::Place;
 use super::ports::VariableSource;
@@ -73,6 +73,12 @@ impl VariableType {
             None => 1,
         };
         elements * self.elementary.size_bytes()
+    }
+
+    /// Whether it is BOOL, or an array of it: each of its bytes is 0 or 1.
+    #[must_use]
+    pub fn is_bool(self) -> bool {
+        self.elementary.class() == Class::Bool
     }
 }
 

@@ -1,0 +1,86 @@
+//! An instance of a module: its memory, its globals, its functions.
+
+use plc::{DeviceVariables, Io};
+use wasmi::{Error, Global, Instance, Store, TypedFunc, Val};
+
+use crate::error::WasmError;
+use crate::host::{Host, Phase};
+use crate::image::Image;
+
+/// Where compilers keep the end of the stack that they lay out in memory.
+const STACK_POINTER: &str = "__stack_pointer";
+
+/// A program in operation.
+pub(crate) struct Running {
+    store: Store<Host>,
+    instance: Instance,
+    start: Option<TypedFunc<(), ()>>,
+    scan: TypedFunc<(), ()>,
+    /// Where it is exported: the global and its value between scans.
+    stack_pointer: Option<(Global, Val)>,
+}
+
+impl Running {
+    /// Brings a module to its beginning: memory and globals as it has them, and its own start function done.
+    pub(crate) fn begin(image: &Image, variables: DeviceVariables, fuel: u64) -> Result<Self, WasmError> {
+        Self::instantiate(image, variables, fuel)
+            .map_err(|error| WasmError::CannotBegin { reason: error.to_string() })
+    }
+
+    fn instantiate(image: &Image, variables: DeviceVariables, fuel: u64) -> Result<Self, Error> {
+        let mut store = image.store(variables);
+        store.set_fuel(fuel)?;
+        let instance = image.linker().instantiate_and_start(&mut store, image.module())?;
+        store.data_mut().memory = instance.get_memory(&store, "memory");
+        // The image has been checked: what is there has this type.
+        let start = instance.get_typed_func(&store, "start").ok();
+        let scan = instance.get_typed_func(&store, "scan")?;
+        let stack_pointer = instance.get_global(&store, STACK_POINTER);
+        let stack_pointer = stack_pointer.filter(|global| global.ty(&store).mutability().is_mut());
+        let stack_pointer = stack_pointer.map(|global| (global, global.get(&store)));
+        Ok(Self { store, instance, start, scan, stack_pointer })
+    }
+
+    /// Calls `start`, if there is one.
+    pub(crate) fn start(&mut self, io: &mut Io, fuel: u64) -> Result<(), Error> {
+        let start = self.start;
+        self.step(start, io, fuel)
+    }
+
+    /// Calls `scan`.
+    pub(crate) fn scan(&mut self, io: &mut Io, fuel: u64) -> Result<(), Error> {
+        self.store.data_mut().phase = Phase::Scan;
+        let scan = self.scan;
+        self.step(Some(scan), io, fuel)
+    }
+
+    /// The value of a global that is exported under this name.
+    pub(crate) fn global(&self, name: &str) -> Option<String> {
+        match self.instance.get_global(&self.store, name)?.get(&self.store) {
+            Val::I32(value) => Some(value.to_string()),
+            Val::I64(value) => Some(value.to_string()),
+            Val::F32(value) => Some(value.to_float().to_string()),
+            Val::F64(value) => Some(value.to_float().to_string()),
+            _ => None,
+        }
+    }
+
+    fn step(&mut self, function: Option<TypedFunc<(), ()>>, io: &mut Io, fuel: u64) -> Result<(), Error> {
+        self.store.data_mut().take_in(io);
+        self.store.set_fuel(fuel)?;
+        let result = function.map_or(Ok(()), |function| function.call(&mut self.store, ()));
+        self.store.data_mut().give_out(io);
+        if result.is_err() {
+            self.give_back_stack();
+        }
+        result
+    }
+
+    /// A scan that is broken off leaves its stack in use: scan after scan there would be less of it.
+    fn give_back_stack(&mut self) {
+        if let Some((global, value)) = &self.stack_pointer {
+            // It is mutable, and the value is its own.
+            let _ = global.set(&mut self.store, value.clone());
+        }
+    }
+}
