@@ -251,3 +251,41 @@ fn a_master_that_restarts_begins_its_program_anew_and_keeps_what_is_retained() {
          { expect = \"program variable scans of the master is 3\" }",
     );
 }
+
+#[test]
+fn user_defined_errors_of_a_cpu_unit_stand_until_they_are_reset() {
+    let program = "VAR n : UINT; END_VAR n := n + 1;\n\
+        IF n = 5 OR n = 20 THEN SetAlarm(16#2A, n); END_IF; IF n = 10 THEN ResetAlarm(0); END_IF;";
+    let scenario = ScenarioBuilder::new("alarms").unit("model = \"nx-ect101\"\ncpu.program = \"u.st\"\n");
+    let report = scenario
+        .program("u.st", program)
+        .expect("no user-defined error at unit 1")
+        .within(Duration::from_millis(5))
+        .expect("user-defined error 16#2A at unit 1")
+        .within(Duration::from_millis(6))
+        .expect("no user-defined error at unit 1")
+        .within(Duration::from_millis(11))
+        .expect("user-defined error 42 at unit 1 2 times")
+        .finish()
+        .expect("a right scenario")
+        .replay(1, Recording::new(true, false));
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
+#[test]
+fn a_program_without_end_at_the_master_does_not_stop_the_exchange_either() {
+    let report = ScenarioBuilder::new("endless at the master")
+        .program("m.st", "WHILE TRUE DO ; END_WHILE;")
+        .master_program("m.st")
+        .master("take unit 1 to OP")
+        .within(Duration::from_millis(20))
+        .expect("unit 1 is in OP")
+        .expect("task overrun of the master")
+        .expect("no task overrun of unit 1")
+        .after(Duration::from_millis(5))
+        .expect("the working counter of unit 1 is 3")
+        .finish()
+        .expect("a right scenario")
+        .replay(1, Recording::new(true, false));
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}

@@ -59,6 +59,21 @@ fn places_read_what_they_name() {
 }
 
 #[test]
+fn places_of_programs_read_what_they_name() {
+    use crate::Controller;
+    let one = |name, words: &[&str]| Place::named(name).read(words).map(|(value, _)| value);
+    assert_eq!(one("controller", &["the", "master", "is"]), Ok(Value::Controller(Controller::Master)));
+    assert_eq!(one("controller", &["unit", "2"]), Ok(Value::Controller(Controller::Unit(1))));
+    assert!(one("controller", &["all", "units"]).is_err(), "one of them");
+    assert_eq!(one("position", &["5:9"]), Ok(Value::Position((5, 9))));
+    assert!(one("position", &["0:9"]).is_err() && one("position", &["5"]).is_err());
+    assert_eq!(one("error", &["16#101"]), Ok(Value::Number(257)));
+    assert!(one("error", &["40001"]).is_err(), "information from there on");
+    assert_eq!(one("value", &["[1,", "2]"]), Ok(Value::Text("[1, 2]".to_owned())));
+    assert!(one("value", &[]).is_err());
+}
+
+#[test]
 fn frames_are_chosen_in_five_ways() {
     use crate::{Choice, FrameKind};
     let read = |text: &str| {
