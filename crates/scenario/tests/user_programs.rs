@@ -32,7 +32,8 @@ fn errors(text: &str, files: &[(&str, &str)]) -> Vec<String> {
 #[test]
 fn all_that_is_wrong_with_a_program_is_told_with_its_place() {
     let wrong = "N1_UINTs_01_C_to_N[0] := 1;\nN1_UINTs_01_M_to_C[0] := 2;\n";
-    let text = "title = \"t\"\nunits = [\"units/a.toml\"]\nsteps = []";
+    // What steps name is not judged as long as the units are wrong.
+    let text = "title = \"t\"\nunits = [\"units/a.toml\"]\nsteps = [{ cpu = \"release all of unit 1\" }]";
     let unit = "model = \"nx-ect101\"\n[cpu]\nprogram = \"wrong.st\"\n";
     let errors = errors(text, &[("units/a.toml", unit), ("units/wrong.st", wrong)]);
     assert_eq!(
