@@ -66,3 +66,19 @@ impl fmt::Display for ProgramFileError {
         }
     }
 }
+
+#[cfg(all(test, not(feature = "wasm")))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_build_without_the_feature_says_which_one_has_it() {
+        let reason = web_assembly(b"\0asm", &variables(), 1).err().expect("it runs none");
+        assert!(reason.contains("--features wasm"), "{reason}");
+    }
+
+    fn variables() -> DeviceVariables {
+        let file = nx_ect101::unit_file::UnitFile::parse("model = \"nx-ect101\"");
+        DeviceVariables::of_unit_file(&file.unwrap_or_else(|_| panic!("the factory setting is right")))
+    }
+}
