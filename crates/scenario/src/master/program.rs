@@ -70,12 +70,16 @@ pub(crate) struct Task {
     is_due: bool,
     /// The bytes of a variable on their way.
     bytes: Vec<u8>,
+    /// What each binding took in last: what the program cannot write and what has not changed is there already.
+    taken: Vec<Vec<u8>>,
 }
 
 impl Task {
     pub(crate) fn new(program: MasterProgram, now: Instant) -> Self {
         let places = vec![None; program.bindings.len()];
-        Self { program, places, next: now, last: None, is_due: false, bytes: Vec::with_capacity(SLAVES_MAX) }
+        let taken = vec![Vec::with_capacity(SLAVES_MAX); program.bindings.len()];
+        let bytes = Vec::with_capacity(SLAVES_MAX);
+        Self { program, places, next: now, last: None, is_due: false, bytes, taken }
     }
 
     /// The master starts anew: what is declared with RETAIN stays.
@@ -142,16 +146,16 @@ impl Task {
     }
 
     fn take_in(&mut self, data: &ProcessData, states: &States) {
-        let Self { program: MasterProgram { instance, bindings, .. }, places, bytes, .. } = self;
-        for (binding, place) in bindings.iter().zip(places) {
+        let Self { program: MasterProgram { instance, bindings, .. }, places, bytes, taken, .. } = self;
+        for ((binding, place), taken) in bindings.iter().zip(places).zip(taken) {
             bytes.clear();
             match binding.source {
-                Source::ProcessDataTable => bytes.extend(table(|unit| {
-                    states.state(unit) == Some(AlState::Op) && data.is_exchanging(unit)
-                })),
-                Source::MailboxTable => bytes.extend(table(|unit| {
-                    matches!(states.state(unit), Some(AlState::PreOp | AlState::SafeOp | AlState::Op))
-                })),
+                Source::ProcessDataTable => {
+                    table(bytes, states, |unit, state| state == AlState::Op && data.is_exchanging(unit))
+                }
+                Source::MailboxTable => table(bytes, states, |_, state| {
+                    matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op)
+                }),
                 Source::Entry { unit, direction, .. } => {
                     let image = match direction {
                         Direction::MToC => data.outputs(unit),
@@ -161,7 +165,10 @@ impl Task {
                     place.take(image, bytes);
                 }
             }
-            instance.load(&binding.external, bytes);
+            if binding.external.written || taken != bytes {
+                instance.load(&binding.external, bytes);
+                taken.clone_from(bytes);
+            }
         }
     }
 
@@ -188,9 +195,12 @@ impl Task {
     }
 }
 
-/// An element for each node address, from 1 on.
-fn table(is_set: impl Fn(usize) -> bool) -> impl Iterator<Item = u8> {
-    (0..SLAVES_MAX).map(move |unit| u8::from(is_set(unit)))
+/// An element for each node address, from 1 on; FALSE for those that no slave has.
+fn table(bytes: &mut Vec<u8>, states: &States, is_set: impl Fn(usize, AlState) -> bool) {
+    let slaves =
+        (0..states.count().min(SLAVES_MAX)).map(|unit| states.state(unit).map(|state| (unit, state)));
+    bytes.extend(slaves.map(|slave| u8::from(slave.is_some_and(|(unit, state)| is_set(unit, state)))));
+    bytes.resize(SLAVES_MAX, 0);
 }
 
 /// What the program asks of the world around it.
