@@ -37,18 +37,36 @@ pub fn run<'o, P: FramePort>(
     thread::scope(|scope| {
         let tasks = thread::Builder::new().name("cpu-unit".to_owned());
         let tasks = tasks.spawn_scoped(scope, || {
+            let _stop_all = StopOnPanic(stop);
             keep_pace(clock, stop, |now| {
                 changes.apply(cpus);
                 let next = turn(cpus, now);
                 reports.tell(cpus, now);
                 next
             });
+            reports.tell_all(cpus);
         })?;
         let result = runner::run(port, line, observer, clock, stop);
         stop.store(true, Ordering::Relaxed);
         tasks.thread().unpark();
+        tasks.join().map_err(|_| cpu_units_panicked())?;
         result
     })
+}
+
+/// Without its CPU Units a line is no line: when their thread panics, the frames stop too.
+struct StopOnPanic<'a>(&'a AtomicBool);
+
+impl Drop for StopOnPanic<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.0.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+fn cpu_units_panicked() -> io::Error {
+    io::Error::other("the thread of the CPU Units panicked: a user program of the test, or a mistake of ours")
 }
 
 /// Calls `turn` at the moments that it returns.
@@ -77,6 +95,7 @@ impl Twin {
         let clock = Clock::start_at(now);
         let frames = spawn("units", &shared, move |shared| serve_frames(shared, port, &clock))?;
         let tasks = spawn("cpu-unit", &shared, move |shared| {
+            let _stop_all = StopOnPanic(&shared.stop);
             keep_pace(&clock, &shared.stop, |now| turn(&mut shared.cpus(), now));
         });
         let mut live = Live { shared, frames: Some(frames), tasks: None, clock };
@@ -127,13 +146,14 @@ impl Live {
 
     fn end(&mut self) -> io::Result<Statistics> {
         self.shared.stop.store(true, Ordering::Relaxed);
-        if let Some(tasks) = self.tasks.take() {
+        let tasks = self.tasks.take().map_or(Ok(()), |tasks| {
             tasks.thread().unpark();
-            // A user program that panicked has told so itself.
-            let _ = tasks.join();
-        }
+            tasks.join().map_err(|_| cpu_units_panicked())
+        });
         let Some(frames) = self.frames.take() else { return Ok(Statistics::default()) };
-        frames.join().unwrap_or_else(|_| Err(io::Error::other("the thread of the units panicked")))
+        let frames = frames.join();
+        tasks?;
+        frames.unwrap_or_else(|_| Err(io::Error::other("the thread of the units panicked")))
     }
 }
 
