@@ -150,7 +150,8 @@ fn of_wholes(operator: &str, type_: Type, a: i128, b: i128) -> Result<Value, Div
     let number = match operator {
         "+" => a + b,
         "-" => a - b,
-        "*" => a * b,
+        // Two ULINTs: 2^128 and 2^64 wrap alike.
+        "*" => a.wrapping_mul(b),
         "/" | "MOD" if b == 0 => return Err(DividedByZero),
         "/" => a / b,
         "MOD" => a % b,

@@ -116,6 +116,6 @@ impl Type {
     /// A number modulo 2^bits, within the limits.
     pub(crate) fn wrapped(self, number: i128) -> i128 {
         let (least, _) = self.limits();
-        (number - least).rem_euclid(1_i128 << self.bits) + least
+        number.wrapping_sub(least).rem_euclid(1_i128 << self.bits) + least
     }
 }
