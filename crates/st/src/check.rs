@@ -9,6 +9,7 @@ mod expressions;
 mod initials;
 mod natives;
 mod numbers;
+mod operands;
 mod places;
 mod recursion;
 mod scope;
