@@ -6,6 +6,17 @@
 
 use crate::elementary::{Class, Elementary};
 
+/// Units of a TIME from the longest to the shortest, and their nanoseconds. IEC 61131-3, table 8.
+pub(crate) const TIME_UNITS: [(&str, u64); 7] = [
+    ("d", 86_400_000_000_000),
+    ("h", 3_600_000_000_000),
+    ("m", 60_000_000_000),
+    ("s", 1_000_000_000),
+    ("ms", 1_000_000),
+    ("us", 1_000),
+    ("ns", 1),
+];
+
 /// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps.
 pub(crate) const fn wrap(elementary: Elementary, bits: u64) -> u64 {
     let unused = 64 - elementary.bits();

@@ -16,21 +16,10 @@ use core::fmt::Write;
 use arrayvec::ArrayString;
 
 use crate::elementary::{Class, Elementary};
-use crate::value::{integer, range};
+use crate::value::{TIME_UNITS, integer, range};
 
 /// Most characters of such a text.
 pub(super) const TEXT_CHARACTERS_MAX: usize = 40;
-
-/// Units of a duration from the longest to the shortest, and their nanoseconds.
-const UNITS: [(&str, u64); 7] = [
-    ("d", 86_400_000_000_000),
-    ("h", 3_600_000_000_000),
-    ("m", 60_000_000_000),
-    ("s", 1_000_000_000),
-    ("ms", 1_000_000),
-    ("us", 1_000),
-    ("ns", 1),
-];
 
 pub(super) type ValueText = ArrayString<TEXT_CHARACTERS_MAX>;
 
@@ -72,7 +61,7 @@ fn write_duration(text: &mut ValueText, duration_ns: i64) -> core::fmt::Result {
         return text.write_str("0s");
     }
     let mut rest = duration_ns.unsigned_abs();
-    for (unit, factor) in UNITS {
+    for (unit, factor) in TIME_UNITS {
         if rest >= factor {
             write!(text, "{}{unit}", rest / factor)?;
             rest %= factor;
@@ -135,7 +124,7 @@ fn duration(text: &str) -> Option<u64> {
         None => (false, text),
     };
     let mut duration_ns = 0_i128;
-    let mut units = UNITS.iter();
+    let mut units = TIME_UNITS.iter();
     loop {
         let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
         let (number, behind) = rest.split_at(digits);

@@ -2,17 +2,7 @@
 
 use super::number::sign;
 use crate::problem::{Problem, Span};
-
-/// Units from the longest to the shortest, and their nanoseconds.
-const UNITS: [(&str, i128); 7] = [
-    ("d", 86_400_000_000_000),
-    ("h", 3_600_000_000_000),
-    ("m", 60_000_000_000),
-    ("s", 1_000_000_000),
-    ("ms", 1_000_000),
-    ("us", 1_000),
-    ("ns", 1),
-];
+use crate::value::TIME_UNITS;
 
 /// Larger than every TIME, and small enough to go on counting with.
 const TOO_LONG: i128 = 1 << 80;
@@ -32,8 +22,8 @@ pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
     let mut longer_units = 0;
     while !rest.is_empty() {
         let piece = piece(rest).ok_or_else(|| fault(format!("`{rest}` is not a duration")))?;
-        let place = UNITS.iter().position(|(unit, _)| unit.eq_ignore_ascii_case(piece.unit));
-        let Some((place, (_, factor))) = place.and_then(|place| Some((place, UNITS.get(place)?))) else {
+        let place = TIME_UNITS.iter().position(|(unit, _)| unit.eq_ignore_ascii_case(piece.unit));
+        let Some((place, (_, factor))) = place.and_then(|place| Some((place, TIME_UNITS.get(place)?))) else {
             return Err(fault(unit_fault(piece.unit)));
         };
         if place < longer_units {
@@ -43,7 +33,7 @@ pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
             return Err(fault("only the last unit of a duration may have a fraction".to_owned()));
         }
         longer_units = place + 1;
-        total = (total + piece.nanoseconds(*factor)).min(TOO_LONG);
+        total = (total + piece.nanoseconds((*factor).into())).min(TOO_LONG);
         rest = piece.rest;
     }
     let signed = if negative { -total } else { total };
