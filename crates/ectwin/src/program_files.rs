@@ -157,7 +157,7 @@ fn tell(unit: usize, record: &CpuRecord) {
         CpuEvent::ModeChanged(_) | CpuEvent::ProgramLoaded => {
             tracing::info!("CPU Unit of unit {unit}: {event}")
         }
-        CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset) => {
+        CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { .. }) => {
             tracing::info!("CPU Unit of unit {unit}: {event}");
         }
         // A machine that is busy for a moment does this to every real-time program.

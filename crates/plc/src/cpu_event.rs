@@ -78,7 +78,7 @@ impl CpuEvent {
             | Self::IoRefreshingStopped
             | Self::IoRefreshingResumed => true,
             Self::TaskPeriodExceeded { .. } => false,
-            Self::Program(event) => matches!(event, ProgramEvent::UserDefinedErrorsReset),
+            Self::Program(event) => matches!(event, ProgramEvent::UserDefinedErrorsReset { .. }),
         }
     }
 

@@ -68,8 +68,11 @@ pub enum ProgramEvent {
         /// Attached information 2.
         info2: u64,
     },
-    /// The user-defined errors are reset, as ResetAlarm does.
-    UserDefinedErrorsReset,
+    /// User-defined errors are reset, as ResetAlarm does.
+    UserDefinedErrorsReset {
+        /// Event code of the one that is reset; 0: all of them.
+        code: u16,
+    },
 }
 
 /// What is wrong in a program, and where.
@@ -94,7 +97,12 @@ impl fmt::Display for ProgramEvent {
             Self::UserDefinedError { code, info1, info2 } => {
                 write!(formatter, "user-defined error 16#{code:X} (information {info1}, {info2})")
             }
-            Self::UserDefinedErrorsReset => formatter.write_str("the user-defined errors were reset"),
+            Self::UserDefinedErrorsReset { code: 0 } => {
+                formatter.write_str("the user-defined errors were reset")
+            }
+            Self::UserDefinedErrorsReset { code } => {
+                write!(formatter, "the user-defined error 16#{code:X} was reset")
+            }
         }
     }
 }

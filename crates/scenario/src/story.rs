@@ -39,8 +39,9 @@ impl Story {
     fn note(&mut self, event: &CpuEvent) -> String {
         match event {
             CpuEvent::Program(ProgramEvent::UserDefinedError { code, .. }) => self.raise(*code),
-            CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset) => {
-                self.alarms.iter_mut().for_each(|alarm| alarm.stands = false);
+            CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { code }) => {
+                let meant = self.alarms.iter_mut().filter(|alarm| *code == 0 || alarm.code == *code);
+                meant.for_each(|alarm| alarm.stands = false);
             }
             CpuEvent::Program(ProgramEvent::TaskOverrun { .. }) => self.overruns += 1,
             CpuEvent::Program(ProgramEvent::Error(trouble) | ProgramEvent::Stopped(trouble)) => {
@@ -109,7 +110,7 @@ fn is_same_trouble(before: &CpuEvent, now: &CpuEvent) -> bool {
         (ProgramEvent::UserDefinedError { code, .. }, ProgramEvent::UserDefinedError { code: other, .. }) => {
             code == other
         }
-        (ProgramEvent::UserDefinedErrorsReset, _) => false,
+        (ProgramEvent::UserDefinedErrorsReset { .. }, _) => false,
         _ => before == now,
     }
 }
@@ -138,13 +139,15 @@ mod tests {
     #[test]
     fn a_reset_ends_user_defined_errors() {
         let mut story = Story::default();
-        let reset = || CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset);
+        let reset = |code| CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { code });
         story.period([alarm(1, 0), alarm(2, 0)].into_iter());
         assert!(story.has_alarms());
-        story.period([reset()].into_iter());
+        story.period([reset(2)].into_iter());
+        assert_eq!((story.alarm(1), story.alarm(2)), ((1, true), (1, false)));
+        story.period([reset(0)].into_iter());
         assert!(!story.has_alarms());
         assert_eq!(story.alarm_words(), "user-defined errors: 16#1 1 times, reset, 16#2 1 times, reset");
-        assert_eq!(story.period([reset()].into_iter()).len(), 1, "a reset is told each time");
+        assert_eq!(story.period([reset(0)].into_iter()).len(), 1, "a reset is told each time");
     }
 
     #[test]

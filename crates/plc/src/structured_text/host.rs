@@ -105,8 +105,8 @@ impl Host for IoHost<'_> {
         self.io.report(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
     }
 
-    fn reset_alarm(&mut self, _code: u16) {
-        self.io.report(ProgramEvent::UserDefinedErrorsReset);
+    fn reset_alarm(&mut self, code: u16) {
+        self.io.report(ProgramEvent::UserDefinedErrorsReset { code });
     }
 }
 

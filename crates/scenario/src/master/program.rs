@@ -231,7 +231,7 @@ impl Host for MasterHost {
         self.told.push(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
     }
 
-    fn reset_alarm(&mut self, _: u16) {
-        self.told.push(ProgramEvent::UserDefinedErrorsReset);
+    fn reset_alarm(&mut self, code: u16) {
+        self.told.push(ProgramEvent::UserDefinedErrorsReset { code });
     }
 }
