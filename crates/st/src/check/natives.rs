@@ -305,7 +305,9 @@ impl Body<'_, '_> {
                 let target = Type::String(STRING_CHARACTERS_MAX as u16);
                 coerce(self.checker, value, &target).map(|fitting| fitting.code)
             }
-            (Takes::GenericOrText(_), Generic::Text) => Some(value.code),
+            (Takes::GenericOrText(_), Generic::Text) if matches!(value.kind, Kind::Type(Type::String(_))) => {
+                Some(value.code)
+            }
             (Takes::Any(classes), _) => {
                 let value = self.typed(value);
                 match &value.kind {
