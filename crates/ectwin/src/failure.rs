@@ -28,6 +28,8 @@ pub(crate) enum Failure {
     Refused { message: String, help: String },
     /// A file cannot be read.
     Unreadable { path: PathBuf, source: io::Error },
+    /// The file of a user program cannot be read.
+    ProgramUnreadable { path: PathBuf, source: io::Error },
     /// A file cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
     /// The link cannot be opened.
@@ -66,7 +68,11 @@ impl Failure {
             | Self::LinkLost(_) => 1,
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
-            Self::BadFile(_) | Self::Refused { .. } | Self::Unreadable { .. } | Self::Unwritable { .. } => 2,
+            Self::BadFile(_)
+            | Self::Refused { .. }
+            | Self::Unreadable { .. }
+            | Self::ProgramUnreadable { .. }
+            | Self::Unwritable { .. } => 2,
             Self::Link(_) | Self::Modbus { .. } => 3,
         }
     }
@@ -81,6 +87,10 @@ impl Failure {
             Self::Refused { message, help } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(help_to_read(source)))
+            }
+            Self::ProgramUnreadable { path, source } => {
+                let help = "give the path of a user program, such as scenarios/programs/a-3-3.st";
+                (format!("cannot read {}: {source}", path.display()), Some(help.to_owned()))
             }
             Self::Unwritable { path, source } => (format!("cannot write {}: {source}", path.display()), None),
             Self::Link(error) => (error.to_string(), Some(error.help())),

@@ -48,6 +48,15 @@ impl Setup {
         Self::read(text, Some(folder))
     }
 
+    /// Reads the text of a unit file, and the user program in this file in place of the one that the text names.
+    ///
+    /// # Errors
+    /// What is wrong with it, or with the program, and where.
+    pub fn from_toml_with_program(text: &str, program: &Path) -> Result<Self, SetupError> {
+        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
+        Self::without_program(file).program_file(program)
+    }
+
     /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
     #[must_use]
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
@@ -147,13 +156,16 @@ impl Setup {
     }
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
-        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
-        let program = Box::new(|_: &mut Io| {});
-        let setup = Self { file, program, program_file: None, system_time_ns: None, memory: None };
+        let setup = Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?);
         match setup.file.cpu.program.clone() {
             Some(name) => setup.with_named_program(&name, folder),
             None => Ok(setup),
         }
+    }
+
+    fn without_program(file: UnitFile) -> Self {
+        let program = Box::new(|_: &mut Io| {});
+        Self { file, program, program_file: None, system_time_ns: None, memory: None }
     }
 
     fn with_named_program(

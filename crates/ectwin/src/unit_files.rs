@@ -11,24 +11,27 @@ use nx_ect101::UnitSettings;
 
 use crate::failure::Failure;
 
-/// Reads one unit file, and the user program and the non-volatile memory that it names, seen from its folder.
-pub(crate) fn read(path: &Path) -> Result<Setup, Failure> {
+/// Reads one unit file, and the user program and the non-volatile memory that it names, seen from its folder. A
+/// `program` that is given takes the place of the one that it names.
+pub(crate) fn read(path: &Path, program: Option<&Path>) -> Result<Setup, Failure> {
     let text = text_of(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let setup = Setup::from_toml_in(&text, folder).and_then(|setup| setup.with_storage(folder));
+    let setup = match program {
+        Some(program) => {
+            // A path that is mistyped is told as that, and not as a problem of the unit file.
+            std::fs::metadata(program)
+                .map_err(|source| Failure::ProgramUnreadable { path: program.to_owned(), source })?;
+            Setup::from_toml_with_program(&text, program)
+        }
+        None => Setup::from_toml_in(&text, folder),
+    };
+    let setup = setup.and_then(|setup| setup.with_storage(folder));
     setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
 }
 
 /// What a unit file sets the unit to; what it names is left alone.
 pub(crate) fn settings(path: &Path) -> Result<UnitSettings, Failure> {
     parse(path).map(|(file, _)| UnitSettings::from_unit_file(&file))
-}
-
-/// Gives a unit the user program in a file.
-pub(crate) fn with_program(setup: Setup, path: &Path) -> Result<Setup, Failure> {
-    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
-    std::fs::metadata(path).map_err(unreadable)?;
-    setup.program_file(path).map_err(|error| Failure::BadFile(problems(path, "", &error)))
 }
 
 /// The text of a file.

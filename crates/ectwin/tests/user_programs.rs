@@ -6,6 +6,11 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 
 const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
 
+/// Ends the test where something is not as it should be.
+fn must<T, E: std::fmt::Debug>(result: Result<T, E>) -> T {
+    result.unwrap_or_else(|error| panic!("{error:?}"))
+}
+
 /// `ectwin run` with a program, on a port of its own.
 struct Running {
     child: Child,
@@ -16,11 +21,11 @@ struct Running {
 impl Running {
     fn start(name: &str, source: &str) -> Self {
         let program = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.st"));
-        std::fs::write(&program, source).unwrap();
+        must(std::fs::write(&program, source));
         let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
         command.args(["-v", "run", UNIT, "--link", "udp:127.0.0.1:0", "--program"]).arg(&program);
-        let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-        let stderr = BufReader::new(child.stderr.take().unwrap());
+        let mut child = must(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn());
+        let stderr = BufReader::new(must(child.stderr.take().ok_or("no stderr")));
         Self { child, stderr, program }
     }
 
@@ -29,13 +34,13 @@ impl Running {
         let mut line = String::new();
         while !line.contains(words) {
             line.clear();
-            let read = self.stderr.read_line(&mut line).unwrap();
+            let read = must(self.stderr.read_line(&mut line));
             assert_ne!(read, 0, "the command ended before it said `{words}`");
         }
     }
 
     fn change(&self, source: &str) {
-        std::fs::write(&self.program, source).unwrap();
+        must(std::fs::write(&self.program, source));
     }
 }
 

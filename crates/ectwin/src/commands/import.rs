@@ -16,7 +16,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     refuse_existing(&args.output)?;
     let frames = read(&args.capture)?;
     for unit in &args.units {
-        unit_files::read(unit)?;
+        unit_files::parse(unit)?;
     }
     write_new(&args.output, &text(args, &frames)?)?;
     output::print_line(format_args!(

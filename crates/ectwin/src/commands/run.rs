@@ -38,11 +38,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 
 fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
     let read = |path: &std::path::PathBuf| {
-        let setup = unit_files::read(path)?;
-        let setup = match &args.program {
-            Some(program) => unit_files::with_program(setup, program)?,
-            None => setup,
-        };
+        let setup = unit_files::read(path, args.program.as_deref())?;
         Ok(if args.fast { setup.fast() } else { setup })
     };
     args.units.iter().map(read).collect()

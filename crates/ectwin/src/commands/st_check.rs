@@ -27,7 +27,8 @@ struct Row<'a> {
 /// Checks a program and tells what is wrong with it.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
     let variables = DeviceVariables::of_unit_file(&unit_file(args)?);
-    let source = unit_files::text_of(&args.program)?;
+    let unreadable = |source| Failure::ProgramUnreadable { path: args.program.clone(), source };
+    let source = std::fs::read_to_string(&args.program).map_err(unreadable)?;
     let checked = StructuredText::compile(&source, &variables);
     if args.json {
         let problems = checked.as_ref().err().map(rows).unwrap_or_default();
