@@ -20,6 +20,8 @@ const CONTRARIES: &[(&str, &str)] = &[
     ("sees an error", "sees no error"),
     ("was taken", "was refused with 0x00000001"),
     ("has given up", "has nothing to do"),
+    ("is TRUE", "is FALSE"),
+    ("is FALSE", "is TRUE"),
 ];
 
 /// Words behind which the rest of an expectation stands, and what to put there instead.
@@ -93,6 +95,8 @@ fn turn_all(from: &Path, to: &Path, lines: &mut Vec<usize>) {
             let (text, line) = turned.unwrap_or_else(|| panic!("{}: nothing to turn", path.display()));
             fs::write(copy, text).unwrap();
             lines.push(line);
+        } else if path.extension().is_some_and(|extension| extension == "st") {
+            fs::copy(&path, copy).unwrap();
         }
     }
 }
