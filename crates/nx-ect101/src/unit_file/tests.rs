@@ -180,6 +180,8 @@ const WRONG: &[(&str, &str)] = &[
     ("mode", "model = \"nx-ect101\"\n[cpu]\nmode = \"RUN\""),
     ("fail-soft as a word", "model = \"nx-ect101\"\n[cpu]\nfail_soft = \"stop\""),
     ("fail-soft misspelt", "model = \"nx-ect101\"\n[cpu]\nfailsoft = true"),
+    ("statement budget of nothing", "model = \"nx-ect101\"\n[cpu]\nstatement_budget = 0"),
+    ("statement budget as a word", "model = \"nx-ect101\"\n[cpu]\nstatement_budget = \"large\""),
     ("cpu no table", "model = \"nx-ect101\"\ncpu = \"run\""),
     ("array of tables", "model = \"nx-ect101\"\n[[cpu]]\nmode = \"run\""),
     ("unknown data set", "model = \"nx-ect101\"\n[io_allocation.m_to_c]\nuint = 6"),
