@@ -1,7 +1,9 @@
 //! What can stand on the command line.
 
-use std::net::{Ipv4Addr, SocketAddr};
-use std::num::{NonZeroU64, NonZeroUsize, ParseIntError};
+mod address;
+
+use std::net::SocketAddr;
+use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
@@ -73,19 +75,14 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) program: Option<PathBuf>,
     /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone is one of 127.0.0.1
-    #[arg(long, value_name = "[ADDR:]PORT", value_parser = modbus_address)]
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::modbus)]
     pub(crate) modbus: Option<SocketAddr>,
+    /// The same for OPC UA clients, where the feature `opcua` is built in
+    #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::opcua)]
+    pub(crate) opcua: Option<SocketAddr>,
     /// Drop the waits of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
-}
-
-fn modbus_address(text: &str) -> Result<SocketAddr, String> {
-    let on_loopback = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
-    let address = text.parse().or_else(|_| text.parse().map(on_loopback));
-    address.map_err(|_: ParseIntError| {
-        format!("{text:?} is no address: expected PORT or ADDR:PORT, such as 1502 or 127.0.0.1:1502")
-    })
 }
 
 #[derive(Debug, Args)]
@@ -274,16 +271,5 @@ mod tests {
         assert_eq!(args.link.to_string(), "udp:127.0.0.1:34980");
         assert!(args.fast && args.pcap.is_none());
         assert!(Cli::try_parse_from(["ectwin", "run", "--link", "udp:127.0.0.1"]).is_err());
-    }
-
-    #[test]
-    fn modbus_is_served_on_loopback_unless_the_address_says_otherwise() {
-        let address = |text| modbus_address(text).map(|address| address.to_string());
-        assert_eq!(address("1502").unwrap(), "127.0.0.1:1502");
-        assert_eq!(address("0.0.0.0:502").unwrap(), "0.0.0.0:502");
-        assert_eq!(address("[::1]:0").unwrap(), "[::1]:0");
-        for wrong in ["", "65536", "127.0.0.1", "localhost:1502"] {
-            assert!(address(wrong).is_err_and(|message| message.contains("127.0.0.1:1502")), "{wrong}");
-        }
     }
 }

@@ -36,6 +36,9 @@ pub(crate) enum Failure {
     Link(OpenError),
     /// Modbus TCP cannot be served there.
     Modbus { address: SocketAddr, source: io::Error },
+    /// OPC UA cannot be served there.
+    #[cfg(feature = "opcua")]
+    OpcUa { address: SocketAddr, source: io::Error },
     /// The link was lost while it was in use.
     LinkLost(io::Error),
     /// A step of the demo failed.
@@ -74,6 +77,8 @@ impl Failure {
             | Self::ProgramUnreadable { .. }
             | Self::Unwritable { .. } => 2,
             Self::Link(_) | Self::Modbus { .. } => 3,
+            #[cfg(feature = "opcua")]
+            Self::OpcUa { .. } => 3,
         }
     }
 
@@ -96,6 +101,10 @@ impl Failure {
             Self::Link(error) => (error.to_string(), Some(error.help())),
             Self::Modbus { address, source } => {
                 (format!("Modbus TCP cannot be served at {address}: {source}"), help_to_listen(source))
+            }
+            #[cfg(feature = "opcua")]
+            Self::OpcUa { address, source } => {
+                (format!("OPC UA cannot be served at {address}: {source}"), help_to_listen(source))
             }
             Self::LinkLost(error) => (format!("the link is lost: {error}"), None),
             #[cfg(feature = "ethercrab")]

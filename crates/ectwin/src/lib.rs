@@ -28,6 +28,8 @@ pub mod explain;
 mod live;
 mod memory_file;
 mod modbus_clients;
+#[cfg(feature = "opcua")]
+mod opcua_clients;
 mod program_file;
 mod program_files;
 mod setup;
@@ -44,6 +46,8 @@ pub use nx_ect101::{
     CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, Lights,
     LogRecord, Pattern,
 };
+#[cfg(feature = "opcua")]
+pub use opcua::{self, Server as OpcUaServer};
 pub use plc::{
     CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
     NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,

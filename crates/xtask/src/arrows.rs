@@ -39,6 +39,7 @@ const FLOORS: &[Row] = &[
     row("scenario", 7, AnyFloorBelow),
     row("wasm", 7, Only(&["time", "plc"])),
     row("modbus", 8, Only(&["nx-ect101", "plc"])),
+    row("opcua", 8, Only(&["plc"])),
     row("link", 8, Only(&["time", "capture", "segment"])),
     row("storage", 8, Only(&[])),
     row("ectwin", 9, AnyFloorBelow),

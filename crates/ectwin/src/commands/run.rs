@@ -19,6 +19,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let units = setups.len();
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
     let listener = args.modbus.map(listen).transpose()?;
+    #[cfg(feature = "opcua")]
+    let opcua_listener = args.opcua.map(opcua::listen).transpose()?;
     let clock = Clock::start();
     let mut recorder = recorder(args, &clock)?;
     let stop = stop_on_signals().map_err(Failure::LinkLost)?;
@@ -26,6 +28,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
     let _modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
+    #[cfg(feature = "opcua")]
+    let _opcua = opcua_listener.map(|listener| opcua::serve(&mut twin, listener)).transpose()?;
     // The port is open: a frame that comes from now on waits in it and is answered.
     output::print_line(format_args!("ready link={} units={units}", args.link))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
@@ -52,6 +56,23 @@ fn serve_modbus(twin: &mut Twin, listener: TcpListener) -> Result<ModbusServer, 
     let server = twin.serve_modbus(listener).map_err(Failure::LinkLost)?;
     tracing::info!("Modbus TCP is served at {}", server.address());
     Ok(server)
+}
+
+#[cfg(feature = "opcua")]
+mod opcua {
+    use ectwin::OpcUaServer;
+
+    use super::{Failure, SocketAddr, TcpListener, Twin};
+
+    pub(super) fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
+        TcpListener::bind(address).map_err(|source| Failure::OpcUa { address, source })
+    }
+
+    pub(super) fn serve(twin: &mut Twin, listener: TcpListener) -> Result<OpcUaServer, Failure> {
+        let server = twin.serve_opcua(listener).map_err(Failure::LinkLost)?;
+        tracing::info!("OPC UA is served at opc.tcp://{}", server.address());
+        Ok(server)
+    }
 }
 
 fn recorder(args: &RunArgs, clock: &Clock) -> Result<Option<Recorder>, Failure> {
