@@ -16,8 +16,8 @@ pub(crate) enum Scope {
 const MASTERS: &str = "masters";
 
 /// Features that are off by default, and the test binaries that are built only with them.
-const FEATURES: &str = "ectwin/wasm";
-const FEATURE_TESTS: &[&str] = &["wasm_programs"];
+const FEATURES: &str = "ectwin/opcua,ectwin/wasm";
+const FEATURE_TESTS: &[&str] = &["opcua", "wasm_programs"];
 
 pub(crate) fn tests(scope: Scope) -> Outcome {
     if has_cargo("nextest") { nextest(scope) } else { cargo_test(scope) }
@@ -41,7 +41,7 @@ fn cargo_test(scope: Scope) -> Outcome {
 
 /// What the default build leaves out: features of the command that are off unless one asks for them.
 ///
-/// All of the workspace is named, so that nothing but the command itself is built a second time.
+/// All of the workspace is named, so that little but the command itself is built a second time.
 pub(crate) fn features() -> Outcome {
     let scope = ["--workspace", "--locked", "--features", FEATURES];
     cargo(&[&["clippy", "--all-targets", "--quiet"], &scope[..], &["--", "-D", "warnings"]].concat())?;
