@@ -1,6 +1,6 @@
 //! OPC UA: clients read, write and watch the variables of CPU Units.
 //!
-//! [`serve`] answers clients on a thread of its own, which meets the CPU Unit in [`plc::outside`] only: no client,
+//! `serve` answers clients on a thread of its own, which meets the CPU Unit in `plc::outside` only: no client,
 //! however slow or hostile, delays a task period or a frame. There is no security: whoever reaches the port reads and
 //! writes.
 //!
