@@ -4,7 +4,6 @@ use std::io;
 use std::net::TcpListener;
 
 use modbus::{ModbusMap, Server};
-use plc::outside;
 
 use crate::Twin;
 
@@ -16,15 +15,7 @@ impl Twin {
     /// # Errors
     /// The listener cannot be used, or there is no thread to be had.
     pub fn serve_modbus(&mut self, listener: TcpListener) -> io::Result<Server> {
-        let mut units = Vec::with_capacity(self.len());
-        for position in 0..self.len() {
-            let mut side = self.unit(position);
-            let cpu = side.cpu();
-            let map = ModbusMap::of(cpu.io().variables());
-            let (program, end) = outside::connect(cpu.io().variables());
-            cpu.attach(Box::new(program));
-            units.push((map, end));
-        }
-        modbus::serve(listener, units)
+        let ends = self.connect_outside();
+        modbus::serve(listener, ends.into_iter().map(|end| (ModbusMap::of(end.variables()), end)))
     }
 }

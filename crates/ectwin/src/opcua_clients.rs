@@ -4,7 +4,6 @@ use std::io;
 use std::net::TcpListener;
 
 use opcua::Server;
-use plc::outside;
 
 use crate::Twin;
 
@@ -16,14 +15,6 @@ impl Twin {
     /// # Errors
     /// The listener cannot be used, or there is no thread to be had.
     pub fn serve_opcua(&mut self, listener: TcpListener) -> io::Result<Server> {
-        let mut ends = Vec::with_capacity(self.len());
-        for position in 0..self.len() {
-            let mut side = self.unit(position);
-            let cpu = side.cpu();
-            let (program, end) = outside::connect(cpu.io().variables());
-            cpu.attach(Box::new(program));
-            ends.push(end);
-        }
-        opcua::serve(listener, ends)
+        opcua::serve(listener, self.connect_outside())
     }
 }

@@ -4,6 +4,7 @@ use device::Network;
 use link::{FrameFate, Responder};
 use nx_ect101::NxEct101;
 use plc::CpuUnit;
+use plc::outside::{self, OutsideEnd};
 use time::{Duration, Instant};
 
 use crate::memory_file::Keeper;
@@ -101,6 +102,16 @@ impl Twin {
     /// If the line has no unit there.
     pub fn unit(&mut self, position: usize) -> UnitSide<'_> {
         self.line.unit(&mut self.cpus, position, self.now)
+    }
+
+    /// Attaches a way in for runtimes on other threads to each CPU Unit, in the order of the line.
+    pub(crate) fn connect_outside(&mut self) -> Vec<OutsideEnd> {
+        let connect = |cpu: &mut CpuUnit| {
+            let (program, end) = outside::connect(cpu.io().variables());
+            cpu.attach(Box::new(program));
+            end
+        };
+        self.cpus.iter_mut().map(connect).collect()
     }
 
     pub(crate) fn into_parts(self) -> Parts {

@@ -1,12 +1,13 @@
 //! User programs in WebAssembly, in a build with the feature: from a file, behind a unit file, changed while they run.
 
-use std::io::{BufRead, BufReader};
+mod running;
+
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStderr, Command, Stdio};
+use std::process::Command;
 
 use ectwin::{Duration, Setup, SetupError, Twin};
+use running::{Running, UNIT, must};
 
-const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
 const PAGE: &str = include_str!("../../../docs/user/wasm-programs.md");
 
 /// A folder of the test's own.
@@ -18,10 +19,6 @@ fn folder(name: &str) -> PathBuf {
 
 fn write(path: &Path, text: &str) {
     must(std::fs::write(path, must(wat::parse_str(text))));
-}
-
-fn must<T, E: std::fmt::Display>(result: Result<T, E>) -> T {
-    result.unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A program that writes this value, and reports these words.
@@ -76,40 +73,6 @@ fn a_wrong_module_is_refused_with_its_file_and_the_reason() {
     assert_eq!(output.status.code(), Some(2));
     let told = String::from_utf8_lossy(&output.stderr);
     assert!(told.contains("it does not export `scan`"), "{told}");
-}
-
-/// `ectwin run` with a program.
-struct Running {
-    child: Child,
-    stderr: BufReader<ChildStderr>,
-}
-
-impl Running {
-    fn start(program: &Path) -> Self {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
-        command.args(["-v", "run", UNIT, "--link", "udp:127.0.0.1:0", "--program"]).arg(program);
-        let mut child = must(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn());
-        let stderr = BufReader::new(must(child.stderr.take().ok_or("it has a pipe")));
-        Self { child, stderr }
-    }
-
-    /// Waits for a line with these words.
-    fn wait_for(&mut self, words: &str) {
-        let mut line = String::new();
-        while !line.contains(words) {
-            line.clear();
-            let read = must(self.stderr.read_line(&mut line));
-            assert_ne!(read, 0, "the command ended before it said `{words}`");
-        }
-    }
-}
-
-impl Drop for Running {
-    fn drop(&mut self) {
-        // An error means that it has ended by itself.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
-    }
 }
 
 #[test]

@@ -1,0 +1,46 @@
+//! `ectwin run` with a user program, and what it tells on stderr, where a user looks.
+
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, Stdio};
+
+pub(crate) const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
+
+/// Ends the test where something is not as it should be.
+pub(crate) fn must<T, E: std::fmt::Display>(result: Result<T, E>) -> T {
+    result.unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The command, on a port that nobody else has.
+pub(crate) struct Running {
+    child: Child,
+    stderr: BufReader<ChildStderr>,
+}
+
+impl Running {
+    pub(crate) fn start(program: &Path) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+        command.args(["-v", "run", UNIT, "--link", "udp:127.0.0.1:0", "--program"]).arg(program);
+        let mut child = must(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn());
+        let stderr = BufReader::new(must(child.stderr.take().ok_or("it has a pipe")));
+        Self { child, stderr }
+    }
+
+    /// Waits for a line with these words.
+    pub(crate) fn wait_for(&mut self, words: &str) {
+        let mut line = String::new();
+        while !line.contains(words) {
+            line.clear();
+            let read = must(self.stderr.read_line(&mut line));
+            assert_ne!(read, 0, "the command ended before it said `{words}`");
+        }
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        // An error means that it has ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
