@@ -23,7 +23,7 @@ pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
 pub use device_variables::{
     DeviceVariables, STATUS_BITS, SYSTEM_TABLE_ELEMENTS, StatusBit, Target, TextProblem, VALUE_BYTES_MAX,
     Validity, ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
-    VariableType, VariableValue,
+    VariableType, VariableValue, variable_name,
 };
 pub use echo::Echo;
 pub use io::Io;

@@ -86,6 +86,25 @@ pub struct ProgramTrouble {
     pub column: usize,
 }
 
+impl ProgramEvent {
+    /// What it is that a scan of a program in Structured Text ended before its end.
+    #[must_use]
+    pub fn of_stopped(stopped: &st::Stopped, program: &st::Program, budget_statements: u64) -> Self {
+        if stopped.fault == st::Fault::BudgetUsedUp {
+            return Self::TaskOverrun { budget_statements };
+        }
+        let (line, column) = stopped.span.line_and_column(program.source());
+        Self::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
+    }
+}
+
+impl From<st::Alarm> for ProgramEvent {
+    fn from(alarm: st::Alarm) -> Self {
+        let st::Alarm { code, info_1, info_2 } = alarm;
+        Self::UserDefinedError { code, info1: info_1, info2: info_2 }
+    }
+}
+
 impl fmt::Display for ProgramEvent {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -6,11 +6,11 @@ mod host;
 use std::any::Any;
 
 use nx_ect101::unit_file::STATEMENT_BUDGET_DEFAULT;
-use st::{Fault, Instance, Problems, Stopped};
+use st::{Instance, Problems};
 
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
 use crate::io::Io;
-use crate::program::{Program, ProgramEvent, ProgramTrouble};
+use crate::program::{Program, ProgramEvent};
 use host::{IoHost, PendingCalls};
 
 /// A user program in Structured Text.
@@ -98,14 +98,6 @@ impl StructuredText {
             let _ = io.write(*variable, &value);
         }
     }
-
-    fn report(&self, stopped: &Stopped) -> ProgramEvent {
-        if stopped.fault == Fault::BudgetUsedUp {
-            return ProgramEvent::TaskOverrun { budget_statements: self.budget_statements };
-        }
-        let (line, column) = stopped.span.line_and_column(self.instance.program().source());
-        ProgramEvent::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
-    }
 }
 
 impl Program for StructuredText {
@@ -121,7 +113,7 @@ impl Program for StructuredText {
         let result = self.instance.scan(now_ns, self.budget_statements, &mut host);
         self.give_out(io);
         if let Err(stopped) = result {
-            io.report(self.report(&stopped));
+            io.report(ProgramEvent::of_stopped(&stopped, self.instance.program(), self.budget_statements));
         }
     }
 

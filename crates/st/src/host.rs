@@ -46,6 +46,24 @@ pub struct NxFault {
     pub error_id_ex: u32,
 }
 
+/// Error IDs of NX_ReadObj and NX_WriteObj. The blocks of the library add 16#2C02, a call that timed out.
+impl NxFault {
+    /// NX Message Error: the unit refused the message, and ErrorIDEx says why.
+    pub const MESSAGE_ERROR: u16 = 0x2C00;
+    /// NX Message Resources Exceeded: too many calls at once.
+    pub const RESOURCES_EXCEEDED: u16 = 0x2C01;
+    /// Incorrect NX Message Length: the object and the variable are not equally long.
+    pub const INCORRECT_LENGTH: u16 = 0x2C03;
+    /// Input Value Out of Range: there is no such unit.
+    pub const OUT_OF_RANGE: u16 = 0x0400;
+
+    /// An error that has no more to say.
+    #[must_use]
+    pub const fn of(error_id: u16) -> Self {
+        Self { error_id, error_id_ex: 0 }
+    }
+}
+
 /// A user-defined error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Alarm {
@@ -63,11 +81,11 @@ pub struct NoHost;
 
 impl Host for NoHost {
     fn nx_read(&mut self, _: u16, _: u16, _: u8) -> Result<NxCallNumber, NxFault> {
-        Err(NxFault { error_id: 0x2C00, error_id_ex: 0 })
+        Err(NxFault::of(NxFault::MESSAGE_ERROR))
     }
 
     fn nx_write(&mut self, _: u16, _: u16, _: u8, _: &[u8]) -> Result<NxCallNumber, NxFault> {
-        Err(NxFault { error_id: 0x2C00, error_id_ex: 0 })
+        Err(NxFault::of(NxFault::MESSAGE_ERROR))
     }
 
     fn nx_result(

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel};
 
 use arrayvec::ArrayVec;
-use wire::{ObjectIndex, SubIndex};
+use wire::{ObjectIndex, SdoAbort, SubIndex};
 
 use crate::messages::MESSAGE_BYTES;
 
@@ -62,6 +62,22 @@ pub enum NxMessageError {
     NotReady,
     /// The unit has no power.
     NotReachable,
+}
+
+impl NxMessageError {
+    /// The SDO abort code by which a master is told the same of a CoE object.
+    #[must_use]
+    pub const fn sdo_abort(self) -> SdoAbort {
+        match self {
+            Self::ObjectDoesNotExist => SdoAbort::OBJECT_DOES_NOT_EXIST,
+            Self::SubindexDoesNotExist => SdoAbort::SUBINDEX_DOES_NOT_EXIST,
+            Self::NotAccessibleByMessage => SdoAbort::UNSUPPORTED_ACCESS,
+            Self::ReadOnly => SdoAbort::READ_ONLY,
+            Self::LengthMismatch { .. } => SdoAbort::LENGTH_MISMATCH,
+            Self::NotReady => SdoAbort::LOCAL_CONTROL,
+            Self::NotReachable => SdoAbort::GENERAL,
+        }
+    }
 }
 
 impl fmt::Display for NxMessageError {

@@ -97,11 +97,12 @@ impl Ports<'_> {
     }
 
     fn entry(&self, direction: Direction, kind: DataSetKind, number: u8, start: usize) -> Variable {
-        let (set, variable_type) = match kind {
-            DataSetKind::Uints => ("UINTs", VariableType::array(Elementary::Uint, 15)),
-            DataSetKind::Bytes => ("BYTES", VariableType::array(Elementary::Byte, 10)),
-            DataSetKind::Udint => ("UDINT", VariableType::single(Elementary::Udint)),
+        let set = match kind {
+            DataSetKind::Uints => "UINTs",
+            DataSetKind::Bytes => "BYTES",
+            DataSetKind::Udint => "UDINT",
         };
+        let variable_type = VariableType::of_entry(kind);
         let (area, way, access) = match direction {
             Direction::MToC => (Area::MToC, "M to C", VariableAccess::ReadOnly),
             Direction::CToM => (Area::CToM, "C to M", VariableAccess::ReadWrite),
@@ -136,7 +137,7 @@ impl Ports<'_> {
         list
     }
 
-    /// A read-only variable of an I/O port. The name has `_` for everything that is no letter and no digit.
+    /// A read-only variable of an I/O port.
     fn port(
         &self,
         prefix: &str,
@@ -146,9 +147,8 @@ impl Ports<'_> {
         source: VariableSource,
         place: Place,
     ) -> Variable {
-        let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
         Variable {
-            name: format!("{prefix}_{words}"),
+            name: variable_name(prefix, port),
             port: Some(port.to_owned()),
             at: Some(format!("IOBus://unit#{}/{path}{port}", self.unit_number)),
             variable_type,
@@ -157,6 +157,14 @@ impl Ports<'_> {
             place,
         }
     }
+}
+
+/// The name that a variable of an I/O port gets by itself (manual, 6-1-2): the device name and the port's, with `_` for
+/// everything that is no letter and no digit.
+#[must_use]
+pub fn variable_name(device_name: &str, port: &str) -> String {
+    let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
+    format!("{device_name}_{words}")
 }
 
 /// The system-defined variables: no device has them, and no AT specification.

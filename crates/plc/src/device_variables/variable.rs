@@ -4,7 +4,7 @@ use core::fmt;
 use core::ops::Range;
 
 use arrayvec::ArrayVec;
-use nx_ect101::Direction;
+use nx_ect101::{DataSetKind, Direction};
 use st::{Class, Elementary};
 
 use super::memory::Place;
@@ -63,6 +63,16 @@ impl VariableType {
     #[must_use]
     pub const fn array(elementary: Elementary, elements: u16) -> Self {
         Self { elementary, elements: Some(elements) }
+    }
+
+    /// The type of an I/O entry of a data set (manual, 6-3-2).
+    #[must_use]
+    pub const fn of_entry(kind: DataSetKind) -> Self {
+        match kind {
+            DataSetKind::Uints => Self::array(Elementary::Uint, 15),
+            DataSetKind::Bytes => Self::array(Elementary::Byte, 10),
+            DataSetKind::Udint => Self::single(Elementary::Udint),
+        }
     }
 
     /// Length in bytes, element after element.

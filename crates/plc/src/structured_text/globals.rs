@@ -13,14 +13,14 @@ pub(super) struct Globals {
 /// All variables of a CPU Unit, and behind them where its unit is, which NX_ReadObj and NX_WriteObj ask for: a
 /// variable of the type `_sNXUNIT_ID` that is assigned to the port *Node location information*.
 pub(super) fn of(variables: &DeviceVariables) -> Globals {
-    let mut list = variables.iter().map(|(_, variable)| Global {
+    let globals = variables.iter().map(|(_, variable)| Global {
         name: variable.name.clone(),
         at: variable.at.clone(),
         type_name: variable.variable_type.to_string(),
         writable: variable.access == VariableAccess::ReadWrite,
         constant: None,
     });
-    let mut list: Vec<_> = list.by_ref().collect();
+    let mut list: Vec<_> = globals.collect();
     let unit_number = variables.unit_number();
     list.push(Global {
         name: format!("{}_Node_location_information", variables.device_name()),

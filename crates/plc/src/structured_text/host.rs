@@ -12,15 +12,6 @@ use crate::io::Io;
 use crate::nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 use crate::program::ProgramEvent;
 
-/// NX Message Error: the unit refused the message. ErrorIDEx says why.
-const NX_MESSAGE_ERROR: u16 = 0x2C00;
-/// NX Message Resources Exceeded: too many calls at once.
-const RESOURCES_EXCEEDED: u16 = 0x2C01;
-/// Incorrect NX Message Length.
-const INCORRECT_LENGTH: u16 = 0x2C03;
-/// Input Value Out of Range: there is no unit of this number on the bus.
-const OUT_OF_RANGE: u16 = 0x0400;
-
 /// The calls of a program that are under way.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingCalls {
@@ -63,12 +54,12 @@ impl IoHost<'_> {
         make: impl FnOnce(&mut NxObjectClient) -> Result<NxCall, NxCallRefused>,
     ) -> Result<NxCallNumber, NxFault> {
         if unit != u16::from(self.unit_number) {
-            return Err(NxFault { error_id: OUT_OF_RANGE, error_id_ex: 0 });
+            return Err(NxFault::of(NxFault::OUT_OF_RANGE));
         }
         match make(self.io.nx_objects()) {
             Ok(call) => Ok(self.calls.add(call)),
-            Err(NxCallRefused::TooManyCalls) => Err(NxFault { error_id: RESOURCES_EXCEEDED, error_id_ex: 0 }),
-            Err(NxCallRefused::ValueTooLong) => Err(NxFault { error_id: INCORRECT_LENGTH, error_id_ex: 0 }),
+            Err(NxCallRefused::TooManyCalls) => Err(NxFault::of(NxFault::RESOURCES_EXCEEDED)),
+            Err(NxCallRefused::ValueTooLong) => Err(NxFault::of(NxFault::INCORRECT_LENGTH)),
         }
     }
 }
@@ -101,8 +92,7 @@ impl Host for IoHost<'_> {
     }
 
     fn set_alarm(&mut self, alarm: Alarm) {
-        let Alarm { code, info_1, info_2 } = alarm;
-        self.io.report(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
+        self.io.report(alarm.into());
     }
 
     fn reset_alarm(&mut self, code: u16) {
@@ -113,14 +103,9 @@ impl Host for IoHost<'_> {
 /// What the instruction's pins tell of a refusal. The manual of the unit gives no numbers for ErrorIDEx: they are the
 /// SDO abort codes of the same refusals, which every EtherCAT engineer knows.
 const fn fault_of(error: NxMessageError) -> NxFault {
-    let (error_id, error_id_ex) = match error {
-        NxMessageError::ObjectDoesNotExist => (NX_MESSAGE_ERROR, 0x0602_0000),
-        NxMessageError::SubindexDoesNotExist => (NX_MESSAGE_ERROR, 0x0609_0011),
-        NxMessageError::NotAccessibleByMessage => (NX_MESSAGE_ERROR, 0x0601_0000),
-        NxMessageError::ReadOnly => (NX_MESSAGE_ERROR, 0x0601_0002),
-        NxMessageError::LengthMismatch { .. } => (INCORRECT_LENGTH, 0x0607_0010),
-        NxMessageError::NotReady => (NX_MESSAGE_ERROR, 0x0800_0021),
-        NxMessageError::NotReachable => (NX_MESSAGE_ERROR, 0x0800_0000),
+    let error_id = match error {
+        NxMessageError::LengthMismatch { .. } => NxFault::INCORRECT_LENGTH,
+        _ => NxFault::MESSAGE_ERROR,
     };
-    NxFault { error_id, error_id_ex }
+    NxFault { error_id, error_id_ex: error.sdo_abort().0 }
 }

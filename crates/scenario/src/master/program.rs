@@ -3,10 +3,8 @@
 use core::task::Poll;
 
 use nx_ect101::{Direction, PdoSettings};
-use plc::{CpuEvent, ProgramEvent, ProgramTrouble, STATEMENT_BUDGET_DEFAULT};
-use st::{
-    Alarm, External, Fault, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems, Stopped,
-};
+use plc::{CpuEvent, ProgramEvent, STATEMENT_BUDGET_DEFAULT};
+use st::{Alarm, External, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems};
 use time::{Duration, Instant};
 use wire::AlState;
 
@@ -14,8 +12,8 @@ use super::process_data::ProcessData;
 use super::states::States;
 use super::variables::{self, MasterVariables, Place, SLAVES_MAX, Source};
 
-/// Input Value Out of Range: a master has no NX bus, so there is no unit of any number.
-const NO_NX_UNIT: NxFault = NxFault { error_id: 0x0400, error_id_ex: 0 };
+/// A master has no NX bus, so there is no unit of any number.
+const NO_NX_UNIT: NxFault = NxFault::of(NxFault::OUT_OF_RANGE);
 
 /// The user program of the master, read and checked.
 #[derive(Clone, Debug)]
@@ -141,7 +139,9 @@ impl Task {
         let now_ns = now.saturating_since(Instant::ZERO).as_nanos();
         let result = self.program.instance.scan(now_ns, STATEMENT_BUDGET_DEFAULT, &mut host);
         self.give_out(data);
-        let failed = result.err().map(|stopped| self.report(&stopped));
+        let program = self.program.instance.program();
+        let failed =
+            result.err().map(|stopped| ProgramEvent::of_stopped(&stopped, program, STATEMENT_BUDGET_DEFAULT));
         Some(host.told.into_iter().chain(failed).map(CpuEvent::Program).collect())
     }
 
@@ -185,14 +185,6 @@ impl Task {
             }
         }
     }
-
-    fn report(&self, stopped: &Stopped) -> ProgramEvent {
-        if stopped.fault == Fault::BudgetUsedUp {
-            return ProgramEvent::TaskOverrun { budget_statements: STATEMENT_BUDGET_DEFAULT };
-        }
-        let (line, column) = stopped.span.line_and_column(self.program.instance.program().source());
-        ProgramEvent::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
-    }
 }
 
 /// An element for each node address, from 1 on; FALSE for those that no slave has.
@@ -227,8 +219,7 @@ impl Host for MasterHost {
     }
 
     fn set_alarm(&mut self, alarm: Alarm) {
-        let Alarm { code, info_1, info_2 } = alarm;
-        self.told.push(ProgramEvent::UserDefinedError { code, info1: info_1, info2: info_2 });
+        self.told.push(alarm.into());
     }
 
     fn reset_alarm(&mut self, code: u16) {

@@ -2,8 +2,9 @@
 //! system-defined tables (manual, A-4-3 and A-5-1).
 
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{DataSet, DataSetKind, Direction, PdoEntry, PdoSettings, object_table};
-use st::Global;
+use nx_ect101::{DataSet, Direction, PdoEntry, PdoSettings, object_table};
+use plc::{VariableType, variable_name};
+use st::{Elementary, Global};
 
 /// Slaves that the tables have an element for; the first is that of node address 1.
 pub(crate) const SLAVES_MAX: usize = 192;
@@ -66,11 +67,10 @@ impl MasterVariables {
             return;
         };
         let port = &object.name;
-        let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
         self.globals.push(Global {
-            name: format!("{device_name}_{words}"),
+            name: variable_name(device_name, port),
             at: Some(format!("ECAT://node#{}/{port}", unit + 1)),
-            type_name: type_name.to_owned(),
+            type_name: type_name.to_string(),
             writable: direction == Direction::MToC,
             constant: None,
         });
@@ -79,16 +79,12 @@ impl MasterVariables {
 }
 
 /// None for padding and for what is no type of a variable.
-fn type_of(direction: Direction, entry: &PdoEntry) -> Option<&'static str> {
+fn type_of(direction: Direction, entry: &PdoEntry) -> Option<VariableType> {
     let is_of = |set: &&DataSet| set.direction == direction && set.pdo_entry == entry.index;
     match (DataSet::all().iter().find(is_of), entry.bit_length) {
-        (Some(set), _) => Some(match set.kind {
-            DataSetKind::Uints => "ARRAY[0..14] OF UINT",
-            DataSetKind::Bytes => "ARRAY[0..9] OF BYTE",
-            DataSetKind::Udint => "UDINT",
-        }),
-        (None, 1) => Some("BOOL"),
-        (None, 8) => Some("USINT"),
+        (Some(set), _) => Some(VariableType::of_entry(set.kind)),
+        (None, 1) => Some(VariableType::single(Elementary::Bool)),
+        (None, 8) => Some(VariableType::single(Elementary::Usint)),
         _ => None,
     }
 }

@@ -37,7 +37,7 @@ const DONE: u64 = 1;
 const FAULT: u64 = 1 << 63;
 
 /// The object and the variable are not equally long: Incorrect NX Message Length.
-const WRONG_LENGTH: NxFault = NxFault { error_id: 0x2C03, error_id_ex: 0 };
+const WRONG_LENGTH: NxFault = NxFault::of(NxFault::INCORRECT_LENGTH);
 
 type Octets = ArrayVec<u8, NX_OBJECT_BYTES_MAX>;
 
