@@ -1,7 +1,7 @@
 //! `cargo xtask bless`: writes what is generated and kept in the repository. A review reads the difference.
 
-use crate::Outcome;
 use crate::tools;
+use crate::{Outcome, conformance};
 
 /// Makes the tests below write what they compare.
 const BLESS: &str = "ECTWIN_BLESS";
@@ -16,6 +16,7 @@ const TESTS: &[(&str, &str)] = &[
 
 /// Runs them all.
 pub(crate) fn bless() -> Outcome {
+    conformance::bless()?;
     TESTS.iter().try_for_each(|(package, test)| {
         let mut command = tools::command("cargo");
         command.args(["test", "--quiet", "-p", package, "--test", test]).env(BLESS, "1");

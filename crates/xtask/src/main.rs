@@ -3,6 +3,7 @@
 mod arrows;
 mod bless;
 mod ci;
+mod conformance;
 mod metadata;
 mod sources;
 mod tests_step;
@@ -28,11 +29,17 @@ enum Task {
     Ci(ci::Options),
     /// Which crate uses which, and what the core must not touch
     Arrows,
+    /// The protocol reference: citations lead somewhere, and every conformance statement has a test or a reason
+    Conformance {
+        /// Write where statements are pinned, as `bless` does too
+        #[arg(long)]
+        bless: bool,
+    },
     /// The licences and origins of what we depend on
     Licences,
     /// The habits of the house: lengths, words, pages, purposes
     Tidy,
-    /// Write what is generated and kept: pages of events, the table of the setting rules
+    /// Write what is generated and kept: pages of events, the table of the setting rules, where statements are pinned
     Bless,
 }
 
@@ -40,6 +47,8 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Ci(options) => return ci::run(&options),
         Task::Arrows => arrows::check(),
+        Task::Conformance { bless: true } => conformance::bless(),
+        Task::Conformance { bless: false } => conformance::check(),
         Task::Licences => tools::licences(),
         Task::Tidy => tidy::check(),
         Task::Bless => bless::bless(),
