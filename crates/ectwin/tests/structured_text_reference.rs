@@ -38,9 +38,11 @@ const CONVERSIONS: &str = "
 | `INT_TO_STRING(x)`, `TO_STRING(x)` | x as text: `-5`, `00FF` (a bit string, all its digits), `0.1`, `TRUE`, `T#1s500ms` |
 | `STRING_TO_INT(x)` | the value that such a text tells; a fault if it tells none of the type |
 | `EnumToNum(x)` | the number of a value of an enumeration, as a DINT |
+| `LOWER_BOUND(x, 1)`, `UPPER_BOUND(x, 1)` | the bounds of a dimension of an array, as DINTs |
 
 Between integers and bit strings the low bits stay, the others are lost. A floating point number is rounded to the nearest integer, halves to the
-even one, and is the limit of the type beyond it; NaN becomes 0. To BOOL everything but 0 is TRUE.
+even one, and is the limit of the type beyond it; NaN becomes 0. A bit string takes the rounded number as a pattern: `REAL_TO_WORD(-1.6)` is
+16#FFFE. To BOOL everything but 0 is TRUE. Of a date, only `DT_TO_DATE` and `DT_TO_TOD` make another type.
 ";
 
 fn page() -> String {
@@ -54,19 +56,25 @@ fn page() -> String {
 fn types(page: &mut String) {
     let rows = Elementary::ALL.map(|elementary| {
         let bits = elementary.bits();
-        [format!("`{elementary}`"), bits.to_string(), values(elementary.class(), bits)]
+        [format!("`{elementary}`"), bits.to_string(), values(elementary, bits)]
     });
     section(page, "elementary types", ["type", "bits", "values"], rows);
 }
 
-fn values(class: Class, bits: u32) -> String {
-    match class {
+fn values(elementary: Elementary, bits: u32) -> String {
+    match elementary.class() {
         Class::Bool => "FALSE, TRUE".to_owned(),
         Class::BitString => format!("a string of {bits} bits, 16#0 to 16#{:X}", u64::MAX >> (64 - bits)),
         Class::Signed => format!("{} to {}", i64::MIN >> (64 - bits), i64::MAX >> (64 - bits)),
         Class::Unsigned => format!("0 to {}", u64::MAX >> (64 - bits)),
         Class::Real => format!("floating point numbers of IEEE 754, binary{bits}"),
         Class::Time => "durations of whole nanoseconds, about 292 years on both sides of zero".to_owned(),
+        Class::Date => match elementary {
+            Elementary::Date => "days, D#1970-01-01 to D#2106-02-06",
+            Elementary::TimeOfDay => "also TOD: TOD#00:00:00 to TOD#23:59:59.999999999",
+            _ => "also DT: DT#1970-01-01-00:00:00 to DT#2106-02-06-23:59:59.999999999",
+        }
+        .to_owned(),
     }
 }
 

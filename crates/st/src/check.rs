@@ -3,12 +3,14 @@
 //! The library's own blocks and the device variables come in as trees of their own, read by the same parser.
 
 mod calls;
+mod configuration;
 mod constants;
 mod declarations;
 mod expressions;
 mod initials;
 mod natives;
 mod numbers;
+mod open_arrays;
 mod operands;
 mod places;
 mod recursion;
@@ -22,8 +24,9 @@ use std::collections::HashMap;
 use crate::code::{Slot, Unit};
 use crate::machine::Layout;
 use crate::problem::{Problem, Span};
-use crate::program::{External, Global, Variable};
+use crate::program::{External, Global, Task, Variable};
 use crate::syntax::ast::{File, Pou, TypeDeclaration};
+use crate::system::System;
 use crate::types::Type;
 use scope::{Scope, Symbol};
 
@@ -37,12 +40,16 @@ const PROBLEMS_MAX: usize = 50;
 #[derive(Debug, Default)]
 pub(crate) struct Checked {
     pub(crate) units: Vec<Unit>,
-    /// The units of the PROGRAMs, in the order of the file.
-    pub(crate) programs: Vec<u32>,
+    /// The PROGRAMs that run, in this order.
+    pub(crate) tasks: Vec<Task>,
+    /// How long a scan is by the CONFIGURATION; none: it says nothing.
+    pub(crate) period_ns: Option<u64>,
     pub(crate) initial: Vec<u64>,
     pub(crate) layouts: Vec<Layout>,
     pub(crate) variables: Vec<Variable>,
     pub(crate) externals: Vec<External>,
+    /// Where the system-defined variables lie that the program names.
+    pub(crate) system: Vec<(System, Slot)>,
 }
 
 /// Trees that a program is checked against.

@@ -71,8 +71,17 @@ pub(crate) enum Base {
 pub(crate) struct Element {
     pub(crate) dimensions: Vec<Dimension>,
     pub(crate) element_slots: u32,
-    /// How many elements the array has in all.
-    pub(crate) elements: u32,
+    pub(crate) extent: Extent,
+}
+
+/// How many elements an array has in all its dimensions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    Fixed(u32),
+    /// An array of any length: its bounds lie behind the reference at which the place begins.
+    Open {
+        dimensions: u32,
+    },
 }
 
 #[derive(Clone, Debug)]
@@ -80,6 +89,7 @@ pub(crate) struct Dimension {
     pub(crate) index: Code,
     /// Type of the index.
     pub(crate) elementary: Elementary,
+    /// The bounds; of an array of any length they and the stride say nothing.
     pub(crate) lower: i64,
     pub(crate) upper: i64,
     /// How many elements one step of this index is.
@@ -94,7 +104,7 @@ pub(crate) enum Put {
     Value,
     /// So many slots from the slot that the code names.
     Slots(u32),
-    /// A STRING from the slot that the code names, cut to so many characters.
+    /// A STRING from the slot that the code names; the target holds so many characters.
     Text(u16),
     /// A reference and the number of a layout: two slots.
     Any { layout: u32 },

@@ -1,15 +1,18 @@
 //! Conversions between elementary types: which happen by themselves, and what they do.
 
+use crate::calendar;
+use crate::elementary::Class;
 use crate::elementary::Elementary::{self, *};
-use crate::elementary::{Class, Elementary as E};
 use crate::value::{integer, range, real, real_bits, wrap};
 
 /// Converts a value. Integers and bit strings are cut to the width of the target (overflow wraps); to BOOL
-/// everything but zero is TRUE; a floating point number is rounded to the nearest integer, halves to the even one,
-/// and stays at the limit of the target beyond it, NaN becomes zero.
+/// everything but zero is TRUE. A floating point number is rounded to the nearest integer, halves to the even one.
+/// Beyond the target it is the target's limit, and NaN is zero. A bit string takes the integer as a pattern, so that
+/// negative numbers fit too (W502, real number-to-bit string conversion group).
 pub(crate) fn convert(from: Elementary, to: Elementary, bits: u64) -> u64 {
     match (from.class(), to.class()) {
         _ if from == to => bits,
+        (Class::Date, Class::Date) => calendar::part(to, bits),
         (Class::Real, Class::Real) => real_bits(to, real(from, bits)),
         (Class::Real, _) => from_real(to, real(from, bits)),
         (_, Class::Real) => from_integer(to, integer(from, bits)),
@@ -22,10 +25,13 @@ fn from_real(to: Elementary, number: f64) -> u64 {
     if to == Bool {
         return u64::from(number != 0.0);
     }
-    let (least, greatest) = range(to);
+    let (least, greatest) = match (to.class(), range(to)) {
+        (Class::BitString, (_, greatest)) => (-(greatest / 2) - 1, greatest),
+        (_, limits) => limits,
+    };
     // `as` saturates and makes zero of NaN.
     let rounded = (number.round_ties_even() as i128).clamp(least, greatest);
-    rounded as u64
+    wrap(to, rounded as u64)
 }
 
 fn from_integer(to: Elementary, number: i128) -> u64 {
@@ -36,38 +42,46 @@ fn from_integer(to: Elementary, number: i128) -> u64 {
     }
 }
 
-/// Whether a value of the one type becomes a value of the other by itself: no value is lost, and the kind stays
-/// (IEC 61131-3, 6.6.1.6, figure 12).
+/// Whether a value of the one type becomes a value of the other by itself (W501, 6-5-3, implicit casts). An integer
+/// becomes every integer that is as wide or wider: between signed and unsigned the pattern stays. All else becomes
+/// wider only, and keeps its value (IEC 61131-3, 6.6.1.6, figure 12).
 pub(crate) fn widens(from: Elementary, to: Elementary) -> bool {
     if from == to {
         return true;
     }
     match (from.class(), to.class()) {
-        (Class::Bool | Class::BitString, Class::BitString)
-        | (Class::Signed, Class::Signed)
-        | (Class::Unsigned, Class::Unsigned | Class::Signed)
-        | (Class::Real, Class::Real) => from.bits() < to.bits(),
+        (Class::Signed | Class::Unsigned, Class::Signed | Class::Unsigned) => from.bits() <= to.bits(),
+        (Class::Bool | Class::BitString, Class::BitString) | (Class::Real, Class::Real) => {
+            from.bits() < to.bits()
+        }
         // A REAL holds 24 bits exactly, an LREAL 53.
         (Class::Signed | Class::Unsigned, Class::Real) => from.bits() < to.bits(),
         _ => false,
     }
 }
 
-/// The narrowest type that both become by themselves; none if there is none.
+/// The type in which two operands meet; none if there is none. It is the wider of two integers, and of two of one
+/// width the unsigned one (W501, 6-5-3).
 pub(crate) fn common(left: Elementary, right: Elementary) -> Option<Elementary> {
-    if widens(left, right) {
-        return Some(right);
+    match (widens(left, right), widens(right, left)) {
+        (true, true) if left.class() == Class::Unsigned => Some(left),
+        (true, _) => Some(right),
+        (_, true) => Some(left),
+        _ => [Real, Lreal].into_iter().find(|real| widens(left, *real) && widens(right, *real)),
     }
-    if widens(right, left) {
-        return Some(left);
-    }
-    let candidates = [Sint, Int, Dint, Lint, Real, Lreal];
-    candidates.into_iter().find(|candidate| widens(left, *candidate) && widens(right, *candidate))
+}
+
+/// The narrowest type that holds every value of an integer type, and a number besides; none if there is none.
+pub(crate) fn holding(elementary: Elementary, number: i128) -> Option<Elementary> {
+    let (least, greatest) = range(elementary);
+    let holds =
+        |candidate: &Elementary| [least, greatest, number].into_iter().all(|number| fits(*candidate, number));
+    [Sint, Int, Dint, Lint, Ulint].into_iter().find(holds)
 }
 
 /// The narrowest type of a number that is written without one.
 pub(crate) fn natural(number: i128) -> Option<Elementary> {
-    [E::Sint, E::Int, E::Dint, E::Lint, E::Ulint].into_iter().find(|candidate| fits(*candidate, number))
+    [Sint, Int, Dint, Lint, Ulint].into_iter().find(|candidate| fits(*candidate, number))
 }
 
 /// Whether a type holds a number.

@@ -37,6 +37,12 @@ pub enum Elementary {
     Lreal,
     /// Duration, signed, 64 bits, in nanoseconds.
     Time,
+    /// A day.
+    Date,
+    /// A time of day, to the nanosecond.
+    TimeOfDay,
+    /// A time on a day, to the nanosecond.
+    DateAndTime,
 }
 
 /// What can be done with a type: the generic types of IEC 61131-3, 6.4.3.
@@ -54,21 +60,29 @@ pub enum Class {
     Real,
     /// TIME.
     Time,
+    /// DATE, TIME_OF_DAY and DATE_AND_TIME.
+    Date,
 }
 
 struct Row {
     elementary: Elementary,
     name: &'static str,
+    /// Another name of the type; empty: none.
+    alias: &'static str,
     class: Class,
     bits: u32,
 }
 
 const fn row(elementary: Elementary, name: &'static str, class: Class, bits: u32) -> Row {
-    Row { elementary, name, class, bits }
+    Row { elementary, name, alias: "", class, bits }
+}
+
+const fn row_with_alias(elementary: Elementary, name: &'static str, alias: &'static str) -> Row {
+    Row { elementary, name, alias, class: Class::Date, bits: 64 }
 }
 
 /// In the order of the variants.
-const ROWS: [Row; 16] = [
+const ROWS: [Row; 19] = [
     row(Elementary::Bool, "BOOL", Class::Bool, 1),
     row(Elementary::Byte, "BYTE", Class::BitString, 8),
     row(Elementary::Word, "WORD", Class::BitString, 16),
@@ -85,12 +99,15 @@ const ROWS: [Row; 16] = [
     row(Elementary::Real, "REAL", Class::Real, 32),
     row(Elementary::Lreal, "LREAL", Class::Real, 64),
     row(Elementary::Time, "TIME", Class::Time, 64),
+    row(Elementary::Date, "DATE", Class::Date, 64),
+    row_with_alias(Elementary::TimeOfDay, "TIME_OF_DAY", "TOD"),
+    row_with_alias(Elementary::DateAndTime, "DATE_AND_TIME", "DT"),
 ];
 
 impl Elementary {
     /// All of them.
-    pub const ALL: [Self; 16] = {
-        let mut all = [Self::Bool; 16];
+    pub const ALL: [Self; 19] = {
+        let mut all = [Self::Bool; 19];
         let mut place = 0;
         while place < all.len() {
             all[place] = ROWS[place].elementary;
@@ -110,7 +127,11 @@ impl Elementary {
     /// The type of this name, in whatever case.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|elementary| elementary.name().eq_ignore_ascii_case(name))
+        let has_name = |elementary: &Self| {
+            let row = &ROWS[*elementary as usize];
+            row.name.eq_ignore_ascii_case(name) || (!name.is_empty() && row.alias.eq_ignore_ascii_case(name))
+        };
+        Self::ALL.into_iter().find(has_name)
     }
 
     /// What can be done with it.

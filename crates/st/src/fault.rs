@@ -34,6 +34,13 @@ pub enum Fault {
     },
     /// A text that is no value of the type.
     NotConvertible,
+    /// A text longer than the STRING that it is put into.
+    TextTooLong {
+        /// How many characters it has.
+        characters: usize,
+        /// How many the STRING holds.
+        capacity: u16,
+    },
     /// FOR with a step of zero would never end.
     StepOfZero,
     /// The statement budget of the task is used up: a loop that does not end, or too much work for one task period.
@@ -54,6 +61,13 @@ impl fmt::Display for Fault {
                 write!(formatter, "{value} lies outside {lower} to {upper}")
             }
             Self::NotConvertible => formatter.write_str("the text is no value of this type"),
+            Self::TextTooLong { characters, capacity } => {
+                let size_bytes = capacity + 1;
+                write!(
+                    formatter,
+                    "the text has {characters} characters, and STRING[{size_bytes}] holds {capacity}"
+                )
+            }
             Self::StepOfZero => formatter.write_str("the step of FOR is zero"),
             Self::BudgetUsedUp => formatter.write_str("the statement budget of the task is used up"),
         }

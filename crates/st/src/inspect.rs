@@ -5,7 +5,7 @@ use core::fmt::Write;
 use crate::code::Slot;
 use crate::elementary::{Class, Elementary};
 use crate::library::{text_of, value_of};
-use crate::program::Instance;
+use crate::program::{Instance, Owner};
 use crate::types::{Role, Type, member};
 
 impl Instance {
@@ -30,18 +30,18 @@ impl Instance {
 
     /// The names of all variables that lie under a name: `x`, or `Main.x` with the PROGRAM that has it.
     pub fn names(&self) -> impl Iterator<Item = String> {
-        self.variables().iter().map(|variable| match variable.owner.as_deref() {
-            None | Some("") => variable.name.clone(),
-            Some(owner) => format!("{owner}.{}", variable.name),
+        self.variables().iter().map(|variable| match &variable.owner {
+            Some(owner) if !owner.name.is_empty() => format!("{}.{}", owner.name, variable.name),
+            _ => variable.name.clone(),
         })
     }
 
     fn find(&self, path: &str) -> Option<(Type, Slot)> {
         let mut parts = split(path);
         let first = parts.next()?;
-        let named = |name: &str, is_owner: &dyn Fn(Option<&str>) -> bool| {
+        let named = |name: &str, is_owner: &dyn Fn(Option<&Owner>) -> bool| {
             self.variables().iter().find(|variable| {
-                variable.name.eq_ignore_ascii_case(name) && is_owner(variable.owner.as_deref())
+                variable.name.eq_ignore_ascii_case(name) && is_owner(variable.owner.as_ref())
             })
         };
         // A program's own variable hides the global one of its name.
@@ -49,7 +49,14 @@ impl Instance {
         let start = match own {
             Some(variable) => variable,
             None => {
-                named(parts.next()?, &|owner| owner.is_some_and(|owner| owner.eq_ignore_ascii_case(first)))?
+                // The first that runs of a PROGRAM is found by the PROGRAM's name too.
+                let name = parts.next()?;
+                let own =
+                    |owner: Option<&Owner>| owner.is_some_and(|owner| owner.name.eq_ignore_ascii_case(first));
+                let of_program = |owner: Option<&Owner>| {
+                    owner.is_some_and(|owner| owner.program.eq_ignore_ascii_case(first))
+                };
+                named(name, &own).or_else(|| named(name, &of_program))?
             }
         };
         parts.try_fold((start.type_.clone(), start.slot), |(type_, slot), part| step(&type_, slot, part))
@@ -77,7 +84,7 @@ impl Instance {
             }
             Type::Struct(structure) => self.write_members(text, &structure.members, slot),
             Type::Block(block) => self.write_members(text, &block.members, slot),
-            Type::Any => text.push('?'),
+            Type::Any | Type::Open(_) => text.push('?'),
         }
     }
 

@@ -4,9 +4,11 @@ mod bits;
 mod blocks;
 mod comparisons;
 mod conversions;
+mod logic;
 mod memory;
 mod numbers;
 mod nx;
+mod prelude;
 mod reference;
 mod selection;
 mod system;
@@ -28,8 +30,9 @@ use crate::value;
 
 pub(crate) use blocks::block_pin;
 pub(crate) use conversions::{Conversion, FROM_TEXT, Of, TO_TEXT};
+pub(crate) use prelude::PRELUDE;
 pub use reference::{Entry, reference};
-pub(crate) use value_text::{text_of, value_of};
+pub use value_text::{text_of, value_of};
 
 /// How many characters a function looks at for one of the budget.
 const CHARACTERS_FOR_ONE: u64 = 128;
@@ -170,10 +173,10 @@ impl Call<'_, '_> {
     }
 
     /// Gives a STRING back.
-    pub(crate) fn give_text(&mut self, text: &[u8]) -> u64 {
+    pub(crate) fn give_text(&mut self, text: &[u8]) -> Result<u64, Fault> {
         let (slot, capacity) = self.text;
-        self.machine.memory.put_text(slot, capacity, text);
-        slot.into()
+        self.machine.memory.put_text(slot, capacity, text)?;
+        Ok(slot.into())
     }
 }
 

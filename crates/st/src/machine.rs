@@ -166,8 +166,7 @@ impl Machine<'_> {
     fn put_text(&mut self, to: Slot, from: Slot, capacity: u16) -> Result<(), Fault> {
         let text = self.memory.text(from);
         self.spend(text.len() as u64 / 128)?;
-        self.memory.put_text(to, capacity, &text);
-        Ok(())
+        self.memory.put_text(to, capacity, &text)
     }
 
     fn choose(

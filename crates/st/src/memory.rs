@@ -3,6 +3,7 @@
 use arrayvec::ArrayVec;
 
 use crate::code::Slot;
+use crate::fault::Fault;
 use crate::types::STRING_CHARACTERS_MAX;
 
 /// The characters of a STRING, taken out of the memory.
@@ -53,9 +54,14 @@ impl Memory {
         words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect()
     }
 
-    /// Puts a STRING at `slot`, cut to `capacity` characters.
-    pub(crate) fn put_text(&mut self, slot: Slot, capacity: u16, text: &[u8]) {
-        let text = &text[..text.len().min(capacity.into())];
+    /// Puts a STRING at `slot`.
+    ///
+    /// # Errors
+    /// It has more than `capacity` characters; what is there stays.
+    pub(crate) fn put_text(&mut self, slot: Slot, capacity: u16, text: &[u8]) -> Result<(), Fault> {
+        if text.len() > usize::from(capacity) {
+            return Err(Fault::TextTooLong { characters: text.len(), capacity });
+        }
         self.set(slot, text.len() as u64);
         let words = self.slice_mut(slot + 1, text.len().div_ceil(8) as u32);
         for (word, octets) in words.iter_mut().zip(text.chunks(8)) {
@@ -63,6 +69,7 @@ impl Memory {
             all[..octets.len()].copy_from_slice(octets);
             *word = u64::from_le_bytes(all);
         }
+        Ok(())
     }
 }
 
@@ -74,11 +81,17 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_text_comes_back_cut_to_its_capacity(text in prop::collection::vec(any::<u8>(), 0..100), capacity in 0..80_u16) {
+        fn a_text_that_fits_comes_back_and_one_that_does_not_changes_nothing(
+            text in prop::collection::vec(any::<u8>(), 0..100),
+            capacity in 0..80_u16,
+        ) {
             let mut memory = Memory::new(vec![u64::MAX; 20]);
-            memory.put_text(3, capacity, &text);
-            let expected = &text[..text.len().min(capacity.into())];
+            memory.put_text(3, capacity, b"").unwrap();
+            let result = memory.put_text(3, capacity, &text);
+            let fits = text.len() <= capacity.into();
+            let expected = if fits { text.as_slice() } else { b"" };
             let kept = memory.text(3);
+            prop_assert_eq!(result.is_ok(), fits);
             prop_assert_eq!(kept.as_slice(), expected);
             prop_assert_eq!((memory.get(2), memory.get(3 + crate::types::string_slots(capacity))), (u64::MAX, u64::MAX));
         }

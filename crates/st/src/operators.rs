@@ -1,6 +1,7 @@
 //! The operators on values of one elementary type. Integers wrap on overflow, division by zero is a fault, floating
 //! point follows IEEE 754; powers come from `libm`, so that they are the same on every machine.
 
+use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
 use crate::value::{real, real_bits, wrap};
@@ -44,7 +45,7 @@ pub(crate) fn unary(operator: Unary, elementary: Elementary, operand: u64) -> u6
     }
 }
 
-/// An operator with two operands of the type `elementary`.
+/// An operator with two operands of the type `elementary`; what is added to a date or taken from it is a TIME.
 pub(crate) fn binary(operator: Binary, elementary: Elementary, left: u64, right: u64) -> Result<u64, Fault> {
     match (operator, elementary.class()) {
         (Binary::And, _) => Ok(left & right),
@@ -57,7 +58,9 @@ pub(crate) fn binary(operator: Binary, elementary: Elementary, left: u64, right:
         (_, Class::Signed | Class::Time) => {
             signed(operator, left as i64, right as i64).map(|bits| wrap(elementary, bits))
         }
-        (_, Class::Unsigned | Class::BitString | Class::Bool) => {
+        (Binary::Add, Class::Date) => Ok(calendar::later(elementary, left, (right as i64).into())),
+        (Binary::Subtract, Class::Date) => Ok(calendar::later(elementary, left, -i128::from(right as i64))),
+        (_, Class::Unsigned | Class::BitString | Class::Bool | Class::Date) => {
             unsigned(operator, left, right).map(|bits| wrap(elementary, bits))
         }
     }

@@ -8,16 +8,15 @@ use crate::code::Slot;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::host::Host;
+use crate::library::PRELUDE;
 use crate::machine::{Layout, Machine};
 use crate::memory::Memory;
 use crate::problem::{Problems, Span};
 use crate::retain::{self, Retained};
 use crate::syntax::parse;
+use crate::system::System;
 use crate::types::Type;
 use crate::value;
-
-/// The blocks and types of the library, in Structured Text.
-const PRELUDE: &str = include_str!("prelude.st");
 
 /// A variable that is there without being declared: a device variable or a system-defined one.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,11 +44,29 @@ pub struct External {
     pub written: bool,
 }
 
+/// PROGRAMs that run together.
+#[derive(Clone, Debug)]
+pub(crate) struct Task {
+    /// In each scan, or in each so many of them.
+    pub(crate) every: u64,
+    /// Their units, in the order in which they run.
+    pub(crate) programs: Vec<u32>,
+}
+
+/// A PROGRAM that runs.
+#[derive(Clone, Debug)]
+pub(crate) struct Owner {
+    /// Its name, which may be empty: that of the PROGRAM, or the one that a CONFIGURATION gives it.
+    pub(crate) name: String,
+    /// The name of the PROGRAM.
+    pub(crate) program: String,
+}
+
 /// A variable that lies in the memory under a name.
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
-    /// The PROGRAM that it belongs to, whose name may be empty; none: it is global.
-    pub(crate) owner: Option<String>,
+    /// None: it is global.
+    pub(crate) owner: Option<Owner>,
     pub(crate) name: String,
     pub(crate) type_: Type,
     pub(crate) slot: Slot,
@@ -81,12 +98,10 @@ pub fn compile(source: &str, globals: &[Global]) -> Result<Program, Problems> {
     if !problems.is_empty() {
         return Err(Problems::new(source, problems));
     }
-    let (prelude, wrong) = parse(PRELUDE);
-    assert!(wrong.is_empty(), "the library's own blocks: {}", Problems::new(PRELUDE, wrong));
     let declarations = declarations(globals);
     let (declared, wrong) = parse(&declarations);
     assert!(wrong.is_empty(), "the device variables: {}", Problems::new(&declarations, wrong));
-    let surroundings = Surroundings { prelude: &prelude, declared: &declared, globals };
+    let surroundings = Surroundings { prelude: &PRELUDE, declared: &declared, globals };
     let checked = check(&file, &surroundings).map_err(|problems| Problems::new(source, problems))?;
     let retained = retain::of(&checked.variables);
     Ok(Program { inner: Arc::new(Inner { source: source.to_owned(), checked, retained }) })
@@ -118,7 +133,14 @@ impl Program {
     #[must_use]
     pub fn start(&self) -> Instance {
         let memory = Memory::new(self.inner.checked.initial.clone());
-        Instance { program: self.clone(), memory, used: 0 }
+        Instance { program: self.clone(), memory, used: 0, scans: 0 }
+    }
+
+    /// How long a task period is by the shortest INTERVAL of the CONFIGURATION, in nanoseconds; none if the program says
+    /// nothing of it.
+    #[must_use]
+    pub fn period_ns(&self) -> Option<u64> {
+        self.inner.checked.period_ns
     }
 }
 
@@ -128,6 +150,8 @@ pub struct Instance {
     program: Program,
     pub(crate) memory: Memory,
     used: u64,
+    /// How many scans have begun.
+    scans: u64,
 }
 
 /// Where and why a scan ended before its end.
@@ -140,12 +164,15 @@ pub struct Stopped {
 }
 
 impl Instance {
-    /// Runs each PROGRAM once, in the order of the file. `now_ns` is the time of its timers: nanoseconds from
+    /// Runs each PROGRAM that is due once, by the priorities of their tasks, else in the order of the file. `now_ns` is the time of its timers: nanoseconds from
     /// whatever moment, never less than before. `budget` is how many statements may run.
     ///
     /// # Errors
     /// Where and why it ended before its end; what it has written until then stays.
     pub fn scan(&mut self, now_ns: u64, budget: u64, host: &mut dyn Host) -> Result<(), Stopped> {
+        let scans = self.scans;
+        self.scans += 1;
+        self.set_system(System::FirstScan, scans == 0);
         let checked = &self.program.inner.checked;
         let mut machine = Machine {
             memory: &mut self.memory,
@@ -159,9 +186,21 @@ impl Instance {
             instance: 0,
             at: Span::default(),
         };
-        let result = checked.programs.iter().try_for_each(|unit| machine.run(*unit));
+        let due = checked.tasks.iter().filter(|task| scans.is_multiple_of(task.every));
+        let result = due.flat_map(|task| &task.programs).try_for_each(|unit| machine.run(*unit));
+        let result = result.map_err(|fault| Stopped { fault, span: machine.at });
         self.used = budget - machine.budget;
-        result.map_err(|fault| Stopped { fault, span: machine.at })
+        if result.as_ref().is_err_and(|stopped| stopped.fault != Fault::BudgetUsedUp) {
+            self.set_system(System::InstructionError, true);
+        }
+        result
+    }
+
+    fn set_system(&mut self, system: System, value: bool) {
+        let named = &self.program.inner.checked.system;
+        if let Some((_, slot)) = named.iter().find(|(own, _)| *own == system) {
+            self.memory.set(*slot, value.into());
+        }
     }
 
     /// How many statements the last scan used of its budget.

@@ -21,7 +21,7 @@ pub(crate) struct Retained {
 pub(crate) fn of(variables: &[Variable]) -> Vec<Retained> {
     let mut all = Vec::new();
     for variable in variables {
-        let owner = variable.owner.as_ref().map_or("global ".to_owned(), |owner| format!("{owner}."));
+        let owner = variable.owner.as_ref().map_or("global ".to_owned(), |owner| format!("{}.", owner.name));
         let path = format!("{owner}{}", variable.name).to_ascii_uppercase();
         collect(&mut all, path, &variable.type_, variable.slot, variable.retain);
     }
@@ -94,7 +94,7 @@ impl fmt::Display for Shape<'_> {
                 formatter.write_str(&enumeration.name)?;
                 enumeration.values.iter().try_for_each(|(name, number)| write!(formatter, " {name}={number}"))
             }
-            Type::Elementary(_) | Type::String(_) | Type::Any => self.0.fmt(formatter),
+            Type::Elementary(_) | Type::String(_) | Type::Any | Type::Open(_) => self.0.fmt(formatter),
         }
     }
 }

@@ -12,6 +12,7 @@ mod token;
 use crate::SOURCE_BYTES_MAX;
 use crate::problem::{Problem, Span};
 use ast::File;
+pub(crate) use literal::date_prefix;
 
 /// How many problems are told of one source; what lies behind the last is not read.
 pub(crate) const PROBLEMS_MAX: usize = 20;

@@ -7,21 +7,28 @@
 use core::fmt;
 use std::sync::Arc;
 
+use crate::code::Extent;
 use crate::elementary::Elementary;
 
-/// Most characters of a STRING: 1,986 bytes with the NUL at the end, as an NJ/NX-series CPU Unit.
-pub(crate) const STRING_CHARACTERS_MAX: usize = 1985;
+/// Most bytes of a STRING with the NUL at its end, which every STRING has (W501, 6-3-5).
+pub(crate) const STRING_BYTES_MAX: u16 = 1986;
 
-/// Characters of a STRING that is declared without a length: 256 bytes with the NUL at the end.
+/// Most characters of a STRING.
+pub(crate) const STRING_CHARACTERS_MAX: usize = STRING_BYTES_MAX as usize - 1;
+
+/// Characters of a STRING that is declared without a length: 256 bytes with the NUL.
 pub(crate) const STRING_CHARACTERS_DEFAULT: u16 = 255;
 
 /// A type.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Type {
     Elementary(Elementary),
-    /// With the most characters that it holds.
+    /// With the most characters that it holds: one less than the bytes of its declaration.
     String(u16),
     Array(Arc<Array>),
+    /// A VAR_IN_OUT that takes arrays of any length. Its slots say where the array lies, and its lower and upper bound in
+    /// each dimension.
+    Open(Arc<OpenArray>),
     Struct(Arc<Structure>),
     Enum(Arc<Enumeration>),
     Block(Arc<Block>),
@@ -32,6 +39,12 @@ pub(crate) enum Type {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Array {
     pub(crate) bounds: Vec<Bound>,
+    pub(crate) element: Type,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OpenArray {
+    pub(crate) dimensions: usize,
     pub(crate) element: Type,
 }
 
@@ -117,7 +130,16 @@ impl Type {
             Self::Array(array) => array.elements() * array.element.slots(),
             Self::Struct(structure) => structure.slots,
             Self::Block(block) => block.slots,
+            Self::Any | Self::Open(_) => self.reference_slots(),
+        }
+    }
+
+    /// How many slots a VAR_IN_OUT of the type takes.
+    pub(crate) fn reference_slots(&self) -> u32 {
+        match self {
             Self::Any => 2,
+            Self::Open(array) => 1 + 2 * array.dimensions as u32,
+            _ => 1,
         }
     }
 
@@ -126,6 +148,7 @@ impl Type {
         match self {
             Self::Block(_) => true,
             Self::Array(array) => array.element.holds_blocks(),
+            Self::Open(array) => array.element.holds_blocks(),
             _ => false,
         }
     }
@@ -145,6 +168,12 @@ impl Array {
     }
 }
 
+impl OpenArray {
+    pub(crate) const fn extent(&self) -> Extent {
+        Extent::Open { dimensions: self.dimensions as u32 }
+    }
+}
+
 /// Slots of a STRING of so many characters.
 pub(crate) const fn string_slots(capacity: u16) -> u32 {
     1 + (capacity as u32).div_ceil(8)
@@ -159,8 +188,12 @@ impl fmt::Display for Type {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Elementary(elementary) => elementary.fmt(formatter),
-            Self::String(capacity) => write!(formatter, "STRING[{capacity}]"),
+            Self::String(capacity) => write!(formatter, "STRING[{}]", capacity + 1),
             Self::Array(array) => array.fmt(formatter),
+            Self::Open(array) => {
+                let bounds = vec!["*"; array.dimensions].join(",");
+                write!(formatter, "ARRAY[{bounds}] OF {}", array.element)
+            }
             Self::Struct(structure) => formatter.write_str(&structure.name),
             Self::Enum(enumeration) => formatter.write_str(&enumeration.name),
             Self::Block(block) => formatter.write_str(&block.name),

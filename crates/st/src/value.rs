@@ -1,9 +1,10 @@
 //! How the values of elementary types stand in 64 bits.
 //!
 //! Signed integers and TIME are sign-extended; unsigned integers, bit strings and BOOL have zeros above; REAL and
-//! LREAL are their IEEE 754 bits. So each value has one representation, and equal values are equal slots, but for
+//! LREAL are their IEEE 754 bits; dates and times of day are what [`crate::calendar`] says. So each value has one representation, and equal values are equal slots, but for
 //! NaN and the two zeros.
 
+use crate::calendar;
 use crate::elementary::{Class, Elementary};
 
 /// Units of a TIME from the longest to the shortest, and their nanoseconds. IEC 61131-3, table 8.
@@ -17,22 +18,23 @@ pub(crate) const TIME_UNITS: [(&str, u64); 7] = [
     ("ns", 1),
 ];
 
-/// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps.
+/// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps. Other values stay.
 pub(crate) const fn wrap(elementary: Elementary, bits: u64) -> u64 {
     let unused = 64 - elementary.bits();
     match elementary.class() {
         Class::Signed | Class::Time => (((bits << unused) as i64) >> unused) as u64,
         Class::Bool | Class::BitString | Class::Unsigned => (bits << unused) >> unused,
-        Class::Real => bits,
+        Class::Real | Class::Date => bits,
     }
 }
 
-/// The least and the greatest value of an integer, a bit string, a BOOL or a TIME.
+/// The least and the greatest value of all types but the floating point ones.
 pub(crate) const fn range(elementary: Elementary) -> (i128, i128) {
     let bits = elementary.bits();
     match elementary.class() {
         Class::Signed | Class::Time => (-(1 << (bits - 1)), (1 << (bits - 1)) - 1),
         Class::Bool | Class::BitString | Class::Unsigned => (0, (1 << bits) - 1),
+        Class::Date => (0, calendar::last(elementary) as i128),
         Class::Real => (0, 0),
     }
 }

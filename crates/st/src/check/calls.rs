@@ -12,7 +12,7 @@ use crate::code::{
     Assign, Base, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, StatementKind,
 };
 use crate::convert::widens;
-use crate::elementary::Elementary;
+use crate::elementary::{Class, Elementary};
 use crate::host::NX_OBJECT_BYTES_MAX;
 use crate::library;
 use crate::machine::{ARGUMENTS_MAX, Layout};
@@ -45,6 +45,11 @@ impl<'t> Body<'_, 't> {
         }
         if name.eq_ignore_ascii_case("EnumToNum") {
             return self.number_of_enumeration(call);
+        }
+        for (is_upper, own) in [(false, "LOWER_BOUND"), (true, "UPPER_BOUND")] {
+            if name.eq_ignore_ascii_case(own) {
+                return self.bound_of_array(is_upper, call);
+            }
         }
         if let Some(conversion) = library::Conversion::named(name) {
             return self.convert(conversion, call);
@@ -135,8 +140,7 @@ impl<'t> Body<'_, 't> {
         for (pin, given) in signature.pins.iter().zip(given) {
             match given {
                 Some(Given::Input(expression)) => {
-                    let fitting = self.pin_input(pin, expression)?;
-                    inputs.push((pin.offset, fitting.code, fitting.put));
+                    inputs.extend(self.pin_input(pin, expression)?);
                 }
                 Some(Given::Output { to, negated, span }) => {
                     outputs.push(self.function_output(pin, to, negated, span)?);
@@ -208,8 +212,7 @@ impl<'t> Body<'_, 't> {
         for (pin, given) in pins.iter().zip(given) {
             match given {
                 Some(Given::Input(expression)) => {
-                    let fitting = self.pin_input(pin, expression)?;
-                    inputs.push((pin.offset, fitting.code, fitting.put));
+                    inputs.extend(self.pin_input(pin, expression)?);
                 }
                 Some(Given::Output { to, negated, span }) => {
                     outputs.push(self.block_output(pin, to, negated, span)?);
@@ -259,22 +262,26 @@ impl<'t> Body<'_, 't> {
         self.checker.refuse(Problem::new(span, format!("NOT is for a BOOL output, and this is {type_}")))
     }
 
-    /// An input or in-out with what it gets.
-    fn pin_input(&mut self, pin: &Member, expression: &Expression) -> Option<Fitting> {
+    /// What an input or in-out gets: where in the unit it goes, and what is put there.
+    fn pin_input(&mut self, pin: &Member, expression: &Expression) -> Option<Vec<(u32, Code, Put)>> {
+        let at_pin = |fitting: Fitting| vec![(pin.offset, fitting.code, fitting.put)];
         if pin.role != Role::InOut {
             let value = self.expression_for(expression, &pin.type_)?;
-            return coerce(self.checker, value, &pin.type_);
+            return coerce(self.checker, value, &pin.type_).map(at_pin);
         }
         let located = self.target(expression)?;
-        if pin.type_ == Type::Any {
-            return self.any(&located, expression.span);
+        match &pin.type_ {
+            Type::Any => self.any(&located, expression.span).map(at_pin),
+            Type::Open(array) => self.open(pin, array, &located, expression.span),
+            own if *own == located.type_ => {
+                Some(at_pin(Fitting { code: Code::Address(located.place), put: Put::Value }))
+            }
+            own => {
+                let message = format!("`{}` is a variable of {own}, not {}", pin.name, located.type_);
+                let problem = Problem::new(expression.span, message);
+                self.checker.refuse(problem.help("a VAR_IN_OUT takes a variable of exactly its type"))
+            }
         }
-        if located.type_ != pin.type_ {
-            let message = format!("`{}` is a variable of {}, not {}", pin.name, pin.type_, located.type_);
-            let problem = Problem::new(expression.span, message);
-            return self.checker.refuse(problem.help("a VAR_IN_OUT takes a variable of exactly its type"));
-        }
-        Some(Fitting { code: Code::Address(located.place), put: Put::Value })
     }
 
     fn any(&mut self, located: &Located, span: Span) -> Option<Fitting> {
@@ -438,10 +445,8 @@ impl<'t> Body<'_, 't> {
         };
         match (conversion.to, &value.kind) {
             (library::Of::Elementary(to), Kind::Type(Type::Elementary(from))) => {
-                let time = Elementary::Time;
-                if (*from == time) != (to == time) {
-                    let help = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";
-                    let message = format!("a TIME has no number without a unit: {from} to {to}");
+                if let Some((what, help)) = no_conversion(*from, to) {
+                    let message = format!("{what}: {from} to {to}");
                     return self.checker.refuse(Problem::new(call.span, message).help(help));
                 }
                 let code = converted(value.code, *from, to);
@@ -459,6 +464,18 @@ impl<'t> Body<'_, 't> {
                 self.checker.refuse(Problem::new(value.span, message))
             }
         }
+    }
+}
+
+/// Why values of the one type have no value of the other, and the way out.
+fn no_conversion(from: Elementary, to: Elementary) -> Option<(&'static str, &'static str)> {
+    const OF_DATES: &str = "use DT_TO_DATE, DT_TO_TOD, CONCAT_DATE_TOD, DtToSec, SecToDt and their like";
+    const OF_TIME: &str = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";
+    match (from.class(), to.class()) {
+        _ if from == to || (from == Elementary::DateAndTime && to.class() == Class::Date) => None,
+        (Class::Date, _) | (_, Class::Date) => Some(("a date is no number and no duration", OF_DATES)),
+        (Class::Time, _) | (_, Class::Time) => Some(("a TIME has no number without a unit", OF_TIME)),
+        _ => None,
     }
 }
 

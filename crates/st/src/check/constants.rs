@@ -4,7 +4,7 @@ use super::expressions::{Body, Kind};
 use super::scope::Scope;
 use super::{Checker, numbers};
 use crate::code::Code;
-use crate::elementary::Class;
+use crate::elementary::{Class, Elementary};
 use crate::problem::Problem;
 use crate::syntax::ast::Expression;
 use crate::types::{Type, string_slots};
@@ -40,6 +40,20 @@ impl<'c, 't> Constants<'c, 't> {
                 .help("use a number, or a VAR CONSTANT"),
             ),
         }
+    }
+
+    /// A TIME in nanoseconds.
+    pub(super) fn duration(mut self, expression: &Expression) -> Option<i64> {
+        let value = self.body().expression_for(expression, &Type::Elementary(Elementary::Time))?;
+        match numbers::elementary_of(self.checker, value, Elementary::Time)? {
+            Code::Constant(bits) => Some(bits as i64),
+            _ => self.refuse_unknown(expression),
+        }
+    }
+
+    fn refuse_unknown<T>(self, expression: &Expression) -> Option<T> {
+        let message = "this is no duration that is known before the program runs";
+        self.checker.refuse(Problem::new(expression.span, message))
     }
 
     /// Writes the value of a type into the image of its variable.

@@ -5,8 +5,9 @@ use super::{Checker, Origin, Pending, Shape, Signature};
 use crate::code::{Base, Slot};
 use crate::machine::Layout;
 use crate::problem::{Problem, Span};
-use crate::program::{External, Variable};
+use crate::program::{External, Owner, Variable};
 use crate::syntax::ast::{File, Name, Pou, TypeKind, VarDeclaration, VarKind, VarSection};
+use crate::system::System;
 use crate::types::{Block, Member, Role, Type};
 use std::rc::Rc;
 use std::sync::Arc;
@@ -19,7 +20,7 @@ const OWN_INPUT: &str = "it is an input";
 /// Where the variables of a unit go.
 enum Home {
     /// Into the memory: PROGRAM, and VAR_GLOBAL without an owner.
-    Memory { owner: Option<String> },
+    Memory { owner: Option<Owner> },
     /// Into the memory, with their initial values at each call: FUNCTION.
     Fresh,
     /// Into the instances of a function block.
@@ -65,15 +66,16 @@ impl<'t> Checker<'t> {
         self.globals.extend(scope.symbols);
     }
 
-    fn refuse_second(&mut self, name: &Name) {
+    pub(super) fn refuse_second(&mut self, name: &Name) {
         let message = format!("the name `{}` is declared twice", name.text);
         self.refuse::<()>(Problem::new(name.span, message));
     }
 
-    /// The variables of a PROGRAM.
-    pub(super) fn program_scope(&mut self, pou: &Pou) -> Scope {
+    /// The variables of a PROGRAM that runs under this name.
+    pub(super) fn program_scope(&mut self, pou: &Pou, name: &str) -> Scope {
         let mut scope = Scope::default();
-        let mut plan = Plan::new(Home::Memory { owner: Some(pou.name.text.clone()) });
+        let owner = Some(Owner { name: name.to_owned(), program: pou.name.text.clone() });
+        let mut plan = Plan::new(Home::Memory { owner });
         for section in &pou.sections {
             self.section(section, &mut plan, &mut scope);
         }
@@ -185,7 +187,10 @@ impl<'t> Checker<'t> {
         plan: &mut Plan,
         scope: &mut Scope,
     ) -> Option<Symbol> {
-        let shape = self.shape(&declaration.type_name, scope)?;
+        let shape = match section.kind {
+            VarKind::InOut => self.in_out_shape(&declaration.type_name, scope)?,
+            _ => self.shape(&declaration.type_name, scope)?,
+        };
         if section.kind == VarKind::External
             || declaration.at.is_some()
             || self.is_device(section, declaration)
@@ -269,7 +274,7 @@ impl<'t> Checker<'t> {
         plan: &mut Plan,
         scope: &mut Scope,
     ) -> Option<Symbol> {
-        let slots = if type_ == Type::Any { 2 } else { 1 };
+        let slots = type_.reference_slots() as usize;
         let offset = match plan.home {
             Home::Fresh => {
                 let slot = self.allocate(&vec![0; slots], declaration.name.span)?;
@@ -387,6 +392,26 @@ impl<'t> Checker<'t> {
         let symbol = Symbol::Variable(Located::in_memory(slot, shape.type_, access));
         self.devices.insert(place, symbol.clone());
         Some(symbol)
+    }
+
+    /// The system-defined variable of this name.
+    pub(super) fn system_variable(&mut self, name: &str) -> Option<Symbol> {
+        let system = System::named(name)?;
+        if let Some(value) = system.constant() {
+            return Some(Symbol::Constant(Type::BOOL, value.into()));
+        }
+        let known = self.out.system.iter().find(|(own, _)| *own == system).map(|(_, slot)| *slot);
+        let slot = match known {
+            Some(slot) => slot,
+            None => {
+                let slot = self.allocate(&[0], Span::default())?;
+                self.out.system.push((system, slot));
+                slot
+            }
+        };
+        let access =
+            if system.is_writable() { Access::Write } else { Access::ReadOnly("the system writes it") };
+        Some(Symbol::Variable(Located::in_memory(slot, Type::BOOL, access)))
     }
 
     /// Notes a device variable that is refreshed before and behind each scan.

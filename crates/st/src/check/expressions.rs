@@ -3,7 +3,9 @@
 use core::fmt;
 
 use super::numbers::{converted, elementary_of};
-use super::operands::{classes, code_of, is_comparison, operand_type, sign, suits, time_operator};
+use super::operands::{
+    classes, code_of, date_operation, is_comparison, operand_type, sign, suits, time_operator,
+};
 use super::scope::{Located, Scope, Symbol, key};
 use super::{Checker, Origin};
 use crate::code::{Base, Code, Place, Slot};
@@ -156,8 +158,8 @@ impl<'c, 't> Body<'c, 't> {
     /// A condition: a BOOL.
     pub(super) fn condition(&mut self, expression: &Expression) -> Option<Code> {
         let value = self.expression(expression)?;
-        if value.kind == Kind::Type(Type::BOOL) {
-            return Some(value.code);
+        if matches!(value.kind, Kind::Type(Type::BOOL) | Kind::Integer(0 | 1)) {
+            return elementary_of(self.checker, value, Elementary::Bool);
         }
         let message = format!("a condition is a BOOL, not {}", value.kind);
         self.checker.refuse(Problem::new(value.span, message).help("compare it: … <> 0"))
@@ -242,7 +244,7 @@ impl<'c, 't> Body<'c, 't> {
                     UnaryOperator::Minus if matches!(class, Class::Signed | Class::Real | Class::Time) => {
                         Some(unary(Unary::Negate, elementary, operand.code, span))
                     }
-                    UnaryOperator::Plus if !matches!(class, Class::Bool | Class::BitString) => {
+                    UnaryOperator::Plus if !matches!(class, Class::Bool | Class::BitString | Class::Date) => {
                         Some(Value::elementary(elementary, operand.code, span))
                     }
                     _ => self.refuse_unary(operator, &operand.kind, span),
@@ -299,6 +301,9 @@ impl<'c, 't> Body<'c, 't> {
         let code = code_of(operator);
         if let Some(time) = time_operator(code, &left.kind, &right.kind) {
             return self.time_binary(time, left, right, span);
+        }
+        if let Some(result) = date_operation(code, &left.kind, &right.kind) {
+            return self.combine(code, result, left.code, right.code, span);
         }
         let Some(elementary) = operand_type(code, &left.kind, &right.kind) else {
             return self.refuse_binary(operator, &left, &right, span);
@@ -424,7 +429,7 @@ impl Checker<'_> {
             return self.refuse(Problem::new(span, message));
         };
         let mut memory = crate::memory::Memory::new(vec![0; string_slots(length) as usize]);
-        memory.put_text(0, length, text);
+        memory.put_text(0, length, text).ok()?;
         let slot = self.allocate(memory.slice(0, string_slots(length)), span)?;
         self.literals.insert(slot);
         Some((slot, length))

@@ -2,8 +2,9 @@
 
 use super::expressions::{Body, Kind, Value};
 use super::numbers::{coerce, elementary_of};
+use super::operands::with_number;
 use super::scope::Located;
-use crate::code::{Code, NativeArgument, NativeCall, Slot};
+use crate::code::{Code, Element, Extent, NativeArgument, NativeCall, Slot};
 use crate::convert::{common, natural, widens};
 use crate::elementary::{Class, Elementary};
 use crate::library::{self, Function, Native, Pin, ResultType, Takes};
@@ -101,7 +102,13 @@ impl Body<'_, '_> {
                     next += 1;
                     (next - 1, expression, expression.span)
                 }
-                Argument::Input { name, value } => (self.native_pin(function, name)?, value, name.span),
+                Argument::Input { name, value } => {
+                    let place = self.native_pin(function, name)?;
+                    while place >= given.len() {
+                        given.push((&function.pins[function.pins.len() - 1], None));
+                    }
+                    (place, value, name.span)
+                }
                 Argument::Output { name, .. } => {
                     let message = format!("`{}` has no output `{}`", function.name, name.text);
                     return self.checker.refuse(Problem::new(name.span, message));
@@ -125,7 +132,7 @@ impl Body<'_, '_> {
             pin.name.eq_ignore_ascii_case(&name.text)
                 || (!pin.alias.is_empty() && pin.alias.eq_ignore_ascii_case(&name.text))
         };
-        match function.pins.iter().position(of_name) {
+        match function.pins.iter().position(of_name).or_else(|| further_pin(function, &name.text)) {
             Some(place) => Some(place),
             None => {
                 self.unknown_pin(function.name, function.pins.iter().map(|pin| pin.name.to_owned()), name)
@@ -336,9 +343,10 @@ impl Body<'_, '_> {
         elements: &mut Option<Type>,
     ) -> Option<NativeArgument> {
         // Behind a member of an element lie the other members of that element, not its like.
-        let is_element = located.is_element || matches!(located.type_, Type::Array(_));
+        let is_element = located.is_element || matches!(located.type_, Type::Array(_) | Type::Open(_));
         let located = match &located.type_ {
-            Type::Array(array) => first_element(&located, array),
+            Type::Array(array) => first_element(&located, &array.element, Extent::Fixed(array.elements())),
+            Type::Open(array) => first_element(&located, &array.element, array.extent()),
             _ => located,
         };
         if located.type_.holds_blocks() {
@@ -386,21 +394,22 @@ impl Body<'_, '_> {
     }
 }
 
-fn first_element(located: &Located, array: &crate::types::Array) -> Located {
-    use crate::code::{Dimension, Element};
-    let dimension = |bound: &crate::types::Bound| Dimension {
-        index: Code::Constant(bound.lower as u64),
-        elementary: Elementary::Lint,
-        lower: bound.lower,
-        upper: bound.upper,
-        stride: 1,
-        span: Span::default(),
-    };
-    let dimensions = array.bounds.iter().map(dimension).collect();
-    let element = Element { dimensions, element_slots: array.element.slots(), elements: array.elements() };
+/// The place of a pin behind the last one of the table: `In3` behind `In2`.
+fn further_pin(function: &Function, name: &str) -> Option<usize> {
+    let last = function.pins.last().filter(|_| function.variadic)?;
+    let letters = last.name.trim_end_matches(|last: char| last.is_ascii_digit());
+    let number: usize = last.name.get(letters.len()..)?.parse().ok()?;
+    let (given_letters, given) = name.split_at_checked(letters.len())?;
+    let further = given.parse::<usize>().ok()?.checked_sub(number)?;
+    let place = function.pins.len() - 1 + further;
+    (given_letters.eq_ignore_ascii_case(letters) && place < GIVEN_MAX).then_some(place)
+}
+
+fn first_element(located: &Located, element: &Type, extent: Extent) -> Located {
     let mut place = located.place.clone();
-    place.indices.push(element);
-    Located { place, type_: array.element.clone(), access: located.access, is_element: true }
+    // No index: the first of all.
+    place.indices.push(Element { dimensions: Vec::new(), element_slots: element.slots(), extent });
+    Located { place, type_: element.clone(), access: located.access, is_element: true }
 }
 
 /// The numbers without types among the generic arguments.
@@ -417,7 +426,7 @@ fn numbers_in(looked: &[(&Pin, Looked)]) -> Vec<Kind> {
 /// Whether a number without a type can be of this type.
 fn holds(elementary: Elementary, kind: &Kind) -> bool {
     match (kind, elementary.class()) {
-        (_, Class::Bool | Class::Time) => false,
+        (_, Class::Time | Class::Date) => false,
         (_, Class::Real) => true,
         (Kind::Integer(number), _) => crate::convert::fits(elementary, *number),
         _ => false,
@@ -428,10 +437,9 @@ fn holds(elementary: Elementary, kind: &Kind) -> bool {
 fn with_literal(elementary: Elementary, kind: &Kind) -> Option<Elementary> {
     match kind {
         Kind::Integer(number) => match elementary.class() {
-            Class::Real => Some(elementary),
-            Class::Bool | Class::Time => Some(elementary),
-            _ if crate::convert::fits(elementary, *number) => Some(elementary),
-            _ => common(elementary, natural(*number)?),
+            // What does not fit is told with its place.
+            Class::Bool | Class::Time | Class::Date => Some(elementary),
+            _ => with_number(elementary, *number),
         },
         Kind::Real(_) => {
             [Elementary::Real, Elementary::Lreal].into_iter().find(|real| widens(elementary, *real))

@@ -90,8 +90,13 @@ fn integer_of(checker: &mut Checker<'_>, number: i128, target: Elementary, value
     let span = value.span;
     match target.class() {
         Class::Real => Some(Code::Constant(real_bits(target, number as f64))),
-        Class::Bool => checker.refuse(Problem::new(span, "a number is no BOOL").help("use TRUE or FALSE")),
+        Class::Bool if !fits(target, number) => {
+            let problem = Problem::new(span, format!("{number} is no BOOL"));
+            checker.refuse(problem.help("use TRUE or FALSE, which are 1 and 0"))
+        }
         Class::Time => checker.refuse(Problem::new(span, "a number is no TIME").help("use T#10ms")),
+        Class::Date => checker
+            .refuse(Problem::new(span, format!("a number is no {target}")).help("use D#…, TOD#… or DT#…")),
         _ if fits(target, number) => Some(Code::Constant(number as u64)),
         _ => {
             let (least, greatest) = range(target);
@@ -103,6 +108,9 @@ fn integer_of(checker: &mut Checker<'_>, number: i128, target: Elementary, value
 
 fn conversion_help(from: Elementary, target: Elementary) -> String {
     match (from.class(), target.class()) {
+        (Class::Date, _) | (_, Class::Date) => {
+            "use DT_TO_DATE(…), DT_TO_TOD(…) or CONCAT_DATE_TOD(…)".to_owned()
+        }
         (Class::Time, _) => "use TimeToNanoSec(…) or TimeToSec(…)".to_owned(),
         (_, Class::Time) => "use NanoSecToTime(…) or SecToTime(…)".to_owned(),
         (_, Class::Bool) => format!("use {from}_TO_BOOL(…), or a comparison"),

@@ -1,7 +1,7 @@
 //! Operators by the types of their operands: in which type two operands meet, and which operations there are.
 
 use super::expressions::Kind;
-use crate::convert::{common, fits, natural, widens};
+use crate::convert::{common, fits, holding, widens};
 use crate::elementary::{Class, Elementary};
 use crate::operators::Binary;
 use crate::syntax::ast::BinaryOperator;
@@ -25,16 +25,17 @@ pub(super) fn operand_type(operator: Binary, left: &Kind, right: &Kind) -> Optio
 }
 
 /// A number without a type takes the type of the other operand if it fits there, and else a wider one.
-fn with_number(elementary: Elementary, number: i128) -> Option<Elementary> {
+pub(super) fn with_number(elementary: Elementary, number: i128) -> Option<Elementary> {
     match elementary.class() {
-        Class::Bool | Class::Time => None,
+        Class::Time | Class::Date => None,
         Class::Real => Some(elementary),
         _ if fits(elementary, number) => Some(elementary),
+        Class::Bool => None,
         Class::BitString => {
             let wider = [Elementary::Word, Elementary::Dword, Elementary::Lword];
             wider.into_iter().find(|wider| widens(elementary, *wider) && fits(*wider, number))
         }
-        Class::Signed | Class::Unsigned => common(elementary, natural(number)?),
+        Class::Signed | Class::Unsigned => holding(elementary, number),
     }
 }
 
@@ -69,6 +70,21 @@ pub(super) fn time_operator(operator: Binary, left: &Kind, right: &Kind) -> Opti
             Some(Binary::MultiplyTime)
         }
         (Binary::Divide, Class::Time, Class::Real) => Some(Binary::DivideTime),
+        _ => None,
+    }
+}
+
+/// What a date or a time of day with a TIME gives, and two of one type: the type of the operation and its result.
+pub(super) fn date_operation(operator: Binary, left: &Kind, right: &Kind) -> Option<Elementary> {
+    let [left, right] = [left, right].map(|kind| match kind {
+        Kind::Type(Type::Elementary(elementary)) => Some(*elementary),
+        _ => None,
+    });
+    let moment = left.filter(|moment| moment.class() == Class::Date)?;
+    match (operator, right?) {
+        (Binary::Add | Binary::Subtract, Elementary::Time) if moment != Elementary::Date => Some(moment),
+        // Both are nanoseconds from the same moment on.
+        (Binary::Subtract, other) if other == moment => Some(Elementary::Time),
         _ => None,
     }
 }

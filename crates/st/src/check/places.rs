@@ -3,7 +3,7 @@
 use super::Checker;
 use super::expressions::{Body, Kind};
 use super::scope::{Access, Located, Symbol, key};
-use crate::code::{Code, Dimension, Element};
+use crate::code::{Code, Dimension, Element, Extent};
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Expression, ExpressionKind, Name};
@@ -44,7 +44,7 @@ pub(super) fn flatten(type_: &Type) -> Option<Vec<(u32, Elementary)>> {
             }
             Some(all)
         }
-        Type::String(_) | Type::Block(_) | Type::Any => None,
+        Type::String(_) | Type::Block(_) | Type::Any | Type::Open(_) => None,
     }
 }
 
@@ -95,7 +95,7 @@ impl Body<'_, '_> {
         if let Some(symbol) = self.checker.globals.get(&key) {
             return Some(symbol.clone());
         }
-        self.checker.device_named(name)
+        self.checker.device_named(name).or_else(|| self.checker.system_variable(name))
     }
 
     pub(super) fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
@@ -147,24 +147,41 @@ impl Body<'_, '_> {
 
     fn element(&mut self, of: &Expression, indices: &[Expression], span: Span) -> Option<Located> {
         let located = self.place(of)?;
-        let Type::Array(array) = &located.type_ else {
-            let message = format!("{} has no elements", located.type_);
-            return self.checker.refuse(Problem::new(span, message));
+        let (dimensions, element, extent) = match &located.type_ {
+            Type::Array(array) => {
+                self.count_indices(array.bounds.len(), indices, span)?;
+                let dimensions = self.dimensions(array, indices)?;
+                (dimensions, array.element.clone(), Extent::Fixed(array.elements()))
+            }
+            Type::Open(array) => {
+                self.count_indices(array.dimensions, indices, span)?;
+                let dimensions =
+                    indices.iter().map(|index| self.open_dimension(index)).collect::<Option<_>>()?;
+                (dimensions, array.element.clone(), array.extent())
+            }
+            _ => {
+                let message = format!("{} has no elements", located.type_);
+                return self.checker.refuse(Problem::new(span, message));
+            }
         };
-        // a[1] of two dimensions would be a row: IEC 61131-3 names elements only.
-        if indices.len() != array.bounds.len() {
-            let message = format!(
-                "the array has {} dimensions, and {} indices are given",
-                array.bounds.len(),
-                indices.len()
-            );
-            return self.checker.refuse(Problem::new(span, message));
-        }
-        let dimensions = self.dimensions(array, indices)?;
-        let (element_slots, elements) = (array.element.slots(), array.elements());
         let mut place = located.place.clone();
-        place.indices.push(Element { dimensions, element_slots, elements });
-        Some(Located { place, type_: array.element.clone(), access: located.access, is_element: true })
+        place.indices.push(Element { dimensions, element_slots: element.slots(), extent });
+        Some(Located { place, type_: element, access: located.access, is_element: true })
+    }
+
+    /// a[1] of two dimensions would be a row: IEC 61131-3 names elements only.
+    fn count_indices(&mut self, dimensions: usize, indices: &[Expression], span: Span) -> Option<()> {
+        if indices.len() == dimensions {
+            return Some(());
+        }
+        let message =
+            format!("the array has {dimensions} dimensions, and {} indices are given", indices.len());
+        self.checker.refuse(Problem::new(span, message))
+    }
+
+    fn open_dimension(&mut self, index: &Expression) -> Option<Dimension> {
+        let (code, elementary) = self.whole_index(index)?;
+        Some(Dimension { index: code, elementary, lower: 0, upper: 0, stride: 0, span: index.span })
     }
 
     fn dimensions(&mut self, array: &Array, indices: &[Expression]) -> Option<Vec<Dimension>> {
@@ -180,28 +197,32 @@ impl Body<'_, '_> {
     }
 
     fn index(&mut self, bound: Bound, index: &Expression) -> Option<(Code, Elementary)> {
-        let value = self.expression(index)?;
-        let (code, elementary) = match value.kind {
-            Kind::Integer(number) => match i64::try_from(number) {
-                Ok(number) => (Code::Constant(number as u64), Elementary::Lint),
-                Err(_) => return self.outside(bound, number, index.span),
-            },
-            Kind::Type(Type::Elementary(elementary))
-                if matches!(elementary.class(), Class::Signed | Class::Unsigned) =>
-            {
-                (value.code, elementary)
-            }
-            Kind::Type(Type::Enum(_)) => (value.code, Elementary::Dint),
-            other => {
-                let message = format!("an index is a whole number, not {other}");
-                return self.checker.refuse(Problem::new(index.span, message));
-            }
-        };
+        let (code, elementary) = self.whole_index(index)?;
         match code {
             Code::Constant(bits) if !bound.holds(integer(elementary, bits)) => {
                 self.outside(bound, integer(elementary, bits), index.span)
             }
             code => Some((code, elementary)),
+        }
+    }
+
+    /// An index with its type: a whole number.
+    fn whole_index(&mut self, index: &Expression) -> Option<(Code, Elementary)> {
+        let value = self.expression(index)?;
+        match value.kind {
+            // Numbers without a type lie between the least LINT and the greatest ULINT.
+            Kind::Integer(number) if number >= 0 => Some((Code::Constant(number as u64), Elementary::Ulint)),
+            Kind::Integer(number) => Some((Code::Constant(number as u64), Elementary::Lint)),
+            Kind::Type(Type::Elementary(elementary))
+                if matches!(elementary.class(), Class::Signed | Class::Unsigned) =>
+            {
+                Some((value.code, elementary))
+            }
+            Kind::Type(Type::Enum(_)) => Some((value.code, Elementary::Dint)),
+            other => {
+                let message = format!("an index is a whole number, not {other}");
+                self.checker.refuse(Problem::new(index.span, message))
+            }
         }
     }
 

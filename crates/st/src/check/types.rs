@@ -21,6 +21,19 @@ const TYPE_DEPTH_MAX: u32 = 32;
 /// Most members of a structure, most values of an enumeration, as an NJ/NX-series CPU Unit; most variables of a block.
 const NAMES_MAX: usize = 2048;
 
+/// Types of the standard that the CPU Unit does not have, and what takes their place. Their names are free.
+const FOREIGN_TYPES: &[(&str, &str)] = &[
+    ("LTIME", "TIME"),
+    ("LDATE", "DATE"),
+    ("LTOD", "TIME_OF_DAY"),
+    ("LTIME_OF_DAY", "TIME_OF_DAY"),
+    ("LDT", "DATE_AND_TIME"),
+    ("LDATE_AND_TIME", "DATE_AND_TIME"),
+    ("CHAR", "STRING[2]"),
+    ("WCHAR", "STRING[2]"),
+    ("WSTRING", "STRING"),
+];
+
 /// Most dimensions of an array.
 const DIMENSIONS_MAX: usize = 3;
 
@@ -95,6 +108,10 @@ impl<'t> Checker<'t> {
             TypeKind::String(None) => Some(Shape::zero(Type::String(STRING_CHARACTERS_DEFAULT))),
             TypeKind::String(Some(length)) => self.string(length, scope),
             TypeKind::Array { bounds, element } => self.array(type_name.span, bounds, element, scope),
+            TypeKind::OpenArray { .. } => {
+                let problem = Problem::new(type_name.span, "an array of any length is a VAR_IN_OUT");
+                self.refuse(problem.help("declare it with bounds: ARRAY[0..9]"))
+            }
             TypeKind::Named(name) if self.origin == Origin::Library && name.eq_ignore_ascii_case("ANY") => {
                 Some(Shape::zero(Type::Any))
             }
@@ -102,16 +119,36 @@ impl<'t> Checker<'t> {
         }
     }
 
+    /// The type of a VAR_IN_OUT, which may be an array of any length.
+    pub(super) fn in_out_shape(&mut self, type_name: &TypeName, scope: &Scope) -> Option<Shape> {
+        let TypeKind::OpenArray { dimensions, element } = &type_name.kind else {
+            return self.shape(type_name, scope);
+        };
+        self.limit_dimensions(*dimensions, type_name.span)?;
+        let element = self.shape(element, scope)?.type_;
+        let array = OpenArray { dimensions: *dimensions, element };
+        Some(Shape { type_: Type::Open(Arc::new(array)), initial: Vec::new() })
+    }
+
+    fn limit_dimensions(&mut self, dimensions: usize, span: Span) -> Option<()> {
+        if dimensions <= DIMENSIONS_MAX {
+            return Some(());
+        }
+        let message = format!("an array has {DIMENSIONS_MAX} dimensions at most, not {dimensions}");
+        self.refuse(Problem::new(span, message))
+    }
+
     fn string(&mut self, length: &Expression, scope: &Scope) -> Option<Shape> {
-        let characters = self.constant_integer(length, scope)?;
-        match u16::try_from(characters) {
-            Ok(characters) if (1..=STRING_CHARACTERS_MAX).contains(&characters.into()) => {
-                Some(Shape::zero(Type::String(characters)))
-            }
-            _ => self.refuse(Problem::new(
-                length.span,
-                format!("a STRING has 1 to {STRING_CHARACTERS_MAX} characters, not {characters}"),
-            )),
+        let size_bytes = self.constant_integer(length, scope)?;
+        match u16::try_from(size_bytes) {
+            Ok(size_bytes @ 1..=STRING_BYTES_MAX) => Some(Shape::zero(Type::String(size_bytes - 1))),
+            _ => self.refuse(
+                Problem::new(
+                    length.span,
+                    format!("a STRING has 1 to {STRING_BYTES_MAX} bytes, not {size_bytes}"),
+                )
+                .help("the NUL at the end of the text is one of them"),
+            ),
         }
     }
 
@@ -122,10 +159,7 @@ impl<'t> Checker<'t> {
         element: &TypeName,
         scope: &Scope,
     ) -> Option<Shape> {
-        if bounds.len() > DIMENSIONS_MAX {
-            let message = format!("an array has {DIMENSIONS_MAX} dimensions at most, not {}", bounds.len());
-            return self.refuse(Problem::new(span, message));
-        }
+        self.limit_dimensions(bounds.len(), span)?;
         let element = self.shape(element, scope)?;
         let mut bound_list = Vec::new();
         // A structure without members takes no slots, and its arrays are limited all the same.
@@ -204,6 +238,11 @@ impl<'t> Checker<'t> {
     }
 
     fn unknown_type(&mut self, name: &str, span: Span) -> Option<Shape> {
+        let foreign = FOREIGN_TYPES.iter().find(|(foreign, _)| foreign.eq_ignore_ascii_case(name));
+        if let Some((foreign, instead)) = foreign {
+            let problem = Problem::new(span, format!("{foreign} is not supported"));
+            return self.refuse(problem.help(format!("use {instead}")));
+        }
         let types = self.named.iter().filter(|(_, named)| {
             matches!(named, Named::Type(_) | Named::Block(..) | Named::Shape(_) | Named::Resolving)
         });

@@ -9,9 +9,10 @@ use crate::syntax::ast::{File, Pou, PouKind};
 impl<'t> Checker<'t> {
     /// Checks all of them: those that nobody calls too.
     pub(super) fn units(&mut self, file: &'t File) {
+        self.programs(file);
         for pou in &file.units {
             match pou.kind {
-                PouKind::Program => self.program(pou),
+                PouKind::Program => {}
                 PouKind::FunctionBlock if self.is_named(pou) => {
                     self.named_shape(&pou.name.text, pou.name.span);
                 }
@@ -23,7 +24,8 @@ impl<'t> Checker<'t> {
         while let Some(pending) = self.pending.pop() {
             self.body(&pending);
         }
-        if self.out.programs.is_empty() && self.problems.is_empty() {
+        let has_program = file.units.iter().any(|pou| pou.kind == PouKind::Program);
+        if !has_program && self.problems.is_empty() {
             let problem = Problem::new(Span::default(), "there is no PROGRAM in it");
             self.refuse::<()>(problem.help("write PROGRAM name … END_PROGRAM, or statements alone"));
         }
@@ -32,13 +34,6 @@ impl<'t> Checker<'t> {
     /// Whether the unit could be entered under its name.
     fn is_named(&self, pou: &Pou) -> bool {
         self.named.contains_key(&super::scope::key(&pou.name.text))
-    }
-
-    fn program(&mut self, pou: &'t Pou) {
-        let scope = self.program_scope(pou);
-        let unit = self.new_unit();
-        self.out.programs.push(unit);
-        self.pending.push(Pending { pou, unit, scope, origin: super::Origin::User });
     }
 
     fn uncalled_function(&mut self, pou: &'t Pou) {

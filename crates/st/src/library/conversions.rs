@@ -57,7 +57,7 @@ pub(crate) static FROM_TEXT: Function =
 
 fn to_text(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let text = shown(call.elementary, call.bits(0));
-    Ok(call.give_text(text.as_bytes()))
+    call.give_text(text.as_bytes())
 }
 
 // The text is large: it must not lie in the frames of the evaluation around it.

@@ -17,6 +17,7 @@ const TWO_REALS: &[Pin] = &[pin("In1", Takes::Generic(REALS)), pin("In2", Takes:
 const MANY_MAGNITUDES: &[Pin] =
     &[pin("In1", Takes::Generic(MAGNITUDES)), pin("In2", Takes::Generic(MAGNITUDES))];
 const MANY_NUMBERS: &[Pin] = &[pin("In1", Takes::Generic(NUMBERS)), pin("In2", Takes::Generic(NUMBERS))];
+const TWO_INTEGERS: &[Pin] = &[pin("In1", Takes::Generic(INTEGERS)), pin("In2", Takes::Generic(INTEGERS))];
 const COUNTER: &[Pin] = &[pin("InOut", Takes::Variable(INTEGERS))];
 const DONE: ResultType = ResultType::Fixed(Elementary::Bool);
 
@@ -47,6 +48,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "the integer towards zero, DINT of a REAL and LINT of an LREAL; beyond their limits the limit", truncate),
     row("Round", ANGLE, ResultType::Whole,
         "the nearest integer, halves to the even one, DINT of a REAL and LINT of an LREAL; beyond their limits the limit", round),
+    row("RoundUp", ANGLE, ResultType::Whole,
+        "the next integer away from zero, DINT of a REAL and LINT of an LREAL; beyond their limits the limit", round_up),
     row("Fraction", ANGLE, ResultType::Generic, "what is behind the point, with the sign of In", |call| of_real(call, f64::fract)),
     row("ModReal", TWO_REALS, ResultType::Generic, "the remainder of In1 / In2, with the sign of In1",
         |call| of_two_reals(call, libm::fmod)),
@@ -55,6 +58,8 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("SUB", MANY_MAGNITUDES, ResultType::Generic, "In1 less In2; overflow wraps", |call| fold(call, Binary::Subtract)),
     row("DIV", MANY_NUMBERS, ResultType::Generic, "In1 divided by In2, of integers towards zero; an integer by zero is a fault",
         |call| fold(call, Binary::Divide)),
+    row("MOD", TWO_INTEGERS, ResultType::Generic, "the remainder of In1 / In2, with the sign of In1; of zero it is a fault",
+        |call| fold(call, Binary::Modulo)),
     row("Inc", COUNTER, DONE, "adds 1 to a variable; overflow wraps; gives TRUE", |call| step(call, 1)),
     row("Dec", COUNTER, DONE, "takes 1 from a variable; overflow wraps; gives TRUE", |call| step(call, -1)),
 ];
@@ -82,6 +87,11 @@ fn truncate(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
 
 fn round(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     Ok(whole(call.elementary, call.real(0)))
+}
+
+fn round_up(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    let number = call.real(0);
+    Ok(whole(call.elementary, libm::copysign(libm::ceil(number.abs()), number)))
 }
 
 fn whole(generic: Elementary, number: f64) -> u64 {

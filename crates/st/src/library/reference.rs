@@ -64,7 +64,7 @@ fn of_taken(takes: Takes) -> String {
 
 /// Types by the first and last of each class: `SINT … LINT`.
 fn of_classes(classes: &[Class]) -> String {
-    const CLASSES: usize = 6;
+    const CLASSES: usize = 7;
     if classes.len() == CLASSES {
         return "elementary".to_owned();
     }

@@ -1,13 +1,14 @@
 //! All functions, group after group, and how their rows are written.
 
 use super::{Call, Function, Pin, ResultType, Takes};
-use super::{bits, comparisons, memory, numbers, nx, selection, system, texts, time};
+use super::{bits, comparisons, logic, memory, numbers, nx, selection, system, texts, time};
 use crate::elementary::Class;
 use crate::fault::Fault;
 
 /// Every group with the name that the documents give it.
-pub(super) const GROUPS: [(&str, &[Function]); 9] = [
+pub(super) const GROUPS: [(&str, &[Function]); 10] = [
     ("numbers", numbers::FUNCTIONS),
+    ("logic", logic::FUNCTIONS),
     ("comparison", comparisons::FUNCTIONS),
     ("selection", selection::FUNCTIONS),
     ("bit strings", bits::FUNCTIONS),
@@ -33,9 +34,11 @@ pub(super) const MAGNITUDES: &[Class] = &[Class::Signed, Class::Unsigned, Class:
 pub(super) const REALS: &[Class] = &[Class::Real];
 /// BYTE to LWORD.
 pub(super) const BIT_STRINGS: &[Class] = &[Class::BitString];
+/// BOOL and BYTE to LWORD.
+pub(super) const LOGICAL: &[Class] = &[Class::Bool, Class::BitString];
 /// Every elementary type.
 pub(super) const EVERY: &[Class] =
-    &[Class::Bool, Class::BitString, Class::Signed, Class::Unsigned, Class::Real, Class::Time];
+    &[Class::Bool, Class::BitString, Class::Signed, Class::Unsigned, Class::Real, Class::Time, Class::Date];
 
 type Run = fn(&mut Call<'_, '_>) -> Result<u64, Fault>;
 

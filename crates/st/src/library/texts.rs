@@ -2,7 +2,7 @@
 //!
 //! Characters that a text does not have are none: a length beyond the end reaches to the end, a position behind it finds
 //! nothing. A negative number is a fault, and so is position 0, but for INSERT, where it is the place before the first
-//! character. A result that is too long for its place is cut.
+//! character. A result that no STRING holds is a fault.
 
 use super::table::{INTEGERS, pin, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};
@@ -37,21 +37,28 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("ToLCase", IN, ResultType::Text, "In with the letters A to Z as small ones",
         |call| give(call, |call| { let mut text = call.text(0)?; text.make_ascii_lowercase(); Ok(text) })),
     row("TrimL", IN, ResultType::Text, "In without the blanks in front",
-        |call| give(call, |call| Ok(collect(&[call.text(0)?.trim_ascii_start()])))),
+        |call| give(call, |call| collect(&[call.text(0)?.trim_ascii_start()]))),
     row("TrimR", IN, ResultType::Text, "In without the blanks behind",
-        |call| give(call, |call| Ok(collect(&[call.text(0)?.trim_ascii_end()])))),
+        |call| give(call, |call| collect(&[call.text(0)?.trim_ascii_end()]))),
 ];
 
 // The texts of one function are large: they lie in its own frame only while it runs.
 #[inline(never)]
 fn give(call: &mut Call<'_, '_>, text: fn(&mut Call<'_, '_>) -> Result<Text, Fault>) -> Result<u64, Fault> {
     let text = text(call)?;
-    Ok(call.give_text(&text))
+    call.give_text(&text)
 }
 
-/// Pieces one behind the other, cut where a text ends at the latest.
-fn collect(pieces: &[&[u8]]) -> Text {
-    pieces.iter().flat_map(|piece| piece.iter().copied()).take(STRING_CHARACTERS_MAX).collect()
+/// Pieces one behind the other.
+fn collect(pieces: &[&[u8]]) -> Result<Text, Fault> {
+    let mut text = Text::new();
+    for piece in pieces {
+        if text.try_extend_from_slice(piece).is_err() {
+            let characters = pieces.iter().map(|piece| piece.len()).sum();
+            return Err(Fault::TextTooLong { characters, capacity: STRING_CHARACTERS_MAX as u16 });
+        }
+    }
+    Ok(text)
 }
 
 /// A length, or a position that may be 0, within a text of `length` characters.
@@ -83,23 +90,25 @@ fn left(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
 fn right(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let text = call.text(0)?;
     let length = count(call, 1, text.len())?;
-    Ok(collect(&[&text[text.len() - length..]]))
+    collect(&[&text[text.len() - length..]])
 }
 
 fn middle(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let text = call.text(0)?;
-    parts(call, 1, &text).map(|[_, piece, _]| collect(&[piece]))
+    let [_, piece, _] = parts(call, 1, &text)?;
+    collect(&[piece])
 }
 
 fn deleted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let text = call.text(0)?;
-    parts(call, 1, &text).map(|[before, _, behind]| collect(&[before, behind]))
+    let [before, _, behind] = parts(call, 1, &text)?;
+    collect(&[before, behind])
 }
 
 fn concatenated(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let mut all = call.text(0)?;
     for place in 1..call.arguments.len() {
-        all = collect(&[&all, &call.text(place)?]);
+        all = collect(&[&all, &call.text(place)?])?;
     }
     Ok(all)
 }
@@ -107,12 +116,13 @@ fn concatenated(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
 fn inserted(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let (text, piece) = (call.text(0)?, call.text(1)?);
     let (before, behind) = text.split_at(count(call, 2, text.len())?);
-    Ok(collect(&[before, &piece, behind]))
+    collect(&[before, &piece, behind])
 }
 
 fn replaced(call: &mut Call<'_, '_>) -> Result<Text, Fault> {
     let (text, other) = (call.text(0)?, call.text(1)?);
-    parts(call, 2, &text).map(|[before, _, behind]| collect(&[before, &other, behind]))
+    let [before, _, behind] = parts(call, 2, &text)?;
+    collect(&[before, &other, behind])
 }
 
 #[inline(never)]

@@ -2,6 +2,7 @@
 
 use super::table::{pin, row};
 use super::{Call, Function, Pin, ResultType, Takes};
+use crate::calendar;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::operators::{Binary, binary};
@@ -14,6 +15,10 @@ const TWO_TIMES: &[Pin] =
     &[pin("In1", Takes::Fixed(Elementary::Time)), pin("In2", Takes::Fixed(Elementary::Time))];
 const TIME_AND_NUMBER: &[Pin] =
     &[pin("In1", Takes::Fixed(Elementary::Time)), pin("In2", Takes::Fixed(Elementary::Lreal))];
+const TOD: ResultType = ResultType::Fixed(Elementary::TimeOfDay);
+const DT: ResultType = ResultType::Fixed(Elementary::DateAndTime);
+const TOD_TIME: &[Pin] = &two(Elementary::TimeOfDay, Elementary::Time);
+const DT_TIME: &[Pin] = &two(Elementary::DateAndTime, Elementary::Time);
 const NS_PER_S: i64 = 1_000_000_000;
 
 #[rustfmt::skip]
@@ -28,8 +33,33 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("MULTIME", TIME_AND_NUMBER, TIME, "a duration multiplied, to the nanosecond", |call| of_two(call, Binary::MultiplyTime)),
     row("DIVTIME", TIME_AND_NUMBER, TIME, "a duration divided, to the nanosecond; by zero is a fault",
         |call| of_two(call, Binary::DivideTime)),
+    row("ADD_TOD_TIME", TOD_TIME, TOD, "In2 later than In1; behind midnight the day begins again",
+        |call| binary(Binary::Add, Elementary::TimeOfDay, call.bits(0), call.bits(1))),
+    row("SUB_TOD_TIME", TOD_TIME, TOD, "In2 earlier than In1; before midnight the day ends again",
+        |call| binary(Binary::Subtract, Elementary::TimeOfDay, call.bits(0), call.bits(1))),
+    row("SUB_TOD_TOD", &two(Elementary::TimeOfDay, Elementary::TimeOfDay), TIME, "the duration from In2 to In1", |call| of_two(call, Binary::Subtract)),
+    row("ADD_DT_TIME", DT_TIME, DT, "In2 later than In1; behind the last value comes the first",
+        |call| binary(Binary::Add, Elementary::DateAndTime, call.bits(0), call.bits(1))),
+    row("SUB_DT_TIME", DT_TIME, DT, "In2 earlier than In1; before the first value comes the last",
+        |call| binary(Binary::Subtract, Elementary::DateAndTime, call.bits(0), call.bits(1))),
+    row("SUB_DT_DT", &two(Elementary::DateAndTime, Elementary::DateAndTime), TIME, "the duration from In2 to In1", |call| of_two(call, Binary::Subtract)),
+    row("SUB_DATE_DATE", &two(Elementary::Date, Elementary::Date), TIME, "the duration from In2 to In1", |call| of_two(call, Binary::Subtract)),
+    row("CONCAT_DATE_TOD", &two(Elementary::Date, Elementary::TimeOfDay), DT, "the time In2 on the day In1",
+        |call| Ok(calendar::later(Elementary::DateAndTime, call.bits(0), call.bits(1).into()))),
+    row("DateToSec", &[pin("In", Takes::Fixed(Elementary::Date))], LINT, "the seconds from 1970-01-01 on", seconds),
+    row("TodToSec", &[pin("In", Takes::Fixed(Elementary::TimeOfDay))], LINT, "the seconds since midnight, the rest cut off", seconds),
+    row("DtToSec", &[pin("In", Takes::Fixed(Elementary::DateAndTime))], LINT, "the seconds from 1970-01-01 on, the rest cut off", seconds),
+    row("SecToDate", ONE_NUMBER, ResultType::Fixed(Elementary::Date), "the day in which these seconds from 1970-01-01 on lie; \
+        one that no DATE holds is a fault",
+        |call| moment(call, Elementary::DateAndTime).map(|moment| calendar::part(Elementary::Date, moment))),
+    row("SecToTod", ONE_NUMBER, TOD, "seconds since midnight as a time of day; more than a day has is a fault", |call| moment(call, Elementary::TimeOfDay)),
+    row("SecToDt", ONE_NUMBER, DT, "seconds from 1970-01-01 on; what no DATE_AND_TIME holds is a fault", |call| moment(call, Elementary::DateAndTime)),
     row("_Now", &[], TIME, "the present moment, the same in the whole scan", |call| Ok(call.machine.now_ns)),
 ];
+
+const fn two(first: Elementary, second: Elementary) -> [Pin; 2] {
+    [pin("In1", Takes::Fixed(first)), pin("In2", Takes::Fixed(second))]
+}
 
 fn of_two(call: &mut Call<'_, '_>, operator: Binary) -> Result<u64, Fault> {
     binary(operator, Elementary::Time, call.bits(0), call.bits(1))
@@ -42,4 +72,17 @@ fn seconds_to_time(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
         Some(duration_ns) => Ok(duration_ns as u64),
         None => Err(Fault::ArgumentOutOfRange { value, lower, upper }),
     }
+}
+
+fn seconds(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    Ok(call.bits(0) / NS_PER_S.unsigned_abs())
+}
+
+/// Seconds as a time of day, or on a day.
+fn moment(call: &mut Call<'_, '_>, elementary: Elementary) -> Result<u64, Fault> {
+    let (value, upper) = (call.bits(0) as i64, calendar::last(elementary) as i64 / NS_PER_S);
+    if (0..=upper).contains(&value) {
+        return Ok(value.unsigned_abs() * NS_PER_S.unsigned_abs());
+    }
+    Err(Fault::ArgumentOutOfRange { value, lower: 0, upper })
 }

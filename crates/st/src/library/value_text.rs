@@ -7,6 +7,7 @@
 //! | integers | decimal: `-5` |
 //! | REAL, LREAL | the shortest decimal number that is read back as the same value: `0.1`, `1e16`, `inf`, `NaN` |
 //! | TIME | `T#1s500ms`, `T#-1d2h`, `T#0s` |
+//! | DATE, TIME_OF_DAY, DATE_AND_TIME | `D#2024-02-29`, `TOD#06:30:00.5`, `DT#2024-02-29-06:30:00` |
 //!
 //! A text in whatever case and with blanks around is read back; one that is no such value, or a value beyond the limits
 //! of the type, is none.
@@ -15,6 +16,7 @@ use core::fmt::Write;
 
 use arrayvec::ArrayString;
 
+use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::value::{TIME_UNITS, integer, range};
 
@@ -24,13 +26,15 @@ pub(super) const TEXT_CHARACTERS_MAX: usize = 40;
 pub(super) type ValueText = ArrayString<TEXT_CHARACTERS_MAX>;
 
 /// A value as the text that its conversion to STRING gives.
-pub(crate) fn text_of(elementary: Elementary, bits: u64) -> String {
+#[must_use]
+pub fn text_of(elementary: Elementary, bits: u64) -> String {
     shown(elementary, bits).as_str().to_owned()
 }
 
 /// The value that a person writes: as its conversion from STRING takes it, but a bit string in decimal, or in hexadecimal
 /// behind `16#`.
-pub(crate) fn value_of(elementary: Elementary, text: &str) -> Option<u64> {
+#[must_use]
+pub fn value_of(elementary: Elementary, text: &str) -> Option<u64> {
     let text = text.trim_ascii();
     match (elementary.class(), text.strip_prefix("16#")) {
         (Class::BitString, Some(digits)) => bit_string(elementary, digits),
@@ -49,6 +53,7 @@ pub(super) fn shown(elementary: Elementary, bits: u64) -> ValueText {
         Class::Real if elementary == Elementary::Real => write!(text, "{:?}", f32::from_bits(bits as u32)),
         Class::Real => write!(text, "{:?}", f64::from_bits(bits)),
         Class::Time => write_duration(&mut text, bits as i64),
+        Class::Date => calendar::write(&mut text, elementary, bits),
     };
     // The longest are a TIME of 35 and an LREAL of 24 characters.
     debug_assert!(written.is_ok());
@@ -78,6 +83,7 @@ pub(super) fn read(elementary: Elementary, text: &str) -> Option<u64> {
         Class::Signed | Class::Unsigned => number(elementary, text),
         Class::Real => real(elementary, text),
         Class::Time => duration(text),
+        Class::Date => date(elementary, text),
     }
 }
 
@@ -111,6 +117,12 @@ fn real(elementary: Elementary, text: &str) -> Option<u64> {
     // A number in digits that is too large is beyond the limits; an infinity is written in letters.
     let is_in_digits = text.bytes().any(|octet| octet.is_ascii_digit());
     (!is_infinite || !is_in_digits).then_some(bits)
+}
+
+fn date(elementary: Elementary, text: &str) -> Option<u64> {
+    let (prefix, text) = text.split_once('#')?;
+    let is_own = crate::syntax::date_prefix(prefix) == Some(elementary);
+    is_own.then(|| calendar::read(elementary, text)).flatten()
 }
 
 /// Units from the longest to the shortest, each once, without fractions.

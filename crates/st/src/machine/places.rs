@@ -1,8 +1,9 @@
 //! Where a variable lies while a program runs.
 
 use super::{Machine, slot_of};
-use crate::code::{Base, Dimension, Element, Place, Slot};
+use crate::code::{Base, Dimension, Element, Extent, Place, Slot};
 use crate::fault::Fault;
+use crate::types::Bound;
 use crate::value::integer;
 
 impl Machine<'_> {
@@ -10,7 +11,7 @@ impl Machine<'_> {
     pub(crate) fn slot(&mut self, place: &Place) -> Result<Slot, Fault> {
         let mut slot = self.base(place.base) + place.offset;
         for element in &place.indices {
-            slot += self.flat_index(element)? * element.element_slots;
+            slot += self.flat_index(place.base, element)? * element.element_slots;
         }
         Ok(slot)
     }
@@ -21,9 +22,9 @@ impl Machine<'_> {
         let mut slot = self.base(place.base) + place.offset;
         let mut elements = 1;
         for element in &place.indices {
-            let index = self.flat_index(element)?;
+            let index = self.flat_index(place.base, element)?;
             slot += index * element.element_slots;
-            elements = element.elements - index;
+            elements = self.elements_of(place.base, element.extent) - index;
         }
         Ok((slot, elements))
     }
@@ -37,18 +38,56 @@ impl Machine<'_> {
         }
     }
 
-    fn flat_index(&mut self, element: &Element) -> Result<u32, Fault> {
+    fn elements_of(&self, base: Base, extent: Extent) -> u32 {
+        match extent {
+            Extent::Fixed(elements) => elements,
+            Extent::Open { dimensions } => {
+                (0..dimensions).map(|dimension| self.open_bound(base, dimension).count()).product()
+            }
+        }
+    }
+
+    fn flat_index(&mut self, base: Base, element: &Element) -> Result<u32, Fault> {
+        if matches!(element.extent, Extent::Open { .. }) {
+            return self.open_index(base, element);
+        }
         let mut flat = 0;
         for dimension in &element.dimensions {
-            flat += self.index(dimension)? * dimension.stride;
+            let bound = Bound { lower: dimension.lower, upper: dimension.upper };
+            flat += self.index(dimension, bound)? * dimension.stride;
         }
         Ok(flat)
     }
 
-    fn index(&mut self, dimension: &Dimension) -> Result<u32, Fault> {
-        let Dimension { elementary, lower, upper, .. } = *dimension;
-        let index = integer(elementary, self.value(&dimension.index)?);
-        if (i128::from(lower)..=upper.into()).contains(&index) {
+    #[inline(never)]
+    fn open_index(&mut self, base: Base, element: &Element) -> Result<u32, Fault> {
+        let mut flat = 0;
+        for (place, dimension) in (0..).zip(&element.dimensions) {
+            let bound = self.open_bound(base, place);
+            flat = flat * bound.count() + self.index(dimension, bound)?;
+        }
+        Ok(flat)
+    }
+
+    /// A bound of the array of any length to which a reference leads.
+    fn open_bound(&self, base: Base, dimension: u32) -> Bound {
+        let reference = match base {
+            Base::ReferenceInMemory(slot) => slot,
+            Base::ReferenceInInstance(offset) => self.instance + offset,
+            Base::Memory | Base::Instance => {
+                unreachable!(
+                    "{base:?} is no reference: the checker makes arrays of any length of references only"
+                )
+            }
+        };
+        let [lower, upper] = [1, 2].map(|place| self.memory.get(reference + 2 * dimension + place) as i64);
+        Bound { lower, upper }
+    }
+
+    fn index(&mut self, dimension: &Dimension, bound: Bound) -> Result<u32, Fault> {
+        let index = integer(dimension.elementary, self.value(&dimension.index)?);
+        let Bound { lower, upper } = bound;
+        if bound.holds(index) {
             // Bounds lie as far apart as slots count at most.
             return Ok((index - i128::from(lower)) as u32);
         }

@@ -17,6 +17,32 @@ pub(crate) struct File {
     pub(crate) units: Vec<Pou>,
     /// VAR_GLOBAL sections outside every program organization unit.
     pub(crate) globals: Vec<VarSection>,
+    pub(crate) configurations: Vec<Configuration>,
+}
+
+/// `CONFIGURATION … END_CONFIGURATION`: which PROGRAMs run, and when. Its VAR_GLOBAL are those of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Configuration {
+    pub(crate) tasks: Vec<TaskDeclaration>,
+    pub(crate) programs: Vec<ProgramInstance>,
+    /// Its first word.
+    pub(crate) span: Span,
+}
+
+/// `TASK Fast(INTERVAL := T#1ms, PRIORITY := 1);`
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct TaskDeclaration {
+    pub(crate) name: Name,
+    pub(crate) interval: Option<Expression>,
+    pub(crate) priority: Option<Expression>,
+}
+
+/// `PROGRAM Lamp1 WITH Fast : Lamp;`
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ProgramInstance {
+    pub(crate) name: Name,
+    pub(crate) task: Option<Name>,
+    pub(crate) program: Name,
 }
 
 /// A program organization unit. A file that begins with statements or VAR sections outside of all of them is a
@@ -84,6 +110,11 @@ pub(crate) enum TypeKind {
     /// ARRAY[0..14, 1..2] OF type; bounds are constant expressions.
     Array {
         bounds: Vec<(Expression, Expression)>,
+        element: Box<TypeName>,
+    },
+    /// `ARRAY[*, *] OF type`, with its dimensions: an array of any length.
+    OpenArray {
+        dimensions: usize,
         element: Box<TypeName>,
     },
     /// A type of the user or of the library.

@@ -8,31 +8,25 @@ pub(crate) use number::{based, integer, real};
 pub(crate) use string::string;
 
 use super::ast::{Literal, TypedValue};
+use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 
-/// The prefixes of the types that the language does not know.
-const UNSUPPORTED: [&str; 15] = [
-    "LT",
-    "LTIME",
-    "D",
-    "DATE",
-    "LD",
-    "LDATE",
-    "TOD",
-    "TIME_OF_DAY",
-    "LTOD",
-    "LTIME_OF_DAY",
-    "DT",
-    "DATE_AND_TIME",
-    "LDT",
-    "LDATE_AND_TIME",
-    "WSTRING",
-];
+/// The prefixes of literals of the standard that the language does not know.
+const UNSUPPORTED: [&str; 10] =
+    ["LT", "LTIME", "LD", "LDATE", "LTOD", "LTIME_OF_DAY", "LDT", "LDATE_AND_TIME", "WSTRING", "WCHAR"];
 
-/// Whether `prefix` is that of a type that the language does not know, such as DATE.
+/// Whether `prefix` is that of a literal that the language does not know, such as LTIME.
 pub(crate) fn is_unsupported(prefix: &str) -> bool {
     UNSUPPORTED.iter().any(|known| known.eq_ignore_ascii_case(prefix))
+}
+
+/// The type of a date or time of day whose literals begin with `prefix`.
+pub(crate) fn date_prefix(prefix: &str) -> Option<Elementary> {
+    if prefix.eq_ignore_ascii_case("D") {
+        return Some(Elementary::Date);
+    }
+    Elementary::named(prefix).filter(|elementary| elementary.class() == Class::Date)
 }
 
 /// Whether `prefix` begins a literal, and no enumeration value.
@@ -49,6 +43,9 @@ pub(crate) fn typed(prefix: &str, text: &str, span: Span) -> Result<Literal, Pro
     if is_duration(prefix) {
         return time::duration(text, span).map(Literal::Time);
     }
+    if let Some(elementary) = date_prefix(prefix) {
+        return date(elementary, text, span);
+    }
     let Some(elementary) = Elementary::named(prefix) else {
         let help = "such a literal begins with an elementary type, for example INT#5";
         return Err(Problem::new(span, format!("`{prefix}` is not an elementary type")).help(help));
@@ -61,4 +58,16 @@ pub(crate) fn typed(prefix: &str, text: &str, span: Span) -> Result<Literal, Pro
         _ => number::integer_of(elementary, text, span).map(TypedValue::Integer),
     }?;
     Ok(Literal::Typed { elementary, value })
+}
+
+fn date(elementary: Elementary, text: &str, span: Span) -> Result<Literal, Problem> {
+    let form = match elementary {
+        Elementary::Date => "a day from D#1970-01-01 to D#2106-02-06",
+        Elementary::TimeOfDay => "a time from TOD#00:00:00 to TOD#23:59:59.999999999",
+        _ => "a time on a day, from DT#1970-01-01-00:00:00 to DT#2106-02-06-23:59:59.999999999",
+    };
+    match calendar::read(elementary, text) {
+        Some(moment) => Ok(Literal::Typed { elementary, value: TypedValue::Integer(moment.into()) }),
+        None => Err(Problem::new(span, format!("`{text}` is no {elementary}")).help(format!("it is {form}"))),
+    }
 }

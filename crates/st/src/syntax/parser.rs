@@ -2,6 +2,7 @@
 
 mod arguments;
 mod blocks;
+mod configuration;
 mod declarations;
 mod expressions;
 mod file;

@@ -35,7 +35,7 @@ pub(crate) enum Token {
     /// Digits that run into letters.
     #[regex(r"[0-9][0-9_]*[A-Za-z][0-9A-Za-z_]*", priority = 10)]
     BadNumber,
-    /// `INT#-5`, `WORD#16#FF`, `T#1h30m15.5s`, `Colour#red`.
+    /// `INT#-5`, `WORD#16#FF`, `T#1h30m15.5s`, `Colour#red`, `D#2024-02-29`.
     #[regex(r"[\p{Alphabetic}_][\p{Alphabetic}\p{Nd}_]*#", priority = 10)]
     #[regex(
         r"[\p{Alphabetic}_][\p{Alphabetic}\p{Nd}_]*#[\p{Alphabetic}_][\p{Alphabetic}\p{Nd}_]*",
@@ -50,6 +50,7 @@ pub(crate) enum Token {
         r"[\p{Alphabetic}_][\p{Alphabetic}\p{Nd}_]*#[+-]?[0-9][0-9A-Za-z_]*(\.[0-9][0-9A-Za-z_]*)*",
         priority = 12
     )]
+    #[regex(r"(?i:D|DATE|TOD|TIME_OF_DAY|DT|DATE_AND_TIME)#[0-9]+([-:.][0-9]+)+", priority = 14)]
     Hashed,
     /// `%IW0`.
     #[regex(r"%[IQMiqm][XBWDLxbwdl]?[0-9*][0-9.]*")]

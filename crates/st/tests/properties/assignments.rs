@@ -39,8 +39,7 @@ fn an_argument_and_an_output_widen_as_an_assignment_does() {
 /// What an operator makes of two types; none if it is not there.
 fn result(operator: &str, left: Type, right: Type) -> Option<&'static str> {
     let met = meet(left, right);
-    let scale =
-        |time: Type, other: Type| time.kind == Kind::Time && other.is_number() && other.name != "ULINT";
+    let scale = |time: Type, other: Type| time.kind == Kind::Time && other.is_number();
     match operator {
         "+" | "-" if left.kind == Kind::Time && right.kind == Kind::Time => Some("TIME"),
         "*" if scale(left, right) || scale(right, left) => Some("TIME"),

@@ -17,13 +17,20 @@ pub(crate) fn converted(from: Type, to: Type, value: Value) -> Value {
         (real, Kind::Real, 32) => Value::Single(real.double() as f32),
         (real, Kind::Real, _) => Value::Double(real.double()),
         (real, Kind::Bool, _) => Value::Whole((real.double() != 0.0).into()),
-        (real, _, _) => Value::Whole(nearest(to, real.double())),
+        // A bit string takes the pattern of a signed integer as well as of an unsigned one.
+        (real, Kind::Bits, _) => {
+            let (_, greatest) = to.limits();
+            Value::Whole(to.wrapped(nearest(-(1_i128 << (to.bits - 1)), greatest, real.double())))
+        }
+        (real, _, _) => {
+            let (least, greatest) = to.limits();
+            Value::Whole(nearest(least, greatest, real.double()))
+        }
     }
 }
 
-/// The nearest integer of a type, halves to the even one.
-fn nearest(to: Type, number: f64) -> i128 {
-    let (least, greatest) = to.limits();
+/// The nearest integer between two limits, halves to the even one.
+fn nearest(least: i128, greatest: i128, number: f64) -> i128 {
     if number.is_nan() {
         return 0;
     }

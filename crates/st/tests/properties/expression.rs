@@ -109,7 +109,8 @@ impl Expression {
         }
         let second = right.value(variables)?;
         if self.type_.kind == Kind::Time && left.type_ != right.type_ {
-            return of_wholes(operator, self.type_, first.whole(), second.whole());
+            let [first, second] = [first, second].map(|value| LINT.wrapped(value.whole()));
+            return of_wholes(operator, self.type_, first, second);
         }
         let met = meet(left.type_, right.type_).expect("a common type");
         let [first, second] =
@@ -125,6 +126,8 @@ impl Expression {
 fn widened(from: Type, to: Type, value: Value) -> Value {
     match (value, to.kind) {
         (Value::Whole(_), Kind::Real) | (Value::Single(_), _) => converted(from, to, value),
+        // The sign may be lost, and the pattern stays.
+        (Value::Whole(number), Kind::Signed | Kind::Unsigned) => Value::Whole(to.wrapped(number)),
         _ => value,
     }
 }

@@ -1,4 +1,5 @@
-//! The elementary types and how they widen, as IEC 61131-3 prints it: table 10 and figure 12.
+//! The elementary types and what they become by themselves: table 10 and figure 12 of IEC 61131-3, and between signed and
+//! unsigned integers the implicit casts of W501, 6-5-3.
 
 /// What can be done with a type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,8 +50,8 @@ pub(crate) const ALL: [Type; 16] = [
     TIME,
 ];
 
-/// Which type becomes which by itself, step by step.
-const STEPS: [(&str, &str); 18] = [
+/// Which type becomes which by itself, step by step: those of figure 12, and between integers of one width.
+const STEPS: [(&str, &str); 26] = [
     ("BOOL", "BYTE"),
     ("BYTE", "WORD"),
     ("WORD", "DWORD"),
@@ -64,6 +65,14 @@ const STEPS: [(&str, &str); 18] = [
     ("USINT", "INT"),
     ("UINT", "DINT"),
     ("UDINT", "LINT"),
+    ("SINT", "USINT"),
+    ("INT", "UINT"),
+    ("DINT", "UDINT"),
+    ("LINT", "ULINT"),
+    ("USINT", "SINT"),
+    ("UINT", "INT"),
+    ("UDINT", "DINT"),
+    ("ULINT", "LINT"),
     ("INT", "REAL"),
     ("UINT", "REAL"),
     ("DINT", "LREAL"),
@@ -71,25 +80,26 @@ const STEPS: [(&str, &str); 18] = [
     ("REAL", "LREAL"),
 ];
 
-/// Whether a value of the one type becomes one of the other by itself.
+/// Whether a value of the one type becomes one of the other by itself: whether steps lead there.
 pub(crate) fn widens(from: Type, to: Type) -> bool {
-    from == to
-        || STEPS.iter().any(|(step_from, step_to)| *step_from == from.name && widens(named(step_to), to))
+    let mut reached = vec![from.name];
+    loop {
+        let is_new = |step: &&(&str, &str)| reached.contains(&step.0) && !reached.contains(&step.1);
+        match STEPS.iter().find(is_new) {
+            Some((_, next)) => reached.push(next),
+            None => return reached.contains(&to.name),
+        }
+    }
 }
 
-/// The type in which two operands meet: the one of them that holds both, else the narrowest integer, else the
-/// narrowest real.
+/// The type in which two operands meet. Of two integers it is the one of the higher rank, and of one rank the one
+/// without a sign; of others the one that holds both, else the narrowest real that does.
 pub(crate) fn meet(left: Type, right: Type) -> Option<Type> {
-    if widens(left, right) {
-        return Some(right);
+    if left.is_integer() && right.is_integer() {
+        return [left, right].into_iter().max_by_key(|type_| (type_.bits, type_.kind == Kind::Unsigned));
     }
-    if widens(right, left) {
-        return Some(left);
-    }
-    let both = |candidate: &&Type| widens(left, **candidate) && widens(right, **candidate);
-    let integers = ALL.iter().filter(|candidate| candidate.is_integer()).filter(both);
-    let narrowest = integers.min_by_key(|candidate| candidate.bits);
-    narrowest.or_else(|| ALL.iter().filter(|candidate| candidate.kind == Kind::Real).find(both)).copied()
+    let both = |candidate: &Type| widens(left, *candidate) && widens(right, *candidate);
+    [left, right].into_iter().find(both).or_else(|| [REAL, LREAL].into_iter().find(both))
 }
 
 pub(crate) fn named(name: &str) -> Type {

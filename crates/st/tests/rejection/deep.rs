@@ -47,7 +47,7 @@ fn blocks_of_statements_with_wide_expressions() {
 fn texts_in_each_other() {
     let nesting = 30;
     let text = format!("{}s{}", "CONCAT(LEFT(".repeat(nesting), ", 200), 'x')".repeat(nesting));
-    let source = format!("VAR s : STRING[1985] := 'text'; END_VAR s := {text};");
+    let source = format!("VAR s : STRING[1986] := 'text'; END_VAR s := {text};");
     assert_eq!(run(source), Ok(Ok(())));
 }
 

@@ -86,7 +86,7 @@ fn memory_too_large() {
     expect(&format!("{type_} {functions} PROGRAM Main END_PROGRAM"), "its memory");
     let texts = pieces(4_000, |place| format!("s := '{}{place}';\n", "x".repeat(150)));
     let more = "s := CONCAT(s, s, s);\n".repeat(5_000);
-    expect(&format!("VAR s : STRING[1985]; END_VAR {more} {texts}"), "memory");
+    expect(&format!("VAR s : STRING[1986]; END_VAR {more} {texts}"), "memory");
 }
 
 #[test]

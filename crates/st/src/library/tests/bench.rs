@@ -62,7 +62,7 @@ impl Bench {
     /// Puts a text into the memory, as an argument.
     pub(super) fn text(&mut self, place: Slot, text: &[u8]) -> u64 {
         let slot = place * TEXT_SLOTS;
-        self.memory.put_text(slot, STRING_CHARACTERS_MAX as u16, text);
+        self.memory.put_text(slot, STRING_CHARACTERS_MAX as u16, text).unwrap();
         slot.into()
     }
 

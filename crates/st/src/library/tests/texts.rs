@@ -94,10 +94,13 @@ fn a_negative_length_is_a_fault() {
 }
 
 #[test]
-fn a_text_ends_where_the_longest_ends() {
-    let long = "x".repeat(1500);
-    assert_eq!(text("CONCAT", &[&long, &long], &[]).unwrap().len(), 1985);
-    assert_eq!(text("INSERT", &[&long, &long], &[7]).unwrap().len(), 1985);
+fn a_text_that_no_string_holds_is_a_fault() {
+    let (long, rest) = ("x".repeat(1500), "y".repeat(485));
+    assert_eq!(text("CONCAT", &[&long, &rest], &[]).map(|text| text.len()), Ok(1985));
+    let fault = |characters| Err(Fault::TextTooLong { characters, capacity: 1985 });
+    assert_eq!(text("CONCAT", &[&long, &rest, "z"], &[]), fault(1986));
+    assert_eq!(text("INSERT", &[&long, &long], &[7]), fault(3000));
+    assert_eq!(text("REPLACE", &[&long, &long], &[10, 7]), fault(2990));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 
+use crate::calendar::{last, part};
 use crate::elementary::Elementary::{self, *};
 use crate::library::value_text::read;
 use crate::library::{text_of, value_of};
@@ -76,6 +77,7 @@ proptest! {
     fn a_value_comes_back(elementary in prop::sample::select(Elementary::ALL.to_vec()), bits in any::<u64>()) {
         let bits = match elementary {
             Real | Lreal => real_bits(elementary, real(elementary, bits)),
+            Date | TimeOfDay | DateAndTime => part(elementary, bits % (last(DateAndTime) + 1)),
             _ => wrap(elementary, bits),
         };
         let back = read(elementary, &text_of(elementary, bits));

@@ -60,7 +60,7 @@ impl Parser<'_> {
         let operator = match self.token() {
             Token::Minus => UnaryOperator::Minus,
             Token::Plus => UnaryOperator::Plus,
-            Token::Keyword(Keyword::Not) => UnaryOperator::Not,
+            Token::Keyword(Keyword::Not) if !self.names_an_input() => UnaryOperator::Not,
             _ => return self.operand(),
         };
         self.advance();
@@ -90,11 +90,32 @@ impl Parser<'_> {
             Token::OpenString => Ok(self.literal(Literal::String(Vec::new()))),
             Token::Keyword(Keyword::True) => Ok(self.literal(Literal::Bool(true))),
             Token::Keyword(Keyword::False) => Ok(self.literal(Literal::Bool(false))),
+            Token::Keyword(Keyword::And | Keyword::Or | Keyword::Xor | Keyword::Mod | Keyword::Not)
+            | Token::Ampersand
+                if self.peek(1) == Token::OpenParenthesis =>
+            {
+                self.operator_called()
+            }
             _ => {
                 let problem = self.no_operand();
                 self.fail(problem)
             }
         }
+    }
+
+    /// `(In := …` behind the token that stands here: a call, not an expression in parentheses.
+    fn names_an_input(&self) -> bool {
+        [1, 2, 3].map(|ahead| self.peek(ahead)) == [Token::OpenParenthesis, Token::Name, Token::Assign]
+    }
+
+    /// An operator as a function: `AND(a, b, c)`.
+    fn operator_called(&mut self) -> Parsed<Expression> {
+        let name = if self.token() == Token::Ampersand { "AND" } else { self.text(self.here()) };
+        let span = self.advance();
+        let callee = Expression { kind: ExpressionKind::Name(name.to_owned()), span };
+        let call = self.call(callee, span)?;
+        let span = call.span;
+        Ok(Expression { kind: ExpressionKind::Call(call), span })
     }
 
     /// Bounds what the tree of one expression holds.

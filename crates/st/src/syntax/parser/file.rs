@@ -8,8 +8,7 @@ use super::statements::Place;
 use crate::problem::{Problem, Span};
 
 /// What begins a declaration of the standard that the language does not know, and what ends it.
-const UNSUPPORTED: [(&str, &str); 7] = [
-    ("CONFIGURATION", "END_CONFIGURATION"),
+const UNSUPPORTED: [(&str, &str); 6] = [
     ("NAMESPACE", "END_NAMESPACE"),
     ("CLASS", "END_CLASS"),
     ("INTERFACE", "END_INTERFACE"),
@@ -55,6 +54,7 @@ impl Parser<'_> {
                 self.advance();
                 self.accept(Token::Semicolon);
             }
+            _ if self.at_configuration() => self.configuration(file),
             _ => {
                 let body = self.statements(Place::Body);
                 if !body.is_empty() {
@@ -68,6 +68,12 @@ impl Parser<'_> {
     pub(super) fn skip_unsupported(&mut self) -> bool {
         let here = self.here();
         let text = self.text(here);
+        if self.at_configuration() && !self.blocks.is_empty() {
+            let problem = Problem::new(here, "CONFIGURATION stands inside of another declaration");
+            self.tell(problem.help("is the end of the declaration above it missing?"));
+            self.configuration(&mut File::default());
+            return true;
+        }
         let known = UNSUPPORTED.iter().find(|(word, _)| word.eq_ignore_ascii_case(text));
         let (Some((word, end)), Token::Name) = (known, self.peek(1)) else { return false };
         self.tell(Problem::new(here, format!("{word} is not supported")));

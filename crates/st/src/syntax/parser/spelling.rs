@@ -1,7 +1,6 @@
 //! What a word that is not known may have been meant for.
 
 use super::super::keyword::Keyword;
-use super::super::literal;
 use crate::elementary::Elementary;
 
 /// Words of other languages and dialects for which no letter-by-letter likeness is needed.
@@ -33,15 +32,14 @@ pub(super) fn nearest(text: &str, candidates: &[Keyword]) -> Option<Keyword> {
     (distance(best) <= allowed).then_some(*best)
 }
 
-/// Whether `text` is a word that names a type, which nothing else may be called.
+/// Whether `text` is a word that names a type, which nothing else may be called. DT is free: many programs call a step
+/// of time so.
 pub(super) fn is_type_word(text: &str) -> bool {
-    Elementary::named(text).is_some() || text.eq_ignore_ascii_case("STRING") || is_unsupported_type(text)
+    let is_type = Elementary::named(text).is_some() || text.eq_ignore_ascii_case("STRING");
+    is_type && !text.eq_ignore_ascii_case("DT")
 }
 
-/// Whether `text` names a type of the standard that is not supported.
-pub(super) fn is_unsupported_type(text: &str) -> bool {
-    const OTHERS: [&str; 5] = ["CHAR", "WCHAR", "POINTER", "REF_TO", "REFERENCE"];
-    // D, T, DT and their like are prefixes of literals, and free as names.
-    let is_date = text.len() > 3 || text.eq_ignore_ascii_case("TOD") || text.eq_ignore_ascii_case("LDT");
-    (is_date && literal::is_unsupported(text)) || OTHERS.iter().any(|word| word.eq_ignore_ascii_case(text))
+/// Whether `text` begins the type of a pointer.
+pub(super) fn is_pointer(text: &str) -> bool {
+    ["POINTER", "REF_TO", "REFERENCE"].iter().any(|word| word.eq_ignore_ascii_case(text))
 }

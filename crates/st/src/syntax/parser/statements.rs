@@ -27,6 +27,9 @@ impl Parser<'_> {
             if !self.is_inside_statement() && self.skip_unsupported() {
                 continue;
             }
+            if self.blocks.is_empty() && self.at_configuration() {
+                return statements;
+            }
             if self.statements_end() || (place == Place::Arm && self.at_label()) {
                 return statements;
             }

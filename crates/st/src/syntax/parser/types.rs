@@ -160,7 +160,8 @@ impl Parser<'_> {
 
     fn named_type(&mut self, span: Span) -> Parsed<TypeKind> {
         let text = self.text(span);
-        if spelling::is_unsupported_type(text) {
+        let is_behind_a_pointer = matches!(self.peek(1), Token::Name | Token::Keyword(Keyword::To));
+        if spelling::is_pointer(text) && is_behind_a_pointer {
             return self.fail(Problem::new(span, format!("{} is not supported", text.to_ascii_uppercase())));
         }
         self.advance();
@@ -190,6 +191,9 @@ impl Parser<'_> {
     fn array(&mut self) -> Parsed<TypeKind> {
         self.advance();
         self.expect(Token::OpenBracket, "`[` and the bounds behind ARRAY")?;
+        if self.token() == Token::Star {
+            return self.open_array();
+        }
         let mut bounds = vec![self.bounds()?];
         while self.accept(Token::Comma) {
             bounds.push(self.bounds()?);
@@ -200,10 +204,22 @@ impl Parser<'_> {
         Ok(TypeKind::Array { bounds, element })
     }
 
-    fn bounds(&mut self) -> Parsed<(Expression, Expression)> {
-        if self.token() == Token::Star {
-            return self.fail(Problem::new(self.here(), "arrays of any length are not supported"));
+    /// `*, *] OF INT` behind `ARRAY[`.
+    fn open_array(&mut self) -> Parsed<TypeKind> {
+        let mut dimensions = 0;
+        loop {
+            self.expect(Token::Star, "`*`, as the other bounds of ARRAY")?;
+            dimensions += 1;
+            if !self.accept(Token::Comma) {
+                break;
+            }
         }
+        self.expect(Token::CloseBracket, "`,` or `]` behind the bounds of ARRAY")?;
+        self.word(Keyword::Of, "and the type of the elements behind the bounds of ARRAY")?;
+        Ok(TypeKind::OpenArray { dimensions, element: Box::new(self.type_name()?) })
+    }
+
+    fn bounds(&mut self) -> Parsed<(Expression, Expression)> {
         let from = self.expression()?;
         if self.token() != Token::Range {
             let problem = self.missing("`..` and the upper bound").help("bounds are written `[0..9]`");

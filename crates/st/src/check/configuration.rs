@@ -1,0 +1,152 @@
+//! Which PROGRAMs run, and when: what a CONFIGURATION says, or all of them in each scan.
+
+use super::constants::Constants;
+use super::places::nearest;
+use super::scope::{Scope, key};
+use super::{Checker, Origin, Pending};
+use crate::problem::{Problem, Span};
+use crate::program::Task;
+use crate::syntax::ast::{Configuration, File, Name, Pou, PouKind, ProgramInstance, TaskDeclaration};
+
+/// A PRIORITY that is left out comes behind all others.
+const PRIORITY_LAST: i128 = i128::MAX;
+
+/// The shortest task period of a CPU Unit.
+const INTERVAL_MIN_NS: i64 = 125_000;
+
+/// A task of a CONFIGURATION.
+struct Planned<'t> {
+    name: &'t Name,
+    /// How long its period is, and where that is said; none: it runs in each scan.
+    interval: Option<(u64, Span)>,
+    priority: i128,
+    programs: Vec<u32>,
+}
+
+impl<'t> Checker<'t> {
+    /// Notes the PROGRAMs of a file, those that do not run too.
+    pub(super) fn programs(&mut self, file: &'t File) {
+        let programs: Vec<&'t Pou> = file.units.iter().filter(|pou| pou.kind == PouKind::Program).collect();
+        let Some((configuration, others)) = file.configurations.split_first() else {
+            let programs = programs.into_iter().map(|pou| self.program(pou, &pou.name)).collect();
+            self.out.tasks.push(Task { every: 1, programs });
+            return;
+        };
+        if let Some(second) = others.first() {
+            let problem = Problem::new(second.span, "a second CONFIGURATION");
+            self.refuse::<()>(problem.help("a CPU Unit has one: put its tasks into the first"));
+        }
+        self.configure(configuration, &programs);
+        let is_run = |pou: &Pou| {
+            configuration.programs.iter().any(|own| own.program.text.eq_ignore_ascii_case(&pou.name.text))
+        };
+        for pou in programs.into_iter().filter(|pou| !is_run(pou)) {
+            self.program(pou, &pou.name);
+        }
+    }
+
+    /// A PROGRAM under a name of its own.
+    fn program(&mut self, pou: &'t Pou, name: &Name) -> u32 {
+        let scope = self.program_scope(pou, &name.text);
+        let unit = self.new_unit();
+        self.pending.push(Pending { pou, unit, scope, origin: Origin::User });
+        unit
+    }
+
+    fn configure(&mut self, configuration: &'t Configuration, programs: &[&'t Pou]) {
+        let mut tasks = Vec::<Planned<'t>>::new();
+        for declaration in &configuration.tasks {
+            if tasks.iter().any(|task| is_same(task.name, &declaration.name)) {
+                self.refuse_second(&declaration.name);
+            } else {
+                tasks.extend(self.task(declaration));
+            }
+        }
+        let mut free = Vec::new();
+        for (place, instance) in configuration.programs.iter().enumerate() {
+            if configuration.programs[..place].iter().any(|before| is_same(&before.name, &instance.name)) {
+                self.refuse_second(&instance.name);
+            } else {
+                self.program_of_configuration(instance, programs, &mut tasks, &mut free);
+            }
+        }
+        if configuration.programs.is_empty() {
+            let problem = Problem::new(configuration.span, "this CONFIGURATION runs no PROGRAM");
+            self.refuse::<()>(problem.help("write PROGRAM name WITH task : program;"));
+        }
+        self.order(tasks, free);
+    }
+
+    fn task(&mut self, declaration: &'t TaskDeclaration) -> Option<Planned<'t>> {
+        let scope = Scope::default();
+        let priority = match &declaration.priority {
+            Some(priority) => self.constant_integer(priority, &scope)?,
+            None => PRIORITY_LAST,
+        };
+        let interval = match &declaration.interval {
+            Some(interval) => {
+                let duration_ns = Constants::new(self, &scope).duration(interval)?;
+                if duration_ns < INTERVAL_MIN_NS {
+                    let message = "an INTERVAL is T#125us at least";
+                    return self.refuse(Problem::new(interval.span, message));
+                }
+                Some((duration_ns.unsigned_abs(), interval.span))
+            }
+            None => None,
+        };
+        Some(Planned { name: &declaration.name, interval, priority, programs: Vec::new() })
+    }
+
+    fn program_of_configuration(
+        &mut self,
+        instance: &'t ProgramInstance,
+        programs: &[&'t Pou],
+        tasks: &mut [Planned<'t>],
+        free: &mut Vec<u32>,
+    ) -> Option<()> {
+        let Some(pou) = programs.iter().find(|pou| is_same(&pou.name, &instance.program)) else {
+            return self.unknown("PROGRAM", &instance.program, programs.iter().map(|pou| &pou.name));
+        };
+        let unit = self.program(pou, &instance.name);
+        match &instance.task {
+            None => free.push(unit),
+            Some(name) => match tasks.iter_mut().find(|task| is_same(task.name, name)) {
+                Some(task) => task.programs.push(unit),
+                None => return self.unknown("TASK", name, tasks.iter().map(|task| task.name)),
+            },
+        }
+        Some(())
+    }
+
+    fn unknown<'n>(&mut self, what: &str, name: &Name, known: impl Iterator<Item = &'n Name>) -> Option<()> {
+        let problem = Problem::new(name.span, format!("there is no {what} `{}`", name.text));
+        self.refuse(match nearest(&name.text, known.map(|known| known.text.clone())) {
+            Some(near) => problem.help(format!("is `{near}` meant?")),
+            None => problem,
+        })
+    }
+
+    /// By their priorities, those of one priority as they are declared; programs without a task come last. A scan is as
+    /// long as the shortest INTERVAL, and each other one is several of them.
+    fn order(&mut self, mut tasks: Vec<Planned<'t>>, free: Vec<u32>) {
+        tasks.retain(|task| !task.programs.is_empty());
+        tasks.sort_by_key(|task| task.priority);
+        let shortest =
+            tasks.iter().filter_map(|task| task.interval.map(|(interval_ns, _)| interval_ns)).min();
+        for Planned { interval, programs, .. } in tasks {
+            let (interval_ns, span) = interval.unwrap_or_default();
+            let every = interval_ns.checked_div(shortest.unwrap_or(0)).unwrap_or(1).max(1);
+            if interval_ns > 0 && every.checked_mul(shortest.unwrap_or(0)) != Some(interval_ns) {
+                let message = "this INTERVAL is no multiple of the shortest one";
+                self.refuse::<()>(Problem::new(span, message));
+            }
+            self.out.tasks.push(Task { every, programs });
+        }
+        self.out.tasks.push(Task { every: 1, programs: free });
+        self.out.period_ns = shortest;
+    }
+}
+
+fn is_same(one: &Name, other: &Name) -> bool {
+    key(&one.text) == key(&other.text)
+}
