@@ -23,6 +23,8 @@ pub struct CpuUnit {
     user_program: Slot,
     io: Io,
     mode: OperatingMode,
+    /// The task period of the settings, for programs that ask for none.
+    own_period: Duration,
     task_period: Duration,
     powered_on: Instant,
     system_time_ns: Option<u64>,
@@ -44,6 +46,7 @@ impl CpuUnit {
         program: Box<dyn Program + Send>,
     ) -> Self {
         assert!(!settings.task_period.is_zero(), "the task period is zero");
+        let program_period = program.task_period().filter(|period| !period.is_zero());
         Self {
             io: Io::new(
                 &settings.device_name,
@@ -56,7 +59,8 @@ impl CpuUnit {
             attached: Vec::new(),
             user_program: Slot::new(program),
             mode: settings.mode,
-            task_period: settings.task_period,
+            own_period: settings.task_period,
+            task_period: program_period.unwrap_or(settings.task_period),
             powered_on: now,
             system_time_ns: settings.system_time_ns,
             io_refreshing: true,
@@ -117,6 +121,8 @@ impl CpuUnit {
             return Err(NotInProgramMode);
         }
         self.user_program.replace(program, &mut self.io);
+        let asked = self.user_program.task_period().filter(|period| !period.is_zero());
+        self.task_period = asked.unwrap_or(self.own_period);
         self.io.log(CpuEvent::ProgramLoaded);
         Ok(())
     }

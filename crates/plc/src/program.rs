@@ -4,6 +4,8 @@ use core::fmt;
 use std::any::Any;
 use std::borrow::Cow;
 
+use time::Duration;
+
 use crate::io::Io;
 
 /// A program: a function of [`Io`], Structured Text, an outside PLC. It never waits: the task period goes on
@@ -17,6 +19,11 @@ pub trait Program {
 
     /// Runs once in a task period.
     fn scan(&mut self, io: &mut Io);
+
+    /// The task period that it asks for; none: that of the CPU Unit's settings.
+    fn task_period(&self) -> Option<Duration> {
+        None
+    }
 
     /// The value of a variable of its own as text, by its name; none if there is none, or if it tells none.
     fn variable(&self, name: &str) -> Option<String> {
@@ -171,6 +178,10 @@ impl Slot {
 
     pub(crate) fn is_stopped(&self) -> bool {
         self.state == State::Stopped
+    }
+
+    pub(crate) fn task_period(&self) -> Option<Duration> {
+        self.program.task_period()
     }
 
     pub(crate) fn variable(&self, name: &str) -> Option<String> {

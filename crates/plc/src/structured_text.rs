@@ -7,6 +7,7 @@ use std::any::Any;
 
 use nx_ect101::unit_file::STATEMENT_BUDGET_DEFAULT;
 use st::{Instance, Problems};
+use time::Duration;
 
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
 use crate::io::Io;
@@ -115,6 +116,10 @@ impl Program for StructuredText {
         if let Err(stopped) = result {
             io.report(ProgramEvent::of_stopped(&stopped, self.instance.program(), self.budget_statements));
         }
+    }
+
+    fn task_period(&self) -> Option<Duration> {
+        self.instance.program().period_ns().map(Duration::from_nanos)
     }
 
     fn variable(&self, name: &str) -> Option<String> {

@@ -42,6 +42,7 @@ impl MasterProgram {
         task_period: Option<Duration>,
     ) -> Result<Self, Problems> {
         let program = st::compile(text, &variables.globals)?;
+        let task_period = program.period_ns().map(Duration::from_nanos).or(task_period);
         let bindings = program.externals().iter().map(|external| Binding {
             source: variables.sources[external.global],
             external: external.clone(),

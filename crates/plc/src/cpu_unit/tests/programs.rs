@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::*;
-use crate::{CpuEvent, ProgramEvent, ProgramTrouble};
+use crate::{CpuEvent, DeviceVariables, ProgramEvent, ProgramTrouble, StructuredText};
 
 /// Tells every call, with the time.
 struct Told {
@@ -217,4 +217,58 @@ fn a_program_knows_the_time() {
     cpu.cycle(at_ms(101));
     let expected = [(at_ms(0), Some(1_000)), (at_ms(1), Some(6_001_000))];
     assert_eq!(heard.try_iter().collect::<Vec<_>>(), expected);
+}
+
+const PLANT: &str = "PROGRAM Lamp VAR Runs : INT; END_VAR Runs := Runs + 1; END_PROGRAM
+    CONFIGURATION Plant
+        TASK Slow(INTERVAL := T#20ms); TASK Fast(INTERVAL := T#5ms);
+        PROGRAM A WITH Slow : Lamp; PROGRAM B WITH Fast : Lamp;
+    END_CONFIGURATION";
+
+fn structured_text(source: &str) -> Box<StructuredText> {
+    let allocation = IoAllocation::factory();
+    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
+    let variables = DeviceVariables::new("N1", 1, &m_to_c, &c_to_m);
+    Box::new(StructuredText::compile(source, &variables).expect("a program"))
+}
+
+#[test]
+fn the_shortest_interval_of_a_configuration_is_the_task_period() {
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), structured_text(PLANT));
+    for period in 0..9 {
+        assert_eq!(cpu.deadline(), at_ms(100 + 5 * period));
+        cpu.cycle(cpu.deadline());
+    }
+    let runs = ["A.Runs", "B.Runs", "Lamp.Runs"].map(|name| cpu.program_variable(name));
+    assert_eq!(runs, ["3", "9", "3"].map(|runs| Some(runs.to_owned())));
+}
+
+#[test]
+fn a_program_without_an_interval_has_the_period_of_the_settings() {
+    let settings = CpuSettings { mode: OperatingMode::Program, ..CpuSettings::default() };
+    let (_unit, mut cpu) = cpu_unit(settings, structured_text(PLANT));
+    cpu.cycle(at_ms(100));
+    assert_eq!(cpu.deadline(), at_ms(105));
+    cpu.load(structured_text("VAR x : INT; END_VAR x := 1;")).expect("PROGRAM mode");
+    cpu.cycle(at_ms(105));
+    assert_eq!(cpu.deadline(), at_ms(106));
+    cpu.load(structured_text(PLANT)).expect("PROGRAM mode");
+    cpu.cycle(at_ms(106));
+    assert_eq!(cpu.deadline(), at_ms(111));
+}
+
+#[test]
+fn the_first_run_flag_is_true_in_the_first_scan_with_run_mode() {
+    let source = "VAR RETAIN Starts : INT; END_VAR IF P_First_RunMode THEN Starts := Starts + 1; END_IF;";
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), structured_text(source));
+    let starts = |cpu: &CpuUnit| cpu.program_variable("Starts").expect("a variable");
+    cpu.cycle(at_ms(100));
+    cpu.cycle(at_ms(101));
+    assert_eq!(starts(&cpu), "1");
+    cpu.set_mode(OperatingMode::Program);
+    cpu.cycle(at_ms(102));
+    cpu.set_mode(OperatingMode::Run);
+    cpu.cycle(at_ms(103));
+    cpu.cycle(at_ms(104));
+    assert_eq!(starts(&cpu), "2");
 }
