@@ -330,8 +330,9 @@ impl<'t> Checker<'t> {
         if let Some(symbol) = self.globals.get(&key(&name.text)) {
             return Some(symbol.clone());
         }
-        if let Some(symbol) = self.device_named(&name.text) {
-            return Some(symbol);
+        let given = self.device_named(&name.text).or_else(|| self.system_variable(&name.text));
+        if given.is_some() {
+            return given;
         }
         let devices = self.surroundings.globals.iter().map(|global| global.name.clone());
         let near = super::places::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
