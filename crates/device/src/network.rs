@@ -18,6 +18,8 @@ pub struct Network<U> {
     devices: Vec<Device<U>>,
     /// Whether a cable is plugged in: in front of the device of its number, the last one behind the far end.
     cables: Vec<bool>,
+    /// Whether the medium to the master carries a signal: that is cable 0 beyond our end of it.
+    carrier: bool,
 }
 
 impl<U: Unit> Network<U> {
@@ -28,7 +30,7 @@ impl<U: Unit> Network<U> {
         let (devices, escs): (Vec<_>, Vec<_>) = powered.unzip();
         let mut cables = vec![true; devices.len()];
         cables.push(false);
-        Self { segment: Segment::new(escs), devices, cables }
+        Self { segment: Segment::new(escs), devices, cables, carrier: true }
     }
 
     /// A frame comes from the master; it is answered in place.
@@ -116,6 +118,13 @@ impl<U: Unit> Network<U> {
         }
     }
 
+    /// The medium to the master has lost its carrier, or has it again: as if the first cable was pulled at its
+    /// other end. One that is pulled here stays so.
+    pub fn set_carrier(&mut self, present: bool) {
+        self.carrier = present;
+        self.connect(0);
+    }
+
     /// Takes the power from one slave: no frame passes it until [`Network::restart`] gives it back. A position
     /// without slave is nothing.
     pub fn power_off(&mut self, position: usize, now: Instant) {
@@ -131,6 +140,7 @@ impl<U: Unit> Network<U> {
             end.and_then(|end| self.devices.get(end)).is_none_or(|device| !device.is_off())
         };
         let carries = self.cables.get(cable).is_some_and(|&plugged| plugged)
+            && (cable > 0 || self.carrier)
             && has_power(Some(cable))
             && has_power(cable.checked_sub(1));
         self.segment.set_cable(cable, carries);
