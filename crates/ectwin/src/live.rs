@@ -196,6 +196,10 @@ impl Responder for &Shared {
     fn deadline(&self) -> Instant {
         self.line().deadline()
     }
+
+    fn carrier(&mut self, present: bool) {
+        self.line().carrier(present);
+    }
 }
 
 fn serve_frames(shared: &Shared, mut port: impl FramePort, clock: &Clock) -> io::Result<Statistics> {

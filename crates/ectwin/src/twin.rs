@@ -186,4 +186,8 @@ impl Responder for Line {
     fn deadline(&self) -> Instant {
         self.network.deadline()
     }
+
+    fn carrier(&mut self, present: bool) {
+        self.network.set_carrier(present);
+    }
 }

@@ -7,6 +7,8 @@
 //! This is the only crate below the binary that opens sockets and asks what time it is.
 
 mod clock;
+mod filter;
+mod losses;
 pub mod memory;
 mod open;
 mod port;

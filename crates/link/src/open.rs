@@ -76,6 +76,9 @@ impl OpenError {
             Self::InUse { link: LinkSpec::Udp(_) } => {
                 "end the program that listens there, or take another port: udp:ADDR:PORT".to_owned()
             }
+            Self::InUse { link: LinkSpec::Raw(_) } => {
+                "another ectwin answers on this interface: end it, or take another interface".to_owned()
+            }
             Self::InUse { .. } => "end the program that holds it, or take another name".to_owned(),
             Self::AddressNotHere { .. } => {
                 "take an address of this machine, 127.0.0.1 for masters on it, 0.0.0.0 for every interface"
@@ -100,7 +103,7 @@ fn help_for_permission(link: &LinkSpec) -> String {
     };
     format!(
         "give the program the capability by `sudo setcap {capability}+ep \"$(command -v ectwin)\"` (it is needed at \
-         start only), or try it in a network namespace of your own, `unshare -Urn`, or take udp:127.0.0.1"
+         start only, and dropped then), or try it in a network namespace of your own, `unshare -Urn`, or take udp:127.0.0.1"
     )
 }
 

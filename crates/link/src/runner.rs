@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub use segment::FrameFate;
 use time::{Duration, Instant};
 
+use crate::losses::Losses;
 use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
 
 /// Longest sleep, so that the stop flag is seen on a link without traffic.
@@ -23,6 +24,9 @@ pub trait Responder {
 
     /// When [`Responder::poll`] has to be called next without a frame; [`Instant::NEVER`]: it need not.
     fn deadline(&self) -> Instant;
+
+    /// The cable to the master has lost its carrier, or has it again. At the start it has it.
+    fn carrier(&mut self, _present: bool) {}
 }
 
 impl<R: Responder + ?Sized> Responder for &mut R {
@@ -36,6 +40,10 @@ impl<R: Responder + ?Sized> Responder for &mut R {
 
     fn deadline(&self) -> Instant {
         (**self).deadline()
+    }
+
+    fn carrier(&mut self, present: bool) {
+        (**self).carrier(present);
     }
 }
 
@@ -65,6 +73,8 @@ pub struct Statistics {
     pub frames: u64,
     /// Frames that did not come back: destroyed, or gone out at the far end.
     pub destroyed: u64,
+    /// Frames that came and found no room in the medium, so that nobody saw them.
+    pub dropped: u64,
     /// Answers that the port did not take.
     pub unsent: u64,
     /// Polls that ran 1 ms or more after their deadline: the machine was busy elsewhere.
@@ -83,7 +93,8 @@ pub fn run<'o, P: FramePort, R: Responder>(
     clock: &Clock,
     stop: &AtomicBool,
 ) -> io::Result<Statistics> {
-    let mut run = Run { port, responder, observer, clock, statistics: Statistics::default() };
+    port.begin()?;
+    let mut run = Run::new(port, responder, observer, clock);
     let mut buffers = Buffers { frame: vec![0; FRAME_BUFFER_BYTES], request: vec![0; FRAME_BUFFER_BYTES] };
     // The flag carries no data: who sets it only wants the loop to end.
     while !stop.load(Ordering::Relaxed) {
@@ -92,7 +103,7 @@ pub fn run<'o, P: FramePort, R: Responder>(
             other => other?,
         }
     }
-    Ok(run.statistics)
+    Ok(run.end())
 }
 
 struct Run<'a, 'o, P, R> {
@@ -100,6 +111,9 @@ struct Run<'a, 'o, P, R> {
     responder: &'a mut R,
     observer: Option<&'o mut (dyn Observer + 'o)>,
     clock: &'a Clock,
+    /// What the responder knows of the cable.
+    carrier: bool,
+    losses: Losses,
     statistics: Statistics,
 }
 
@@ -108,10 +122,30 @@ struct Buffers {
     request: Vec<u8>,
 }
 
-impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
+impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
+    fn new(
+        port: &'a mut P,
+        responder: &'a mut R,
+        observer: Option<&'o mut (dyn Observer + 'o)>,
+        clock: &'a Clock,
+    ) -> Self {
+        let (losses, statistics) = (Losses::default(), Statistics::default());
+        Self { port, responder, observer, clock, carrier: true, losses, statistics }
+    }
+
+    fn end(self) -> Statistics {
+        self.losses.log();
+        Statistics { dropped: self.port.dropped(), ..self.statistics }
+    }
+
     fn turn(&mut self, buffers: &mut Buffers) -> io::Result<()> {
         let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
         let received = self.port.receive(&mut buffers.frame, wait)?;
+        // Before the frame that came over the cable.
+        if self.port.carrier() != self.carrier {
+            self.carrier = !self.carrier;
+            self.responder.carrier(self.carrier);
+        }
         if let Some(length_bytes) = received {
             self.answer(length_bytes, buffers);
         }
@@ -133,7 +167,11 @@ impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
         if fate == FrameFate::Returned {
             self.send(frame);
         }
-        self.count(fate);
+        self.statistics.frames += 1;
+        if fate != FrameFate::Returned {
+            self.statistics.destroyed += 1;
+            self.losses.count(frame, fate);
+        }
         if let Some(observer) = &mut self.observer {
             let answer = (fate == FrameFate::Returned).then_some(&*frame);
             observer.frame(Seen { received, request, answered: self.clock.now(), answer });
@@ -148,11 +186,6 @@ impl<P: FramePort, R: Responder> Run<'_, '_, P, R> {
             }
             self.statistics.unsent += 1;
         }
-    }
-
-    fn count(&mut self, fate: FrameFate) {
-        self.statistics.frames += 1;
-        self.statistics.destroyed += u64::from(fate != FrameFate::Returned);
     }
 
     fn poll(&mut self, after_frame: bool) {

@@ -10,13 +10,14 @@ use crate::{FramePort, LinkSpec, OpenError};
 
 /// Our end of a TAP interface. The interface goes away with it unless it was there before.
 pub(crate) struct TapPort {
+    name: String,
     device: SyncDevice,
 }
 
 impl TapPort {
     pub(crate) fn open(name: &str) -> Result<Self, OpenError> {
         let device = make(name).map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))?;
-        Ok(Self { device })
+        Ok(Self { name: name.to_owned(), device })
     }
 }
 
@@ -40,5 +41,9 @@ impl FramePort for TapPort {
 
     fn send(&mut self, frame: &[u8]) -> io::Result<()> {
         self.device.send(frame).map(|_| ())
+    }
+
+    fn link(&self) -> Option<LinkSpec> {
+        Some(LinkSpec::Tap(self.name.clone()))
     }
 }

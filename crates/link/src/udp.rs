@@ -3,8 +3,10 @@
 use std::io;
 use std::net::{SocketAddr, UdpSocket};
 
+use socket2::SockRef;
 use time::Duration;
 
+use crate::filter::{ANSWER_TOS, NO_ANSWERS};
 use crate::port::receive_from;
 use crate::{FramePort, LinkSpec, OpenError};
 
@@ -14,18 +16,35 @@ use crate::{FramePort, LinkSpec, OpenError};
 const HEADER: [u8; 14] = [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x10, 0, 0, 0, 0, 0, 0x88, 0xA4];
 
 /// A UDP socket; answers go to where the last frame came from.
+///
+/// Answers are marked in their IP header, and the kernel drops what is marked: two units, or one with itself, would
+/// otherwise answer each other's answers for ever after one datagram with a forged sender.
 pub(crate) struct UdpPort {
     socket: UdpSocket,
+    /// With the real port.
+    address: SocketAddr,
     master: Option<SocketAddr>,
 }
 
 impl UdpPort {
     pub(crate) fn open(address: SocketAddr) -> Result<Self, OpenError> {
-        let socket =
-            UdpSocket::bind(address).and_then(|socket| socket.set_nonblocking(true).map(|()| socket));
-        let socket = socket.map_err(|error| OpenError::of(LinkSpec::Udp(address), error))?;
-        Ok(Self { socket, master: None })
+        let open = || {
+            let socket = UdpSocket::bind(address)?;
+            socket.set_nonblocking(true)?;
+            mark_answers(&socket, address)?;
+            let address = socket.local_addr()?;
+            Ok(Self { socket, address, master: None })
+        };
+        open().map_err(|error| OpenError::of(LinkSpec::Udp(address), error))
     }
+}
+
+fn mark_answers(socket: &UdpSocket, address: SocketAddr) -> io::Result<()> {
+    let options = SockRef::from(socket);
+    options.attach_filter(&NO_ANSWERS)?;
+    // An IPv6 socket may send to IPv4 addresses too.
+    options.set_tos_v4(ANSWER_TOS)?;
+    if address.is_ipv6() { options.set_tclass_v6(ANSWER_TOS) } else { Ok(()) }
 }
 
 impl FramePort for UdpPort {
@@ -34,9 +53,13 @@ impl FramePort for UdpPort {
             return Err(io::ErrorKind::InvalidInput.into());
         };
         *header = HEADER;
-        let Self { socket, master } = self;
+        let Self { socket, address, master } = self;
         let received = receive_from(&*socket, wait, || {
             let (length_bytes, sender) = socket.recv_from(payload)?;
+            if sender == *address {
+                // Forged: we send nothing to ourselves.
+                return Err(io::ErrorKind::WouldBlock.into());
+            }
             *master = Some(sender);
             Ok(length_bytes)
         })?;
@@ -49,6 +72,10 @@ impl FramePort for UdpPort {
         };
         self.socket.send_to(payload, master).map(|_| ())
     }
+
+    fn link(&self) -> Option<LinkSpec> {
+        Some(LinkSpec::Udp(self.address))
+    }
 }
 
 #[cfg(test)]
@@ -60,7 +87,7 @@ mod tests {
 
     fn loopback() -> (UdpPort, SocketAddr) {
         let port = UdpPort::open("127.0.0.1:0".parse().unwrap()).unwrap();
-        let address = port.socket.local_addr().unwrap();
+        let address = port.address;
         (port, address)
     }
 
@@ -80,6 +107,58 @@ mod tests {
             assert_eq!(master.recv(&mut answer).unwrap(), 1500);
             assert_eq!(answer[..2], [0xA5, number as u8]);
         }
+    }
+
+    fn open(address: &str) -> UdpPort {
+        UdpPort::open(address.parse().unwrap()).unwrap()
+    }
+
+    /// Lets `one` take a frame whose sender seems to be `other`, and answer it.
+    fn answer_goes_to(one: &mut UdpPort, other: &UdpPort) {
+        one.master = Some(other.address);
+        one.send(&[7; 60]).unwrap();
+    }
+
+    #[test]
+    fn answers_of_units_are_answered_by_none() {
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        for addresses in [
+            ["127.0.0.1:0", "127.0.0.1:0"],
+            ["127.0.0.1:0", "127.0.0.2:0"],
+            ["[::1]:0", "[::1]:0"],
+            ["127.0.0.1:0", "[::ffff:127.0.0.1]:0"],
+        ] {
+            let [mut one, mut other] = addresses.map(open);
+            if addresses[1].contains("ffff") {
+                // Both speak IPv4.
+                other.address = SocketAddr::new([127, 0, 0, 1].into(), other.address.port());
+            }
+            answer_goes_to(&mut one, &other);
+            // What comes behind it is heard: the answer did not wait before it.
+            let master = UdpSocket::bind((one.address.ip(), 0)).unwrap();
+            master.send_to(&[1; 46], other.address).unwrap();
+            assert_eq!(other.receive(&mut buffer, SOON).unwrap(), Some(60), "{addresses:?}");
+            assert_eq!(buffer[14], 1, "{addresses:?}");
+            assert_eq!(other.receive(&mut buffer, Duration::ZERO).unwrap(), None, "{addresses:?}");
+        }
+    }
+
+    #[test]
+    fn a_frame_that_seems_to_come_from_the_unit_itself_is_dropped() {
+        let (mut unit, address) = loopback();
+        // Not marked, unlike what the port sends.
+        SockRef::from(&unit.socket).set_tos_v4(0).unwrap();
+        unit.socket.send_to(&[1; 46], address).unwrap();
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        assert_eq!(unit.receive(&mut buffer, Duration::from_millis(1)).unwrap(), None);
+        assert_eq!(unit.send(&[0; 60]).unwrap_err().kind(), io::ErrorKind::NotConnected);
+    }
+
+    #[test]
+    fn the_link_names_the_port_that_the_kernel_chose() {
+        let (unit, address) = loopback();
+        assert_ne!(address.port(), 0);
+        assert_eq!(unit.link(), Some(LinkSpec::Udp(address)));
     }
 
     #[test]

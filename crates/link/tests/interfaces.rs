@@ -9,7 +9,30 @@ use time::Duration;
 const SOON: Duration = Duration::from_secs(10);
 
 fn open_link(name: &str) -> Box<dyn FramePort> {
-    open(&name.parse().unwrap()).unwrap()
+    let mut port = open(&name.parse().unwrap()).unwrap();
+    port.begin().unwrap();
+    port
+}
+
+/// Whatever else has the interface open for sending: another program of the machine.
+fn neighbour_at(name: &str) -> Box<dyn pnet_datalink::DataLinkSender> {
+    let interface = pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name).unwrap();
+    match pnet_datalink::channel(&interface, pnet_datalink::Config::default()).unwrap() {
+        pnet_datalink::Channel::Ethernet(sender, _) => sender,
+        _ => panic!("{name} is no Ethernet"),
+    }
+}
+
+/// Looks at the port until it agrees, as long as that takes.
+fn wait_until(port: &mut dyn FramePort, agrees: impl Fn(&dyn FramePort) -> bool) {
+    let mut buffer = vec![0; FRAME_BUFFER_BYTES];
+    for _ in 0..10_000 {
+        if agrees(port) {
+            return;
+        }
+        port.receive(&mut buffer, Duration::from_millis(1)).unwrap();
+    }
+    panic!("it does not come");
 }
 
 /// Takes the next frame, however often the port comes back early.
@@ -64,8 +87,7 @@ fn a_raw_link_hears_ethercat_only_and_nothing_that_its_own_machine_sends() {
     in_network_namespace(name, || {
         add_veth_pair("veth0", "veth1");
         let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
-        let mut neighbour = open_link("raw:veth1");
-        neighbour.send(&frame(0x88A4, 9, 60)).unwrap();
+        neighbour_at("veth1").send_to(&frame(0x88A4, 9, 60), None).unwrap().unwrap();
         for unheard in [frame(0x0806, 1, 60), frame(0x86DD, 1, 60), udp_frame(53), frame(0x0800, 1, 60)] {
             master.send(&unheard).unwrap();
         }
@@ -77,34 +99,121 @@ fn a_raw_link_hears_ethercat_only_and_nothing_that_its_own_machine_sends() {
 }
 
 #[test]
+fn a_vlan_tag_arrives_with_its_frame_and_goes_back_with_the_answer() {
+    in_network_namespace("a_vlan_tag_arrives_with_its_frame_and_goes_back_with_the_answer", || {
+        add_veth_pair("veth0", "veth1");
+        let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
+        let tags = [[0x81, 0x00, 0xA0, 100], [0x81, 0x00, 0xE0, 0], [0x88, 0xA8, 0x0F, 0xFF]];
+        for (tag, length) in tags.into_iter().zip([1514, 29, 60]) {
+            let [mut request, mut answer] = [1, 2].map(|from| frame(0x88A4, from, length));
+            request.splice(12..12, tag);
+            answer.splice(12..12, tag);
+            // The kernel takes the tag out on its way in at both ends.
+            master.send(&request).unwrap();
+            assert_eq!(next(&mut unit), request);
+            unit.send(&answer).unwrap();
+            assert_eq!(next(&mut master), answer);
+        }
+        // Frames without a tag stay as they are.
+        neighbour_at("veth0").send_to(&frame(0x88A4, 3, 60), None).unwrap().unwrap();
+        assert_eq!(next(&mut unit), frame(0x88A4, 3, 60));
+    });
+}
+
+#[test]
 fn a_cable_that_is_pulled_and_put_back_works_again() {
     in_network_namespace("a_cable_that_is_pulled_and_put_back_works_again", || {
         add_veth_pair("veth0", "veth1");
         let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
+        assert!(unit.carrier());
         ip(&["link", "set", "veth1", "down"]);
-        assert_eq!(unit.receive(&mut [0; FRAME_BUFFER_BYTES], SOON).unwrap(), None);
+        wait_until(&mut unit, |unit| !unit.carrier());
         ip(&["link", "set", "veth1", "up"]);
+        wait_until(&mut unit, |unit| unit.carrier());
         master.send(&frame(0x88A4, 1, 60)).unwrap();
         assert_eq!(next(&mut unit), frame(0x88A4, 1, 60));
     });
 }
 
 #[test]
-fn an_interface_that_is_gone_and_comes_back_works_again() {
-    in_network_namespace("an_interface_that_is_gone_and_comes_back_works_again", || {
+fn the_carrier_goes_with_the_other_end_of_the_cable_and_a_frame_proves_it() {
+    in_network_namespace("the_carrier_goes_with_the_other_end_of_the_cable_and_a_frame_proves_it", || {
+        add_veth_pair("veth0", "veth1");
+        let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
+        for number in 0..10 {
+            ip(&["link", "set", "veth0", "down"]);
+            wait_until(&mut unit, |unit| !unit.carrier());
+            ip(&["link", "set", "veth0", "up"]);
+            // However late the news of the carrier comes.
+            while master.send(&frame(0x88A4, number, 60)).is_err() {
+                wait_until(&mut master, |master| master.carrier());
+            }
+            assert_eq!(next(&mut unit), frame(0x88A4, number, 60));
+            assert!(unit.carrier());
+        }
+    });
+}
+
+#[test]
+fn an_interface_that_is_deleted_and_made_again_is_answered_every_time() {
+    in_network_namespace("an_interface_that_is_deleted_and_made_again_is_answered_every_time", || {
         add_veth_pair("veth0", "veth1");
         let mut unit = open_link("raw:veth1");
-        ip(&["link", "delete", "veth1"]);
-        let mut buffer = [0; FRAME_BUFFER_BYTES];
-        // Once to see that it is gone, once to look for it.
-        for _ in 0..2 {
-            assert_eq!(unit.receive(&mut buffer, Duration::from_millis(1)).unwrap(), None);
+        for number in 0..100 {
+            ip(&["link", "delete", "veth1"]);
+            if number % 2 == 0 {
+                // Else the new one is there before the old one is missed.
+                wait_until(&mut unit, |unit| !unit.carrier());
+                assert!(unit.send(&frame(0x88A4, 2, 60)).is_err());
+            }
+            add_veth_pair("veth0", "veth1");
+            let mut master = open_link("raw:veth0");
+            // What a master sends before the unit has noticed the new interface is lost: it sends again.
+            let mut buffer = [0; FRAME_BUFFER_BYTES];
+            let request = frame(0x88A4, number, 60);
+            let arrives = |_| {
+                master.send(&request).unwrap();
+                let received = unit.receive(&mut buffer, Duration::from_millis(1)).unwrap();
+                received.is_some_and(|length| buffer[..length] == request)
+            };
+            assert!((0..10_000).any(arrives), "interface {number} is not heard");
+            unit.send(&frame(0x88A4, 200, 60)).unwrap();
+            assert_eq!(next(&mut master), frame(0x88A4, 200, 60));
         }
-        assert!(unit.send(&frame(0x88A4, 2, 60)).is_err());
+    });
+}
+
+#[test]
+fn an_interface_answers_to_one_port_alone_as_long_as_that_lives() {
+    in_network_namespace("an_interface_answers_to_one_port_alone_as_long_as_that_lives", || {
         add_veth_pair("veth0", "veth1");
-        assert_eq!(unit.receive(&mut buffer, SOON).unwrap(), None);
-        open_link("raw:veth0").send(&frame(0x88A4, 1, 60)).unwrap();
-        assert_eq!(next(&mut unit), frame(0x88A4, 1, 60));
+        let unit = open_link("raw:veth1");
+        let second = open(&"raw:veth1".parse().unwrap()).err().unwrap();
+        assert!(matches!(second, OpenError::InUse { .. }), "{second}");
+        assert!(second.help().contains("another ectwin"), "{}", second.help());
+        let _other_interface = open_link("raw:veth0");
+        drop(unit);
+        let _next = open_link("raw:veth1");
+    });
+}
+
+#[test]
+fn frames_that_the_kernel_has_no_room_for_are_counted() {
+    in_network_namespace("frames_that_the_kernel_has_no_room_for_are_counted", || {
+        add_veth_pair("veth0", "veth1");
+        let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
+        // More than 16 MiB, which is what the kernel makes of 8 MiB.
+        const SENT: u64 = 40_000;
+        for _ in 0..SENT {
+            master.send(&frame(0x88A4, 1, 1514)).unwrap();
+        }
+        let mut buffer = vec![0; FRAME_BUFFER_BYTES];
+        let mut received = 0;
+        while unit.receive(&mut buffer, Duration::from_millis(100)).unwrap().is_some() {
+            received += 1;
+        }
+        assert!(unit.dropped() > 0);
+        assert!(received + unit.dropped() <= SENT);
     });
 }
 

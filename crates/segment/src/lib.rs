@@ -9,3 +9,4 @@ mod segment;
 
 pub use activity::PortActivity;
 pub use segment::{FrameFate, Segment};
+pub use wire::{Defect, FrameKind};

@@ -114,3 +114,61 @@ fn what_is_due_happens_at_its_deadline_without_frames() {
     assert_eq!(countdown.left, 0);
     assert!(clock.now() >= Instant::ZERO + Duration::from_millis(8));
 }
+
+/// A port whose cable is pulled and put back while its frames come.
+struct Flaky {
+    frames: Vec<(bool, u8)>,
+    carrier: bool,
+}
+
+impl FramePort for Flaky {
+    fn receive(&mut self, buffer: &mut [u8], _wait: Duration) -> io::Result<Option<usize>> {
+        let (carrier, byte) = self.frames.pop().ok_or(io::ErrorKind::UnexpectedEof)?;
+        self.carrier = carrier;
+        buffer[0] = byte;
+        Ok(Some(1))
+    }
+
+    fn send(&mut self, _frame: &[u8]) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn carrier(&self) -> bool {
+        self.carrier
+    }
+
+    fn dropped(&self) -> u64 {
+        3
+    }
+}
+
+/// What happened, in order.
+#[derive(Default)]
+struct Diary(Vec<String>);
+
+impl Responder for Diary {
+    fn frame(&mut self, _now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.0.push(format!("frame {}", frame[0]));
+        FrameFate::Returned
+    }
+
+    fn poll(&mut self, _now: Instant) {}
+
+    fn deadline(&self) -> Instant {
+        Instant::NEVER
+    }
+
+    fn carrier(&mut self, present: bool) {
+        self.0.push(format!("carrier {present}"));
+    }
+}
+
+#[test]
+fn the_responder_hears_of_the_carrier_before_the_frame_that_came_with_it() {
+    let frames = vec![(true, 4), (true, 3), (false, 2), (true, 1)];
+    let mut port = Flaky { frames, carrier: true };
+    let mut diary = Diary::default();
+    let statistics = run(&mut port, &mut diary, None, &Clock::start(), &AtomicBool::new(false)).unwrap();
+    assert_eq!(diary.0, ["frame 1", "carrier false", "frame 2", "carrier true", "frame 3", "frame 4"]);
+    assert_eq!(statistics.dropped, 3);
+}

@@ -1,0 +1,57 @@
+//! What the kernel hands to our sockets, in its own filter language: what concerns nobody here does not wake us.
+
+use socket2::SockFilter;
+
+/// For raw links: EtherCAT and EtherCAT in UDP, and nothing that this machine sends out, since that goes away from
+/// the unit. (What this socket sends never comes back to it; the masters' own traffic on a shared interface would.)
+pub(crate) const ETHERCAT_COMING_IN: [SockFilter; 14] = [
+    SockFilter::new(LOAD_HALF_WORD, 0, 0, PACKET_TYPE),
+    SockFilter::new(JUMP_IF_EQUAL, 11, 0, PACKET_OUTGOING),
+    SockFilter::new(LOAD_HALF_WORD, 0, 0, 12),
+    SockFilter::new(JUMP_IF_EQUAL, 8, 0, 0x88A4),
+    SockFilter::new(JUMP_IF_EQUAL, 0, 8, 0x0800),
+    SockFilter::new(LOAD_BYTE, 0, 0, 23),
+    SockFilter::new(JUMP_IF_EQUAL, 0, 6, 17),
+    SockFilter::new(LOAD_HALF_WORD, 0, 0, 20),
+    SockFilter::new(JUMP_IF_ANY_BIT, 4, 0, 0x1FFF),
+    SockFilter::new(LOAD_IP_HEADER_LENGTH, 0, 0, 14),
+    SockFilter::new(LOAD_HALF_WORD_INDEXED, 0, 0, 16),
+    SockFilter::new(JUMP_IF_EQUAL, 0, 1, 34980),
+    SockFilter::new(RETURN, 0, 0, u32::MAX),
+    SockFilter::new(RETURN, 0, 0, 0),
+];
+
+/// For UDP links: everything but answers of units, which carry [`ANSWER_TOS`] in their IP header (IPv4: second
+/// byte; IPv6: behind the version). The network may change the two ECN bits.
+pub(crate) const NO_ANSWERS: [SockFilter; 11] = [
+    SockFilter::new(LOAD_BYTE, 0, 0, IP_HEADER),
+    SockFilter::new(SHIFT_RIGHT, 0, 0, 4),
+    SockFilter::new(JUMP_IF_EQUAL, 3, 0, 6),
+    SockFilter::new(LOAD_BYTE, 0, 0, IP_HEADER + 1),
+    SockFilter::new(AND, 0, 0, 0xFC),
+    SockFilter::new(JUMP_IF_EQUAL, 4, 3, ANSWER_TOS),
+    SockFilter::new(LOAD_HALF_WORD, 0, 0, IP_HEADER),
+    SockFilter::new(AND, 0, 0, 0x0FC0),
+    SockFilter::new(JUMP_IF_EQUAL, 1, 0, ANSWER_TOS << 4),
+    SockFilter::new(RETURN, 0, 0, u32::MAX),
+    SockFilter::new(RETURN, 0, 0, 0),
+];
+
+/// Marks the answers of a unit on UDP: DSCP 3, of the pool for local use (RFC 2474, section 6), which no master sends
+/// with. Payloads cannot tell: an answer that no unit took part in equals its request.
+pub(crate) const ANSWER_TOS: u32 = 0b000011 << 2;
+
+const LOAD_HALF_WORD: u16 = 0x28;
+const LOAD_BYTE: u16 = 0x30;
+const LOAD_HALF_WORD_INDEXED: u16 = 0x48;
+const LOAD_IP_HEADER_LENGTH: u16 = 0xB1;
+const AND: u16 = 0x54;
+const SHIFT_RIGHT: u16 = 0x74;
+const JUMP_IF_EQUAL: u16 = 0x15;
+const JUMP_IF_ANY_BIT: u16 = 0x45;
+const RETURN: u16 = 0x06;
+/// Offset at which the kernel shows the packet type (`SKF_AD_OFF + SKF_AD_PKTTYPE`).
+const PACKET_TYPE: u32 = 0xFFFF_F004;
+const PACKET_OUTGOING: u32 = 4;
+/// Offset at which the kernel shows the IP header of a datagram (`SKF_NET_OFF`).
+const IP_HEADER: u32 = 0xFFF0_0000;
