@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod failure;
 mod output;
+mod privileges;
 mod unit_files;
 
 use std::process::ExitCode;

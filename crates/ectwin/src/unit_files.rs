@@ -2,7 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ectwin::unit_file::{UnitFile, UnitFileError};
 use ectwin::{Setup, SetupError};
@@ -11,11 +11,10 @@ use nx_ect101::UnitSettings;
 
 use crate::failure::Failure;
 
-/// Reads one unit file, and the user program and the non-volatile memory that it names, seen from its folder. A
-/// `program` that is given takes the place of the one that it names.
+/// Reads one unit file, and the user program that it names, seen from its folder. A `program` that is given takes the
+/// place of the one that it names. The non-volatile memory that it names is left alone until [`with_storage`].
 pub(crate) fn read(path: &Path, program: Option<&Path>) -> Result<Setup, Failure> {
     let text = text_of(path)?;
-    let folder = path.parent().unwrap_or(Path::new(""));
     let setup = match program {
         Some(program) => {
             // A path that is mistyped is told as that, and not as a problem of the unit file.
@@ -23,10 +22,27 @@ pub(crate) fn read(path: &Path, program: Option<&Path>) -> Result<Setup, Failure
                 .map_err(|source| Failure::ProgramUnreadable { path: program.to_owned(), source })?;
             Setup::from_toml_with_program(&text, program)
         }
-        None => Setup::from_toml_in(&text, folder),
+        None => Setup::from_toml_in(&text, folder_of(path)),
     };
-    let setup = setup.and_then(|setup| setup.with_storage(folder));
     setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
+}
+
+/// Gives the unit of this file the non-volatile memory that it names, and the thread that keeps it.
+pub(crate) fn with_storage(path: &Path, setup: Setup) -> Result<Setup, Failure> {
+    let opened = setup.with_storage(folder_of(path));
+    opened.map_err(|error| match text_of(path) {
+        Ok(text) => Failure::BadFile(problems(path, &text, &error)),
+        Err(unreadable) => unreadable,
+    })
+}
+
+/// The file of the non-volatile memory that this unit file names.
+pub(crate) fn storage_path(path: &Path, setup: &Setup) -> Option<PathBuf> {
+    setup.file().storage.as_ref().map(|storage| folder_of(path).join(&storage.value))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().unwrap_or(Path::new(""))
 }
 
 /// What a unit file sets the unit to; what it names is left alone.

@@ -53,9 +53,15 @@ fn trial(file: PathBuf) -> Trial {
 impl Kind {
     fn check(&self, file: &Path) -> Result<(), Failed> {
         let output = Command::new(env!("CARGO_BIN_EXE_ectwin")).args(self.command).arg(file).output()?;
-        let text = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
+        let text =
+            [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned()).concat();
         if output.status.code() != Some(self.exit_code) {
-            return Err(format!("exit code {:?} in place of {}\n{text}", output.status.code(), self.exit_code).into());
+            return Err(format!(
+                "exit code {:?} in place of {}\n{text}",
+                output.status.code(),
+                self.exit_code
+            )
+            .into());
         }
         match self.says.iter().find(|fragment| !text.contains(**fragment)) {
             Some(fragment) => Err(format!("it does not say `{fragment}`\n{text}").into()),

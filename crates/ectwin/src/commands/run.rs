@@ -2,36 +2,43 @@
 
 use std::fs::File;
 use std::net::{SocketAddr, TcpListener};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use ectwin::{ModbusServer, Setup, Twin};
-use link::{Clock, Observer, Recorder, Statistics};
+use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
 use signal_hook::consts::{SIGINT, SIGTERM};
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
+use crate::privileges::{self, LaterUse};
 use crate::{output, unit_files};
 
 /// Emulates the units until SIGINT, SIGTERM or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let setups = setups(args)?;
     let units = setups.len();
+    // First whatever needs a privilege, then no privileges, then the threads, which inherit that.
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
+    let link = port.link().unwrap_or_else(|| args.link.clone());
     let listener = args.modbus.map(listen).transpose()?;
     #[cfg(feature = "opcua")]
     let opcua_listener = args.opcua.map(opcua::listen).transpose()?;
-    let clock = Clock::start();
-    let mut recorder = recorder(args, &clock)?;
-    let stop = stop_on_signals().map_err(Failure::LinkLost)?;
+    let capture = args.pcap.as_deref().map(create).transpose()?;
+    privileges::give_up(&files(args, &setups));
 
+    let setups = with_storage(args, setups)?;
+    let clock = Clock::start();
+    let mut recorder = capture.map(|capture| record(capture, args, &link, &clock)).transpose()?;
+    let stop = stop_on_signals().map_err(Failure::LinkLost)?;
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
-    let _modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
+    let modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| opcua::serve(&mut twin, listener)).transpose()?;
     // The port is open: a frame that comes from now on waits in it and is answered.
-    output::print_line(format_args!("ready link={} units={units}", args.link))?;
+    output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
     let statistics = ectwin::run(twin, &mut port, observer, &clock, &stop);
 
@@ -40,12 +47,31 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     recorded
 }
 
+/// One line that programs read: what is ready, with the real ports.
+fn ready(link: &LinkSpec, units: usize, modbus: Option<&ModbusServer>) -> String {
+    let modbus = modbus.map(|server| format!(" modbus={}", server.address())).unwrap_or_default();
+    format!("ready link={link} units={units}{modbus}")
+}
+
 fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
-    let read = |path: &std::path::PathBuf| {
+    let read = |path: &PathBuf| {
         let setup = unit_files::read(path, args.program.as_deref())?;
         Ok(if args.fast { setup.fast() } else { setup })
     };
     args.units.iter().map(read).collect()
+}
+
+fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failure> {
+    let pairs = args.units.iter().zip(setups);
+    pairs.map(|(path, setup)| unit_files::with_storage(path, setup)).collect()
+}
+
+/// What is read or written while the units run. Programs that unit files name are where these are.
+fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
+    let pairs = args.units.iter().zip(setups);
+    let stored = pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup));
+    let read = args.units.iter().chain(&args.program).cloned();
+    stored.map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
 }
 
 fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
@@ -75,10 +101,13 @@ mod opcua {
     }
 }
 
-fn recorder(args: &RunArgs, clock: &Clock) -> Result<Option<Recorder>, Failure> {
-    let Some(path) = &args.pcap else { return Ok(None) };
-    let recorder = File::create(path).and_then(|file| Recorder::start(file, &args.link.to_string(), clock));
-    recorder.map(Some).map_err(|source| Failure::Unwritable { path: path.clone(), source })
+fn create(path: &Path) -> Result<File, Failure> {
+    File::create(path).map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+}
+
+fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {
+    let path = args.pcap.clone().unwrap_or_default();
+    Recorder::start(capture, &link.to_string(), clock).map_err(|source| Failure::Unwritable { path, source })
 }
 
 /// A flag that SIGINT and SIGTERM set.
@@ -100,6 +129,6 @@ fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {
 }
 
 fn tell(statistics: Statistics) {
-    let Statistics { frames, destroyed, unsent, late_polls } = statistics;
-    tracing::info!(frames, destroyed, unsent, late_polls, "stopped");
+    let Statistics { frames, destroyed, dropped, unsent, late_polls } = statistics;
+    tracing::info!(frames, destroyed, dropped, unsent, late_polls, "stopped");
 }

@@ -135,7 +135,7 @@ impl Session {
         let command = format!("exec {}", command.trim_end_matches('&'));
         let mut process = Process::start(&mut self.shell(&command));
         let ready = process.wait_for_line("ready").to_owned();
-        assert_eq!(ready, expected.trim_end(), "{place}");
+        assert!(matches(expected, &ready, false), "{place}\nexpected:\n{expected}\nprinted:\n{ready}");
         self.running = Some(process);
     }
 

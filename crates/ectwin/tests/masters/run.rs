@@ -93,7 +93,9 @@ impl Line {
         }
         let mut ectwin = Process::start(&mut command);
         let ready = ectwin.wait_for_line("ready ");
-        assert_eq!(ready, format!("ready link={link} units={}", units.len()));
+        let (start, modbus) = ready.split_once(" modbus=").unwrap_or((ready, ""));
+        assert_eq!(start, format!("ready link={link} units={}", units.len()));
+        assert_eq!(modbus.is_empty(), !options.contains(&"--modbus"), "{ready}");
         Self { ectwin, master_interface }
     }
 

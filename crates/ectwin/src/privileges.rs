@@ -1,0 +1,56 @@
+//! Capabilities are for opening links and ports only; who answers frames of strangers has none.
+
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use rustix::fs::{Access, AtFlags, CWD, accessat};
+use rustix::thread::{CapabilitySet, CapabilitySets, capabilities, set_capabilities, set_no_new_privs};
+
+/// A file that is used while the units run.
+pub(crate) enum LaterUse {
+    Read(PathBuf),
+    /// Replaced as a whole, by a new file in its folder.
+    Written(PathBuf),
+}
+
+/// Gives up all capabilities, and the way to new ones, for this thread and those that it starts later. The superuser
+/// keeps CAP_DAC_OVERRIDE where a file of another user is out of reach without it.
+pub(crate) fn give_up(files: &[LaterUse]) {
+    let kept = if in_reach_without_capabilities(files) {
+        CapabilitySet::empty()
+    } else {
+        CapabilitySet::DAC_OVERRIDE
+    };
+    if let Err(error) = set_no_new_privs(true).and_then(|()| keep_only(kept)) {
+        tracing::warn!("cannot give up privileges: {error}");
+    }
+}
+
+fn keep_only(kept: CapabilitySet) -> rustix::io::Result<()> {
+    let permitted = capabilities(None)?.permitted & kept;
+    let inheritable = CapabilitySet::empty();
+    set_capabilities(None, CapabilitySets { effective: permitted, permitted, inheritable })
+}
+
+/// Capabilities are those of a thread: one that has none tries.
+fn in_reach_without_capabilities(files: &[LaterUse]) -> bool {
+    thread::scope(|scope| {
+        let tried = scope.spawn(|| keep_only(CapabilitySet::empty()).is_ok() && files.iter().all(in_reach));
+        tried.join().unwrap_or(false)
+    })
+}
+
+fn in_reach(file: &LaterUse) -> bool {
+    match file {
+        LaterUse::Read(path) => may(path, Access::READ_OK),
+        LaterUse::Written(path) => {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            may(folder.unwrap_or(Path::new(".")), Access::WRITE_OK | Access::EXEC_OK)
+                && (!path.exists() || may(path, Access::READ_OK | Access::WRITE_OK))
+        }
+    }
+}
+
+fn may(path: &Path, access: Access) -> bool {
+    accessat(CWD, path, access, AtFlags::EACCESS).is_ok()
+}

@@ -1,0 +1,10 @@
+//! The built command on its links, as a master and a user see it: carriers, bursts, interfaces that go and come, forged
+//! senders, and what the process may do.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+mod bench;
+mod burst;
+mod interfaces;
+mod privileges;
+mod udp;
