@@ -43,7 +43,7 @@ pub fn description(settings: &UnitSettings) -> DeviceDescription {
         sync_managers: sync_managers(&mapping),
         rx_pdos: pdos(&table, &mapping, Direction::MToC),
         tx_pdos: pdos(&table, &mapping, Direction::CToM),
-        init_commands: vec![clear_sysmac_error()],
+        init_commands: vec![set_notification_flags(), clear_sysmac_error()],
         timeouts: Timeouts::default(),
         esc_presets: EscPresets::default(),
         diag_messages: Vec::new(),
@@ -131,6 +131,18 @@ fn pdo_entry(table: &ObjectTable, mapped: MappedEntry) -> PdoEntry {
             bit_length,
         },
         None => PdoEntry::padding(bit_length),
+    }
+}
+
+/// The setting parameter of the unit at its default: no emergency messages (manual, 7-8). The manual names no
+/// transition; this one needs no other rule than the command behind it.
+fn set_notification_flags() -> InitCommand {
+    InitCommand {
+        transition: Transition::Ps,
+        index: ObjectIndex(0x10F3),
+        sub: SubIndex(5),
+        data: vec![0, 0],
+        comment: "Flags".into(),
     }
 }
 

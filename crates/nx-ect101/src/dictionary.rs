@@ -1,9 +1,12 @@
 //! The objects of one unit: which ones only keep a value, and which ones do more.
 
+mod io_entries;
+
 use objects::{Dictionary, ObjectServer, ObjectTable};
 use time::Duration;
 use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 
+use crate::allocation::ImageLayout;
 use crate::diagnosis::{CurrentError, DIAGNOSIS_MESSAGE_BYTES, Diagnosis};
 use crate::events::EventLevel;
 use crate::identification::Identification;
@@ -11,6 +14,9 @@ use crate::mapping::Mapping;
 use crate::memory::LogRecord;
 use crate::messages::{Message, Messages};
 use crate::tables::object_table;
+use crate::unit_information::UnitInformation;
+
+use io_entries::UnmappedEntries;
 
 /// Sysmac Observation.
 const OBSERVATIONS: u16 = 0x2003;
@@ -22,6 +28,8 @@ const MINOR_FAULTS: u16 = 0x2004;
 pub(crate) struct UnitObjects {
     values: Dictionary,
     pub(crate) mapping: Mapping,
+    /// As of the last PRE-OP to SAFE-OP.
+    unmapped: UnmappedEntries,
     pub(crate) identification: Identification,
     pub(crate) messages: Messages,
     pub(crate) diagnosis: Diagnosis,
@@ -48,6 +56,7 @@ impl UnitObjects {
         Self {
             values,
             mapping,
+            unmapped: UnmappedEntries::none(),
             identification,
             messages: Messages::default(),
             diagnosis,
@@ -61,6 +70,17 @@ impl UnitObjects {
     pub(crate) fn restart(&mut self, serial: u32, identification: Identification) {
         let diagnosis = core::mem::take(&mut self.diagnosis);
         *self = Self::start(serial, identification, self.period, diagnosis);
+    }
+
+    /// Shows versions of this unit in place of those of the model.
+    pub(crate) fn show(&mut self, information: &UnitInformation) {
+        for (index, value) in information.coe_values() {
+            if let Some(known) = self.values.value_mut(index, SubIndex::ZERO)
+                && known.len() == value.len()
+            {
+                known.copy_from_slice(value);
+            }
+        }
     }
 
     /// Whether a master has changed what a refresh tells since the last call: it has read or written a message,
@@ -130,6 +150,21 @@ impl UnitObjects {
             AlState::SafeOp | AlState::Op => self.period.as_nanos(),
             _ => 0,
         }
+    }
+
+    /// PRE-OP to SAFE-OP: the mapping holds from now on, and every I/O entry has its default.
+    pub(crate) fn begin_exchange(&mut self, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
+        self.unmapped.rebuild(&mut self.values, &self.mapping, [m_to_c, c_to_m]);
+    }
+
+    /// Puts the I/O entries that the master writes by SDO into the process image M to C.
+    pub(crate) fn give_unmapped_entries(&self, image: &mut [u8]) {
+        self.unmapped.give(&self.values, image);
+    }
+
+    /// Takes the I/O entries that the master reads by SDO from the process image C to M; without one their defaults.
+    pub(crate) fn take_unmapped_entries(&mut self, image: Option<&[u8]>) {
+        self.unmapped.take(&mut self.values, image);
     }
 
     /// An object of the device profile area cannot be touched by SDO while a PDO carries it (manual, A-6-9).

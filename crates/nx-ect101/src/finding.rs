@@ -5,8 +5,9 @@ mod words;
 use wire::{AlStatusCode, ObjectIndex, SubIndex};
 
 use crate::data_sets::{DataSet, Direction};
-use crate::events::{Event, EventCode};
+use crate::events::{Event, EventCode, EventLevel};
 use crate::rules::{RuleEvents, RuleId};
+use crate::settings::EventLevels;
 use crate::unit_file::EntryAddress;
 
 /// Which settings a finding is about.
@@ -161,6 +162,12 @@ impl Finding {
     #[must_use]
     pub fn event_name(&self) -> &'static str {
         self.event_row().map_or("", |event| event.name.as_str())
+    }
+
+    /// The level of its event, as the user has set it.
+    #[must_use]
+    pub fn level(&self, levels: EventLevels) -> EventLevel {
+        self.event_row().map_or(EventLevel::MinorFault, |event| levels.of(event))
     }
 
     /// What the master reads as AL status code when it asks for SAFE-OP; none if the unit goes there.

@@ -5,6 +5,7 @@ use wire::{ObjectIndex, SubIndex};
 use crate::messages::{Message, Messages};
 use crate::nx_bus::{NxMessageError, NxRequest, NxValue};
 use crate::nx_objects::{NxAccess, NxEntry, NxObject};
+use crate::unit_information::UnitInformation;
 
 const SERIAL_NUMBER: (u16, u8) = (0x1000, 7);
 const FROM_MASTER: (u16, u8) = (0x5000, 1);
@@ -14,13 +15,14 @@ const TO_MASTER: (u16, u8) = (0x5001, 1);
 /// length, readiness.
 pub(crate) fn answer(
     request: &NxRequest,
+    information: &UnitInformation,
     serial: u32,
     messages: &mut Messages,
 ) -> Result<NxValue, NxMessageError> {
     let entry = reach(request.index, request.sub)?;
     let place = (request.index.0, request.sub.0);
     match &request.value {
-        None => Ok(read(place, entry, serial, messages)),
+        None => Ok(information.nx_value(place).unwrap_or_else(|| read(place, entry, serial, messages))),
         Some(_) if entry.access == NxAccess::Ro => Err(NxMessageError::ReadOnly),
         Some(value) => write(place, entry, value, messages),
     }
@@ -70,7 +72,7 @@ mod tests {
     ) -> Result<Vec<u8>, NxMessageError> {
         let value = value.map(|value| value.iter().copied().collect());
         let request = NxRequest { number: 0, index: ObjectIndex(index), sub: SubIndex(sub), value };
-        answer(&request, 0x1234_5678, messages).map(|value| value.to_vec())
+        answer(&request, &UnitInformation::default(), 0x1234_5678, messages).map(|value| value.to_vec())
     }
 
     #[test]

@@ -5,6 +5,7 @@ use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;
+use crate::unit_information::UnitInformation;
 
 /// How one unit is set up, on its case and by its support software.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,6 +17,8 @@ pub struct UnitSettings {
     /// ID set by software at the factory, in force while the ID switch is at 0x00; 0: none. What a master sets
     /// is in the [non-volatile memory](crate::NonVolatileMemory).
     pub software_id: u16,
+    /// Versions, lot and type of this unit.
+    pub information: UnitInformation,
     /// Whether the unit takes the times that the manual gives.
     pub timing: Timing,
     /// I/O allocation of the CPU Unit.
@@ -97,7 +100,8 @@ impl UnitSettings {
         Self {
             serial: file.serial.value,
             id_switch: file.id_switch.value,
-            software_id: 0,
+            software_id: file.alias.as_ref().map_or(0, |alias| alias.value),
+            information: file.information.clone(),
             timing: file.timing.value,
             io_allocation: file.io_allocation(),
             event_levels: EventLevels::from_unit_file(file),
@@ -120,6 +124,7 @@ impl Default for UnitSettings {
             serial: 1,
             id_switch: 0x01,
             software_id: 0,
+            information: UnitInformation::default(),
             timing: Timing::Exact,
             io_allocation: IoAllocation::factory(),
             event_levels: EventLevels::default(),

@@ -1,5 +1,36 @@
 //! The two status words of the unit: EtherCAT Slave Status for the CPU Unit, NX Unit Status for the master.
 
+use wire::{ObjectIndex, SubIndex};
+
+/// A bit of a status that is an I/O port of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StatusBit {
+    /// Its number, from 0.
+    pub bit: u8,
+    /// Name of the I/O port.
+    pub port: &'static str,
+}
+
+const fn status_bit(bit: u8, port: &'static str) -> StatusBit {
+    StatusBit { bit, port }
+}
+
+/// The bits of EtherCAT Slave Status; 3 to 5 and 10 to 15 are reserved and no I/O ports (manual, 6-3-2).
+pub const SLAVE_STATUS_BITS: [StatusBit; 7] = [
+    status_bit(0, "SDO Communications Enabled"),
+    status_bit(1, "Data from EtherCAT Master to CPU Unit Valid"),
+    status_bit(2, "Data from CPU Unit to EtherCAT Master Valid"),
+    status_bit(6, "IN Port Link ON"),
+    status_bit(7, "OUT Port Link ON"),
+    status_bit(8, "New Message Data Available from EtherCAT Master"),
+    status_bit(9, "Ready to Write Message Data to EtherCAT Master"),
+];
+
+/// Bit of an observation in Sysmac Error Status, CoE object 2002:01 (manual, 7-5-5).
+pub const OBSERVATION_BIT: StatusBit = status_bit(4, "Observation");
+/// Bit of a minor fault in it.
+pub const MINOR_FAULT_BIT: StatusBit = status_bit(5, "Minor Fault");
+
 /// EtherCAT Slave Status, NX object 6003:01, one word that goes to the CPU Unit with the data (manual, 6-3-2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlaveStatus {
@@ -20,6 +51,9 @@ pub struct SlaveStatus {
 }
 
 impl SlaveStatus {
+    /// The NX object that holds it.
+    pub const NX_OBJECT: (ObjectIndex, SubIndex) = (ObjectIndex(0x6003), SubIndex(1));
+
     /// The word. Reserved bits are 0.
     #[must_use]
     pub const fn bits(self) -> u16 {

@@ -72,6 +72,8 @@ struct EntryRow {
     range: Vec<[u64; 2]>,
     access: AccessRow,
     pdo: Option<PdoRow>,
+    #[serde(default)]
+    setting: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -144,10 +146,15 @@ impl EntryRow {
             name: expand(&self.name, place),
             data_type: self.r#type.data_type(),
             bit_length: self.size_bits,
-            access: self.access.rights() | self.pdo.map_or(AccessRights::empty(), PdoRow::rights),
+            access: self.rights(),
             default: self.default_bytes(index, sub, size_bytes),
             limits: self.range.iter().map(|&[min, max]| RangeInclusive::new(min, max)).collect(),
         }
+    }
+
+    fn rights(&self) -> AccessRights {
+        let setting = if self.setting { AccessRights::SETTING } else { AccessRights::empty() };
+        self.access.rights() | self.pdo.map_or(AccessRights::empty(), PdoRow::rights) | setting
     }
 
     fn default_bytes(&self, index: ObjectIndex, sub: u8, size_bytes: usize) -> Vec<u8> {
@@ -285,6 +292,7 @@ mod tests {
         assert_eq!(word(0x6000, 1), 0x0086);
         assert_eq!(word(0x7000, 1), 0x0066);
         assert_eq!(word(0x10F3, 4), 0x0087);
+        assert_eq!(word(0x10F3, 5), 0x023F);
     }
 
     #[test]

@@ -90,8 +90,11 @@ impl NxEct101 {
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let mut io_findings = Vec::new();
         rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
+        let serial = memory.contents().serial();
+        let mut objects = UnitObjects::start(serial, identification, period, diagnosis);
+        objects.show(&settings.information);
         let unit = Self {
-            objects: UnitObjects::start(memory.contents().serial(), identification, period, diagnosis),
+            objects,
             memory,
             bus,
             io_findings,
@@ -171,15 +174,20 @@ impl NxEct101 {
         if let Some(outputs) = outputs.filter(|_| self.io_is_refreshed()) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
         }
+        if self.io_is_refreshed() {
+            self.objects.give_unmapped_entries(&mut self.m_to_c);
+        }
         self.bus.m_to_c.publish(self.header(), &self.m_to_c);
     }
 
     /// Fills the inputs from the newest data of the CPU Unit.
     fn refresh_c_to_m(&mut self, inputs: &mut [u8]) {
         inputs.fill(0);
-        if self.io_is_refreshed() {
-            exchange::copy(&self.plan.c_to_m, self.bus.c_to_m.newest().bytes(), inputs);
+        let image = if self.io_is_refreshed() { Some(self.bus.c_to_m.newest().bytes()) } else { None };
+        if let Some(image) = image {
+            exchange::copy(&self.plan.c_to_m, image, inputs);
         }
+        self.objects.take_unmapped_entries(image);
         let status = StatusToMaster {
             nx_unit: self.nx_unit_status,
             new_messages: self.objects.diagnosis.has_new_messages(),
@@ -231,6 +239,7 @@ impl Unit for NxEct101 {
     fn restart(&mut self, _now: Instant, start: Start, sii_image: &mut [u8]) -> Option<AlStatusCode> {
         let identification = self.memory.restart(&self.settings, self.objects.identification, sii_image);
         self.objects.restart(self.memory.contents().serial(), identification);
+        self.objects.show(&self.settings.information);
         self.pdo_findings.clear();
         self.m_to_c.fill(0);
         self.restart_diagnosis(start)

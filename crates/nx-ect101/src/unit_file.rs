@@ -6,6 +6,7 @@
 
 mod entries;
 mod error;
+mod information;
 mod located;
 mod reader;
 mod sections;
@@ -20,6 +21,7 @@ use time::Duration;
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
 use crate::timing::Timing;
+use crate::unit_information::UnitInformation;
 
 pub use entries::{DataSetEntries, Entries, EntryAddress, IoAllocationSection, MappingEntries, PdoSection};
 pub use error::{UnitFileError, UnitFileErrors};
@@ -94,6 +96,10 @@ pub struct UnitFile {
     pub serial: Located<u32>,
     /// ID switch, 0x00 (the Explicit Device ID is set by software) to 0xFF; 0x01 when left out.
     pub id_switch: Located<u8>,
+    /// ID set by software at the factory, 1 to 65535, in force while the ID switch is at 0x00; none when left out.
+    pub alias: Option<Located<u16>>,
+    /// Device type, versions and lot number; those of the model when left out.
+    pub information: UnitInformation,
     /// Whether the unit takes the times of the manual; exact when left out.
     pub timing: Located<Timing>,
     /// File of the non-volatile memory, relative to the unit file; memory only when left out.

@@ -4,14 +4,15 @@
 use arrayvec::ArrayVec;
 
 use crate::events::{EventCode, EventLevel};
+use crate::status::{MINOR_FAULT_BIT, OBSERVATION_BIT};
 
 /// Observations and minor faults together.
 pub const CURRENT_ERRORS_MAX: usize = 10;
 /// Length of an error in objects 2003 and 2004, in bytes.
 pub(crate) const CURRENT_ERROR_BYTES: usize = 12;
 
-const OBSERVATION: u8 = 1 << 4;
-const MINOR_FAULT: u8 = 1 << 5;
+const OBSERVATION: u8 = 1 << OBSERVATION_BIT.bit;
+const MINOR_FAULT: u8 = 1 << MINOR_FAULT_BIT.bit;
 /// Type of error detail without attached information, and with (A34).
 const WITHOUT_DETAIL: u32 = 0x0007_0000;
 const WITH_DETAIL: u32 = 0x0007_0401;

@@ -51,6 +51,7 @@ impl NxEct101 {
             return Err(code);
         }
         self.plan.rebuild(&self.pdo, &self.m_to_c_layout, &self.c_to_m_layout);
+        self.objects.begin_exchange(&self.m_to_c_layout, &self.c_to_m_layout);
         // What the new mapping does not exchange has its default value again.
         self.m_to_c.fill(0);
         Ok(())

@@ -44,7 +44,8 @@ impl NxEct101 {
         if self.bus.messages.take_discarded() {
             self.objects.diagnosis.inject(Fault::MessageCommunications);
         }
-        let (objects, serial) = (&mut self.objects, self.memory.contents().serial());
-        self.bus.messages.answer(|request| nx_server::answer(request, serial, &mut objects.messages));
+        let (information, serial) = (&self.settings.information, self.memory.contents().serial());
+        let messages = &mut self.objects.messages;
+        self.bus.messages.answer(|request| nx_server::answer(request, information, serial, messages));
     }
 }

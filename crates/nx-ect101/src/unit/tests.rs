@@ -12,6 +12,7 @@ use crate::mapping::tests::set;
 use crate::settings::{EventLevels, NewestAcknowledged};
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;
+use crate::unit_information::UnitInformation;
 
 const NOW: Instant = Instant::ZERO;
 const REFRESHING: CpuHeader = CpuHeader {
@@ -171,6 +172,7 @@ fn a_unit_file_sets_up_a_unit() {
         serial: 77,
         id_switch: 0x21,
         software_id: 0,
+        information: UnitInformation::default(),
         timing: Timing::Fast,
         io_allocation,
         event_levels,

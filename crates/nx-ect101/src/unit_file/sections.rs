@@ -9,18 +9,25 @@ use super::error::Problem;
 use super::located::Located;
 use super::reader::{Reader, Section, Value, wrong_type};
 use super::{
-    ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile, values,
+    ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile,
+    information, values,
 };
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
 
-const UNIT_KEYS: [&str; 11] = [
+const UNIT_KEYS: [&str; 17] = [
     "model",
     "name",
     "unit_number",
     "serial",
     "id_switch",
+    "alias",
+    "device_type",
+    "unit_version",
+    "lot_number",
+    "hardware_version",
+    "software_version",
     "timing",
     "storage",
     "io_allocation",
@@ -46,6 +53,8 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     });
     let id_switch = reader
         .value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
+    let alias =
+        reader.value(file, "alias", |place, value| values::integer(place, value, 1..=0xFFFF, "1 to 65535"));
     let timing = reader.value(file, "timing", |place, value| {
         values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
     });
@@ -61,6 +70,8 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
         unit_number: unit_number.unwrap_or(Located::left_out(1)),
         serial: serial.unwrap_or(Located::left_out(1)),
         id_switch: id_switch.unwrap_or(Located::left_out(0x01)),
+        alias,
+        information: information::information(reader, file),
         timing: timing.unwrap_or(Located::left_out(Timing::Exact)),
         storage,
         io_allocation,

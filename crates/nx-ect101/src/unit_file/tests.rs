@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
+use crate::unit_information::{UnitVersion, VersionText};
 
 const FACTORY: &str = include_str!("../../../../units/nx-ect101.toml");
 const ARRAYS: &str = include_str!("../../../../units/nx-ect101-1200-bytes.toml");
@@ -14,6 +15,12 @@ name = "N1"
 unit_number = 1
 serial = 1
 id_switch = 0x01
+alias = 300
+device_type = 0x00020001
+unit_version = "1.2"
+lot_number = 0x1D0B1A00
+hardware_version = "V1.10"
+software_version = "V1.02 V2.00"
 timing = "exact"
 storage = "N1.nvm"
 
@@ -44,6 +51,15 @@ fn a_file_with_every_key_reads_as_written() {
     let file = UnitFile::parse(FULL).unwrap();
     assert_eq!((file.model.value, file.name.value.as_str()), (Model::NxEct101, "N1"));
     assert_eq!((file.unit_number.value, file.serial.value, file.id_switch.value), (1, 1, 1));
+    assert_eq!(file.alias.map(|alias| alias.value), Some(300));
+    let information = UnitInformation {
+        device_type: Some(0x0002_0001),
+        unit_version: UnitVersion::parse("1.2"),
+        lot_number: Some(0x1D0B_1A00),
+        hardware_version: VersionText::parse("V1.10"),
+        software_version: VersionText::parse("V1.02 V2.00"),
+    };
+    assert_eq!(file.information, information);
     assert_eq!(file.timing.value, Timing::Exact);
     assert_eq!(file.storage.unwrap().value, PathBuf::from("N1.nvm"));
     let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
@@ -169,6 +185,13 @@ const WRONG: &[(&str, &str)] = &[
         "model = \"nx-ect101\"\nserial = 99999999999999999999999999999999999999999999999999",
     ),
     ("id switch", "model = \"nx-ect101\"\nid_switch = 0x100"),
+    ("alias", "model = \"nx-ect101\"\nalias = 0"),
+    ("device type", "model = \"nx-ect101\"\ndevice_type = \"NX\""),
+    ("unit version", "model = \"nx-ect101\"\nunit_version = \"V1.0\""),
+    ("unit version as a number", "model = \"nx-ect101\"\nunit_version = 1.0"),
+    ("lot number", "model = \"nx-ect101\"\nlot_number = 4294967296"),
+    ("hardware version", "model = \"nx-ect101\"\nhardware_version = \"\""),
+    ("software version", "model = \"nx-ect101\"\nsoftware_version = \"V1.00 V2.00 V3.00 V4.00\""),
     ("name with a blank", "model = \"nx-ect101\"\nname = \"N 1\""),
     ("name with a digit first", "model = \"nx-ect101\"\nname = \"1N\""),
     ("name empty", "model = \"nx-ect101\"\nname = \"\""),

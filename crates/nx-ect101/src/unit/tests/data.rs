@@ -11,6 +11,8 @@ impl Bench {
         let size_bytes = match index {
             0x3000 | 0x3001 => 200,
             0x1018 => 4,
+            0x1009 | 0x100A => 20,
+            0x6000 | 0x7000 => 30,
             _ => 2,
         };
         let mut value = vec![0; size_bytes];
@@ -26,8 +28,12 @@ impl Bench {
 
     /// Lets the CPU Unit ask for one object; the answer comes with a refresh.
     fn nx(&mut self, index: u16, value: Option<&[u8]>) -> Result<Vec<u8>, NxMessageError> {
+        self.nx_entry(index, 1, value)
+    }
+
+    fn nx_entry(&mut self, index: u16, sub: u8, value: Option<&[u8]>) -> Result<Vec<u8>, NxMessageError> {
         let value = value.map(|value| value.iter().copied().collect::<NxValue>());
-        let request = NxRequest { number: 1, index: ObjectIndex(index), sub: SubIndex(1), value };
+        let request = NxRequest { number: 1, index: ObjectIndex(index), sub: SubIndex(sub), value };
         self.cpu.messages.send(request).expect("room");
         assert_eq!(self.cpu.messages.receive(), Ok(None), "not before the refresh");
         self.refresh(AlState::SafeOp, None);
@@ -226,6 +232,26 @@ fn the_serial_number_of_the_object_is_that_of_the_memory() {
 }
 
 #[test]
+fn versions_lot_and_type_are_those_of_the_unit_file() {
+    let text = "model = \"nx-ect101\"\ndevice_type = 0x20001\nunit_version = \"1.2\"\nlot_number = 0x1D0B1A00\n\
+        hardware_version = \"V1.10\"\nsoftware_version = \"V1.02 V2.00\"";
+    let file = UnitFile::parse(text).expect("a unit file");
+    let mut bench = Bench::power_on(&UnitSettings::from_unit_file(&file));
+    let mut image = bench.unit.memory().sii_image().to_vec();
+    let (hardware, software) = (*b"V1.10               ", *b"V1.02 V2.00         ");
+    for _ in 0..2 {
+        let mut nx = |index, sub| bench.nx_entry(index, sub, None).expect("readable");
+        assert_eq!(nx(0x1000, 3), 0x0002_0001_u32.to_le_bytes());
+        assert_eq!(nx(0x1000, 6), 0x0102_0000_u32.to_le_bytes());
+        assert_eq!(nx(0x1001, 1), 0x1D0B_1A00_u32.to_le_bytes());
+        assert_eq!((nx(0x1001, 2), nx(0x1001, 3)), (hardware.to_vec(), software.to_vec()));
+        assert_eq!(bench.sdo_read(0x1009, 0), hardware);
+        assert_eq!(bench.sdo_read(0x100A, 0), software);
+        bench.unit.restart(NOW, Start::Restart, &mut image);
+    }
+}
+
+#[test]
 fn a_damaged_memory_is_a_fault_that_stores_nothing() {
     let (unit, cpu) = NxEct101::power_on_with(&UnitSettings::default(), MemoryAtPowerOn::Damaged);
     let mut bench = Bench { unit, cpu, inputs: Vec::new(), links: PortLinks::default() };
@@ -252,4 +278,63 @@ fn a_message_that_finds_no_room_is_an_event() {
     assert_eq!(records.len(), 1, "they came between two refreshes");
     assert_eq!(records[0].event, EventCode::MESSAGE_COMMUNICATIONS_ERROR);
     assert_eq!(records[0].details.as_slice(), [0, 0], "system information, NX bus");
+}
+
+/// Factory mapping of 6 UINT arrays, and a CPU Unit that has allocated 7 each way.
+fn seven_of_six() -> Bench {
+    let mut bench =
+        Bench::power_on(&UnitSettings { io_allocation: symmetric([7, 0, 0]), ..UnitSettings::default() });
+    bench.cpu.c_to_m.publish(REFRESHING, &[0; 210]);
+    bench.enter_safe_op();
+    bench
+}
+
+#[test]
+fn an_entry_that_no_pdo_carries_goes_to_the_cpu_unit_by_sdo() {
+    let mut bench = seven_of_six();
+    assert_eq!(bench.sdo_write(0x7000, 7, &[0xA7; 30]), Ok(()));
+    assert_eq!(bench.sdo_write(0x7000, 8, &[0xA8; 30]), Ok(()), "the CPU Unit has no such entry");
+    bench.refresh(AlState::Op, Some(&[0x11; 180]));
+    let expected = [&[0x11; 180][..], &[0xA7; 30]].concat();
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), expected);
+    assert_eq!((bench.sdo_read(0x7000, 7), bench.sdo_read(0x7000, 8)), (vec![0xA7; 30], vec![0xA8; 30]));
+    bench.refresh(AlState::SafeOp, None);
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), expected, "as outputs do, it stays");
+}
+
+#[test]
+fn an_entry_that_no_pdo_carries_comes_from_the_cpu_unit_by_sdo() {
+    let mut bench = seven_of_six();
+    let image: Vec<u8> = (0..210).collect();
+    bench.cpu.c_to_m.publish(REFRESHING, &image);
+    bench.refresh(AlState::SafeOp, None);
+    assert_eq!(bench.sdo_read(0x6000, 7), image[180..]);
+    assert_eq!(bench.sdo_read(0x6000, 8), [0; 30]);
+    bench.cpu.c_to_m.publish(CpuHeader { io_stopped: true, ..REFRESHING }, &image);
+    bench.refresh(AlState::SafeOp, None);
+    assert_eq!(bench.sdo_read(0x6000, 7), [0; 30], "as inputs, without I/O refreshing it is 0");
+}
+
+#[test]
+fn without_io_refreshing_nothing_reaches_the_cpu_unit_by_sdo_either() {
+    let mut bench = seven_of_six();
+    bench.cpu.c_to_m.publish(CpuHeader { io_stopped: true, ..REFRESHING }, &[0; 210]);
+    bench.sdo_write(0x7000, 7, &[1; 30]).expect("not mapped");
+    bench.refresh(AlState::Op, Some(&[2; 180]));
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), [0; 210]);
+}
+
+#[test]
+fn the_next_safe_op_gives_entries_their_defaults_and_follows_the_mapping() {
+    let mut bench = seven_of_six();
+    bench.sdo_write(0x7000, 7, &[1; 30]).expect("not mapped");
+    bench.refresh(AlState::Op, Some(&[2; 180]));
+    bench.unit.entered(NOW, AlState::PreOp);
+    let elements: Vec<u32> = (1..=7).map(|sub| 0x7000_00F0 | sub << 8).collect();
+    set(&mut bench.unit.objects.mapping, 0x1601, &elements).expect("mappable");
+    bench.enter_safe_op();
+    bench.refresh(AlState::Op, Some(&[3; 210]));
+    assert_eq!(bench.cpu.m_to_c.newest().bytes(), [3; 210]);
+    assert_eq!(bench.sdo_write(0x7000, 7, &[4; 30]), Err(SdoAbort::LOCAL_CONTROL));
+    assert_eq!(bench.sdo_read(0x7000, 8), [0; 30]);
 }
