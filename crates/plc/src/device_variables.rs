@@ -16,7 +16,7 @@ mod variable;
 pub use error::VariableError;
 pub use list::DeviceVariables;
 pub(crate) use memory::Memory;
-pub use ports::{STATUS_BITS, SYSTEM_TABLE_ELEMENTS, StatusBit, VariableSource, variable_name};
+pub use ports::{NodeLocation, SYSTEM_TABLE_ELEMENTS, VariableSource, variable_name};
 pub use text::{TextProblem, ValueText, ValueTextError};
 pub use validity::Validity;
 pub use variable::{

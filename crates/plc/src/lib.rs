@@ -21,8 +21,8 @@ pub use builtin::Builtin;
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
 pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
 pub use device_variables::{
-    DeviceVariables, STATUS_BITS, SYSTEM_TABLE_ELEMENTS, StatusBit, Target, TextProblem, VALUE_BYTES_MAX,
-    Validity, ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
+    DeviceVariables, NodeLocation, SYSTEM_TABLE_ELEMENTS, Target, TextProblem, VALUE_BYTES_MAX, Validity,
+    ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
     VariableType, VariableValue, variable_name,
 };
 pub use echo::Echo;

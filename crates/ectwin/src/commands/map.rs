@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use modbus::{MapRow, ModbusMap};
-use nx_ect101::{DataSet, Direction};
-use plc::{DeviceVariables, Variable, VariableAccess, VariableSource};
+use nx_ect101::{DataSet, Direction, SlaveStatus};
+use plc::{DeviceVariables, NodeLocation, Variable, VariableAccess, VariableSource};
 use serde::Serialize;
 
 use crate::cli::MapArgs;
@@ -65,7 +65,27 @@ pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
 fn rows(variables: &DeviceVariables) -> Vec<Row> {
     let map = ModbusMap::of(variables);
     let addresses = |id| map.rows().iter().find(|row| row.variable == id);
-    variables.iter().map(|(id, variable)| row(variable, addresses(id))).collect()
+    let rows = variables.iter().map(|(id, variable)| row(variable, addresses(id)));
+    rows.chain([node_location(variables.node_location())]).collect()
+}
+
+/// A variable of programs alone: a structure, which has no place in an image and no Modbus address.
+fn node_location(location: NodeLocation) -> Row {
+    Row {
+        port: Some(location.port.to_owned()),
+        variable: location.name,
+        at: Some(location.at),
+        r#type: location.type_name.to_owned(),
+        direction: None,
+        access: "RO",
+        modbus_table: None,
+        modbus_first: None,
+        modbus_last: None,
+        forced_first: None,
+        forced_last: None,
+        nx_object: None,
+        pdo_entry: None,
+    }
 }
 
 fn row(variable: &Variable, addresses: Option<&MapRow>) -> Row {
@@ -75,6 +95,10 @@ fn row(variable: &Variable, addresses: Option<&MapRow>) -> Row {
             let set = DataSet::of(direction, kind);
             let entry = |index: u16| Some(format!("{index:04X}:{number:02X}"));
             (Some(direction), entry(set.nx_entry.0), entry(set.pdo_entry.0))
+        }
+        VariableSource::SlaveStatus | VariableSource::SlaveStatusBit { .. } => {
+            let (index, sub) = SlaveStatus::NX_OBJECT;
+            (None, Some(format!("{:04X}:{sub}", index.0)), None)
         }
         _ => (None, None, None),
     };
@@ -202,6 +226,20 @@ mod tests {
         keys.sort();
         columns.sort_unstable();
         assert_eq!(keys, columns);
+    }
+
+    #[test]
+    fn the_status_word_has_its_nx_object_and_the_unit_its_location() {
+        let rows = factory();
+        let of_status = |row: &&Row| row.nx_object.as_deref() == Some("6003:01");
+        let names: Vec<_> = rows.iter().filter(of_status).map(|row| row.variable.as_str()).collect();
+        assert_eq!(names.len(), 8, "the word and seven bits: {names:?}");
+        assert_eq!(names.first(), Some(&"N1_EtherCAT_Slave_Status"));
+        let location = rows.last().expect("rows");
+        assert_eq!(
+            (location.variable.as_str(), location.at.as_deref(), location.r#type.as_str()),
+            ("N1_Node_location_information", Some("IOBus://unit#1/Node location information"), "_sNXUNIT_ID")
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@ use nx_ect101::{Direction, ImageLayout};
 
 use super::error::VariableError;
 use super::memory::Place;
-use super::ports::{self, Ports};
+use super::ports::{self, NodeLocation, Ports};
 use super::text::{TextProblem, ValueTextError};
 use super::variable::{Target, Variable, VariableId};
 
@@ -40,6 +40,12 @@ impl DeviceVariables {
     #[must_use]
     pub const fn unit_number(&self) -> u8 {
         self.unit_number
+    }
+
+    /// Where the unit is, as programs name it.
+    #[must_use]
+    pub fn node_location(&self) -> NodeLocation {
+        NodeLocation::new(&self.device_name, self.unit_number)
     }
 
     /// The variables that the unit of a unit file has.

@@ -1,6 +1,6 @@
 //! The I/O ports of the unit and the variables of the NX bus (manual, 6-3-2, A-3-3 and A-5).
 
-use nx_ect101::{DataSet, DataSetKind, Direction, ImageLayout};
+use nx_ect101::{DataSet, DataSetKind, Direction, ImageLayout, SLAVE_STATUS_BITS, StatusBit};
 use st::Elementary;
 
 use super::memory::{Area, Place};
@@ -48,31 +48,36 @@ pub enum VariableSource {
     UnitErrorFlagTable,
 }
 
-/// A bit of EtherCAT Slave Status that is an I/O port of its own (manual, 6-3-2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct StatusBit {
-    /// Its number, 0 to 15.
-    pub bit: u8,
+/// The port that is no data but a place: NX_ReadObj and NX_WriteObj ask for a variable that is assigned to it.
+const NODE_LOCATION_PORT: &str = "Node location information";
+const SLAVE_STATUS_PORT: &str = "EtherCAT Slave Status";
+
+/// Where a unit is, for NX_ReadObj and NX_WriteObj: a constant of its CPU Unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NodeLocation {
+    /// Name of the variable.
+    pub name: String,
     /// Name of the I/O port.
     pub port: &'static str,
+    /// AT specification.
+    pub at: String,
+    /// Type of the variable, a structure.
+    pub type_name: &'static str,
+    /// Value of its member `UnitNo`.
+    pub unit_number: u8,
 }
 
-const fn status_bit(bit: u8, port: &'static str) -> StatusBit {
-    StatusBit { bit, port }
+impl NodeLocation {
+    pub(super) fn new(device_name: &str, unit_number: u8) -> Self {
+        Self {
+            name: variable_name(device_name, NODE_LOCATION_PORT),
+            port: NODE_LOCATION_PORT,
+            at: at(unit_number, "", NODE_LOCATION_PORT),
+            type_name: "_sNXUNIT_ID",
+            unit_number,
+        }
+    }
 }
-
-/// The bits of EtherCAT Slave Status; 3 to 5 and 10 to 15 are reserved and no I/O ports.
-pub const STATUS_BITS: [StatusBit; 7] = [
-    status_bit(0, "SDO Communications Enabled"),
-    status_bit(1, "Data from EtherCAT Master to CPU Unit Valid"),
-    status_bit(2, "Data from CPU Unit to EtherCAT Master Valid"),
-    status_bit(6, "IN Port Link ON"),
-    status_bit(7, "OUT Port Link ON"),
-    status_bit(8, "New Message Data Available from EtherCAT Master"),
-    status_bit(9, "Ready to Write Message Data to EtherCAT Master"),
-];
-
-const SLAVE_STATUS_PORT: &str = "EtherCAT Slave Status";
 
 /// Makes the variables of one unit.
 pub(super) struct Ports<'a> {
@@ -120,7 +125,7 @@ impl Ports<'_> {
         let place = Place::whole(Area::Status, SLAVE_STATUS, 2);
         let source = VariableSource::SlaveStatus;
         let mut list = vec![self.port(self.device_name, "", SLAVE_STATUS_PORT, word, source, place)];
-        for StatusBit { bit, port } in STATUS_BITS {
+        for StatusBit { bit, port } in SLAVE_STATUS_BITS {
             let place = Place::bit(Area::Status, SLAVE_STATUS, bit);
             let (path, source) = (format!("{SLAVE_STATUS_PORT}/"), VariableSource::SlaveStatusBit { bit });
             list.push(self.port(self.device_name, &path, port, bool, source, place));
@@ -150,13 +155,17 @@ impl Ports<'_> {
         Variable {
             name: variable_name(prefix, port),
             port: Some(port.to_owned()),
-            at: Some(format!("IOBus://unit#{}/{path}{port}", self.unit_number)),
+            at: Some(at(self.unit_number, path, port)),
             variable_type,
             access: VariableAccess::ReadOnly,
             source,
             place,
         }
     }
+}
+
+fn at(unit_number: u8, path: &str, port: &str) -> String {
+    format!("IOBus://unit#{unit_number}/{path}{port}")
 }
 
 /// The name that a variable of an I/O port gets by itself (manual, 6-1-2): the device name and the port's, with `_` for

@@ -2,7 +2,7 @@
 
 use st::Global;
 
-use crate::device_variables::{DeviceVariables, VariableAccess, VariableId};
+use crate::device_variables::{DeviceVariables, NodeLocation, VariableAccess, VariableId};
 
 /// Globals, and the device variable of each but the last.
 pub(super) struct Globals {
@@ -21,11 +21,11 @@ pub(super) fn of(variables: &DeviceVariables) -> Globals {
         constant: None,
     });
     let mut list: Vec<_> = globals.collect();
-    let unit_number = variables.unit_number();
+    let NodeLocation { name, at, type_name, unit_number, .. } = variables.node_location();
     list.push(Global {
-        name: format!("{}_Node_location_information", variables.device_name()),
-        at: Some(format!("IOBus://unit#{unit_number}/Node location information")),
-        type_name: "_sNXUNIT_ID".to_owned(),
+        name,
+        at: Some(at),
+        type_name: type_name.to_owned(),
         writable: false,
         constant: Some(format!("(UnitNo := {unit_number})")),
     });
