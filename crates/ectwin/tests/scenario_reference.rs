@@ -36,14 +36,18 @@ The scripted master can run a program in Structured Text of its own, as an NJ/NX
 | key of `master` | value | left out |
 |---|---|---|
 | `program` | path of a program in Structured Text | refused |
-| `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E001"`, `"E002"`, … by the node address, which is the place in the line |
+| `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E005"` for the node address 5 |
 | `task_period` | 125us to 1s | the cycle of the process data, in step with them |
+
+The node address of a unit is the ID that its file gives it: the ID switch, or `alias` with the switch at 0 (manual, 3-3). With a
+program, each unit needs an ID of its own, 1 to 192. A unit that gets another ID in a step keeps its node address: a master learns
+it from its configuration.
 
 In each period it takes in what the slaves have sent, runs once, and gives out what goes to them with the next cycle. It has
 
-- each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
+- each entry of an assigned PDO, and each bit of it that is a port: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
   replace what steps set. An entry that is not mapped at the moment keeps its value;
-- `_EC_PDSlavTbl[n]`: slave `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP, SAFE-OP or OP. For that
+- `_EC_PDSlavTbl[n]`: the slave with node address `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP, SAFE-OP or OP. For that
   the master reads AL status of each slave in each period; without an answer twice in a row, the slave is not there.
 
 It has no NX bus: NX_ReadObj and NX_WriteObj end with an error (16#400).

@@ -26,7 +26,7 @@ use states::States;
 
 pub use program::MasterProgram;
 pub(crate) use slave::changed_settings;
-pub(crate) use variables::MasterVariables;
+pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
 
 /// How long an answer may take before the frame counts as lost.
 const ANSWER_PATIENCE: Duration = Duration::from_millis(2);

@@ -191,7 +191,7 @@ fn two_units(steps: &str) -> Report {
     let text = format!(
         "title = \"two units\"\nmaster = {{ program = \"m.st\", device_names = [\"Near\", \"Far\"], \
          task_period = \"4ms\" }}\nunits = [{{ model = \"nx-ect101\", cpu.program = \"u.st\" }}, \
-         {{ model = \"nx-ect101\", name = \"N2\", serial = 2 }}]\nsteps = [{steps}]"
+         {{ model = \"nx-ect101\", name = \"N2\", serial = 2, id_switch = 2 }}]\nsteps = [{steps}]"
     );
     let files = |name: &str| match name {
         "m.st" => Ok(COUNTING.to_owned()),
@@ -212,6 +212,94 @@ fn what_the_master_writes_goes_to_the_unit_that_it_names() {
          { expect = \"variable N2_UINTs_06_M_to_C[14] has the value 42\", within = \"10ms\" },\n\
          { expect = \"variable N1_UINTs_06_M_to_C[14] has the value 0\" }",
     );
+}
+
+/// What is wrong with a line of these units, whose master has this program.
+fn errors_of_line(units: &str, program: &str) -> Vec<String> {
+    let text = format!("title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{units}]\nsteps = []");
+    errors(&text, &[("m.st", program)])
+}
+
+#[test]
+fn the_node_address_of_a_unit_is_its_id_and_not_its_place() {
+    let reads = "VAR here, bit : BOOL; END_VAR\n\
+        here := _EC_PDSlavTbl[5]; E007_UINTs_01_M_to_C[0] := E005_UINTs_01_C_to_M[0];";
+    let units = "{ model = \"nx-ect101\", id_switch = 0, alias = 7 },\n\
+        { model = \"nx-ect101\", name = \"N2\", serial = 2, id_switch = 5 },\n";
+    assert_eq!(errors_of_line(units, reads), [""; 0]);
+    let by_place = errors_of_line(units, "E001_UINTs_01_M_to_C[0] := 1;");
+    assert!(by_place[0].contains("there is no variable `E001_UINTs_01_M_to_C`"), "{by_place:?}");
+    let text = format!(
+        "title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{units}]\nsteps = [\n\
+         {{ master = \"take unit 2 to OP\" }},\n\
+         {{ expect = \"program variable here of the master is TRUE\", within = \"300ms\" }},\n\
+         {{ expect = \"program variable _EC_PDSlavTbl[2] of the master is FALSE\" }},\n\
+         {{ expect = \"program variable _EC_MBXSlavTbl[7] of the master is FALSE\" }},\n\
+         {{ master = \"take unit 1 to PRE-OP\" }},\n\
+         {{ expect = \"program variable _EC_MBXSlavTbl[7] of the master is TRUE\", within = \"300ms\" }},\n\
+         {{ expect = \"program variable _EC_MBXSlavTbl[1] of the master is FALSE\" }}]"
+    );
+    let scenario = Scenario::parse(&text, |_| Ok(format!("{reads} bit := _EC_MBXSlavTbl[7];")));
+    let report = scenario.unwrap_or_else(|errors| panic!("{errors}")).replay(1, Recording::new(true, false));
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
+#[test]
+fn missing_equal_and_too_large_ids_are_mistakes_when_the_master_has_a_program() {
+    let unit = |keys: &str| format!("{{ model = \"nx-ect101\"{keys} }},\n");
+    let two = |first: &str, second: &str| errors_of_line(&(unit(first) + &unit(second)), ";");
+    assert_eq!(
+        two("", ", id_switch = 1"),
+        [
+            "units 1 and 2 both have the ID 1: it is the node address / `id_switch = 2`, or `id_switch = 0` and \
+          `alias = 2`: each unit needs an ID of its own when the master has a program"
+        ]
+    );
+    assert!(two("", ", id_switch = 0")[0].starts_with("unit 2 has no ID: the master's program needs it"));
+    assert!(
+        two("", ", id_switch = 0xC1")[0].starts_with("unit 2 has the ID 193: a node address is 1 to 192")
+    );
+    assert_eq!(two("", ", id_switch = 192"), [""; 0]);
+    assert_eq!(two(", id_switch = 3, alias = 9", ", id_switch = 9"), [""; 0], "the switch counts");
+    let text = format!("title = \"t\"\nunits = [{}{}]\nsteps = []", unit(""), unit(""));
+    assert_eq!(errors(&text, &[]), [""; 0], "without a program nobody asks for the node address");
+}
+
+#[test]
+fn a_wrong_id_is_told_at_its_unit() {
+    let text = "title = \"t\"\nmaster = { program = \"m.st\" }\nunits = [\n\
+        { model = \"nx-ect101\" },\n{ model = \"nx-ect101\", serial = 2 },\n]\nsteps = []";
+    let errors = Scenario::parse(text, |_| Ok(";".to_owned())).unwrap_err();
+    assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [5]);
+}
+
+#[test]
+fn the_master_sees_the_bits_of_sysmac_error_status_as_ports() {
+    let program = "VAR port AT ECAT://node#1/Sysmac Error Status/Observation : BOOL;\n\
+        observation, minor_fault : BOOL; END_VAR\n\
+        observation := port; minor_fault := E001_Minor_Fault;";
+    let text = |expectation: &str, levels: &str| {
+        format!(
+            "title = \"t\"\nmaster = {{ program = \"m.st\" }}\n\
+             units = [{{ model = \"nx-ect101\", io_allocation.m_to_c.uints = 4, io_allocation.c_to_m.uints = 6{levels} }}]\n\
+             steps = [\n{{ master = \"let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1BFE 1BFF\" }},\n\
+             {{ master = \"take unit 1 to OP\" }},\n{expectation}]"
+        )
+    };
+    let seen = |observation: &str, minor_fault: &str| {
+        format!(
+            "{{ expect = \"unit 1 is in OP\", within = \"300ms\" }},\n\
+             {{ after = \"10ms\", expect = \"program variable observation of the master is {observation}\" }},\n\
+             {{ expect = \"program variable minor_fault of the master is {minor_fault}\" }}"
+        )
+    };
+    let observation = ", event_levels = { 39170000 = \"observation\" }";
+    for (levels, expectation) in [("", seen("FALSE", "TRUE")), (observation, seen("TRUE", "FALSE"))] {
+        let scenario = Scenario::parse(&text(&expectation, levels), |_| Ok(program.to_owned()));
+        let report =
+            scenario.unwrap_or_else(|errors| panic!("{errors}")).replay(1, Recording::new(true, false));
+        assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+    }
 }
 
 #[test]

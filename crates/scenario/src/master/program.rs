@@ -10,10 +10,13 @@ use wire::AlState;
 
 use super::process_data::ProcessData;
 use super::states::States;
-use super::variables::{self, MasterVariables, Place, SLAVES_MAX, Source};
+use super::variables::{MasterVariables, NODE_ADDRESS_MAX, Node, Place, Source};
 
 /// A master has no NX bus, so there is no unit of any number.
 const NO_NX_UNIT: NxFault = NxFault::of(NxFault::OUT_OF_RANGE);
+
+/// A byte for each node address in `_EC_PDSlavTbl` and `_EC_MBXSlavTbl`.
+const TABLE_BYTES: usize = NODE_ADDRESS_MAX as usize;
 
 /// The user program of the master, read and checked.
 #[derive(Clone, Debug)]
@@ -24,6 +27,7 @@ pub struct MasterProgram {
     pub task_period: Option<Duration>,
     instance: Instance,
     bindings: Vec<Binding>,
+    nodes: Vec<Node>,
 }
 
 /// A variable of the master that the program names.
@@ -34,11 +38,12 @@ struct Binding {
 }
 
 impl MasterProgram {
-    /// Reads and checks a program.
+    /// Reads and checks a program for these units.
     pub(crate) fn compile(
         name: &str,
         text: &str,
         variables: &MasterVariables,
+        nodes: Vec<Node>,
         task_period: Option<Duration>,
     ) -> Result<Self, Problems> {
         let program = st::compile(text, &variables.globals)?;
@@ -48,7 +53,7 @@ impl MasterProgram {
             external: external.clone(),
         });
         let bindings = bindings.collect();
-        Ok(Self { name: name.to_owned(), task_period, instance: program.start(), bindings })
+        Ok(Self { name: name.to_owned(), task_period, instance: program.start(), bindings, nodes })
     }
 
     /// The program with all its variables.
@@ -76,8 +81,8 @@ pub(crate) struct Task {
 impl Task {
     pub(crate) fn new(program: MasterProgram, now: Instant) -> Self {
         let places = vec![None; program.bindings.len()];
-        let taken = vec![Vec::with_capacity(SLAVES_MAX); program.bindings.len()];
-        let bytes = Vec::with_capacity(SLAVES_MAX);
+        let taken = vec![Vec::with_capacity(TABLE_BYTES); program.bindings.len()];
+        let bytes = Vec::with_capacity(TABLE_BYTES);
         Self { program, places, next: now, last: None, is_due: false, bytes, taken }
     }
 
@@ -116,10 +121,8 @@ impl Task {
     /// A slave has process data now, which lie as these settings say.
     pub(crate) fn open(&mut self, unit: usize, settings: &PdoSettings) {
         for (place, binding) in self.places.iter_mut().zip(&self.program.bindings) {
-            if let Source::Entry { unit: own, direction, address } = binding.source
-                && own == unit
-            {
-                *place = variables::place(settings, direction, address);
+            if binding.source.unit() == Some(unit) {
+                *place = binding.source.place(settings);
             }
         }
     }
@@ -147,23 +150,24 @@ impl Task {
     }
 
     fn take_in(&mut self, data: &ProcessData, states: &States) {
-        let Self { program: MasterProgram { instance, bindings, .. }, places, bytes, taken, .. } = self;
+        let Self { program, places, bytes, taken, .. } = self;
+        let MasterProgram { instance, bindings, nodes, .. } = program;
         for ((binding, place), taken) in bindings.iter().zip(places).zip(taken) {
             bytes.clear();
             match binding.source {
-                Source::ProcessDataTable => {
-                    table(bytes, states, |unit, state| state == AlState::Op && data.is_exchanging(unit))
-                }
-                Source::MailboxTable => table(bytes, states, |_, state| {
+                Source::ProcessDataTable => table(bytes, nodes, states, |unit, state| {
+                    state == AlState::Op && data.is_exchanging(unit)
+                }),
+                Source::MailboxTable => table(bytes, nodes, states, |_, state| {
                     matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op)
                 }),
-                Source::Entry { unit, direction, .. } => {
-                    let image = match direction {
-                        Direction::MToC => data.outputs(unit),
-                        Direction::CToM => data.inputs(unit),
-                    };
+                Source::Entry { unit, direction: Direction::MToC, .. } => {
                     let Some(place) = *place else { continue };
-                    place.take(image, bytes);
+                    place.take(data.outputs(unit), bytes);
+                }
+                Source::Entry { unit, .. } | Source::InputBit { unit, .. } => {
+                    let Some(place) = *place else { continue };
+                    place.take(data.inputs(unit), bytes);
                 }
             }
             if binding.external.written || taken != bytes {
@@ -189,11 +193,15 @@ impl Task {
 }
 
 /// An element for each node address, from 1 on; FALSE for those that no slave has.
-fn table(bytes: &mut Vec<u8>, states: &States, is_set: impl Fn(usize, AlState) -> bool) {
-    let slaves =
-        (0..states.count().min(SLAVES_MAX)).map(|unit| states.state(unit).map(|state| (unit, state)));
-    bytes.extend(slaves.map(|slave| u8::from(slave.is_some_and(|(unit, state)| is_set(unit, state)))));
-    bytes.resize(SLAVES_MAX, 0);
+fn table(bytes: &mut Vec<u8>, nodes: &[Node], states: &States, is_set: impl Fn(usize, AlState) -> bool) {
+    bytes.resize(TABLE_BYTES, 0);
+    for Node { unit, address, .. } in nodes {
+        let is_set = states.state(*unit).is_some_and(|state| is_set(*unit, state));
+        let element = usize::from(*address).checked_sub(1).and_then(|at| bytes.get_mut(at));
+        if let Some(element) = element {
+            *element = is_set.into();
+        }
+    }
 }
 
 /// What the program asks of the world around it.

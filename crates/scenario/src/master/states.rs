@@ -44,11 +44,6 @@ impl States {
         false
     }
 
-    /// How many slaves there are.
-    pub(crate) fn count(&self) -> usize {
-        self.looks.len()
-    }
-
     /// The state of a slave, whether it has an error or not; none if it is not there.
     pub(crate) fn state(&self, unit: usize) -> Option<AlState> {
         let status = self.looks.get(unit)?.status?;

@@ -2,12 +2,25 @@
 //! system-defined tables (manual, A-4-3 and A-5-1).
 
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{DataSet, Direction, PdoEntry, PdoSettings, object_table};
+use nx_ect101::{
+    DataSet, Direction, MINOR_FAULT_BIT, OBSERVATION_BIT, PdoEntry, PdoSettings, StatusBit, object_table,
+};
 use plc::{VariableType, variable_name};
 use st::{Elementary, Global};
 
-/// Slaves that the tables have an element for; the first is that of node address 1.
-pub(crate) const SLAVES_MAX: usize = 192;
+/// Node addresses that the tables have an element for, from 1 on.
+pub(crate) const NODE_ADDRESS_MAX: u16 = 192;
+
+/// A unit as the master's program knows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Node {
+    /// Its place in the line.
+    pub(crate) unit: usize,
+    /// Its node address, 1 to [`NODE_ADDRESS_MAX`]: the ID of the unit (manual, 3-3).
+    pub(crate) address: u16,
+    /// First part of its device variables.
+    pub(crate) device_name: String,
+}
 
 /// What a variable tells or orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,6 +31,30 @@ pub(crate) enum Source {
     MailboxTable,
     /// An entry of a PDO of the unit at this position.
     Entry { unit: usize, direction: Direction, address: EntryAddress },
+    /// One bit of an entry among the inputs.
+    InputBit { unit: usize, address: EntryAddress, bit: u8 },
+}
+
+impl Source {
+    /// The unit that it is about.
+    pub(crate) const fn unit(&self) -> Option<usize> {
+        match self {
+            Self::Entry { unit, .. } | Self::InputBit { unit, .. } => Some(*unit),
+            Self::ProcessDataTable | Self::MailboxTable => None,
+        }
+    }
+
+    /// Where it lies in the process data by these settings; none if it is not mapped.
+    pub(crate) fn place(&self, settings: &PdoSettings) -> Option<Place> {
+        match *self {
+            Self::Entry { direction, address, .. } => place(settings, direction, address),
+            Self::InputBit { address, bit, .. } => {
+                let entry = place(settings, Direction::CToM, address)?;
+                Some(Place { start: entry.start + usize::from(bit), length: 1 })
+            }
+            Self::ProcessDataTable | Self::MailboxTable => None,
+        }
+    }
 }
 
 /// The variables of one master.
@@ -41,7 +78,7 @@ impl MasterVariables {
         self.globals.push(Global {
             name: name.to_owned(),
             at: None,
-            type_name: format!("ARRAY[1..{SLAVES_MAX}] OF BOOL"),
+            type_name: format!("ARRAY[1..{NODE_ADDRESS_MAX}] OF BOOL"),
             writable: false,
             constant: None,
         });
@@ -49,32 +86,57 @@ impl MasterVariables {
     }
 
     /// Adds the PDO entries that a unit has by these settings, as far as they are not there already.
-    pub(crate) fn add_slave(&mut self, unit: usize, device_name: &str, settings: &PdoSettings) {
+    pub(crate) fn add_slave(&mut self, node: &Node, settings: &PdoSettings) {
         for direction in Direction::ALL {
             for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
-                self.add_entry(unit, device_name, direction, entry);
+                self.add_entry(node, direction, entry);
             }
         }
     }
 
-    fn add_entry(&mut self, unit: usize, device_name: &str, direction: Direction, entry: &PdoEntry) {
+    fn add_entry(&mut self, node: &Node, direction: Direction, entry: &PdoEntry) {
         let address = EntryAddress { index: entry.index, sub: entry.sub };
-        let source = Source::Entry { unit, direction, address };
+        let source = Source::Entry { unit: node.unit, direction, address };
         let (objects, type_name) = (object_table(), type_of(direction, entry));
         let object = objects.entry(entry.index, entry.sub);
         let (Some(object), Some(type_name), false) = (object, type_name, self.sources.contains(&source))
         else {
             return;
         };
-        let port = &object.name;
+        let is_writable = direction == Direction::MToC;
+        self.add_port(node, "", &object.name, &type_name.to_string(), is_writable, source);
+        let path = format!("{}/", object.name);
+        for &StatusBit { bit, port } in bits(address) {
+            let source = Source::InputBit { unit: node.unit, address, bit };
+            self.add_port(node, &path, port, "BOOL", false, source);
+        }
+    }
+
+    fn add_port(
+        &mut self,
+        node: &Node,
+        path: &str,
+        port: &str,
+        type_name: &str,
+        writable: bool,
+        source: Source,
+    ) {
         self.globals.push(Global {
-            name: variable_name(device_name, port),
-            at: Some(format!("ECAT://node#{}/{port}", unit + 1)),
-            type_name: type_name.to_string(),
-            writable: direction == Direction::MToC,
+            name: variable_name(&node.device_name, port),
+            at: Some(format!("ECAT://node#{}/{path}{port}", node.address)),
+            type_name: type_name.to_owned(),
+            writable,
             constant: None,
         });
         self.sources.push(source);
+    }
+}
+
+/// The bits of an entry that are I/O ports of their own: those of Sysmac Error Status (manual, 7-5-5).
+fn bits(address: EntryAddress) -> &'static [StatusBit] {
+    match (address.index.0, address.sub.0) {
+        (0x2002, 1) => &[OBSERVATION_BIT, MINOR_FAULT_BIT],
+        _ => &[],
     }
 }
 
@@ -99,7 +161,7 @@ pub(crate) struct Place {
 }
 
 /// The place of an entry by these settings; none if it is not mapped.
-pub(crate) fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
+fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
     let mut start = 0;
     for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
         let length = usize::from(entry.bit_length);
@@ -140,8 +202,9 @@ mod tests {
 
     #[test]
     fn the_entries_of_a_slave_have_the_manuals_names() {
+        let node = Node { unit: 0, address: 1, device_name: "E001".into() };
         let mut variables = MasterVariables::new();
-        variables.add_slave(0, "E001", &settings());
+        variables.add_slave(&node, &settings());
         let find = |name: &str| variables.globals.iter().find(|global| global.name == name);
         for (name, at, type_name, writable) in [
             ("E001_UDINT_01_C_to_M", "ECAT://node#1/UDINT 01 C to M", "UDINT", false),
@@ -154,6 +217,8 @@ mod tests {
             ),
             ("E001_Sysmac_Error_Status", "ECAT://node#1/Sysmac Error Status", "USINT", false),
             ("E001_New_Messages_Available", "ECAT://node#1/New Messages Available", "BOOL", false),
+            ("E001_Observation", "ECAT://node#1/Sysmac Error Status/Observation", "BOOL", false),
+            ("E001_Minor_Fault", "ECAT://node#1/Sysmac Error Status/Minor Fault", "BOOL", false),
         ] {
             let global = find(name).unwrap_or_else(|| panic!("{name}"));
             assert_eq!(
@@ -162,7 +227,7 @@ mod tests {
             );
         }
         let before = variables.globals.len();
-        variables.add_slave(0, "E001", &settings());
+        variables.add_slave(&node, &settings());
         assert_eq!(variables.globals.len(), before, "each entry once");
     }
 

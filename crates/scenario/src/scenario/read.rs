@@ -1,6 +1,7 @@
 //! Reading a scenario file.
 
 mod master;
+mod nodes;
 mod reach;
 mod resolve;
 mod steps;
@@ -83,6 +84,7 @@ impl Scenario {
             text,
             files: &mut files,
             units: Vec::new(),
+            unit_spans: Vec::new(),
             variables: Vec::new(),
             master: None,
             is_ground_missing: false,
@@ -104,6 +106,8 @@ struct Reader<'a> {
     /// Gives the texts of files.
     files: &'a mut dyn FnMut(&str) -> Result<String, String>,
     units: Vec<UnitSource>,
+    /// Where each of them is in the file.
+    unit_spans: Vec<Range<usize>>,
     /// Their device variables.
     variables: Vec<DeviceVariables>,
     /// The master's own program.
@@ -146,7 +150,14 @@ impl Reader<'_> {
     }
 
     fn read_units(&mut self, entries: Vec<Spanned<UnitEntry>>) {
-        let mut units: Vec<_> = entries.into_iter().filter_map(|entry| self.unit(entry)).collect();
+        let mut units = Vec::new();
+        for entry in entries {
+            let span = entry.span();
+            if let Some(unit) = self.unit(entry) {
+                units.push(unit);
+                self.unit_spans.push(span);
+            }
+        }
         if units.is_empty() && self.errors.is_empty() {
             units.extend(self.default_unit(DEFAULT_UNIT));
         }

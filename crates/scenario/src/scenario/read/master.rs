@@ -8,7 +8,7 @@ use time::Duration;
 use toml::Spanned;
 
 use super::{Reader, StepEntry};
-use crate::master::{MasterProgram, MasterVariables, changed_settings};
+use crate::master::{MasterProgram, MasterVariables, Node, changed_settings};
 use crate::orders::MasterOrder;
 use crate::sentence;
 use crate::sentences::MASTER;
@@ -34,14 +34,14 @@ impl Reader<'_> {
         steps: &[Spanned<StepEntry>],
     ) -> Option<MasterProgram> {
         let MasterEntry { program, device_names, task_period } = entry.into_inner();
-        let names = self.device_names(device_names)?;
+        let nodes = self.nodes(device_names)?;
         let task_period = match task_period {
             Some(period) => Some(self.task_period(&period)?),
             None => None,
         };
-        let variables = variables(&names, steps);
+        let variables = variables(&nodes, steps);
         let text = self.program_text(program.get_ref(), program.span())?;
-        match MasterProgram::compile(program.get_ref(), &text, &variables, task_period) {
+        match MasterProgram::compile(program.get_ref(), &text, &variables, nodes, task_period) {
             Ok(compiled) => Some(compiled),
             Err(problems) => {
                 self.refuse_program(program.get_ref(), program.span(), &problems);
@@ -50,9 +50,21 @@ impl Reader<'_> {
         }
     }
 
-    /// A name for each unit: those that the file gives, then E001, E002 and so on by the node address.
-    fn device_names(&mut self, given: Option<Spanned<Vec<String>>>) -> Option<Vec<String>> {
-        let count = self.units.len();
+    /// The units as the program knows them.
+    fn nodes(&mut self, device_names: Option<Spanned<Vec<String>>>) -> Option<Vec<Node>> {
+        let addresses = self.node_addresses()?;
+        let names = self.device_names(device_names, &addresses)?;
+        let nodes = addresses.into_iter().zip(names).enumerate();
+        Some(nodes.map(|(unit, (address, device_name))| Node { unit, address, device_name }).collect())
+    }
+
+    /// A name for each unit: those that the file gives, then by the node address, such as E005.
+    fn device_names(
+        &mut self,
+        given: Option<Spanned<Vec<String>>>,
+        addresses: &[u16],
+    ) -> Option<Vec<String>> {
+        let count = addresses.len();
         let (span, mut names) = match given {
             Some(given) => (given.span(), given.into_inner()),
             None => (0..0, Vec::new()),
@@ -62,7 +74,8 @@ impl Reader<'_> {
             self.refuse(span, message, "one for each unit at most, in the order of the line");
             return None;
         }
-        names.extend((names.len()..count).map(|unit| format!("E{:03}", unit + 1)));
+        let unnamed = addresses.iter().skip(names.len());
+        names.extend(unnamed.map(|address| format!("E{address:03}")).collect::<Vec<_>>());
         self.check_names(&names, span).map(|()| names)
     }
 
@@ -97,17 +110,17 @@ impl Reader<'_> {
 }
 
 /// The variables of all PDO entries that the master has by the factory setting, and by the orders of the steps.
-fn variables(names: &[String], steps: &[Spanned<StepEntry>]) -> MasterVariables {
+fn variables(nodes: &[Node], steps: &[Spanned<StepEntry>]) -> MasterVariables {
     let mut variables = MasterVariables::new();
-    let mut settings = vec![PdoSettings::factory(); names.len()];
-    for (unit, name) in names.iter().enumerate() {
-        variables.add_slave(unit, name, &settings[unit]);
+    let mut settings = vec![PdoSettings::factory(); nodes.len()];
+    for (node, settings) in nodes.iter().zip(&settings) {
+        variables.add_slave(node, settings);
     }
     for order in steps.iter().filter_map(master_order) {
         let (MasterOrder::Map(unit, ..) | MasterOrder::Assign(unit, ..)) = order else { continue };
-        if let (Some(settings), Some(name)) = (settings.get_mut(unit), names.get(unit)) {
+        if let (Some(settings), Some(node)) = (settings.get_mut(unit), nodes.get(unit)) {
             changed_settings(settings, &order);
-            variables.add_slave(unit, name, settings);
+            variables.add_slave(node, settings);
         }
     }
     variables
