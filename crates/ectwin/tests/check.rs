@@ -56,7 +56,7 @@ fn a_program_reads_all_findings() {
     assert_eq!(findings.iter().map(told).collect::<Vec<_>>(), expected);
     assert_eq!(findings[0]["event_name"], "Incorrect RxPDO Mapping Order");
     for finding in findings {
-        assert_eq!(finding.as_object().unwrap().len(), 8);
+        assert_eq!(finding["level"], "minor_fault");
         assert!(finding["message"].is_string() && finding["correction"].is_string());
     }
 }
@@ -64,7 +64,58 @@ fn a_program_reads_all_findings() {
 #[test]
 fn satisfied_rules_are_an_empty_list() {
     let (code, told) = check("check-satisfied.toml", "", &["--json"]);
-    assert_eq!((code, told.as_str()), (Some(0), "{\n  \"findings\": []\n}\n"));
+    let document: Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((code, &document["findings"]), (Some(0), &serde_json::json!([])));
+    let factory =
+        |pdo_bytes| serde_json::json!({ "pdo_bytes": pdo_bytes, "io_bytes": 180, "exchanged_bytes": 180 });
+    assert_eq!(document["sizes"], serde_json::json!({ "m_to_c": factory(180), "c_to_m": factory(183) }));
+}
+
+const MISMATCH: &str = "[io_allocation]\nm_to_c.uints = 6\nc_to_m.uints = 4\n";
+const OBSERVATION: &str = "[event_levels]\n39160000 = \"observation\"\n";
+
+#[test]
+fn a_mismatch_that_is_an_observation_is_a_warning() {
+    let (code, told) = check("check-observation.toml", &format!("{MISMATCH}{OBSERVATION}"), &[]);
+    assert_eq!(code, Some(0), "{told}");
+    assert!(told.contains("  ! UINTs Data C to M"), "{told}");
+    assert!(told.contains(": 1 warning; only what both sides have is exchanged"), "{told}");
+    let both = "[io_allocation]\nm_to_c.uints = 4\nc_to_m.uints = 4\n";
+    let (code, told) = check("check-one-observation.toml", &format!("{both}{OBSERVATION}"), &[]);
+    assert_eq!(code, Some(1), "the other direction is a minor fault: {told}");
+    assert!(told.contains("  x UINTs Data M to C") && told.contains(": 2 findings; "), "{told}");
+}
+
+#[test]
+fn a_program_reads_level_and_sizes() {
+    for (levels, level, exit) in [("", "minor_fault", 1), (OBSERVATION, "observation", 0)] {
+        let (code, told) = check("check-sizes.toml", &format!("{MISMATCH}{levels}"), &["--json"]);
+        assert_eq!(code, Some(exit));
+        let document: Value = serde_json::from_str(&told).unwrap();
+        let finding = &document["findings"][0];
+        assert_eq!(finding["level"], level);
+        assert_eq!((&finding["pdo_bytes"], &finding["io_bytes"]), (&180.into(), &120.into()));
+        assert_eq!(document["sizes"]["c_to_m"]["exchanged_bytes"], 120);
+        let sets = document["data_sets"].as_array().unwrap();
+        let uints = sets.iter().find(|set| set["pdo"] == "1A01").unwrap();
+        let entries = ["pdo_entries", "io_entries", "exchanged_entries"].map(|key| uints[key].clone());
+        assert_eq!((sets.len(), entries), (6, [6.into(), 4.into(), 4.into()]));
+    }
+}
+
+#[test]
+fn too_much_data_has_its_size_on_its_side() {
+    let sizes = |sections: &str| {
+        let (_, told) = check("check-too-much.toml", sections, &["--json"]);
+        let document: Value = serde_json::from_str(&told).unwrap();
+        let findings = document["findings"].as_array().unwrap().clone();
+        let found = findings.iter().find(|finding| finding["rule"] == "total").unwrap();
+        (found["pdo_bytes"].clone(), found["io_bytes"].clone())
+    };
+    let io = "[io_allocation]\nm_to_c = { uints = 40, udint = 1 }\nc_to_m.uints = 6\n";
+    assert_eq!(sizes(io), (Value::Null, 1204.into()));
+    let pdo = "[pdo]\nassign.rx = [0x1601, 0x1603]\nmapping.1601 = 40\nmapping.1603 = 1\n";
+    assert_eq!(sizes(pdo), (1204.into(), Value::Null));
 }
 
 #[test]
@@ -87,9 +138,9 @@ fn people_see_the_place_the_event_the_correction_and_the_exchange() {
 
 #[test]
 fn a_mismatch_says_what_is_exchanged() {
-    let (code, told) =
-        check("check-mismatch.toml", "[io_allocation]\nm_to_c.uints = 6\nc_to_m.uints = 4\n", &[]);
+    let (code, told) = check("check-mismatch.toml", MISMATCH, &[]);
     assert_eq!(code, Some(1));
+    assert!(told.contains("  x UINTs Data C to M"), "{told}");
     assert!(told.contains("only what both sides have is exchanged"), "{told}");
     assert!(told.contains("4 entries, 120 bytes"), "{told}");
 }

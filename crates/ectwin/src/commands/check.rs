@@ -8,23 +8,26 @@ mod report;
 use std::path::Path;
 
 use ectwin::unit_file::UnitFile;
-use nx_ect101::{Configuration, Finding, Verdict};
+use nx_ect101::{Configuration, EventLevel, Finding, UnitSettings, Verdict};
 
 use crate::cli::CheckArgs;
 use crate::failure::Failure;
 use crate::{output, unit_files};
 
-/// Tells all findings and what would be exchanged.
+/// Shows all findings and what would be exchanged. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let (file, text) = unit_files::parse(&args.unit)?;
     let configuration = Configuration::from_unit_file(&file);
+    let levels = UnitSettings::from_unit_file(&file).event_levels;
     let verdict = configuration.check();
     if args.json {
-        output::print(document::findings(&verdict)?.as_bytes())?;
+        output::print(document::of(&configuration, levels, &verdict)?.as_bytes())?;
     } else {
-        output::print(for_people(&args.unit, &file, &text, &configuration, &verdict).as_bytes())?;
+        let level = |finding: &Finding| finding.level(levels);
+        output::print(for_people(&args.unit, &file, &text, &configuration, &verdict, level).as_bytes())?;
     }
-    if verdict.is_satisfied() { Ok(()) } else { Err(Failure::RulesBroken) }
+    let is_broken = verdict.findings.iter().any(|finding| finding.level(levels) == EventLevel::MinorFault);
+    if is_broken { Err(Failure::RulesBroken) } else { Ok(()) }
 }
 
 fn for_people(
@@ -33,10 +36,12 @@ fn for_people(
     text: &str,
     configuration: &Configuration,
     verdict: &Verdict,
+    level: impl Fn(&Finding) -> EventLevel,
 ) -> String {
-    let picture = |finding: &Finding| report::picture(path, text, finding, places::of(file, finding));
+    let picture =
+        |finding: &Finding| report::picture(path, text, finding, level(finding), places::of(file, finding));
     let mut told: String = verdict.findings.iter().map(picture).collect();
-    told.push_str(&format!("{}: {}\n", path.display(), exchange::consequence(verdict)));
+    told.push_str(&format!("{}: {}\n", path.display(), exchange::consequence(verdict, level)));
     told.push_str(&exchange::table(configuration, verdict));
     told
 }

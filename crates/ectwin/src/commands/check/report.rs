@@ -6,15 +6,21 @@ use std::path::Path;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity, SourceCode,
 };
-use nx_ect101::Finding;
+use nx_ect101::{EventLevel, Finding};
 
 use super::places::Place;
 use crate::output::colour_on_stdout;
 
 /// The finding with its places, its event and its correction.
-pub(super) fn picture(path: &Path, text: &str, finding: &Finding, places: Vec<Place>) -> String {
+pub(super) fn picture(
+    path: &Path,
+    text: &str,
+    finding: &Finding,
+    level: EventLevel,
+    places: Vec<Place>,
+) -> String {
     let source = NamedSource::new(path.display().to_string(), text.to_owned());
-    let diagnostic = RuleDiagnostic { finding, places, source };
+    let diagnostic = RuleDiagnostic { finding, level, places, source };
     let theme = if colour_on_stdout() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
     let mut picture = String::new();
     let handler = GraphicalReportHandler::new_themed(theme).with_links(false);
@@ -27,6 +33,7 @@ pub(super) fn picture(path: &Path, text: &str, finding: &Finding, places: Vec<Pl
 #[derive(Debug)]
 struct RuleDiagnostic<'f> {
     finding: &'f Finding,
+    level: EventLevel,
     places: Vec<Place>,
     source: NamedSource<String>,
 }
@@ -50,9 +57,7 @@ impl Diagnostic for RuleDiagnostic<'_> {
     }
 
     fn severity(&self) -> Option<Severity> {
-        // A mismatch stops nothing; it may be made on purpose.
-        let stops = !nx_ect101::Event::find(self.finding.event).is_some_and(|event| event.changeable_level);
-        Some(if stops { Severity::Error } else { Severity::Warning })
+        Some(if self.level == EventLevel::MinorFault { Severity::Error } else { Severity::Warning })
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
