@@ -51,11 +51,12 @@ pub(crate) enum Command {
     /// Print a table of the model
     #[command(subcommand)]
     List(List),
-    /// Tell what a code means, where it comes from and what helps
+    /// Explain a code, an object, a register, an indicator or a word
     Explain {
-        /// Event code, AL status code, emergency error code or SDO abort code in hexadecimal, such as
-        /// 391E0000, 0x001B, 0xA000 or 0x0602_0000
-        code: String,
+        /// Code, object or register in hexadecimal, such as 391E0000, 0x001B, 0x0602_0000, 0x1018, 10F3:05; indicator
+        /// or pattern, such as ERR; name of an event, object or register; word of the glossary, such as watchdog
+        #[arg(required = true, value_name = "WHAT")]
+        what: Vec<String>,
     },
 }
 

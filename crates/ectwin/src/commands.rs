@@ -41,6 +41,6 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Import(args) => import::run(&args),
         Command::Search(args) => search::run(&args),
         Command::Merge(args) => merge::run(&args),
-        Command::Explain { code } => explain::run(&code),
+        Command::Explain { what } => explain::run(&what.join(" ")),
     }
 }

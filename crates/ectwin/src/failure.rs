@@ -14,7 +14,7 @@ use crate::unit_files::FileProblem;
 
 /// Why a command failed.
 pub(crate) enum Failure {
-    /// `explain` does not know the code.
+    /// `explain` does not know it.
     Unexplained(Unexplained),
     /// A file is not what it should be, with the places in it.
     BadFile(Vec<FileProblem>),
@@ -84,7 +84,7 @@ impl Failure {
 
     fn words(&self) -> (String, Option<String>) {
         match self {
-            Self::Unexplained(reason) => (reason.to_string(), None),
+            Self::Unexplained(reason) => (reason.to_string(), Some(reason.help().to_owned())),
             Self::BadFile(problems) | Self::ProgramWrong(problems) => {
                 (problems.iter().map(|problem| picture(problem)).collect(), None)
             }

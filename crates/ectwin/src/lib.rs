@@ -28,6 +28,7 @@ pub mod explain;
 mod live;
 mod memory_file;
 mod modbus_clients;
+pub mod object_words;
 #[cfg(feature = "opcua")]
 mod opcua_clients;
 mod program_file;

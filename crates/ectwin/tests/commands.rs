@@ -38,7 +38,18 @@ fn explain_ends_with_0_for_a_known_code_and_1_for_another() {
     let unknown = ectwin(&["explain", "0x0099"]);
     assert_eq!(unknown.status.code(), Some(1));
     assert!(unknown.stdout.is_empty());
-    assert!(String::from_utf8_lossy(&unknown.stderr).contains("0x0083"));
+    let told = String::from_utf8_lossy(&unknown.stderr).into_owned();
+    assert!(told.contains("help: AL status codes: 0000-0004"), "{told}");
+    assert!(!told.contains("meant"), "no neighbour is near: {told}");
+}
+
+#[test]
+fn explain_takes_a_name_of_several_words() {
+    let known = ectwin(&["explain", "size", "mismatch"]);
+    assert!(stdout(&known).starts_with("word size mismatch: one data set with different numbers of entries"));
+    let entry = ectwin(&["explain", "10F3:05"]);
+    assert!(stdout(&entry).starts_with("object 0x10F3:05: Flags\n"));
+    assert!(stdout(&ectwin(&["explain", "TS"])).starts_with("indicator TS: "));
 }
 
 #[test]

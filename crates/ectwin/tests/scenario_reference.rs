@@ -45,10 +45,13 @@ it from its configuration.
 
 In each period it takes in what the slaves have sent, runs once, and gives out what goes to them with the next cycle. It has
 
-- each entry of an assigned PDO, and each bit of it that is a port: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
+- each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
   replace what steps set. An entry that is not mapped at the moment keeps its value;
-- `_EC_PDSlavTbl[n]`: the slave with node address `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP, SAFE-OP or OP. For that
-  the master reads AL status of each slave in each period; without an answer twice in a row, the slave is not there.
+- the bits of Sysmac Error Status that are ports: `E001_Observation`, AT `ECAT://node#1/Sysmac Error Status/Observation`, and
+  `E001_Minor_Fault`;
+- `_EC_PDSlavTbl[n]`: the slave with node address `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP,
+  SAFE-OP or OP. For that the master reads AL status of each slave in each period; without an answer twice in a row, the slave is
+  not there.
 
 It has no NX bus: NX_ReadObj and NX_WriteObj end with an error (16#400).
 

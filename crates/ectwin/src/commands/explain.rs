@@ -1,11 +1,11 @@
-//! `ectwin explain CODE`.
+//! `ectwin explain WHAT`.
 
 use crate::failure::Failure;
 use crate::output::print_line;
 
-/// Prints all that the code means, with an empty line between two meanings.
-pub(crate) fn run(code: &str) -> Result<(), Failure> {
-    let meanings = ectwin::explain::explain(code).map_err(Failure::Unexplained)?;
+/// Prints all that it means, with an empty line between two meanings.
+pub(crate) fn run(what: &str) -> Result<(), Failure> {
+    let meanings = ectwin::explain::explain(what).map_err(Failure::Unexplained)?;
     let texts: Vec<String> = meanings.iter().map(ToString::to_string).collect();
     print_line(texts.join("\n\n"))
 }

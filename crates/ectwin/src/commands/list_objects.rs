@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use objects::{AccessRights, Entry, Object, ObjectCode, ObjectTable};
+use ectwin::object_words::{access, code, default, pdo, type_name, writable_in};
+use objects::{Entry, Object, ObjectTable};
 use serde::Serialize;
-use wire::{AlState, DataType};
 
 use crate::failure::Failure;
 use crate::output::print;
@@ -50,11 +50,7 @@ fn object_row(object: &Object) -> ObjectRow {
     ObjectRow {
         index: format!("{:04X}", object.index.0),
         name: object.name.clone(),
-        code: match object.code {
-            ObjectCode::Variable => "variable",
-            ObjectCode::Array => "array",
-            ObjectCode::Record => "record",
-        },
+        code: code(object.code),
         complete_access: object.complete_access,
         entries: object.entries.iter().map(entry_row).collect(),
     }
@@ -71,55 +67,6 @@ fn entry_row(entry: &Entry) -> EntryRow {
         pdo: pdo(entry.access),
         default: default(entry),
     }
-}
-
-fn type_name(data_type: DataType) -> String {
-    match data_type {
-        DataType::BOOLEAN => "BOOL",
-        DataType::INTEGER16 => "I16",
-        DataType::UNSIGNED8 => "U8",
-        DataType::UNSIGNED16 => "U16",
-        DataType::UNSIGNED32 => "U32",
-        DataType::UNSIGNED64 => "U64",
-        DataType::VISIBLE_STRING => "VS",
-        DataType::OCTET_STRING => "BYTE_ARRAY",
-        other => return format!("{:04X}", other.0),
-    }
-    .to_owned()
-}
-
-fn access(rights: AccessRights) -> &'static str {
-    match (rights.intersects(AccessRights::READ), rights.intersects(AccessRights::WRITE)) {
-        (true, true) => "RW",
-        (true, false) => "RO",
-        (false, true) => "WO",
-        (false, false) => "none",
-    }
-}
-
-fn writable_in(rights: AccessRights) -> Vec<String> {
-    AlState::ALL
-        .into_iter()
-        .filter(|state| rights.writable_in(*state))
-        .map(|state| state.to_string())
-        .collect()
-}
-
-fn pdo(rights: AccessRights) -> Option<&'static str> {
-    match (rights.contains(AccessRights::RX_PDO), rights.contains(AccessRights::TX_PDO)) {
-        (true, true) => Some("rx_tx"),
-        (true, false) => Some("rx"),
-        (false, true) => Some("tx"),
-        (false, false) => None,
-    }
-}
-
-/// A text as it is, a number with its most significant digit first.
-fn default(entry: &Entry) -> String {
-    if entry.data_type == DataType::VISIBLE_STRING {
-        return String::from_utf8_lossy(&entry.default).trim_end_matches('\0').to_owned();
-    }
-    entry.default.iter().rev().map(|byte| format!("{byte:02X}")).collect()
 }
 
 fn as_json(document: &Document) -> Result<String, Failure> {

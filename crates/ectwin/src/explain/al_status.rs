@@ -4,7 +4,7 @@ use nx_ect101::Event;
 use wire::AlStatusCode;
 
 use super::event::{event_facts, section};
-use super::{Advice, Code, Explanation, Fact, al_status_codes};
+use super::{Advice, Explanation, Fact, Subject, al_status_codes};
 
 /// AL status code of the NX-ECT101 that no standard has: its manual, 8-5-2.
 const CPU_UNIT_ERROR: AlStatusCode = AlStatusCode(0x8004);
@@ -33,7 +33,7 @@ pub(super) fn explanation(code: AlStatusCode) -> Option<Explanation> {
         (code.row()?.state, *advice)
     };
     Some(Explanation {
-        code: Code::AlStatus(code),
+        subject: Subject::AlStatus(code),
         name: name(code)?.into(),
         facts: vec![Fact::new("shown in", state)],
         advice: vec![advice],

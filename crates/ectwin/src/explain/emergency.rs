@@ -3,7 +3,7 @@
 use nx_ect101::{Event, Notified};
 
 use super::event::{advice, event_facts, section, when_emergencies_are_sent};
-use super::{Code, Explanation, Fact};
+use super::{Explanation, Fact, Subject};
 
 /// What a range of codes is about: highest code of the range, and its class (CiA 301; A000 is of ETG.1000.6).
 const CLASSES: &[(u16, &str)] = &[
@@ -56,7 +56,7 @@ pub(super) fn explanation(code: u16) -> Option<Explanation> {
         _ => (format!("{}, {} events", class(first.emergency_code?), events.len()), Vec::new()),
     };
     Some(Explanation {
-        code: Code::Emergency(code),
+        subject: Subject::Emergency(code),
         name,
         facts: vec![
             Fact::new("class", class(code)),

@@ -5,7 +5,7 @@ mod words;
 
 use nx_ect101::{AttachedInformation, Event, EventCode, IndicatorStatus};
 
-use super::{Advice, Code, Explanation, Fact, Section};
+use super::{Advice, Explanation, Fact, Section, Subject};
 
 pub(super) use channels::when_emergencies_are_sent;
 pub(super) use words::{level, recovery};
@@ -26,7 +26,7 @@ pub(super) fn explanation(code: EventCode) -> Option<Explanation> {
         section("Logs and recovery", logs(event)),
     ];
     Some(Explanation {
-        code: Code::Event(code),
+        subject: Subject::Event(code),
         name: event.name.clone(),
         facts,
         advice: advice(event),

@@ -2,11 +2,10 @@
 
 use std::fmt;
 
-use nx_ect101::{Event, EventCode};
-use wire::{AlStatusCode, SdoAbort};
+use nx_ect101::{Event, EventCode, NxObject, object_table};
+use wire::{AlStatusCode, ObjectIndex, SdoAbort};
 
-use super::Code;
-use super::{al_status, emergency};
+use super::{Subject, al_status, emergency};
 
 /// Low word of a diagnosis code whose high word is an emergency error code (manual, A-6-4).
 const DIAGNOSIS_CODE: u32 = 0xE800;
@@ -35,57 +34,98 @@ impl Number {
         u32::from_str_radix(digits, 16).ok().map(Self::Double)
     }
 
-    pub(super) const fn value(self) -> u32 {
-        match self {
-            Self::Word(value) => value as u32,
-            Self::Double(value) => value,
-        }
-    }
-
     /// What codes of this width are.
     pub(super) const fn kinds(self) -> &'static str {
         match self {
-            Self::Word(_) => "AL status code, emergency error code or text ID",
+            Self::Word(_) => "AL status code, emergency error code, text ID, object or register",
             Self::Double(_) => "event code, SDO abort code or diagnosis code",
         }
     }
 
     /// What it can be, known or not.
-    pub(super) fn codes(self) -> impl Iterator<Item = Code> {
-        let codes = match self {
+    pub(super) fn subjects(self) -> Vec<Subject> {
+        match self {
             Self::Word(value) => vec![
-                Code::AlStatus(AlStatusCode(value)),
-                Code::Emergency(value),
+                Subject::AlStatus(AlStatusCode(value)),
+                Subject::Emergency(value),
                 // A text ID: the upper half of an event code.
-                Code::Event(EventCode(u32::from(value) << 16)),
+                Subject::Event(EventCode(u32::from(value) << 16)),
+                Subject::Object(ObjectIndex(value)),
+                Subject::NxObject(ObjectIndex(value)),
+                Subject::Register(value),
             ],
             Self::Double(value) => {
                 let diagnosis = (value & 0xFFFF == DIAGNOSIS_CODE).then_some((value >> 16) as u16);
-                let codes = [Code::Event(EventCode(value)), Code::Abort(SdoAbort(value))];
-                codes.into_iter().chain(diagnosis.map(Code::Emergency)).collect()
+                let codes = [Subject::Event(EventCode(value)), Subject::Abort(SdoAbort(value))];
+                codes.into_iter().chain(diagnosis.map(Subject::Emergency)).collect()
             }
+        }
+    }
+
+    /// The known code that is one more or one less, or, of a long one, has one other digit; none if none is so near.
+    pub(super) fn near(self) -> Option<Subject> {
+        let is_near = |known: u32| match self {
+            Self::Word(value) => known.abs_diff(value.into()) <= 1,
+            Self::Double(value) => known.abs_diff(value) <= 1 || differing_digits(known, value) == 1,
         };
-        codes.into_iter()
+        self.known().into_iter().find(|(value, _)| is_near(*value)).map(|(_, code)| code)
+    }
+
+    /// The codes that there are in this width.
+    pub(super) fn there_is(self) -> String {
+        match self {
+            Self::Word(_) => {
+                let objects = object_table().iter().map(|object| object.index.0.into()).collect();
+                let nx_objects = NxObject::all().iter().map(|object| object.index.0.into()).collect();
+                [
+                    ("AL status codes", al_status::known().map(|code| code.0.into()).collect()),
+                    ("emergency error codes", emergency::known().map(u32::from).collect()),
+                    ("objects", objects),
+                    ("NX objects", nx_objects),
+                ]
+                .map(|(kind, codes)| format!("{kind}: {}", runs(codes, 4)))
+                .join("; ")
+            }
+            Self::Double(_) => {
+                let events = Event::all().iter().map(|event| event.code.0).collect();
+                let aborts = SdoAbort::TABLE.iter().map(|row| row.code.0).collect();
+                format!("event codes: {}; SDO abort codes: {}", runs(events, 8), runs(aborts, 8))
+            }
+        }
     }
 
     /// All codes that are known in this width, with their numbers.
-    pub(super) fn known(self) -> Box<dyn Iterator<Item = (u32, Code)>> {
+    fn known(self) -> Vec<(u32, Subject)> {
         match self {
-            Self::Word(_) => Box::new(words()),
-            Self::Double(_) => Box::new(doubles()),
+            Self::Word(_) => {
+                let al_status = al_status::known().map(|code| (code.0.into(), Subject::AlStatus(code)));
+                let emergency = emergency::known().map(|code| (code.into(), Subject::Emergency(code)));
+                al_status.chain(emergency).collect()
+            }
+            Self::Double(_) => {
+                let events = Event::all().iter().map(|event| (event.code.0, Subject::Event(event.code)));
+                let aborts = SdoAbort::TABLE.iter().map(|row| (row.code.0, Subject::Abort(row.code)));
+                events.chain(aborts).collect()
+            }
         }
     }
 }
 
-fn words() -> impl Iterator<Item = (u32, Code)> {
-    let al_status = al_status::known().map(|code| (u32::from(code.0), Code::AlStatus(code)));
-    let emergency = emergency::known().map(|code| (u32::from(code), Code::Emergency(code)));
-    al_status.chain(emergency)
+fn differing_digits(one: u32, other: u32) -> usize {
+    (0..8).filter(|digit| (one ^ other) >> (4 * digit) & 0xF != 0).count()
 }
 
-fn doubles() -> impl Iterator<Item = (u32, Code)> {
-    let events = Event::all().iter().map(|event| (event.code.0, Code::Event(event.code)));
-    events.chain(SdoAbort::TABLE.iter().map(|row| (row.code.0, Code::Abort(row.code))))
+/// Codes in ascending order, neighbours drawn together: `0001, 0011-001F`.
+fn runs(mut codes: Vec<u32>, digits: usize) -> String {
+    codes.sort_unstable();
+    codes.dedup();
+    let runs = codes.chunk_by(|one, next| one + 1 == *next);
+    let shown = runs.filter_map(|run| match run {
+        [only] => Some(format!("{only:0digits$X}")),
+        [first, .., last] => Some(format!("{first:0digits$X}-{last:0digits$X}")),
+        [] => None,
+    });
+    shown.collect::<Vec<_>>().join(", ")
 }
 
 impl fmt::Display for Number {

@@ -1,12 +1,15 @@
-//! Codes in every usual way of writing, and what each is told to be.
+//! Codes, objects, indicators and words in every usual way of writing, and what each is.
+
+use nx_ect101::{EventCode, Pattern};
+use wire::{AlStatusCode, ObjectIndex, SubIndex};
 
 use super::*;
 
-fn codes(text: &str) -> Vec<Code> {
+fn subjects(text: &str) -> Vec<Subject> {
     explain(text)
         .unwrap_or_else(|error| panic!("{text}: {error}"))
         .into_iter()
-        .map(|known| known.code)
+        .map(|known| known.subject)
         .collect()
 }
 
@@ -21,25 +24,28 @@ fn every_code_of_the_tables_has_its_advice() {
 #[test]
 fn a_code_may_be_written_in_every_usual_way() {
     for text in ["0x001B", "001B", "1B", "0x1b", "0X001B", " 1b ", "001B hex", "1bhex"] {
-        assert_eq!(codes(text), [Code::AlStatus(AlStatusCode::SYNC_MANAGER_WATCHDOG)], "{text}");
+        assert_eq!(subjects(text), [Subject::AlStatus(AlStatusCode::SYNC_MANAGER_WATCHDOG)], "{text}");
     }
     for text in ["0x0602_0000", "06020000", "0x06020000", "6020000", "0602_0000"] {
-        assert_eq!(codes(text), [Code::Abort(SdoAbort::OBJECT_DOES_NOT_EXIST)], "{text}");
+        assert_eq!(subjects(text), [Subject::Abort(SdoAbort::OBJECT_DOES_NOT_EXIST)], "{text}");
     }
     for text in ["391E0000", "391e0000", "0x391E0000", "0x391E_0000", "391E0000 hex", "391E0000hex"] {
-        assert_eq!(codes(text), [Code::Event(EventCode(0x391E_0000))], "{text}");
+        assert_eq!(subjects(text), [Subject::Event(EventCode(0x391E_0000))], "{text}");
     }
-    assert_eq!(codes("9450000"), [Code::Event(EventCode::ESC_ERROR)], "without its leading zero");
+    assert_eq!(subjects("9450000"), [Subject::Event(EventCode::ESC_ERROR)], "without its leading zero");
     assert_eq!(explain("8004").unwrap()[0].name, "CPU Unit error (NX-ECT101)");
 }
 
 #[test]
 fn a_code_that_is_several_things_is_told_as_all_of_them() {
-    let memory = Code::Event(EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR);
-    assert_eq!(codes("0x0020"), [Code::AlStatus(AlStatusCode::NEEDS_COLD_START), memory]);
-    assert_eq!(codes("0x5600"), [Code::Emergency(0x5600)]);
-    assert_eq!(codes("0x391E"), [Code::Event(EventCode(0x391E_0000))], "a text ID");
-    assert_eq!(codes("0xA000E800"), [Code::Emergency(0xA000)], "a diagnosis code");
+    let memory = Subject::Event(EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR);
+    assert_eq!(
+        subjects("0x0020"),
+        [Subject::AlStatus(AlStatusCode::NEEDS_COLD_START), memory, Subject::Register(0x20)]
+    );
+    assert_eq!(subjects("0x5600"), [Subject::Emergency(0x5600)]);
+    assert_eq!(subjects("0x391E"), [Subject::Event(EventCode(0x391E_0000))], "a text ID");
+    assert_eq!(subjects("0xA000E800"), [Subject::Emergency(0xA000)], "a diagnosis code");
 }
 
 #[test]
@@ -58,19 +64,152 @@ fn an_al_status_code_tells_the_events_behind_it() {
     assert!(explain("0x0013").unwrap()[0].sections.is_empty(), "no event of the unit has it");
 }
 
+fn told(text: &str) -> String {
+    let known = explain(text).unwrap_or_else(|error| panic!("{text}: {error}"));
+    known.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
+}
+
+fn refused(text: &str) -> String {
+    let unexplained = explain(text).unwrap_err();
+    format!("{unexplained}\n{}", unexplained.help())
+}
+
 #[test]
-fn an_unknown_code_is_told_with_the_nearest_one() {
-    let told = |text| explain(text).unwrap_err().to_string();
-    assert_eq!(
-        told("0x0099"),
-        "0x0099 is not known as AL status code, emergency error code or text ID; the nearest is AL status code \
-         0x0083, temperature too high"
+fn every_object_and_every_entry_of_the_tables_is_explained() {
+    for object in nx_ect101::object_table().iter() {
+        let index = object.index;
+        assert!(subjects(&index.to_string()).contains(&Subject::Object(index)), "{index}");
+        for entry in &object.entries {
+            let text = format!("{:X}:{}", index.0, entry.sub);
+            let explanation = told(&text);
+            assert!(
+                explanation.starts_with(&format!("object {index}:{}: {}", entry.sub, entry.name)),
+                "{explanation}"
+            );
+        }
+    }
+    for object in nx_ect101::NxObject::all() {
+        assert!(subjects(&format!("{:04X}", object.index.0)).contains(&Subject::NxObject(object.index)));
+        for entry in &object.entries {
+            let text = format!("{}:{}", object.index, entry.sub);
+            assert!(subjects(&text).contains(&Subject::NxEntry(object.index, entry.sub)), "{text}");
+        }
+    }
+}
+
+#[test]
+fn an_object_shows_its_entries_and_an_entry_what_it_does() {
+    let identity = told("0x1018");
+    assert!(
+        identity.starts_with("object 0x1018: Identity Object\n  kind        record, with complete access"),
+        "{identity}"
     );
-    assert!(told("06020001").contains("SDO abort code 0x0602_0000"));
-    assert!(told("391E0001").contains("event 391E0000, Illegal PDO Entry Added M to C"));
-    assert!(told("5601").contains("emergency error code 0x5600, ESC Error"));
-    for text in ["", "0x", "hello", "123456789", "-1", "+1B", "hex"] {
-        assert_eq!(explain(text), Err(Unexplained::NotACode), "{text}");
+    assert!(
+        identity.contains("\n  :02         Product Code, U32, 32 bit, RO, default 0000017C"),
+        "{identity}"
+    );
+    let flags = told("10F3:05");
+    for fragment in [
+        "object 0x10F3:05: Flags",
+        "0 to 1 hex",
+        "written in PRE-OP, SAFE-OP, OP",
+        "when communications start",
+    ] {
+        assert!(flags.contains(fragment), "{fragment}: {flags}");
+    }
+    let status = told("2002:1");
+    assert!(status.contains("bit 4       Observation\n  bit 5       Minor Fault"), "{status}");
+    let slave_status = told("6003:01");
+    assert!(slave_status.contains("NX object 0x6003:01: EtherCAT Slave Status"), "{slave_status}");
+    assert!(
+        slave_status.contains("bit 9       Ready to Write Message Data to EtherCAT Master"),
+        "{slave_status}"
+    );
+    assert!(told("7000:07").contains("NX object   0x6000:07, Data Set in 15 UINT Arrays"));
+}
+
+#[test]
+fn an_entry_that_is_not_there_is_told_with_those_that_are() {
+    assert_eq!(refused("1018:05"), "object 0x1018 has no subindex 05\nits subindexes are 00, 01, 02, 03, 04");
+    assert!(refused("1001:04").contains("its subindexes are 00, 01, 02, 03"), "an NX object");
+    assert!(refused("1019:00").starts_with("there is no object 0x1019\n"));
+}
+
+#[test]
+fn every_register_is_explained_at_each_of_its_bytes() {
+    for register in esc::REGISTERS {
+        let last = register.offset + (register.count - 1) * register.stride_bytes + register.size_bytes - 1;
+        for offset in [register.offset, last] {
+            assert!(
+                subjects(&format!("{offset:04X}")).contains(&Subject::Register(offset)),
+                "0x{offset:04X}"
+            );
+        }
+    }
+    let status = told("0x0131");
+    assert!(
+        status.contains("register 0x0131: AL status\n  offset      0x0130 to 0x0131, 2 bytes"),
+        "{status}"
+    );
+}
+
+#[test]
+fn every_indicator_and_pattern_is_explained_by_its_name() {
+    for name in indicator::names() {
+        assert!(subjects(&name.to_lowercase()).contains(&Subject::Indicator(name)), "{name}");
+    }
+    for pattern in Pattern::ALL {
+        let written = pattern.id().replace('_', " ");
+        assert!(subjects(&written).contains(&Subject::Pattern(pattern)), "{written}");
+    }
+    let err = told("ERR");
+    assert!(err.contains("red         double_flash (200 ms lit, 200 ms dark, 200 ms lit, 1000 ms dark): process data stopped in OP"), "{err}");
+    assert!(err.contains("85000000"), "{err}");
+    assert_eq!(subjects("L/A").len(), 2, "IN and OUT");
+}
+
+#[test]
+fn every_word_of_the_glossary_is_explained() {
+    for (word, row) in glossary::words() {
+        assert!(subjects(word).contains(&Subject::Word(row)), "{word}");
+    }
+    let watchdog = told("watchdog");
+    assert!(
+        watchdog.starts_with("word watchdog: ends OP when no process data was written in time"),
+        "{watchdog}"
+    );
+    assert_eq!(subjects("sync manager"), subjects("SyncManager"));
+    assert!(told("DC").contains("distributed clocks"), "its letters are digits too");
+}
+
+#[test]
+fn names_of_events_objects_and_registers_are_explained() {
+    assert_eq!(subjects("esc error"), [Subject::Event(EventCode::ESC_ERROR)]);
+    assert_eq!(subjects("Identity Object"), [Subject::Object(ObjectIndex(0x1018))]);
+    assert_eq!(subjects("Production Info"), [Subject::NxObject(ObjectIndex(0x1001))]);
+    assert_eq!(subjects("0x10F3:04"), [Subject::Entry(ObjectIndex(0x10F3), SubIndex(4))]);
+}
+
+#[test]
+fn an_unknown_code_is_told_with_those_that_exist_and_with_a_near_one_only() {
+    let unknown = refused("0x0099");
+    let first = "0x0099 is not known as AL status code, emergency error code, text ID, object or register\nAL status codes: 0000-0004, ";
+    assert!(unknown.starts_with(first), "{unknown}");
+    assert!(unknown.contains("objects: 1000, 1008-100A, 1018,"), "{unknown}");
+    assert!(refused("06020001").contains("; is SDO abort code 0x0602_0000, object does not exist"));
+    assert!(refused("391E0001").contains("; is event 391E0000, Illegal PDO Entry Added M to C, meant?"));
+    assert!(refused("5601").contains("; is emergency error code 0x5600, ESC Error, meant?"));
+    assert!(
+        refused("12345678")
+            .starts_with("0x1234_5678 is not known as event code, SDO abort code or diagnosis code\n")
+    );
+}
+
+#[test]
+fn an_unknown_word_is_told_with_a_near_one_only() {
+    assert!(refused("watchdgo").starts_with("`watchdgo` is not known; is `watchdog` meant?"));
+    for text in ["", "0x", "hello", "123456789", "-1", "+1B", "hex", "banana bread", ":", "1018:"] {
+        assert!(!refused(text).contains("meant"), "{text}: {}", refused(text));
     }
 }
 

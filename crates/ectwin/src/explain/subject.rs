@@ -1,0 +1,56 @@
+//! What an explanation is of.
+
+use std::fmt;
+
+use nx_ect101::{EventCode, Pattern};
+use wire::{AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
+
+/// Something that can be explained.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Subject {
+    /// Event code of the NX-ECT101.
+    Event(EventCode),
+    /// Emergency error code, in an emergency message or a diagnosis code.
+    Emergency(u16),
+    /// AL status code, register 0x0134.
+    AlStatus(AlStatusCode),
+    /// SDO abort code.
+    Abort(SdoAbort),
+    /// Object of the CoE object dictionary.
+    Object(ObjectIndex),
+    /// One entry of such an object.
+    Entry(ObjectIndex, SubIndex),
+    /// NX object, which the CPU Unit sees.
+    NxObject(ObjectIndex),
+    /// One entry of an NX object.
+    NxEntry(ObjectIndex, SubIndex),
+    /// Register of the ESC, by the offset of one of its bytes.
+    Register(u16),
+    /// Indicator on the unit's front.
+    Indicator(&'static str),
+    /// Pattern of an indicator.
+    Pattern(Pattern),
+    /// Word of the glossary.
+    Word(&'static str),
+}
+
+impl fmt::Display for Subject {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Event(code) => write!(formatter, "event {code}"),
+            Self::Emergency(code) => write!(formatter, "emergency error code 0x{code:04X}"),
+            Self::AlStatus(code) => write!(formatter, "AL status code 0x{:04X}", code.0),
+            Self::Abort(code) => {
+                write!(formatter, "SDO abort code 0x{:04X}_{:04X}", code.0 >> 16, code.0 & 0xFFFF)
+            }
+            Self::Object(index) => write!(formatter, "object {index}"),
+            Self::Entry(index, sub) => write!(formatter, "object {index}:{sub}"),
+            Self::NxObject(index) => write!(formatter, "NX object {index}"),
+            Self::NxEntry(index, sub) => write!(formatter, "NX object {index}:{sub}"),
+            Self::Register(offset) => write!(formatter, "register 0x{offset:04X}"),
+            Self::Indicator(name) => write!(formatter, "indicator {name}"),
+            Self::Pattern(pattern) => write!(formatter, "pattern {}", pattern.id()),
+            Self::Word(word) => write!(formatter, "word {word}"),
+        }
+    }
+}
