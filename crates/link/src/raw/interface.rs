@@ -72,8 +72,11 @@ impl Interface {
         let found = find(&self.name);
         let index = found.as_ref().map(|found| found.index);
         if index != bound.index() {
-            bound.claimed = None;
+            let was_bound = bound.claimed.take().is_some();
             if let Some(index) = index {
+                if was_bound {
+                    tracing::warn!("{} is another interface now", self.name);
+                }
                 self.bind_again(&mut bound, index);
             }
         }
