@@ -17,6 +17,8 @@ pub(crate) const INPUTS_START: u16 = 0x1100;
 pub(crate) struct Digital8 {
     pub(crate) inputs: u8,
     pub(crate) outputs: Option<u8>,
+    pub(crate) without_outputs: bool,
+    pub(crate) without_inputs: bool,
     pub(crate) states: Vec<AlState>,
     pub(crate) fault: Option<AlStatusCode>,
     /// What the master finds after a restart of the kind.
@@ -27,7 +29,10 @@ pub(crate) struct Digital8 {
 
 impl Unit for Digital8 {
     fn process_data(&self) -> ProcessDataAreas {
-        ProcessDataAreas { outputs_bytes: 1, inputs_bytes: 1 }
+        ProcessDataAreas {
+            outputs_bytes: u16::from(!self.without_outputs),
+            inputs_bytes: u16::from(!self.without_inputs),
+        }
     }
 
     fn entered(&mut self, _now: Instant, state: AlState) {
