@@ -1,8 +1,12 @@
-//! The floors of the house: which crate may use which, and what the core must never touch.
+//! The floors of the house: which crate may use which, what the core must never touch, and circles of files.
+
+mod circles;
+mod modules;
+mod tokens;
 
 use crate::metadata::{self, Metadata, Package};
+use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
-use crate::{Outcome, report};
 
 /// One crate, its floor, and whom it may use.
 struct Row {
@@ -72,12 +76,23 @@ const SHELL_WORDS: &[&str] = &[
     "SystemTime::now",
 ];
 
-/// Checks both.
+/// Checks all of it: crates, words, circles of files.
 pub(crate) fn check() -> Outcome {
     let metadata = metadata::read()?;
+    let sources = sources::read()?;
     let mut findings = wrong_arrows(&metadata);
-    findings.extend(sources::read()?.iter().flat_map(shell_words));
+    findings.extend(sources.iter().flat_map(shell_words));
+    findings.extend(circles::findings(&crates(), &sources));
     report("arrows", &findings)
+}
+
+/// Writes the list of circles of files, where it only shrinks.
+pub(crate) fn bless() -> Outcome {
+    circles::bless(&crates(), &sources::read()?)
+}
+
+fn crates() -> Vec<&'static str> {
+    FLOORS.iter().map(|row| row.name).collect()
 }
 
 fn find(name: &str) -> Option<&'static Row> {

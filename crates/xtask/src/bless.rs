@@ -1,7 +1,8 @@
 //! `cargo xtask bless`: writes what is generated and kept in the repository. A review reads the difference.
 
+use crate::conformance;
+use crate::outcome::Outcome;
 use crate::tools;
-use crate::{Outcome, conformance};
 
 /// Makes the tests below write what they compare.
 const BLESS: &str = "ECTWIN_BLESS";

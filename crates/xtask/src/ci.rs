@@ -5,9 +5,10 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
+use crate::outcome::Outcome;
 use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
-use crate::{Outcome, arrows, tidy};
+use crate::{arrows, tidy};
 
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]

@@ -13,20 +13,17 @@ mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
 use crate::tools::root;
-use crate::{Outcome, report};
 
-use citations::Cited;
+use citations::{Cited, Number};
 use page::{Page, Pinned};
 
 /// The pages that citations lead to.
 const REFERENCE: &str = "docs/reference/";
 /// The page with the statements.
 const STATEMENTS: &str = "docs/reference/conformance.md";
-
-/// The number behind the `C` of a conformance statement.
-type Number = u16;
 
 /// Checks citations and statements.
 pub(crate) fn check() -> Outcome {

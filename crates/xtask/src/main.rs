@@ -5,6 +5,7 @@ mod bless;
 mod ci;
 mod conformance;
 mod metadata;
+mod outcome;
 mod sources;
 mod tests_step;
 mod tidy;
@@ -27,8 +28,12 @@ struct Arguments {
 enum Task {
     /// Everything that has to hold before a change lands
     Ci(ci::Options),
-    /// Which crate uses which, and what the core must not touch
-    Arrows,
+    /// Which crate uses which, what the core must not touch, and circles between files
+    Arrows {
+        /// Write the list of circles of files, if it only shrinks
+        #[arg(long)]
+        bless: bool,
+    },
     /// The protocol reference: citations lead somewhere, and every conformance statement has a test or a reason
     Conformance {
         /// Write where statements are pinned, as `bless` does too
@@ -46,7 +51,8 @@ enum Task {
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().task {
         Task::Ci(options) => return ci::run(&options),
-        Task::Arrows => arrows::check(),
+        Task::Arrows { bless: true } => arrows::bless(),
+        Task::Arrows { bless: false } => arrows::check(),
         Task::Conformance { bless: true } => conformance::bless(),
         Task::Conformance { bless: false } => conformance::check(),
         Task::Licences => tools::licences(),
@@ -60,15 +66,4 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
-}
-
-/// What a check says when something is wrong: lines for people, ready to print.
-type Outcome = Result<(), String>;
-
-/// Findings as an outcome: none is good, else one line each under `title`.
-fn report(title: &str, findings: &[String]) -> Outcome {
-    if findings.is_empty() {
-        return Ok(());
-    }
-    Err(format!("{title}:\n  {}", findings.join("\n  ")))
 }

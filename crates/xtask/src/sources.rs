@@ -26,13 +26,19 @@ impl Source {
         in_folder("tests") || in_folder("benches") || self.path.ends_with("tests.rs")
     }
 
-    /// The lines that are not tests, numbered from 1: up to the module of tests that ends a file.
+    /// The lines that are not tests, numbered from 1: without declarations of modules of tests, and up to the
+    /// module of tests that ends a file.
     pub(crate) fn code_lines(&self) -> impl Iterator<Item = (usize, &str)> {
-        self.text
-            .lines()
-            .take_while(|line| line.trim() != "#[cfg(test)]")
-            .enumerate()
-            .map(|(at, line)| (at + 1, line))
+        let lines: Vec<&str> = self.text.lines().collect();
+        let is_for_tests = |line: &&str| line.trim() == "#[cfg(test)]";
+        let declares =
+            |at: usize| lines.get(at).is_some_and(|line| line.contains("mod ") && line.ends_with(';'));
+        let opens = |at: usize| is_for_tests(&lines[at]) && !declares(at + 1);
+        let end = (0..lines.len()).find(|at| opens(*at)).unwrap_or(lines.len());
+        let is_left_out = |at: usize| is_for_tests(&lines[at]) || (at > 0 && is_for_tests(&lines[at - 1]));
+        let code: Vec<(usize, &str)> =
+            (0..end).filter(|at| !is_left_out(*at)).map(|at| (at + 1, lines[at])).collect();
+        code.into_iter()
     }
 }
 

@@ -1,6 +1,6 @@
 //! The tests: by cargo-nextest where it is installed, else by `cargo test`.
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 use crate::tools::{cargo, has_cargo};
 
 /// How much to run.

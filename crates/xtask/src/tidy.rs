@@ -1,9 +1,9 @@
 //! The habits of the house, checked by machine: lengths, words, links, purposes.
 
 use crate::metadata;
+use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
 use crate::tools::root;
-use crate::{Outcome, report};
 
 /// Lines of code that one file may have, tests beside it counted alike.
 const CODE_LINES: usize = 600;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::Outcome;
+use crate::outcome::Outcome;
 
 /// Tests and steps append one line per thing they left out to the file that this variable names
 /// (crates/testbed writes it for tests).

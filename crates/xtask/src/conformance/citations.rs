@@ -2,8 +2,10 @@
 
 use core::fmt;
 
-use super::Number;
 use crate::sources::Source;
+
+/// The number behind the `C` of a conformance statement.
+pub(super) type Number = u16;
 
 /// What a citation leads to.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,7 +1,6 @@
 //! Marks: the statements that a test pins.
 
-use super::Number;
-use super::citations::statement;
+use super::citations::{Number, statement};
 use crate::sources::Source;
 
 /// The numbers that a file's tests pin.

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Number;
+use super::citations::Number;
 
 /// What a reason begins with: the slave does not have it, or does not do it yet.
 const REASONS: &[&str] = &["not here: ", "not yet: "];
