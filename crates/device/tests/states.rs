@@ -8,8 +8,10 @@ use proptest::prelude::*;
 use time::Duration;
 use wire::AlState::{self, Boot, Init, Op, PreOp, SafeOp};
 
-/// C038 to C062: all states times all requests, as one table. Rows are states, columns are requests INIT,
-/// PRE-OP, BOOT, SAFE-OP, OP, 0x5; each cell is AL status and AL status code.
+/// C038, C042, C043, C044, C048, C049, C051, C057, C058, C059, C060, C061, C062: all states times all requests.
+///
+/// Rows are states, columns are requests INIT, PRE-OP, BOOT, SAFE-OP, OP, 0x5; each cell is AL status and AL status
+/// code.
 #[test]
 fn the_whole_machine_in_one_table() {
     let requests = [Init, PreOp, Boot, SafeOp, Op, AlState::Other(5)];
@@ -266,7 +268,7 @@ fn the_last_al_control_of_a_frame_wins() {
 }
 
 proptest! {
-    /// Whatever a master asks and in whatever order: AL status is a state of the standard, an error has a
+    /// C071: whatever a master asks and in whatever order, AL status is a state of the standard, an error has a
     /// code, and no error has none.
     #[test]
     fn any_requests_leave_a_state_of_the_standard(requests in prop::collection::vec(any::<u8>(), 1..60)) {

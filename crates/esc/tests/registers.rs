@@ -92,6 +92,7 @@ fn counters_are_cleared_by_writing() {
     assert_eq!(bench.read(0x0300, 20), Some(vec![0; 20]));
 }
 
+/// C015
 #[test]
 fn counters_stay_at_255() {
     let mut bench = Bench::new();
@@ -336,7 +337,7 @@ proptest! {
         prop_assert_eq!(constants(&mut bench), before);
     }
 
-    /// Every register that the table lets the wire write counts a write, every other does not.
+    /// C014: every register that the table lets the wire write counts a write, every other does not.
     #[test]
     fn a_write_counts_where_the_table_says_so(row in 0..REGISTERS.len()) {
         let register = REGISTERS[row];

@@ -88,6 +88,7 @@ fn drawn(pattern: Pattern, start_ms: u64) -> String {
     (0..40).map(|step| if lit(step) { '#' } else { '.' }).collect()
 }
 
+/// C122
 #[test]
 fn each_pattern_has_the_timing_of_etg_1300() {
     let lines = Pattern::ALL.map(|pattern| format!("{:<12} {}\n", pattern.id(), drawn(pattern, 0)));

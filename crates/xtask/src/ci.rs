@@ -8,7 +8,7 @@ use clap::Args;
 use crate::outcome::Outcome;
 use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
-use crate::{arrows, tidy};
+use crate::{arrows, conformance, tidy};
 
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]
@@ -31,6 +31,7 @@ struct Step {
 const STEPS: &[Step] = &[
     Step { name: "format", in_quick: true, run: |_| cargo(&["fmt", "--all", "--check"]) },
     Step { name: "arrows", in_quick: true, run: |_| arrows::check() },
+    Step { name: "conformance", in_quick: true, run: |_| conformance::check() },
     Step { name: "tidy", in_quick: true, run: |_| tidy::check() },
     Step { name: "licences", in_quick: false, run: |_| tools::licences() },
     Step { name: "clippy", in_quick: true, run: |_| tools::clippy() },

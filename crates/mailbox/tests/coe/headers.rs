@@ -104,6 +104,7 @@ fn an_unknown_coe_service_gets_error_4() {
     }
 }
 
+/// C115
 #[test]
 fn in_boot_coe_is_unsupported_and_in_init_nothing_answers() {
     let mut bench = Bench::in_pre_op();

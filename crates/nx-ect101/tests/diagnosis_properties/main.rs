@@ -61,6 +61,7 @@ fn random_sequences_come_by_every_event_and_every_corner() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(SEQUENCES))]
 
+    /// C109: 10F3 is one of the channels.
     #[test]
     fn every_channel_tells_what_the_model_tells(setup in setups(), sequence in sequences()) {
         let mut run = Run::power_on(&setup);
