@@ -64,11 +64,15 @@ impl Number {
 
     /// The known code that is one more or one less, or, of a long one, has one other digit; none if none is so near.
     pub(super) fn near(self) -> Option<Subject> {
-        let is_near = |known: u32| match self {
-            Self::Word(value) => known.abs_diff(value.into()) <= 1,
-            Self::Double(value) => known.abs_diff(value) <= 1 || differing_digits(known, value) == 1,
+        let (own, may_differ_in_a_digit) = match self {
+            Self::Word(value) => (value.into(), false),
+            Self::Double(value) => (value, true),
         };
-        self.known().into_iter().find(|(value, _)| is_near(*value)).map(|(_, code)| code)
+        let is_near = |known: u32| {
+            known.abs_diff(own) <= 1 || may_differ_in_a_digit && differing_digits(known, own) == 1
+        };
+        let near = self.known().into_iter().filter(|(known, _)| is_near(*known));
+        near.min_by_key(|(known, _)| known.abs_diff(own)).map(|(_, code)| code)
     }
 
     /// The codes that there are in this width.
