@@ -200,6 +200,10 @@ impl Responder for &Shared {
     fn carrier(&mut self, present: bool) {
         self.line().carrier(present);
     }
+
+    fn overlong_frames(&self) -> u64 {
+        self.line().overlong_frames()
+    }
 }
 
 fn serve_frames(shared: &Shared, mut port: impl FramePort, clock: &Clock) -> io::Result<Statistics> {

@@ -190,4 +190,8 @@ impl Responder for Line {
     fn carrier(&mut self, present: bool) {
         self.network.set_carrier(present);
     }
+
+    fn overlong_frames(&self) -> u64 {
+        self.network.segment().overlong_frames()
+    }
 }

@@ -86,7 +86,7 @@ mod tests {
         [
             (vec![0xFF; 13], FrameFate::Destroyed),
             (vec![0; 1600], FrameFate::Destroyed),
-            (ethercat(100, 2), FrameFate::Destroyed),
+            (ethercat(100, 60), FrameFate::Destroyed),
             (ethercat(20, 30), FrameFate::Destroyed),
             (vec![0; 60], FrameFate::Destroyed),
             (ethercat(14, 2), FrameFate::CrossedOver),

@@ -27,6 +27,11 @@ pub trait Responder {
 
     /// The cable to the master has lost its carrier, or has it again. At the start it has it.
     fn carrier(&mut self, _present: bool) {}
+
+    /// Frames so far whose EtherCAT length was beyond their end, and that were taken all the same.
+    fn overlong_frames(&self) -> u64 {
+        0
+    }
 }
 
 impl<R: Responder + ?Sized> Responder for &mut R {
@@ -44,6 +49,10 @@ impl<R: Responder + ?Sized> Responder for &mut R {
 
     fn carrier(&mut self, present: bool) {
         (**self).carrier(present);
+    }
+
+    fn overlong_frames(&self) -> u64 {
+        (**self).overlong_frames()
     }
 }
 
@@ -73,6 +82,8 @@ pub struct Statistics {
     pub frames: u64,
     /// Frames that did not come back: destroyed, or gone out at the far end.
     pub destroyed: u64,
+    /// Frames whose EtherCAT length was beyond their end.
+    pub overlong: u64,
     /// Frames that came and found no room in the medium, so that nobody saw them.
     pub dropped: u64,
     /// Answers that the port did not take.
@@ -172,6 +183,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
             self.statistics.destroyed += 1;
             self.losses.count(frame, fate);
         }
+        self.count_overlong();
         if let Some(observer) = &mut self.observer {
             let answer = (fate == FrameFate::Returned).then_some(&*frame);
             observer.frame(Seen { received, request, answered: self.clock.now(), answer });
@@ -186,6 +198,18 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
             }
             self.statistics.unsent += 1;
         }
+    }
+
+    /// Warns of the first one only: a master that sends one sends all so.
+    fn count_overlong(&mut self) {
+        let overlong = self.responder.overlong_frames();
+        if overlong > 0 && self.statistics.overlong == 0 {
+            tracing::warn!(
+                "a frame's EtherCAT length is beyond its end; it was taken, as its datagrams were all there; \
+                 further ones are only counted"
+            );
+        }
+        self.statistics.overlong = overlong;
     }
 
     fn poll(&mut self, after_frame: bool) {

@@ -29,6 +29,7 @@ pub struct Segment {
     escs: Vec<Esc>,
     way: Way,
     activity: Activity,
+    overlong_frames: u64,
 }
 
 /// The way of a frame that comes in at the master's end.
@@ -60,7 +61,7 @@ impl Segment {
         }
         let activity = Activity::new(escs.len());
         let way = Way { reach: 0, cables: 0, end: WayEnd::Lost };
-        let mut segment = Self { escs, way, activity };
+        let mut segment = Self { escs, way, activity, overlong_frames: 0 };
         segment.follow_ports();
         segment
     }
@@ -113,6 +114,13 @@ impl Segment {
         Some(PortActivity { link, last_frame: self.activity.last_frame(cable, self.way.cables) })
     }
 
+    /// Frames from the master whose EtherCAT header promised more bytes than they had. They were taken: their
+    /// datagrams were all there.
+    #[must_use]
+    pub const fn overlong_frames(&self) -> u64 {
+        self.overlong_frames
+    }
+
     /// A frame comes from the master at `now`, from its destination address on, without FCS.
     pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         let way = self.way;
@@ -125,6 +133,7 @@ impl Segment {
         }
         let fate = match kind {
             FrameKind::Datagrams(layout) => {
+                self.overlong_frames += u64::from(layout.is_overlong());
                 self.pass_datagrams(0..way.reach, now, frame, &layout);
                 layout.mark_passed(frame);
                 FrameFate::Returned

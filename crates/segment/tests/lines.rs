@@ -202,3 +202,37 @@ fn nothing_crosses_to_a_far_end_without_a_cable() {
     let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
     assert_eq!(line(2).frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed);
 }
+
+/// libethercat tells an EtherCAT length of 16 bytes too many. Nothing of such a frame is lost, and it is no error.
+#[test]
+fn a_frame_whose_length_is_beyond_its_end_is_taken_and_counted() {
+    let mut line = line(2);
+    for (overlong, extra) in [(0, 0), (1, 16), (2, 16), (2, 0)] {
+        let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0; 2]).finish();
+        frame[14] += extra;
+        assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Returned);
+        assert_eq!(returned_datagrams(&frame)[0].working_counter, 2);
+        assert_eq!(frame[14], 14 + extra, "its length goes back as it came");
+        assert_eq!(line.overlong_frames(), overlong);
+    }
+    assert_eq!(read(&mut line, 0, 0x0300, 20), [0; 20]);
+}
+
+/// What happens with a more flag on the last datagram: where the length ends the chain, all of it is taken.
+#[test]
+fn a_more_flag_on_the_last_datagram_is_passed_over() {
+    let mut line = line(2);
+    let builder = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]);
+    let mut frame = builder.physical(Command::Bwr, 0, 0x0010, &[7, 0]).finish();
+    let last_length_at = 16 + 13 + 7;
+    frame[last_length_at] |= 0x80;
+    let padded = [&frame[..], &[0xA5; 20]].concat();
+    for mut frame in [frame, padded] {
+        assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Returned);
+        let returned = returned_datagrams(&frame);
+        assert_eq!(returned.iter().map(|datagram| datagram.working_counter).collect::<Vec<_>>(), [2, 2]);
+        assert!(returned[1].header.more_follow, "the flag goes back as it came");
+        assert_eq!(read(&mut line, 1, 0x0010, 2), [7, 0]);
+    }
+    assert_eq!(read(&mut line, 0, 0x0300, 20), [0; 20]);
+}

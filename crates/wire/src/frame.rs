@@ -37,6 +37,7 @@ pub struct Layout {
     start: usize,
     end: usize,
     udp_checksum_at: Option<usize>,
+    is_overlong: bool,
 }
 
 /// Why a frame is broken.
@@ -46,15 +47,15 @@ pub enum Defect {
     TooShort,
     /// It is longer than [`FRAME_BYTES_MAX`].
     TooLong,
-    /// Its EtherCAT header promises more bytes than came.
+    /// Its EtherCAT header promises more bytes than came, and its chain of datagrams does not end before.
     Truncated,
     /// A datagram does not fit into the length that the EtherCAT header tells.
     DatagramBeyondEnd,
 }
 
 impl FrameKind {
-    /// Looks at a frame from its destination address on, without FCS. Padding behind the datagrams is
-    /// ignored: the EtherCAT length counts, so that frames of 29 bytes, as they come over veth, are fine.
+    /// Looks at a frame from its destination address on, without FCS. What lies behind the last datagram is
+    /// ignored, whatever the EtherCAT length says: frames of 29 bytes, as they come over veth, are fine.
     #[must_use]
     pub fn of(frame: &[u8]) -> Self {
         if frame.len() > FRAME_BYTES_MAX {
@@ -69,6 +70,12 @@ impl FrameKind {
 }
 
 impl Layout {
+    /// Whether the EtherCAT header promises more bytes than the frame has. Its datagrams are all there.
+    #[must_use]
+    pub const fn is_overlong(&self) -> bool {
+        self.is_overlong
+    }
+
     /// Opens the datagrams one after the other for editing in place.
     #[must_use]
     pub fn datagrams<'a>(&self, frame: &'a mut [u8]) -> Datagrams<'a> {
@@ -150,30 +157,43 @@ impl Located {
             return FrameKind::OtherType;
         }
         let start = self.header_at + ETHERCAT_HEADER_BYTES;
-        let end = start + usize::from(header & 0x07FF);
-        match frame.get(start..end) {
-            None => FrameKind::Defective(Defect::Truncated),
-            Some(area) if !chain_fits(area) => FrameKind::Defective(Defect::DatagramBeyondEnd),
-            Some(_) => FrameKind::Datagrams(Layout { start, end, udp_checksum_at: self.udp_checksum_at }),
+        let promised_end = start + usize::from(header & 0x07FF);
+        let end = promised_end.min(frame.len());
+        let is_overlong = promised_end > end;
+        match (chain_end(frame.get(start..end).unwrap_or_default()), is_overlong) {
+            (ChainEnd::LastDatagram, _) | (ChainEnd::LengthUsedUp, false) => {
+                let udp_checksum_at = self.udp_checksum_at;
+                FrameKind::Datagrams(Layout { start, end, udp_checksum_at, is_overlong })
+            }
+            (ChainEnd::LengthUsedUp | ChainEnd::Missing, true) => FrameKind::Defective(Defect::Truncated),
+            (ChainEnd::Missing, false) => FrameKind::Defective(Defect::DatagramBeyondEnd),
         }
     }
 }
 
-/// Whether every datagram of the chain lies within `area`. The chain ends at a datagram without the more
-/// flag, or where the length is used up.
-fn chain_fits(mut area: &[u8]) -> bool {
+/// How a chain of datagrams ends.
+enum ChainEnd {
+    /// With a datagram that has no more flag.
+    LastDatagram,
+    /// Behind a datagram with the more flag, or before the first.
+    LengthUsedUp,
+    /// A datagram does not fit.
+    Missing,
+}
+
+fn chain_end(mut area: &[u8]) -> ChainEnd {
     while !area.is_empty() {
-        let Some(head) = area.first_chunk::<DATAGRAM_HEADER_BYTES>() else { return false };
+        let Some(head) = area.first_chunk::<DATAGRAM_HEADER_BYTES>() else { return ChainEnd::Missing };
         let header = DatagramHeader::unpack(head);
         let Some(rest) = area.get(DATAGRAM_OVERHEAD_BYTES + usize::from(header.length_bytes)..) else {
-            return false;
+            return ChainEnd::Missing;
         };
         if !header.more_follow {
-            return true;
+            return ChainEnd::LastDatagram;
         }
         area = rest;
     }
-    true
+    ChainEnd::LengthUsedUp
 }
 
 fn be_u16(bytes: &[u8], at: usize) -> Option<u16> {

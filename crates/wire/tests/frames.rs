@@ -77,6 +77,32 @@ fn defects_are_named() {
     assert_eq!(FrameKind::of(&beyond), FrameKind::Defective(Defect::DatagramBeyondEnd));
 }
 
+/// libethercat tells 16 bytes too many; controllers go by the datagrams.
+#[test]
+fn a_length_beyond_the_frame_is_passed_over_when_the_datagrams_are_there() {
+    for datagrams in 1..=3 {
+        let builder = |frame: FrameBuilder, n| frame.physical(Command::Brd, n, 0x0130, &[0; 2]);
+        let mut frame = (0..datagrams).fold(FrameBuilder::new(), builder).finish();
+        let whole = returned_datagrams(&frame);
+        frame[14] += 16;
+        assert!(matches!(FrameKind::of(&frame), FrameKind::Datagrams(layout) if layout.is_overlong()));
+        assert_eq!(returned_datagrams(&frame), whole);
+        frame.pop();
+        assert_eq!(FrameKind::of(&frame), FrameKind::Defective(Defect::Truncated), "the last one is cut");
+    }
+    let FrameKind::Datagrams(layout) = FrameKind::of(&brd()) else { panic!("no datagrams found") };
+    assert!(!layout.is_overlong());
+}
+
+/// With the more flag on its last datagram such a frame has no end.
+#[test]
+fn a_length_beyond_the_frame_with_more_promised_is_cut_short() {
+    let mut frame = brd();
+    frame[14] += 16;
+    frame[23] |= 0x80;
+    assert_eq!(FrameKind::of(&frame), FrameKind::Defective(Defect::Truncated));
+}
+
 #[test]
 fn a_chain_ends_where_the_length_is_used_up_even_if_more_are_promised() {
     let mut frame = brd();

@@ -3,11 +3,12 @@ use std::thread;
 use super::*;
 use crate::memory;
 
-/// Sets the highest bit of what passes, destroys frames that start with 0, polls every millisecond.
+/// Sets the highest bit of what passes, destroys frames that start with 0, counts those that start with 7, polls every millisecond.
 #[derive(Default)]
 struct Marker {
     next: Instant,
     polls: u64,
+    overlong: u64,
 }
 
 impl Responder for Marker {
@@ -15,6 +16,7 @@ impl Responder for Marker {
         match frame.first_mut() {
             None | Some(0) => FrameFate::Destroyed,
             Some(first) => {
+                self.overlong += u64::from(*first == 7);
                 *first |= 0x80;
                 FrameFate::Returned
             }
@@ -28,6 +30,10 @@ impl Responder for Marker {
 
     fn deadline(&self) -> Instant {
         self.next
+    }
+
+    fn overlong_frames(&self) -> u64 {
+        self.overlong
     }
 }
 
@@ -59,6 +65,11 @@ fn run_against(frames: &[&[u8]], answers: usize, observer: Option<&mut dyn Obser
 fn frames_are_answered_and_destroyed_ones_are_counted() {
     let statistics = run_against(&[&[1, 2], &[0, 9], &[3]], 2, None);
     assert_eq!((statistics.frames, statistics.destroyed, statistics.unsent), (3, 1, 0));
+}
+
+#[test]
+fn overlong_frames_are_counted() {
+    assert_eq!(run_against(&[&[1], &[7], &[2], &[7]], 4, None).overlong, 2);
 }
 
 #[test]
