@@ -1,13 +1,10 @@
 //! The SDO information server: lists of objects, descriptions of objects and entries (ETG.1000.6).
 
-use objects::{Entry, ObjectTable};
+use objects::{AccessRights, Entry, ObjectTable};
 use wire::{
-    EntryDescription, MailboxErrorCode, ObjectDescription, ObjectIndex, SdoAbort, SdoInfoHeader, SdoInfoList,
-    SdoInfoOpcode, SdoInfoRequest, SdoInfoSyntaxError, SubIndex, ValueInfo, pack_sdo_info_error,
+    DataType, EntryDescription, MailboxErrorCode, ObjectDescription, ObjectIndex, SdoAbort, SdoInfoHeader,
+    SdoInfoList, SdoInfoOpcode, SdoInfoRequest, SdoInfoSyntaxError, SubIndex, ValueInfo, pack_sdo_info_error,
 };
-
-/// Longest value of which a minimum and a maximum are known.
-const LIMITED_BYTES_MAX: usize = 8;
 
 /// The server; a list that does not fit one message goes out in fragments.
 #[derive(Debug)]
@@ -107,6 +104,11 @@ impl InfoServer {
         room: &mut [u8],
     ) -> Result<Option<usize>, SdoAbort> {
         let object = table.object(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
+        if object.is_gap(sub) {
+            return Ok(describe(SdoInfoOpcode::EntryResponse, room, |body| {
+                gap(index, sub, asked).pack(body)
+            }));
+        }
         let entry = object.entry(sub).ok_or(SdoAbort::SUBINDEX_DOES_NOT_EXIST)?;
         let room_bytes =
             room.len().saturating_sub(SdoInfoHeader::LENGTH_BYTES + EntryDescription::FIXED_BYTES);
@@ -127,11 +129,10 @@ impl InfoServer {
     /// Gathers those of the values asked for that the entry has and that fit; tells which.
     fn gather_values(&mut self, entry: &Entry, asked: ValueInfo, room_bytes: usize) -> ValueInfo {
         let size_bytes = entry.size_bytes();
-        let limited = size_bytes <= LIMITED_BYTES_MAX;
-        let minimum = entry.limits.iter().map(|limit| *limit.start()).min().filter(|_| limited);
-        let maximum = entry.limits.iter().map(|limit| *limit.end()).max().filter(|_| limited);
-        let in_access_word = ValueInfo::ACCESS_RIGHTS | ValueInfo::CATEGORY | ValueInfo::PDO_MAPPING;
-        let mut delivered = asked & in_access_word;
+        let range = entry.range();
+        let minimum = range.as_ref().map(|range| range.start().to_le_bytes());
+        let maximum = range.as_ref().map(|range| range.end().to_le_bytes());
+        let mut delivered = asked & in_access_word();
         self.values.clear();
         let mut deliver = |info: ValueInfo, value: Option<&[u8]>| {
             let fits = self.values.len() + size_bytes <= room_bytes;
@@ -142,10 +143,30 @@ impl InfoServer {
             delivered |= info;
         };
         deliver(ValueInfo::DEFAULT, Some(&entry.default));
-        deliver(ValueInfo::MINIMUM, minimum.map(u64::to_le_bytes).as_ref().map(|octets| &octets[..]));
-        deliver(ValueInfo::MAXIMUM, maximum.map(u64::to_le_bytes).as_ref().map(|octets| &octets[..]));
+        deliver(ValueInfo::MINIMUM, minimum.as_ref().map(|octets| &octets[..]));
+        deliver(ValueInfo::MAXIMUM, maximum.as_ref().map(|octets| &octets[..]));
         delivered
     }
+}
+
+/// A subindex without an entry, as Beckhoff's slave stack describes it: masters ask for every subindex up to the
+/// highest, and take a refusal for a fault.
+fn gap(index: ObjectIndex, sub: SubIndex, asked: ValueInfo) -> EntryDescription<'static> {
+    EntryDescription {
+        index,
+        sub,
+        value_info: asked & in_access_word(),
+        data_type: DataType::NONE,
+        bit_length: 0,
+        access: AccessRights::empty().bits(),
+        values: &[],
+        name: &[],
+    }
+}
+
+/// What the access word tells.
+fn in_access_word() -> ValueInfo {
+    ValueInfo::ACCESS_RIGHTS | ValueInfo::CATEGORY | ValueInfo::PDO_MAPPING
 }
 
 fn describe_object(

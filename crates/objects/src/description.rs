@@ -121,6 +121,16 @@ impl Entry {
         unsigned(value).is_none_or(|value| self.limits.iter().any(|limit| limit.contains(&value)))
     }
 
+    /// The least and the greatest value that it can have: those that a write may set, and its default, which is none
+    /// of them where a write is a command. None without limits, and for values longer than 64 bits.
+    #[must_use]
+    pub fn range(&self) -> Option<RangeInclusive<u64>> {
+        let default = unsigned(&self.default)?;
+        let least = self.limits.iter().map(|limit| *limit.start()).min()?;
+        let greatest = self.limits.iter().map(|limit| *limit.end()).max()?;
+        Some(least.min(default)..=greatest.max(default))
+    }
+
     /// Whether complete access packs it bit by bit behind its neighbour: booleans, BIT1 to BIT8, bit
     /// arrays, and whatever else is no whole number of octets.
     #[must_use]
@@ -161,6 +171,12 @@ impl Object {
     pub fn entry(&self, sub: SubIndex) -> Option<&Entry> {
         let at = self.entries.binary_search_by_key(&sub, |entry| entry.sub).ok()?;
         self.entries.get(at)
+    }
+
+    /// Whether `sub` is a gap: it lies between entries and has none. A gap takes no bits, in complete access too.
+    #[must_use]
+    pub fn is_gap(&self, sub: SubIndex) -> bool {
+        sub < self.max_sub() && self.entry(sub).is_none()
     }
 
     /// The highest subindex that exists.

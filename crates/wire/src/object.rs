@@ -32,6 +32,8 @@ impl fmt::Display for SubIndex {
 pub struct DataType(pub u16);
 
 impl DataType {
+    /// No type: a subindex without an entry.
+    pub const NONE: Self = Self(0x0000);
     /// BOOL, 1 bit.
     pub const BOOLEAN: Self = Self(0x0001);
     /// INT, 16 bits.

@@ -3,8 +3,8 @@
 use mailbox::AbortProfile;
 use objects::{AccessRights, Entry, ObjectServer};
 use wire::{
-    AlState, CoeService, EntryDescription, MailboxErrorCode, ObjectDescription, ObjectIndex, SdoAbort,
-    SdoInfoList, SdoInfoOpcode, SdoInfoRequest, SdoTarget, SubIndex, ValueInfo,
+    AlState, CoeService, DataType, EntryDescription, MailboxErrorCode, ObjectDescription, ObjectIndex,
+    SdoAbort, SdoInfoList, SdoInfoOpcode, SdoInfoRequest, SdoTarget, SubIndex, ValueInfo,
 };
 
 use crate::bench::{Bench, mailbox_error};
@@ -71,6 +71,50 @@ fn describe_and_read(bench: &mut Bench, index: ObjectIndex, entry: &Entry) {
         let value = bench.upload(SdoTarget::entry(index.0, entry.sub.0)).unwrap();
         assert_eq!(value.len(), usize::from(described.bit_length).div_ceil(8));
     }
+}
+
+/// Masters ask for every subindex up to the highest: one without an entry has no type, no bits, no access, no name.
+#[test]
+fn every_subindex_up_to_the_highest_has_a_description() {
+    let mut bench = Bench::in_pre_op();
+    let mut gaps = 0;
+    let objects: Vec<_> = bench.objects.table().iter().cloned().collect();
+    for object in &objects {
+        let mut bits = 0;
+        for sub in 0..=object.max_sub().0 {
+            let request = SdoInfoRequest::Entry {
+                index: object.index,
+                sub: SubIndex(sub),
+                value_info: ValueInfo::all(),
+            };
+            let (opcode, data) = bench.information(request);
+            assert_eq!(opcode, SdoInfoOpcode::EntryResponse, "{}:{sub}", object.index);
+            let described = EntryDescription::parse(&data).unwrap();
+            assert_eq!((described.index, described.sub.0), (object.index, sub));
+            let slot = object.layout(SubIndex(0)).find(|slot| slot.sub.0 == sub);
+            if let Some(slot) = slot {
+                assert!(slot.bit_offset >= bits, "complete access puts it behind what is described before");
+                bits = slot.bit_offset + usize::from(described.bit_length);
+            } else {
+                let nothing = (DataType(0), 0, 0, &[][..], &[][..]);
+                let EntryDescription { data_type, bit_length, access, values, name, .. } = described;
+                assert_eq!((data_type, bit_length, access, values, name), nothing);
+                assert_eq!(described.value_info.bits(), 0x07);
+                let upload = bench.upload(SdoTarget::entry(object.index.0, sub));
+                assert_eq!(upload, Err(SdoAbort::SUBINDEX_DOES_NOT_EXIST));
+                gaps += 1;
+            }
+        }
+        let beyond = SubIndex(object.max_sub().0 + 1);
+        let request =
+            SdoInfoRequest::Entry { index: object.index, sub: beyond, value_info: ValueInfo::all() };
+        let (opcode, data) = bench.information(request);
+        assert_eq!(
+            (opcode, data),
+            (SdoInfoOpcode::Error, SdoAbort::SUBINDEX_DOES_NOT_EXIST.0.to_le_bytes().to_vec())
+        );
+    }
+    assert!(gaps > 0, "the dictionary of the bench has gaps");
 }
 
 #[test]

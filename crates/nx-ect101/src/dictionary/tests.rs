@@ -1,5 +1,7 @@
 //! Every object over SDO, as a master meets it: what it reads, what it refuses.
 
+mod information;
+
 use mailbox::{AbortProfile, Mailbox, MailboxSizes};
 use objects::AccessRights;
 
