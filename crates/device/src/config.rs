@@ -4,6 +4,8 @@ use esc::EscConfig;
 use mailbox::{AbortProfile, MailboxSizes};
 use time::Duration;
 
+use crate::conduct::Conduct;
+
 /// A part of the ESC memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
@@ -32,13 +34,13 @@ impl MailboxConfig {
     }
 }
 
-/// Whether SAFE-OP to OP waits for outputs (reference 5.4). ethercrab asks for OP before it sends any,
-/// SOEM sends them first.
+/// Whether SAFE-OP to OP waits for outputs (reference 5.4, C056).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputsBeforeOp {
     /// OP without having seen outputs; they are not valid until they come.
     NotRequired,
-    /// OP with the first outputs; without them AL status code 0x001B after this time.
+    /// OP with the first outputs that have come since SAFE-OP was entered; without them AL status code 0x001B
+    /// after this time. Only outputs that the process data watchdog watches are waited for.
     Within(Duration),
 }
 
@@ -79,4 +81,6 @@ pub struct DeviceConfig {
     pub watchdog_check: WatchdogCheck,
     /// Requests in OP that are no transition.
     pub refused_in_op: RefusedInOp,
+    /// Slow transitions, refusals: how the slave behaves until somebody changes it.
+    pub conduct: Conduct,
 }

@@ -5,8 +5,9 @@ mod watch;
 
 use esc::{AlEvents, Esc, Pdi, Port, SmIndex};
 use time::{Duration, Instant};
-use wire::{AlState, AlStatus, AlStatusCode};
+use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 
+use crate::conduct::Conduct;
 use crate::config::DeviceConfig;
 use crate::mailbox_service::MailboxService;
 use crate::unit::{Exchange, PortLinks, Start, Unit};
@@ -25,8 +26,11 @@ pub struct Device<U> {
     mailbox: Option<MailboxService>,
     status: AlStatus,
     code: AlStatusCode,
-    /// The master has asked for OP; outputs have to come before this moment.
-    op_deadline: Option<Instant>,
+    conduct: Conduct,
+    /// When the state request that waits in AL control is taken.
+    request_due: Option<Instant>,
+    /// The master has asked for OP, and outputs have not come yet.
+    op_request: Option<OpRequest>,
     /// Outputs have come since the slave left PRE-OP; OP watches over them from its beginning on.
     outputs_came: bool,
     /// Emergencies that found no mailbox, or no room in it.
@@ -42,11 +46,13 @@ impl<U: Unit> Device<U> {
         let esc = Esc::power_on(config.esc.clone(), config.sii_image.clone(), now);
         let mut device = Self {
             unit,
+            conduct: config.conduct.clone(),
             config,
             mailbox: None,
             status: AlStatus::default(),
             code: AlStatusCode::NO_ERROR,
-            op_deadline: None,
+            request_due: None,
+            op_request: None,
             outputs_came: false,
             emergencies_lost: 0,
             next_refresh: now,
@@ -67,7 +73,8 @@ impl<U: Unit> Device<U> {
         esc.reset(now);
         self.status = AlStatus::default();
         self.code = AlStatusCode::NO_ERROR;
-        self.op_deadline = None;
+        self.request_due = None;
+        self.op_request = None;
         self.outputs_came = false;
         self.is_off = false;
         if let Some(mailbox) = &mut self.mailbox {
@@ -124,6 +131,27 @@ impl<U: Unit> Device<U> {
         self.code
     }
 
+    /// Times and refusals of the state machine, to be changed; [`Device::behave`] takes the change back.
+    pub const fn conduct_mut(&mut self) -> &mut Conduct {
+        &mut self.conduct
+    }
+
+    /// Mailbox requests that come from now on are answered this long after they came.
+    pub fn set_response_time(&mut self, response_time: Duration) {
+        if let Some(mailbox) = &mut self.mailbox {
+            mailbox.set_response_time(response_time);
+        }
+    }
+
+    /// Conduct, mailbox and SII take their times of power-on again. The content of the SII stays.
+    pub fn behave(&mut self, esc: &mut Esc) {
+        self.conduct = self.config.conduct.clone();
+        if let Some(mailbox) = self.config.mailbox {
+            self.set_response_time(mailbox.response_time);
+        }
+        esc.set_sii_timing(self.config.esc.sii);
+    }
+
     /// When the device has to be polled next, whatever the wire does.
     #[must_use]
     pub fn deadline(&self) -> Instant {
@@ -131,12 +159,13 @@ impl<U: Unit> Device<U> {
             return Instant::NEVER;
         }
         let mailbox = self.mailbox.as_ref().map_or(Instant::NEVER, MailboxService::deadline);
-        self.next_refresh.min(mailbox).min(self.op_deadline.unwrap_or(Instant::NEVER))
+        let outputs = self.op_request.map_or(Instant::NEVER, |request| request.deadline);
+        self.next_refresh.min(mailbox).min(outputs).min(self.request_due.unwrap_or(Instant::NEVER))
     }
 
     /// Whether the next outputs take the slave to OP.
     pub(crate) const fn awaits_outputs(&self) -> bool {
-        self.op_deadline.is_some()
+        self.op_request.is_some()
     }
 
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
@@ -152,9 +181,7 @@ impl<U: Unit> Device<U> {
         if pdi.take_activation_event() {
             self.watch_sync_managers(&mut pdi, now);
         }
-        if let Some(control) = pdi.take_al_control() {
-            self.on_al_control(control, &mut pdi, now);
-        }
+        self.watch_al_control(&mut pdi, now);
         if pdi.take_watchdog_event() && self.status.state == AlState::Op {
             self.drop_to(AlState::SafeOp, &[AlStatusCode::SYNC_MANAGER_WATCHDOG], &mut pdi, now);
         }
@@ -286,6 +313,14 @@ impl<U: Unit> Device<U> {
         self.code = code;
         pdi.set_al_status(status, code);
     }
+}
+
+/// A request for OP that waits for outputs.
+#[derive(Clone, Copy, Debug)]
+struct OpRequest {
+    control: AlControl,
+    /// Without outputs it is refused then.
+    deadline: Instant,
 }
 
 /// AL status with an error in `state`; without a code there is no error indication.

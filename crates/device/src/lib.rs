@@ -4,6 +4,7 @@
 //! [`DeviceConfig`] the layout; a [`Network`] is a line of such slaves that frames pass.
 
 mod checks;
+mod conduct;
 mod config;
 mod device;
 mod mailbox_service;
@@ -11,6 +12,7 @@ mod network;
 mod state_machine;
 mod unit;
 
+pub use conduct::{Conduct, Refusals, TransitionTimes};
 pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, WatchdogCheck};
 pub use device::Device;
 pub use esc::{EscConfig, SiiTiming, SyncManagerWrites};

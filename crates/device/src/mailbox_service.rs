@@ -3,7 +3,7 @@
 use esc::{Pdi, SmIndex};
 use mailbox::Mailbox;
 use objects::{ObjectServer, ObjectTable};
-use time::Instant;
+use time::{Duration, Instant};
 use wire::AlState;
 
 use crate::config::MailboxConfig;
@@ -36,6 +36,11 @@ impl MailboxService {
 
     pub(crate) fn mailbox(&mut self) -> &mut Mailbox {
         &mut self.mailbox
+    }
+
+    /// A request that is waiting already keeps its time.
+    pub(crate) const fn set_response_time(&mut self, response_time: Duration) {
+        self.config.response_time = response_time;
     }
 
     /// Starts afresh, as at INIT to PRE-OP.

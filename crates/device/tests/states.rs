@@ -3,7 +3,7 @@
 mod bench;
 
 use bench::{Bench, config};
-use device::{DeviceConfig, OutputsBeforeOp, TRANSITIONS, WatchdogCheck};
+use device::{DeviceConfig, TRANSITIONS, WatchdogCheck};
 use proptest::prelude::*;
 use time::Duration;
 use wire::AlState::{self, Boot, Init, Op, PreOp, SafeOp};
@@ -185,26 +185,6 @@ fn the_explicit_device_id_is_told_and_taken_back() {
     assert_eq!(bench.status(), (0x12, 0x11));
     bench.request(0x22);
     assert_eq!(bench.status(), (0x12, 0x11));
-}
-
-/// C055, C056: a unit that waits for outputs takes OP with the first ones, or refuses in time.
-#[test]
-fn op_may_wait_for_outputs() {
-    let waiting =
-        DeviceConfig { outputs_before_op: OutputsBeforeOp::Within(Duration::from_millis(200)), ..config() };
-    let mut bench = Bench::with(waiting);
-    bench.bring_to(SafeOp);
-    bench.request(Op.bits());
-    assert_eq!(bench.status(), (0x04, 0));
-    bench.cycle(1);
-    assert_eq!(bench.status(), (0x08, 0));
-    bench.request(PreOp.bits());
-    bench.write(0x0816, &[0]);
-    bench.set_process_data();
-    bench.request(SafeOp.bits());
-    bench.request(Op.bits());
-    bench.run_for(Duration::from_millis(201));
-    assert_eq!(bench.status(), (0x14, 0x1B));
 }
 
 #[test]

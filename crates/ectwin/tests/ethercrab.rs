@@ -46,7 +46,7 @@ async fn exchange(pdu_loop: PduLoop<'static>, units: u16) {
     let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<16, 4096>(ethercat_now).await.unwrap();
     assert_eq!(group.len(), usize::from(units));
-    let group = group.into_op(&master).await.unwrap();
+    let group = patient_master::into_op(group, &master).await;
     let mut ticks = tokio::time::interval(Duration::from_millis(1));
     let expected = working_counter(usize::from(units));
     let mut newest = vec![0; usize::from(units)];
@@ -99,7 +99,7 @@ async fn a_test_sets_inputs_and_sees_outputs_at_the_units_side() {
     let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<2, 512>(ethercat_now).await.unwrap();
     assert_eq!(live.look(0, |unit| unit.state()), AlState::PreOp);
-    let group = group.into_op(&master).await.unwrap();
+    let group = patient_master::into_op(group, &master).await;
     group.subdevice(&master, 0).unwrap().outputs_raw_mut()[..2].copy_from_slice(&[0x78, 0x56]);
 
     let mut ticks = tokio::time::interval(Duration::from_millis(1));

@@ -12,8 +12,6 @@ use crate::sii::Sii;
 use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SmMode, SyncManagerSettings};
 
 const RESET_SEQUENCE: [u8; 3] = *b"RES";
-/// MII control: what is kept; command, errors and busy are not.
-const MII_SETTINGS: u16 = 0x00FF;
 /// DL control bit 24: the station alias answers too.
 const USE_ALIAS: u8 = 1;
 /// What 0x0040 reads after each step of the sequence.
@@ -88,11 +86,12 @@ impl Esc {
             }
             let effect = BYTES.effect(offset);
             effects.0 |= 1 << effect as u32;
-            if stores(effect) {
-                self.memory.set_u8(offset, *byte);
+            // The SII is taken when it is not busy. SyncManagers decide about their bytes as a whole: a write that
+            // disables one may also set it.
+            if !matches!(effect, Effect::SiiCommand | Effect::SyncManager) {
+                self.memory.store(offset, *byte);
             }
         }
-        // SyncManagers decide about their bytes as a whole: a write that disables one may also set it.
         if effects.contains(Effect::SyncManager) {
             self.write_sync_managers(offset, data, at::SYNC_MANAGER.max(offset));
         }
@@ -118,11 +117,6 @@ impl Esc {
         }
         if has(Effect::SiiCommand) {
             self.write_sii(offset, data, now);
-        }
-        if has(Effect::MiiControl) {
-            // No PHY stands behind it: a command is done at once, without error.
-            let control = self.memory.u16(at::MII_CONTROL);
-            self.memory.set_u16(at::MII_CONTROL, control & MII_SETTINGS);
         }
         if has(Effect::DcLatch) {
             self.dc.latch(&mut self.memory, passage);
@@ -170,7 +164,7 @@ impl Esc {
         let byte = |at: u16| offset.le(&at).then(|| data.get(usize::from(at - offset)).copied()).flatten();
         for at in at::SII_ADDRESS..at::SII_DATA + 8 {
             if let Some(byte) = byte(at) {
-                self.memory.set_u8(at, byte);
+                self.memory.store(at, byte);
             }
         }
         if let Some(command) = byte(command_at) {
@@ -198,14 +192,14 @@ impl Esc {
         };
         let activation = written(6);
         if let Some(activation) = activation {
-            self.memory.set_u8(registers + 6, activation);
+            self.memory.store(registers + 6, activation);
             self.al_events |= AlEvents::SYNC_MANAGER_ACTIVATION;
         }
         // The activation counts first: a write that also disables the SyncManager may set it.
         if self.takes_settings(n) || activation.is_some_and(|activation| activation & 1 == 0) {
             for byte in 0..5 {
                 if let Some(value) = written(byte) {
-                    self.memory.set_u8(registers + byte, value);
+                    self.memory.store(registers + byte, value);
                 }
             }
         }
@@ -294,21 +288,6 @@ impl Effects {
     const fn contains(self, effect: Effect) -> bool {
         self.0 & 1 << effect as u32 != 0
     }
-}
-
-const fn stores(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::Store
-            | Effect::Protection
-            | Effect::DlControl
-            | Effect::AlControl
-            | Effect::Watchdog
-            | Effect::SiiOwner
-            | Effect::Fmmu
-            | Effect::DcSpeedCounter
-            | Effect::MiiControl
-    )
 }
 
 fn cover(mappings: &[Mapping]) -> Span {

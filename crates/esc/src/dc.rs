@@ -35,15 +35,9 @@ impl Dc {
     }
 
     /// System time as the wire reads it: local time plus offset, less the delay.
-    fn system_time(&self, memory: &Memory, now: Instant) -> u64 {
+    pub(crate) fn system_time(&self, memory: &Memory, now: Instant) -> u64 {
         let delay = u64::from(memory.u32(at::SYSTEM_TIME_DELAY));
         self.local_time(now).wrapping_add(memory.u64(at::SYSTEM_TIME_OFFSET)).wrapping_sub(delay)
-    }
-
-    /// Puts the system time into its register before a read.
-    pub(crate) fn show(&self, memory: &mut Memory, now: Instant) {
-        let system_time = self.system_time(memory, now);
-        memory.set_u64(at::SYSTEM_TIME, system_time);
     }
 
     /// Latches when this frame came to the processing unit and to each port.

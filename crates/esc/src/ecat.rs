@@ -133,22 +133,6 @@ impl Esc {
         }
     }
 
-    pub(crate) fn show_live_registers(&mut self, now: Instant) {
-        let ecat_events = self.all_ecat_events().bits();
-        let al_events = self.all_al_events().bits();
-        self.memory.set_u16(at::ECAT_EVENT_REQUEST, ecat_events);
-        self.memory.set_u32(at::AL_EVENT_REQUEST, al_events);
-        self.memory.set_u16(at::SII_CONTROL, self.sii.status(now));
-        let count = usize::from(self.config.sync_manager_count);
-        for (n, sm) in (0u16..).zip(self.sync_managers.iter().take(count)) {
-            let registers = at::SYNC_MANAGER + n * SYNC_MANAGER_BYTES as u16;
-            self.memory.set_u8(registers + 5, sm.status());
-            self.memory.set_u8(registers + 7, sm.pdi_control());
-        }
-        self.watchdog.show(&mut self.memory);
-        self.dc.show(&mut self.memory, now);
-    }
-
     /// Reads RAM piece by piece, as SyncManagers cut it.
     #[inline]
     fn read_ram(

@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use time::Instant;
 
-use crate::config::EscConfig;
+use crate::config::{EscConfig, SiiTiming};
 use crate::dc::Dc;
 use crate::events::{AlEvents, EcatEvents};
 use crate::fmmu::{FMMUS_MAX, Fmmu, Span};
@@ -221,6 +221,17 @@ impl Esc {
         self.sii.image_mut()
     }
 
+    /// How long each further SII command takes.
+    pub const fn set_sii_timing(&mut self, timing: SiiTiming) {
+        self.config.sii = timing;
+        self.sii.set_timing(timing);
+    }
+
+    /// The SII interface is busy until then, whoever uses it.
+    pub const fn keep_sii_busy(&mut self, until: Instant) {
+        self.sii.keep_busy(until);
+    }
+
     /// How many words the wire has written to the EEPROM since power-on, modulo 2^32: whoever keeps the image
     /// sees by it that it may have changed.
     #[must_use]
@@ -267,16 +278,6 @@ impl Esc {
     /// The processing unit met a frame that it cannot process.
     pub fn count_processing_unit_error(&mut self) {
         self.memory.count_up(at::PROCESSING_UNIT_ERRORS);
-    }
-
-    /// What registers and RAM hold from `offset` on, without the effects that an access by the wire has; bytes
-    /// beyond the memory stay as they are. What a register works out when it is read (times, the SII interface)
-    /// is not in it.
-    pub fn look(&self, offset: u16, bytes: &mut [u8]) {
-        let length_bytes = bytes.len();
-        if let Some(memory) = self.memory.get(u32::from(offset), length_bytes) {
-            bytes.copy_from_slice(memory);
-        }
     }
 
     /// Whether frames that are not EtherCAT are destroyed here (DL control bit 0) or forwarded.

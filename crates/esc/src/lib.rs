@@ -12,6 +12,7 @@ mod ecat;
 mod esc;
 mod events;
 mod fmmu;
+mod live;
 mod logical;
 mod memory;
 mod pdi;

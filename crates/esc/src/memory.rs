@@ -1,6 +1,6 @@
 //! Memory of the ESC: registers and RAM in one piece, with little-endian access at an offset.
 
-use crate::registers::{REGISTER_BYTES, REGISTERS};
+use crate::registers::{BYTES, REGISTER_BYTES, REGISTERS};
 
 /// Registers 0x0000 to 0x0FFF and the process data RAM behind them.
 #[derive(Clone, Debug)]
@@ -73,6 +73,12 @@ impl Memory {
 
     pub(crate) fn set_u8(&mut self, offset: u16, value: u8) {
         self.slice_mut(offset, 1)[0] = value;
+    }
+
+    /// Stores what the wire writes to a register: the bits that the register has, and no reserved ones.
+    pub(crate) fn store(&mut self, offset: u16, value: u8) {
+        let stored = BYTES.stored(offset);
+        self.set_u8(offset, self.u8(offset) & !stored | value & stored);
     }
 
     pub(crate) fn set_u16(&mut self, offset: u16, value: u16) {

@@ -33,11 +33,16 @@ impl<'a> Pdi<'a> {
         changed
     }
 
-    /// Takes a state request, if there is one; the wire may write the next.
-    pub fn take_al_control(&mut self) -> Option<AlControl> {
-        let pending = core::mem::take(&mut self.esc.al_control_pending);
+    /// The state request that waits, if there is one. The wire cannot write the next until it is taken.
+    #[must_use]
+    pub fn al_control(&self) -> Option<AlControl> {
+        self.esc.al_control_pending.then(|| AlControl::from_bits(self.esc.memory.u16(at::AL_CONTROL)))
+    }
+
+    /// Takes the state request: the wire may write the next.
+    pub fn take_al_control(&mut self) {
+        self.esc.al_control_pending = false;
         self.esc.al_events -= AlEvents::AL_CONTROL;
-        pending.then(|| AlControl::from_bits(self.esc.memory.u16(at::AL_CONTROL)))
     }
 
     /// Sets AL status; the code goes first, so that it is valid no later than the error bit.
@@ -180,10 +185,20 @@ impl<'a> Pdi<'a> {
 
     /// Starts the process data watchdog, if this SyncManager has its trigger and it does not run yet.
     pub fn start_watchdog(&mut self, index: SmIndex, now: Instant) {
-        let settings = &self.sm(index).settings;
-        if settings.enabled && settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
+        if self.triggers_watchdog(index) {
             self.esc.watchdog.start(now);
         }
+    }
+
+    /// Whether the process data watchdog watches this SyncManager: it has the trigger, and the time is not 0.
+    #[must_use]
+    pub fn is_watched(&self, index: SmIndex) -> bool {
+        self.triggers_watchdog(index) && self.watchdog_time() > 0
+    }
+
+    fn triggers_watchdog(&self, index: SmIndex) -> bool {
+        let settings = &self.sm(index).settings;
+        settings.enabled && settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites
     }
 
     /// Process data watchdog time register 0x0420; 0 is off.

@@ -1,4 +1,4 @@
-//! The register map 0x0000 to 0x0FFF as one table: width, reset value, who may write, side effect.
+//! The register map 0x0000 to 0x0FFF as one table: width, reset value, who may write which bits, side effect.
 //!
 //! ETG.1000.4 and the data sheet of an ET1100-class controller, as listed in reference 2.1 to 2.15. What
 //! stands in no row is reserved: it reads as 0 and ignores writes.
@@ -28,18 +28,18 @@ pub enum PdiAccess {
     ReadWrite,
 }
 
-/// What a write from the wire does, beside or instead of storing the bytes.
+/// What a write from the wire does, beside storing the bits that [`Register::stored`] names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Stores the bytes.
+    /// Nothing else.
     Store,
     /// Write protection registers: they are looked at while a frame passes.
     Protection,
     /// "RES" in three frames resets the controller.
     Reset,
-    /// Stores, and opens or closes ports.
+    /// Opens or closes ports.
     DlControl,
-    /// Stores one request, which stays until the PDI has read it.
+    /// A request, which stays until the PDI has read it.
     AlControl,
     /// Clears the port error counters 0x0300 to 0x030B.
     ClearPortErrors,
@@ -49,30 +49,28 @@ pub enum Effect {
     ClearPdiErrors,
     /// Clears the lost link counters.
     ClearLostLinks,
-    /// Stores, and sets the process data watchdog anew.
+    /// Sets the process data watchdog anew.
     Watchdog,
     /// Clears both watchdog counters.
     ClearWatchdogCounters,
-    /// Stores the owner of the SII.
+    /// Decides who owns the SII.
     SiiOwner,
     /// Runs a command on the SII.
     SiiCommand,
-    /// Stores, and sets an FMMU anew.
+    /// Sets an FMMU anew.
     Fmmu,
-    /// Stores what a SyncManager's state allows.
+    /// A SyncManager decides which of its bytes are taken.
     SyncManager,
     /// Latches the receive times of this frame.
     DcLatch,
     /// Feeds the time control loop.
     DcSystemTime,
-    /// Stores, and resets the time control loop.
+    /// Resets the time control loop.
     DcSpeedCounter,
-    /// Stores the settings; a command is done at once.
-    MiiControl,
 }
 
 impl Effect {
-    const COUNT: usize = Self::MiiControl as usize + 1;
+    const COUNT: usize = Self::DcSpeedCounter as usize + 1;
 }
 
 const _: () = assert!(Effect::COUNT <= 32);
@@ -92,7 +90,10 @@ pub struct Register {
     pub pdi: PdiAccess,
     /// Value after power-on, little endian over the width.
     pub reset: u32,
-    /// What a write from the wire does.
+    /// The bits that a write from the wire stores, byte by byte; bytes beyond its end are stored whole. The others
+    /// are reserved, read-only or cleared by any write.
+    pub stored: &'static [u8],
+    /// What else a write from the wire does.
     pub effect: Effect,
     /// How many of them follow each other.
     pub count: u16,
@@ -121,6 +122,7 @@ const fn row(
         ecat,
         pdi,
         reset: 0,
+        stored: &[],
         effect: Store,
         count: 1,
         stride_bytes: size_bytes,
@@ -130,6 +132,10 @@ const fn row(
 impl Register {
     const fn reset(self, reset: u32) -> Self {
         Self { reset, ..self }
+    }
+
+    const fn stores(self, stored: &'static [u8]) -> Self {
+        Self { stored, ..self }
     }
 
     const fn effect(self, effect: Effect) -> Self {
@@ -183,7 +189,6 @@ pub(crate) mod at {
     pub(crate) const SII_CONTROL: u16 = 0x0502;
     pub(crate) const SII_ADDRESS: u16 = 0x0504;
     pub(crate) const SII_DATA: u16 = 0x0508;
-    pub(crate) const MII_CONTROL: u16 = 0x0510;
     pub(crate) const FMMU: u16 = 0x0600;
     pub(crate) const SYNC_MANAGER: u16 = 0x0800;
     pub(crate) const RECEIVE_TIME_PORT: u16 = 0x0900;
@@ -197,6 +202,12 @@ pub(crate) mod at {
     pub(crate) const SYNC_PULSE_LENGTH: u16 = 0x0982;
 }
 
+/// Nothing of a register that a write only acts on is stored.
+const NOTHING: &[u8] = &[0; 8];
+/// Start bit, stop bit and physical start bit count to 7; type is read and write; activate is one bit.
+const FMMU_BITS: [u8; 16] =
+    [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x07, 0x07, 0xFF, 0xFF, 0x07, 0x03, 0x01, 0, 0, 0];
+
 /// The register map, ascending by offset.
 pub const REGISTERS: &[Register] = &[
     row("Type", at::TYPE, 1, R, R).reset(0x11),
@@ -209,20 +220,27 @@ pub const REGISTERS: &[Register] = &[
     row("ESC features supported", at::FEATURES, 2, R, R),
     row("Configured station address", at::STATION_ADDRESS, 2, W, R),
     row("Configured station alias", at::STATION_ALIAS, 2, R, W),
-    row("Write register enable", at::WRITE_REGISTER_ENABLE, 1, W, R).effect(Effect::Protection),
-    row("Write register protection", at::WRITE_REGISTER_PROTECTION, 1, W, R).effect(Effect::Protection),
-    row("ESC write enable", at::ESC_WRITE_ENABLE, 1, W, R).effect(Effect::Protection),
-    row("ESC write protection", at::ESC_WRITE_PROTECTION, 1, W, R).effect(Effect::Protection),
-    row("ESC reset ECAT", at::ESC_RESET_ECAT, 1, W, R).effect(Effect::Reset),
+    row("Write register enable", at::WRITE_REGISTER_ENABLE, 1, W, R)
+        .stores(&[0x01])
+        .effect(Effect::Protection),
+    row("Write register protection", at::WRITE_REGISTER_PROTECTION, 1, W, R)
+        .stores(&[0x01])
+        .effect(Effect::Protection),
+    row("ESC write enable", at::ESC_WRITE_ENABLE, 1, W, R).stores(&[0x01]).effect(Effect::Protection),
+    row("ESC write protection", at::ESC_WRITE_PROTECTION, 1, W, R).stores(&[0x01]).effect(Effect::Protection),
+    row("ESC reset ECAT", at::ESC_RESET_ECAT, 1, W, R).stores(NOTHING).effect(Effect::Reset),
     row("ESC reset PDI", 0x0041, 1, R, W),
-    row("DL control", at::DL_CONTROL, 4, W, R).reset(0x0007_0001).effect(Effect::DlControl),
+    row("DL control", at::DL_CONTROL, 4, W, R)
+        .reset(0x0007_0001)
+        .stores(&[0x03, 0xFF, 0x4F, 0x01])
+        .effect(Effect::DlControl),
     row("Physical read/write offset", 0x0108, 2, W, R),
     row("DL status", at::DL_STATUS, 2, R, R),
-    row("AL control", at::AL_CONTROL, 2, W, R).reset(0x0001).effect(Effect::AlControl),
+    row("AL control", at::AL_CONTROL, 2, W, R).reset(0x0001).stores(&[0x3F, 0x00]).effect(Effect::AlControl),
     row("AL status", at::AL_STATUS, 2, R, W).reset(0x0001),
     row("AL status code", at::AL_STATUS_CODE, 2, R, W),
-    row("RUN LED override", 0x0138, 1, W, W),
-    row("ERR LED override", 0x0139, 1, W, W),
+    row("RUN LED override", 0x0138, 1, W, W).stores(&[0x1F]),
+    row("ERR LED override", 0x0139, 1, W, W).stores(&[0x1F]),
     row("PDI control", at::PDI_CONTROL, 1, R, R),
     row("ESC configuration", at::ESC_CONFIGURATION, 1, R, R),
     row("PDI information", 0x014E, 2, R, R),
@@ -233,50 +251,66 @@ pub const REGISTERS: &[Register] = &[
     row("ECAT event request", at::ECAT_EVENT_REQUEST, 2, R, R),
     row("AL event request", at::AL_EVENT_REQUEST, 4, R, R),
     row("Invalid frame and RX error counter", at::PORT_ERRORS, 2, W, R)
+        .stores(NOTHING)
         .effect(Effect::ClearPortErrors)
         .times(4, 2),
     row("Forwarded RX error counter", at::FORWARDED_ERRORS, 1, W, R)
+        .stores(NOTHING)
         .effect(Effect::ClearPortErrors)
         .times(4, 1),
     row("ECAT processing unit error counter", at::PROCESSING_UNIT_ERRORS, 1, W, R)
+        .stores(NOTHING)
         .effect(Effect::ClearProcessingUnitErrors),
-    row("PDI error counter", at::PDI_ERRORS, 1, W, R).effect(Effect::ClearPdiErrors),
+    row("PDI error counter", at::PDI_ERRORS, 1, W, R).stores(NOTHING).effect(Effect::ClearPdiErrors),
     row("PDI error code", 0x030E, 2, R, R),
-    row("Lost link counter", at::LOST_LINKS, 1, W, R).effect(Effect::ClearLostLinks).times(4, 1),
+    row("Lost link counter", at::LOST_LINKS, 1, W, R)
+        .stores(NOTHING)
+        .effect(Effect::ClearLostLinks)
+        .times(4, 1),
     row("Watchdog divider", at::WATCHDOG_DIVIDER, 2, W, R).reset(0x09C2).effect(Effect::Watchdog),
     row("Watchdog time PDI", 0x0410, 2, W, R).reset(0x03E8),
     row("Watchdog time process data", at::WATCHDOG_TIME_PROCESS_DATA, 2, W, R)
         .reset(0x03E8)
         .effect(Effect::Watchdog),
     row("Watchdog status process data", at::WATCHDOG_STATUS, 2, R, R).reset(0x0001),
-    row("Watchdog counter process data", at::WATCHDOG_COUNTER, 1, W, W).effect(Effect::ClearWatchdogCounters),
-    row("Watchdog counter PDI", 0x0443, 1, W, W).effect(Effect::ClearWatchdogCounters),
-    row("SII owner", at::SII_OWNER, 1, W, R).effect(Effect::SiiOwner),
+    row("Watchdog counter process data", at::WATCHDOG_COUNTER, 1, W, W)
+        .stores(NOTHING)
+        .effect(Effect::ClearWatchdogCounters),
+    row("Watchdog counter PDI", 0x0443, 1, W, W).stores(NOTHING).effect(Effect::ClearWatchdogCounters),
+    row("SII owner", at::SII_OWNER, 1, W, R).stores(&[0x03]).effect(Effect::SiiOwner),
     row("SII PDI access state", at::SII_PDI_STATE, 1, R, W),
-    row("SII control/status", at::SII_CONTROL, 2, W, W).effect(Effect::SiiCommand),
+    row("SII control/status", at::SII_CONTROL, 2, W, W).stores(NOTHING).effect(Effect::SiiCommand),
     row("SII address", at::SII_ADDRESS, 4, W, W).effect(Effect::SiiCommand),
     row("SII data", at::SII_DATA, 8, W, W).effect(Effect::SiiCommand),
-    row("MII control/status", at::MII_CONTROL, 2, W, W).effect(Effect::MiiControl),
-    row("PHY address", 0x0512, 1, W, W),
-    row("PHY register address", 0x0513, 1, W, W),
+    // No PHY stands behind it: a command is done at once, without error, and is not kept.
+    row("MII control/status", 0x0510, 2, W, W).stores(&[0x01, 0x00]),
+    row("PHY address", 0x0512, 1, W, W).stores(&[0x1F]),
+    row("PHY register address", 0x0513, 1, W, W).stores(&[0x1F]),
     row("PHY data", 0x0514, 2, W, W),
-    row("MII ECAT access state", 0x0516, 1, W, R),
+    row("MII ECAT access state", 0x0516, 1, W, R).stores(&[0x01]),
     row("MII PDI access state", 0x0517, 1, R, W),
     row("PHY port status", 0x0518, 1, R, R).times(4, 1),
-    row("FMMU", at::FMMU, 16, W, R).effect(Effect::Fmmu).times(16, 16),
-    row("SyncManager", at::SYNC_MANAGER, 8, W, R).effect(Effect::SyncManager).times(16, 8),
-    row("Receive time port", at::RECEIVE_TIME_PORT, 4, W, R).effect(Effect::DcLatch).times(4, 4),
-    row("System time", at::SYSTEM_TIME, 8, W, R).effect(Effect::DcSystemTime),
+    row("FMMU", at::FMMU, 16, W, R).stores(&FMMU_BITS).effect(Effect::Fmmu).times(16, 16),
+    row("SyncManager", at::SYNC_MANAGER, 8, W, R)
+        .stores(&[0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x00, 0xC3, 0x00])
+        .effect(Effect::SyncManager)
+        .times(16, 8),
+    row("Receive time port 0", at::RECEIVE_TIME_PORT, 4, W, R).stores(NOTHING).effect(Effect::DcLatch),
+    row("Receive time ports 1 to 3", at::RECEIVE_TIME_PORT + 4, 4, R, R).times(3, 4),
+    row("System time", at::SYSTEM_TIME, 8, W, R).stores(NOTHING).effect(Effect::DcSystemTime),
     row("Receive time EPU", at::RECEIVE_TIME_EPU, 8, R, R),
     row("System time offset", at::SYSTEM_TIME_OFFSET, 8, W, R),
     row("System time delay", at::SYSTEM_TIME_DELAY, 4, W, R),
     row("System time difference", at::SYSTEM_TIME_DIFFERENCE, 4, R, R),
-    row("Speed counter start", at::SPEED_COUNTER_START, 2, W, R).reset(0x1000).effect(Effect::DcSpeedCounter),
+    row("Speed counter start", at::SPEED_COUNTER_START, 2, W, R)
+        .reset(0x1000)
+        .stores(&[0xFF, 0x7F])
+        .effect(Effect::DcSpeedCounter),
     row("Speed counter difference", at::SPEED_COUNTER_DIFFERENCE, 2, R, R),
-    row("System time difference filter depth", 0x0934, 1, W, R).reset(0x04),
-    row("Speed counter filter depth", 0x0935, 1, W, R).reset(0x0C),
-    row("Receive time latch mode", 0x0936, 1, W, R),
-    row("Cyclic unit control", 0x0980, 1, W, R),
+    row("System time difference filter depth", 0x0934, 1, W, R).reset(0x04).stores(&[0x0F]),
+    row("Speed counter filter depth", 0x0935, 1, W, R).reset(0x0C).stores(&[0x0F]),
+    row("Receive time latch mode", 0x0936, 1, W, R).stores(&[0x01]),
+    row("Cyclic unit control", 0x0980, 1, W, R).stores(&[0x31]),
     row("DC activation", 0x0981, 1, W, R),
     row("Pulse length of SYNC signals", at::SYNC_PULSE_LENGTH, 2, R, R),
     row("DC activation status", 0x0984, 1, R, R),
@@ -284,7 +318,7 @@ pub const REGISTERS: &[Register] = &[
     row("Start time cyclic operation", 0x0990, 8, W, R),
     row("Next SYNC1 pulse", 0x0998, 8, R, R),
     row("SYNC0 and SYNC1 cycle time", 0x09A0, 4, W, R).times(2, 4),
-    row("Latch 0 and 1 control", 0x09A8, 1, W, R).times(2, 1),
+    row("Latch 0 and 1 control", 0x09A8, 1, W, R).stores(&[0x03]).times(2, 1),
     row("Latch 0 and 1 status", 0x09AE, 1, R, R).times(2, 1),
     row("Latch times", 0x09B0, 8, R, R).times(4, 8),
     row("EtherCAT buffer change event time", 0x09F0, 4, R, R),
@@ -299,6 +333,7 @@ pub const REGISTERS: &[Register] = &[
 /// What the table says of each byte, for the frame's path.
 pub(crate) struct ByteMap {
     writable: [bool; REGISTER_BYTES],
+    stored: [u8; REGISTER_BYTES],
     effect: [Effect; REGISTER_BYTES],
 }
 
@@ -307,7 +342,11 @@ pub(crate) static BYTES: ByteMap = ByteMap::unroll();
 
 impl ByteMap {
     const fn unroll() -> Self {
-        let mut map = Self { writable: [false; REGISTER_BYTES], effect: [Store; REGISTER_BYTES] };
+        let mut map = Self {
+            writable: [false; REGISTER_BYTES],
+            stored: [0; REGISTER_BYTES],
+            effect: [Store; REGISTER_BYTES],
+        };
         let mut free_from = 0;
         let mut row = 0;
         while row < REGISTERS.len() {
@@ -319,7 +358,10 @@ impl ByteMap {
                 free_from = start + register.size_bytes;
                 let mut offset = start;
                 while offset < free_from {
+                    let byte = (offset - start) as usize;
                     map.writable[offset as usize] = matches!(register.ecat, W);
+                    map.stored[offset as usize] =
+                        if byte < register.stored.len() { register.stored[byte] } else { 0xFF };
                     map.effect[offset as usize] = register.effect;
                     offset += 1;
                 }
@@ -334,6 +376,12 @@ impl ByteMap {
     #[inline]
     pub(crate) fn writable(&self, offset: u16) -> bool {
         self.writable.get(usize::from(offset)).copied().unwrap_or(false)
+    }
+
+    /// Which bits of the byte at `offset` a write of the wire stores.
+    #[inline]
+    pub(crate) fn stored(&self, offset: u16) -> u8 {
+        self.stored.get(usize::from(offset)).copied().unwrap_or(0)
     }
 
     /// What a write to the byte at `offset` does.

@@ -56,6 +56,14 @@ impl Sii {
         self.words_written
     }
 
+    pub(crate) const fn set_timing(&mut self, timing: SiiTiming) {
+        self.timing = timing;
+    }
+
+    pub(crate) const fn keep_busy(&mut self, until: Instant) {
+        self.busy_until = Some(until);
+    }
+
     /// A reset is no power-on for who watches the EEPROM.
     pub(crate) const fn go_on_counting(&mut self, words_written: u32) {
         self.words_written = words_written;

@@ -61,7 +61,7 @@ pub struct SyncManagerSettings {
     pub pdi_event: bool,
     /// Control bit 6: a complete write triggers the process data watchdog.
     pub watchdog_trigger: bool,
-    /// The control byte as it was written, reserved bits included.
+    /// The control byte.
     pub control: u8,
     /// Activation bit 0.
     pub enabled: bool,

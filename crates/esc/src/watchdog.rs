@@ -85,9 +85,9 @@ impl Watchdog {
         self.expired
     }
 
-    /// Puts its status into its register before a read.
-    pub(crate) fn show(&self, memory: &mut Memory) {
-        memory.set_u16(at::WATCHDOG_STATUS, u16::from(!self.expired));
+    /// Its status register: 1 unless it has expired.
+    pub(crate) fn status(&self) -> u16 {
+        u16::from(!self.expired)
     }
 }
 

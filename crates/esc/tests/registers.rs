@@ -56,8 +56,11 @@ fn al_control_waits_for_the_pdi() {
     let mut bench = Bench::new();
     assert!(bench.write(0x0120, &[2, 0]));
     assert!(!bench.write(0x0120, &[1, 0]));
-    let control = bench.esc.pdi().take_al_control();
+    let control = bench.esc.pdi().al_control();
     assert_eq!(control.map(|control| control.state), Some(AlState::PreOp));
+    assert!(!bench.write(0x0120, &[1, 0]), "looking at it does not take it");
+    bench.esc.pdi().take_al_control();
+    assert_eq!(bench.esc.pdi().al_control(), None);
     assert!(bench.write(0x0120, &[1, 0]));
 }
 
@@ -278,7 +281,7 @@ fn write_protection_looks_at_every_byte() {
     long[0x100] = 2;
     bench.write(0x0020, &long);
     assert_eq!(bench.word(0x0120), 1);
-    assert!(bench.esc.pdi().take_al_control().is_none());
+    assert!(bench.esc.pdi().al_control().is_none());
 }
 
 /// "RES" takes three frames, and nothing else in between.
@@ -318,7 +321,153 @@ fn a_frame_may_write_registers_many_times() {
 fn mii_management_is_never_busy() {
     let mut bench = Bench::new();
     bench.write(0x0510, &[0xFF, 0xFF]);
-    assert_eq!(bench.word(0x0510), 0x00FF);
+    assert_eq!(bench.word(0x0510), 0x0001);
+}
+
+/// What each writable register reads after ones were written to all its bits, at the moment of power-on (reference
+/// 2.3 to 2.14). Of a bank this is its first register.
+const AFTER_ONES: &[(u16, &[u8])] = &[
+    (0x0010, &[0xFF; 2]),
+    (0x0020, &[0x01]),
+    (0x0021, &[0x01]),
+    (0x0030, &[0x01]),
+    (0x0031, &[0x01]),
+    (0x0040, &[0]),
+    (0x0100, &[0x03, 0xFF, 0x4F, 0x01]),
+    (0x0108, &[0xFF; 2]),
+    (0x0120, &[0x3F, 0x00]),
+    (0x0138, &[0x1F]),
+    (0x0139, &[0x1F]),
+    (0x0200, &[0xFF; 2]),
+    (0x0300, &[0; 2]),
+    (0x0308, &[0]),
+    (0x030C, &[0]),
+    (0x030D, &[0]),
+    (0x0310, &[0]),
+    (0x0400, &[0xFF; 2]),
+    (0x0410, &[0xFF; 2]),
+    (0x0420, &[0xFF; 2]),
+    (0x0442, &[0]),
+    (0x0443, &[0]),
+    (0x0500, &[0x03]),
+    // A command that does not exist: an error.
+    (0x0502, &[0x40, 0x20]),
+    (0x0504, &[0xFF; 4]),
+    (0x0508, &[0xFF; 8]),
+    (0x0510, &[0x01, 0x00]),
+    (0x0512, &[0x1F]),
+    (0x0513, &[0x1F]),
+    (0x0514, &[0xFF; 2]),
+    (0x0516, &[0x01]),
+    (0x0600, &[0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x07, 0x07, 0xFF, 0xFF, 0x07, 0x03, 0x01, 0, 0, 0]),
+    (0x0800, &[0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x30, 0xC3, 0x00]),
+    // It is 0 ns since power-on.
+    (0x0900, &[0; 4]),
+    (0x0910, &[0; 8]),
+    (0x0920, &[0xFF; 8]),
+    (0x0928, &[0xFF; 4]),
+    (0x0930, &[0xFF, 0x7F]),
+    (0x0934, &[0x0F]),
+    (0x0935, &[0x0F]),
+    (0x0936, &[0x01]),
+    (0x0980, &[0x31]),
+    (0x0981, &[0xFF]),
+    (0x0990, &[0xFF; 8]),
+    (0x09A0, &[0xFF; 4]),
+    (0x09A8, &[0x03]),
+    (0x0F00, &[0xFF; 4]),
+    (0x0F10, &[0xFF; 8]),
+    (0x0F80, &[0xFF; 128]),
+];
+
+#[test]
+fn reserved_bits_are_not_stored() {
+    let writable: Vec<_> = REGISTERS.iter().filter(|row| row.ecat == EcatAccess::ReadWrite).collect();
+    assert_eq!(
+        AFTER_ONES.iter().map(|row| row.0).collect::<Vec<_>>(),
+        writable.iter().map(|row| row.offset).collect::<Vec<_>>()
+    );
+    for (register, (_, expected)) in writable.into_iter().zip(AFTER_ONES) {
+        // Eight FMMUs and SyncManagers are built in.
+        for n in 0..register.count.min(8) {
+            let mut bench = Bench::new();
+            let offset = register.offset + n * register.stride_bytes;
+            assert!(bench.write(offset, &vec![0xFF; expected.len()]), "{}", register.name);
+            assert_eq!(bench.read(offset, expected.len()).as_deref(), Some(*expected), "{}", register.name);
+        }
+    }
+}
+
+/// Reference 2.14: a write to 0x0900 latches, one behind it does nothing and does not count.
+#[test]
+fn only_the_first_receive_time_latches() {
+    let mut bench = Bench::new();
+    bench.now = time::Instant::from_nanos(5_000);
+    for offset in 0x0904..0x0910 {
+        assert!(!bench.write(offset, &[0]), "{offset:04X}");
+    }
+    assert!(!bench.write(0x0904, &[0; 12]));
+    assert_eq!(bench.read(0x0900, 16), Some(vec![0; 16]));
+    assert!(bench.write(0x0900, &[0]));
+    let times = bench.read(0x0900, 16).expect("DC is there");
+    assert!(times.chunks(4).all(|time| time == 5_000_u32.to_le_bytes()), "{times:?}");
+}
+
+/// Looks at all registers without a frame, and reads them.
+fn looked_at_and_read(bench: &mut Bench) -> [Vec<u8>; 2] {
+    let mut seen = vec![0xEE; 0x1000];
+    bench.esc.look(0, &mut seen, bench.now);
+    [seen, bench.read(0, 0x1000).expect("registers are there")]
+}
+
+#[test]
+fn a_look_sees_what_a_read_would_give() {
+    type Change = fn(&mut Bench);
+    let changes: [(&str, Change); 6] = [
+        ("power-on", |_| {}),
+        ("time", |bench| bench.now += Duration::from_millis(3)),
+        ("clock", |bench| {
+            bench.write(0x0920, &[7; 8]);
+        }),
+        ("SyncManagers", |bench| {
+            bench.set_sync_manager(0, 0x1000, 4, bench::MAILBOX_RECEIVE);
+            bench.set_sync_manager(2, 0x1100, 2, bench::OUTPUTS);
+            bench.write(0x1000, &[1; 4]);
+            bench.write(0x1100, &[1; 2]);
+        }),
+        ("watchdog", |bench| {
+            bench.now += Duration::from_secs(1);
+            bench.esc.advance(bench.now);
+        }),
+        ("SII", |bench| {
+            bench.esc.keep_sii_busy(bench.now + Duration::from_millis(1));
+        }),
+    ];
+    let mut bench = Bench::new();
+    for (name, change) in changes {
+        change(&mut bench);
+        let [seen, read] = looked_at_and_read(&mut bench);
+        assert_eq!(seen, read, "{name}");
+    }
+    let mut bench = Bench::with(EscConfig { distributed_clocks: false, ..EscConfig::default() });
+    bench.now += Duration::from_millis(3);
+    let [seen, _] = looked_at_and_read(&mut bench);
+    assert_eq!(seen[0x0910..0x0918], [0; 8], "there is no clock");
+}
+
+/// Before the first frame: interface of the SII, status of SyncManagers, system time.
+#[test]
+fn a_look_at_power_on_sees_what_is_worked_out() {
+    let bench = Bench::new();
+    let look = |offset, bytes: &mut [u8]| bench.esc.look(offset, bytes, time::Instant::from_nanos(0x1234));
+    let mut bytes = [0; 2];
+    look(0x0502, &mut bytes);
+    assert_eq!(bytes, [0x40, 0x00]);
+    look(0x0805, &mut bytes[..1]);
+    look(0x083D, &mut bytes[1..]);
+    assert_eq!(bytes, [0x30, 0x30]);
+    look(0x0911, &mut bytes);
+    assert_eq!(bytes, [0x12, 0x00], "from any byte on");
 }
 
 proptest! {

@@ -1,13 +1,15 @@
 //! What the slave stack is told about the unit.
 
 use device::{
-    AbortProfile, Area, DeviceConfig, EscConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, SiiTiming,
-    SyncManagerWrites, WatchdogCheck,
+    AbortProfile, Area, DeviceConfig, EscConfig, MailboxConfig, RefusedInOp, SyncManagerWrites, WatchdogCheck,
 };
 
 use crate::description::description;
 use crate::layout;
 use crate::settings::UnitSettings;
+
+/// A byte of an EEPROM that nobody has written.
+const ERASED: u8 = 0xFF;
 
 /// The stack of a unit with these settings: an ESC with 8 FMMUs, 8 SyncManagers, 8 KiB and 64-bit distributed
 /// clocks, its EEPROM, its mailboxes, and the abort codes of the manual (7-6-2).
@@ -19,6 +21,8 @@ pub fn device_config(settings: &UnitSettings) -> DeviceConfig {
 /// The same, with the EEPROM of a unit that has been in use: [`crate::NonVolatileMemory::sii_image`].
 #[must_use]
 pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> DeviceConfig {
+    let (slave, timing) = (&settings.slave, settings.timing);
+    let sii_image = if slave.is_sii_blank { vec![ERASED; sii_image.len()] } else { sii_image };
     let area = |start| Area { start, length_bytes: layout::MAILBOX_BYTES };
     DeviceConfig {
         esc: EscConfig {
@@ -26,29 +30,29 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
             sync_manager_count: 8,
             ram_kib: 8,
             distributed_clocks: true,
-            sii: SiiTiming::Immediate,
+            sii: slave.sii_timing(timing),
             sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
         },
         sii_image,
         mailbox: Some(MailboxConfig {
             receive: area(layout::MAILBOX_RECEIVE_START),
             send: area(layout::MAILBOX_SEND_START),
-            response_time: settings.timing.sdo_response(),
+            response_time: slave.mailbox_time(timing),
             aborts: AbortProfile::COARSE,
         }),
         outputs_start: layout::OUTPUTS_START,
         inputs_start: layout::INPUTS_START,
-        // Masters differ in what comes first, outputs or OP. Outputs are not valid until they come.
-        outputs_before_op: OutputsBeforeOp::NotRequired,
+        outputs_before_op: slave.outputs_before_op.of_stack(),
         watchdog_check: WatchdogCheck::TriggerRequired,
         // Manual, 8-3-4: the state is kept when the error occurs.
         refused_in_op: RefusedInOp::StayInOp,
+        conduct: slave.conduct(timing),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use device::{Device, Unit};
+    use device::{Device, OutputsBeforeOp, SiiTiming, Unit};
     use time::{Duration, Instant};
     use wire::AlState;
 
@@ -63,6 +67,43 @@ mod tests {
         device.poll(&mut esc, Instant::ZERO);
         assert_eq!(device.al_status().state, AlState::Init);
         assert_eq!(device.deadline(), Instant::ZERO + device.unit().refresh_period());
+    }
+
+    /// C056: the time is the one that the ESI gives a master.
+    #[test]
+    fn outputs_are_waited_for_as_long_as_a_master_waits() {
+        let of = |text: &str| {
+            let file = crate::unit_file::UnitFile::parse(text).expect("a unit file");
+            device_config(&UnitSettings::from_unit_file(&file)).outputs_before_op
+        };
+        let told = description(&UnitSettings::default()).timeouts.safe_op_op_ms;
+        let within = OutputsBeforeOp::Within(Duration::from_millis(told.into()));
+        assert_eq!(of("model = \"nx-ect101\""), within);
+        assert_eq!(of("model = \"nx-ect101\"\noutputs_before_op = \"required\""), within);
+        let lenient = "model = \"nx-ect101\"\noutputs_before_op = \"not-required\"";
+        assert_eq!(of(lenient), OutputsBeforeOp::NotRequired);
+    }
+
+    #[test]
+    fn times_of_the_file_hold_unless_the_unit_is_fast() {
+        let text =
+            "model = \"nx-ect101\"\ntimes = { transitions = \"5ms\", sii = \"1ms\", mailbox = \"7ms\" }";
+        let file = crate::unit_file::UnitFile::parse(text).expect("a unit file");
+        let times = |timing| {
+            let config = device_config(&UnitSettings { timing, ..UnitSettings::from_unit_file(&file) });
+            let transition = config.conduct.transition_times.of(AlState::Init, AlState::PreOp);
+            (transition, config.esc.sii, config.mailbox.expect("a mailbox").response_time)
+        };
+        let ms = Duration::from_millis;
+        assert_eq!(times(Timing::Exact), (ms(5), SiiTiming::Busy(ms(1)), ms(7)));
+        assert_eq!(times(Timing::Fast), (ms(0), SiiTiming::Immediate, ms(0)));
+    }
+
+    #[test]
+    fn a_blank_eeprom_is_erased_whatever_it_held() {
+        let slave = crate::SlaveSettings { is_sii_blank: true, ..crate::SlaveSettings::default() };
+        let config = device_config_with(&UnitSettings { slave, ..UnitSettings::default() }, vec![1, 2, 3]);
+        assert_eq!(config.sii_image, [0xFF; 3]);
     }
 
     #[test]

@@ -44,10 +44,15 @@ pub fn description(settings: &UnitSettings) -> DeviceDescription {
         rx_pdos: pdos(&table, &mapping, Direction::MToC),
         tx_pdos: pdos(&table, &mapping, Direction::CToM),
         init_commands: vec![set_notification_flags(), clear_sysmac_error()],
-        timeouts: Timeouts::default(),
+        timeouts: timeouts(),
         esc_presets: EscPresets::default(),
         diag_messages: Vec::new(),
     }
+}
+
+/// How long a master should wait.
+pub(crate) fn timeouts() -> Timeouts {
+    Timeouts::default()
 }
 
 fn mailbox() -> Mailbox {

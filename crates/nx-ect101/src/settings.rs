@@ -3,6 +3,7 @@
 use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
+use crate::slave_settings::SlaveSettings;
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;
 use crate::unit_information::UnitInformation;
@@ -21,6 +22,8 @@ pub struct UnitSettings {
     pub information: UnitInformation,
     /// Whether the unit takes the times that the manual gives.
     pub timing: Timing,
+    /// What it does as an EtherCAT slave.
+    pub slave: SlaveSettings,
     /// I/O allocation of the CPU Unit.
     pub io_allocation: IoAllocation,
     /// Event levels that the user has changed.
@@ -103,6 +106,7 @@ impl UnitSettings {
             software_id: file.alias.as_ref().map_or(0, |alias| alias.value),
             information: file.information.clone(),
             timing: file.timing.value,
+            slave: file.slave.clone(),
             io_allocation: file.io_allocation(),
             event_levels: EventLevels::from_unit_file(file),
             newest_acknowledged: NewestAcknowledged::default(),
@@ -126,6 +130,7 @@ impl Default for UnitSettings {
             software_id: 0,
             information: UnitInformation::default(),
             timing: Timing::Exact,
+            slave: SlaveSettings::default(),
             io_allocation: IoAllocation::factory(),
             event_levels: EventLevels::default(),
             newest_acknowledged: NewestAcknowledged::default(),

@@ -10,6 +10,7 @@ mod information;
 mod located;
 mod reader;
 mod sections;
+mod slave;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -20,6 +21,7 @@ use time::Duration;
 
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
+use crate::slave_settings::SlaveSettings;
 use crate::timing::Timing;
 use crate::unit_information::UnitInformation;
 
@@ -102,6 +104,8 @@ pub struct UnitFile {
     pub information: UnitInformation,
     /// Whether the unit takes the times of the manual; exact when left out.
     pub timing: Located<Timing>,
+    /// What it does as an EtherCAT slave; all as the standard says, and quick, when left out.
+    pub slave: SlaveSettings,
     /// File of the non-volatile memory, relative to the unit file; memory only when left out.
     pub storage: Option<Located<PathBuf>>,
     /// I/O allocation of the CPU Unit; the factory setting when left out.

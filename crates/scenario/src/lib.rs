@@ -26,8 +26,8 @@ pub use capture::NotACapture;
 pub use expectation::Condition;
 pub use master::MasterProgram;
 pub use orders::{
-    Choice, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder, Mode, Order,
-    UnitOrder, UnitSet,
+    Choice, ConductOrder, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder,
+    Mode, Order, UnitOrder, UnitSet,
 };
 pub use programs::{Controller, ProgramFile};
 pub use recorded::RecordedFrames;

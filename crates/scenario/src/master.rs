@@ -36,6 +36,8 @@ const POLL_PERIOD: Duration = Duration::from_micros(500);
 const LISTEN_PERIOD: Duration = Duration::from_millis(10);
 /// How long one operation may take in all.
 const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
+/// How long a state may take. The ESI gives a unit 9 s at most, in which it tells why it does not come.
+const STATE_PATIENCE: Duration = Duration::from_secs(10);
 
 /// The scripted master.
 #[derive(Debug)]
@@ -127,7 +129,12 @@ impl Master {
     /// The first operation starts.
     fn begin(&mut self, now: Instant) {
         let at = if self.operations.is_empty() { Instant::NEVER } else { now };
-        self.waiting = Waiting { at, ticket: None, until: now + OPERATION_PATIENCE };
+        self.waiting = Waiting { at, ticket: None, until: now + self.patience() };
+    }
+
+    fn patience(&self) -> Duration {
+        let waits_for_state = self.operations.front().is_some_and(Operation::waits_for_state);
+        if waits_for_state { STATE_PATIENCE } else { OPERATION_PATIENCE }
     }
 
     /// When it sends next, or loses patience.
@@ -183,7 +190,8 @@ impl Master {
     fn send_operation(&mut self, now: Instant) -> Option<Sent> {
         let operation = self.operations.front_mut()?;
         if now >= self.waiting.until {
-            let reason = format!("{}: no success within {OPERATION_PATIENCE}", operation.words());
+            let words = operation.words();
+            let reason = format!("{words}: no success within {}", self.patience());
             self.give_up(reason, now);
             return None;
         }

@@ -137,6 +137,8 @@ value! {
     unit: Unit -> usize;
     /// A state.
     state: State -> wire::AlState;
+    /// The letters of a transition.
+    transition: Transition -> &'static str;
     /// A number.
     number: Number -> u64;
     /// A span of time.

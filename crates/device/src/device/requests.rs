@@ -1,44 +1,72 @@
 //! Requests of the master: what is checked, when the state is reached, what a refusal shows.
 
 use esc::{Pdi, SmIndex};
-use time::Instant;
+use time::{Duration, Instant};
 use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 
-use super::Device;
+use super::{Device, OpRequest};
 use crate::checks;
 use crate::config::{OutputsBeforeOp, RefusedInOp};
 use crate::state_machine::{Check, refusal, transition};
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
+    /// Takes a state request when its transition has had its time. Until then it stays in AL control, so that a
+    /// further write does not count.
+    pub(super) fn watch_al_control(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        let Some(control) = pdi.al_control() else { return };
+        let time = self.conduct.transition_times.of(self.status.state, control.state);
+        if now >= *self.request_due.get_or_insert(now + time) {
+            self.request_due = None;
+            pdi.take_al_control();
+            self.on_al_control(control, pdi, now);
+        }
+    }
+
     /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
-    pub(super) fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
+    fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
         if let Some(code) = self.unit.fault() {
             return self.refuse(AlState::Init, code, pdi, now);
         }
-        if self.status.error && !control.acknowledge && control.state != AlState::Init {
+        if self.status.error && !self.is_acknowledged_by(control) {
             return;
         }
-        self.op_deadline = None;
+        let waiting = self.op_request.take();
         self.open_sync_managers(pdi);
         let from = self.status.state;
-        match transition(from, control.state) {
-            None => {
-                let code = self.unit.al_error(now, refusal(from, control.state));
+        match self.judge(control.state, pdi, now) {
+            Err(code) => {
+                let is_transition = transition(from, control.state).is_some();
                 let drops = from == AlState::Op && self.config.refused_in_op == RefusedInOp::DropToSafeOp;
-                self.refuse(if drops { AlState::SafeOp } else { from }, code, pdi, now);
+                self.refuse(if drops && !is_transition { AlState::SafeOp } else { from }, code, pdi, now);
             }
-            Some(row) => match self.check(row.check, pdi, now) {
-                Err(code) => self.refuse(from, code, pdi, now),
-                Ok(Answer::Later(deadline)) => {
-                    self.op_deadline = Some(deadline);
-                    self.show(AlStatus { state: from, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
-                }
-                Ok(Answer::Now) => {
-                    self.enter(control.state, pdi, now);
-                    self.confirm(control, pdi);
-                }
-            },
+            Ok(Answer::WithOutputs(limit)) => {
+                // A master that repeats its request does not get more time.
+                let deadline = waiting.map_or(now + limit, |request| request.deadline);
+                self.op_request = Some(OpRequest { control, deadline });
+                self.show(AlStatus { state: from, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
+            }
+            Ok(Answer::Now) => self.reach(control, pdi, now),
+        }
+    }
+
+    const fn is_acknowledged_by(&self, control: AlControl) -> bool {
+        if control.acknowledge {
+            !self.conduct.ignores_acknowledge
+        } else {
+            matches!(control.state, AlState::Init)
+        }
+    }
+
+    /// Whether `state` can be reached from the present one, and when.
+    fn judge(&mut self, state: AlState, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
+        let from = self.status.state;
+        let Some(row) = transition(from, state) else {
+            return Err(self.unit.al_error(now, refusal(from, state)));
+        };
+        match self.conduct.refusals.of(state) {
+            Some(code) => Err(code),
+            None => self.check(row.check, pdi, now),
         }
     }
 
@@ -54,10 +82,12 @@ impl<U: Unit> Device<U> {
                 self.unit.check_transition(now, check, &found)?;
             }
             Check::Outputs => {
-                let waits =
-                    self.unit.process_data().outputs_bytes > 0 && !pdi.outputs_received(SmIndex::OUTPUTS);
+                let has_outputs = self.unit.process_data().outputs_bytes > 0;
+                let waits = has_outputs
+                    && pdi.is_watched(SmIndex::OUTPUTS)
+                    && !pdi.outputs_received(SmIndex::OUTPUTS);
                 if let (OutputsBeforeOp::Within(limit), true) = (self.config.outputs_before_op, waits) {
-                    return Ok(Answer::Later(now + limit));
+                    return Ok(Answer::WithOutputs(limit));
                 }
             }
         }
@@ -65,7 +95,8 @@ impl<U: Unit> Device<U> {
     }
 
     /// The state is reached: no error, and the Explicit Device ID where it is asked for.
-    fn confirm(&mut self, control: AlControl, pdi: &mut Pdi<'_>) {
+    pub(super) fn reach(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
+        self.enter(control.state, pdi, now);
         let device_id = self.unit.explicit_device_id().filter(|_| control.device_id_request);
         let status = AlStatus { state: control.state, error: false, device_id_loaded: device_id.is_some() };
         self.show(status, AlStatusCode(device_id.unwrap_or(0)), pdi);
@@ -84,6 +115,6 @@ impl<U: Unit> Device<U> {
 /// When a transition that may happen happens.
 enum Answer {
     Now,
-    /// As soon as outputs come, at the latest then.
-    Later(Instant),
+    /// As soon as outputs come, within this time.
+    WithOutputs(Duration),
 }

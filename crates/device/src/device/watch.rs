@@ -2,7 +2,7 @@
 
 use esc::{Pdi, SmIndex};
 use time::Instant;
-use wire::{AlState, AlStatus, AlStatusCode};
+use wire::{AlState, AlStatusCode};
 
 use super::{Device, error_status};
 use crate::checks;
@@ -36,13 +36,12 @@ impl<U: Unit> Device<U> {
     }
 
     pub(super) fn watch_op_request(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let Some(deadline) = self.op_deadline else { return };
+        let Some(request) = self.op_request else { return };
         if pdi.outputs_received(SmIndex::OUTPUTS) {
-            self.op_deadline = None;
-            self.enter(AlState::Op, pdi, now);
-            self.show(AlStatus { state: AlState::Op, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
-        } else if now >= deadline {
-            self.op_deadline = None;
+            self.op_request = None;
+            self.reach(request.control, pdi, now);
+        } else if now >= request.deadline {
+            self.op_request = None;
             let code = self.unit.al_error(now, AlStatusCode::SYNC_MANAGER_WATCHDOG);
             self.refuse(AlState::SafeOp, code, pdi, now);
         }
@@ -69,7 +68,7 @@ impl<U: Unit> Device<U> {
     /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
     /// are closed until the master acknowledges, so that it sees the working counter drop (reference 5.5, C063).
     pub(super) fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        self.op_deadline = None;
+        self.op_request = None;
         self.enter(state, pdi, now);
         if state == AlState::SafeOp {
             let has_outputs = self.unit.process_data().outputs_bytes > 0;

@@ -2,8 +2,8 @@
 //! knows of NX, and it is small enough for every state to be tried.
 
 use device::{
-    Check, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start, Unit,
-    WatchdogCheck,
+    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start,
+    Unit, WatchdogCheck,
 };
 use esc::EscConfig;
 use time::{Duration, Instant};
@@ -94,6 +94,7 @@ pub(crate) fn config() -> DeviceConfig {
         outputs_before_op: OutputsBeforeOp::NotRequired,
         watchdog_check: WatchdogCheck::Off,
         refused_in_op: RefusedInOp::DropToSafeOp,
+        conduct: Conduct::default(),
     }
 }
 

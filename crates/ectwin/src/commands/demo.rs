@@ -66,7 +66,7 @@ async fn bring_up_and_exchange(
     let (outputs_bytes, inputs_bytes) = exchange::sizes(master, &group)?;
     story.tell("SAFE-OP", &format!("{outputs_bytes} bytes out, {inputs_bytes} bytes in"))?;
 
-    let group = group.into_op(master).await.map_err(master_failed("SAFE-OP to OP"))?;
+    let group = exchange::into_op(master, group).await?;
     story
         .tell("OP", "a cycle each millisecond; every word of the outputs carries the number of its cycle")?;
     let exchanged = exchange::run(master, &group, first_input, story).await?;

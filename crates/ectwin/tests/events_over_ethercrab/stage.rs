@@ -62,7 +62,7 @@ impl Stage {
     }
 
     pub(crate) async fn op(&self) -> Group<Op> {
-        self.pre_op().await.into_op(&self.master).await.unwrap()
+        patient_master::into_op(self.pre_op().await, &self.master).await
     }
 
     /// AL status and AL status code, whoever has which address.

@@ -22,12 +22,16 @@ async fn our_application_brings_the_unit_to_op() {
     let group = master.init_single_group::<2, 512>(ethercrab::std::ethercat_now).await.unwrap();
     let unit = group.subdevice(&master, 0).unwrap();
     assert_eq!(unit.sdo_read::<u32>(0x1018, 2).await.unwrap(), 0x017C);
-    let group = group.into_op(&master).await.unwrap();
+    // A unit waits for outputs on its way to OP, so process data run from SAFE-OP on, a cycle each millisecond.
+    let mut ticks = tokio::time::interval(Duration::from_millis(1));
+    let group = group.request_into_op(&master).await.unwrap();
+    while !group.tx_rx(&master).await.unwrap().all_op() {
+        ticks.tick().await;
+    }
     assert_eq!(live.look(0, |unit| unit.state()), AlState::Op);
 
-    // A cycle each millisecond until the values have arrived on both sides.
+    // Until the values have arrived on both sides.
     group.subdevice(&master, 0).unwrap().outputs_raw_mut()[..2].copy_from_slice(&[0x78, 0x56]);
-    let mut ticks = tokio::time::interval(Duration::from_millis(1));
     for _ in 0..1000 {
         ticks.tick().await;
         assert_eq!(group.tx_rx(&master).await.unwrap().working_counter, 3);

@@ -2,7 +2,8 @@
 
 use std::time::Duration;
 
-use ethercrab::{MainDevice, MainDeviceConfig, PduLoop, PduRx, PduStorage, PduTx, Timeouts};
+use ethercrab::subdevice_group::{Op, PreOp, SubDeviceGroup};
+use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduLoop, PduRx, PduStorage, PduTx, Timeouts};
 
 /// Process data of one frame; more of it is cut into several.
 pub(crate) const FRAME_DATA_BYTES: usize = 1100;
@@ -13,6 +14,22 @@ type Storage = PduStorage<16, { PduStorage::element_size(FRAME_DATA_BYTES) }>;
 pub(crate) fn frames() -> (PduTx<'static>, PduRx<'static>, PduLoop<'static>) {
     let storage: &'static Storage = Box::leak(Box::new(Storage::new()));
     storage.try_split().unwrap()
+}
+
+/// Takes a group to OP with process data running: a unit waits for outputs.
+pub(crate) async fn into_op<const UNITS: usize, const BYTES: usize>(
+    group: SubDeviceGroup<UNITS, BYTES, DefaultLock, PreOp>,
+    master: &MainDevice<'static>,
+) -> SubDeviceGroup<UNITS, BYTES, DefaultLock, Op> {
+    let group = group.request_into_op(master).await.unwrap();
+    let mut ticks = tokio::time::interval(Duration::from_millis(1));
+    let in_op = async {
+        while !group.tx_rx(master).await.unwrap().all_op() {
+            ticks.tick().await;
+        }
+    };
+    tokio::time::timeout(Duration::from_secs(10), in_op).await.unwrap();
+    group
 }
 
 /// A master on these frames that reads the clocks of the units so often when it starts.

@@ -125,7 +125,7 @@ impl Bench {
         let group = self.pre_op(settings).await;
         let unit = group.subdevice(&self.master, 0).unwrap();
         unit.sdo_write(0x2002, 2, 1_u8).await.unwrap();
-        group.into_op(&self.master).await.unwrap()
+        patient_master::into_op(group, &self.master).await
     }
 
     /// Asks for SAFE-OP with SyncManagers as the mapping asks for them. Returns AL status and AL status code.

@@ -177,6 +177,7 @@ fn a_unit_file_sets_up_a_unit() {
         io_allocation,
         event_levels,
         newest_acknowledged: NewestAcknowledged::NewestRecord,
+        ..UnitSettings::default()
     };
     assert_eq!(UnitSettings::from_unit_file(&file), expected);
     let least = UnitFile::parse("model = \"nx-ect101\"").expect("a right file");

@@ -10,13 +10,13 @@ use super::located::Located;
 use super::reader::{Reader, Section, Value, wrong_type};
 use super::{
     ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile,
-    information, values,
+    information, slave, values,
 };
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
 
-const UNIT_KEYS: [&str; 17] = [
+const UNIT_KEYS: [&str; 21] = [
     "model",
     "name",
     "unit_number",
@@ -29,6 +29,10 @@ const UNIT_KEYS: [&str; 17] = [
     "hardware_version",
     "software_version",
     "timing",
+    "outputs_before_op",
+    "blank_sii",
+    "times",
+    "refuse",
     "storage",
     "io_allocation",
     "pdo",
@@ -58,6 +62,7 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     let timing = reader.value(file, "timing", |place, value| {
         values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
     });
+    let slave = slave::slave(reader, file);
     let name = reader.value(file, "name", values::identifier);
     let storage = reader.value(file, "storage", values::path);
     let io_allocation = io_allocation(reader, file);
@@ -73,6 +78,7 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
         alias,
         information: information::information(reader, file),
         timing: timing.unwrap_or(Located::left_out(Timing::Exact)),
+        slave,
         storage,
         io_allocation,
         pdo,

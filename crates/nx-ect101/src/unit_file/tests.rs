@@ -1,7 +1,9 @@
 use proptest::prelude::*;
+use wire::{AlState, AlStatusCode};
 
 use super::*;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
+use crate::slave_settings::OutputsRule;
 use crate::unit_information::{UnitVersion, VersionText};
 
 const FACTORY: &str = include_str!("../../../../units/nx-ect101.toml");
@@ -22,7 +24,18 @@ lot_number = 0x1D0B1A00
 hardware_version = "V1.10"
 software_version = "V1.02 V2.00"
 timing = "exact"
+outputs_before_op = "not-required"
+blank_sii = true
 storage = "N1.nvm"
+
+[times]
+transitions = { PS = "50ms", SO = "2s" }
+sii = "1ms"
+mailbox = "10ms"
+
+[refuse]
+safe_op = 0x0024
+acknowledge = true
 
 [io_allocation.m_to_c]
 uints = 6
@@ -61,6 +74,17 @@ fn a_file_with_every_key_reads_as_written() {
     };
     assert_eq!(file.information, information);
     assert_eq!(file.timing.value, Timing::Exact);
+    assert_eq!(file.slave.outputs_before_op, OutputsRule::NotRequired);
+    let ms = Duration::from_millis;
+    let times = &file.slave.conduct.transition_times;
+    let transition = |from, to| times.of(from, to);
+    assert_eq!(transition(AlState::PreOp, AlState::SafeOp), ms(50));
+    assert_eq!(transition(AlState::SafeOp, AlState::Op), ms(2000));
+    assert_eq!(transition(AlState::Init, AlState::PreOp), ms(0));
+    assert_eq!((file.slave.sii_time, file.slave.mailbox_time), (ms(1), Some(ms(10))));
+    assert_eq!(file.slave.conduct.refusals.of(AlState::SafeOp), Some(AlStatusCode(0x0024)));
+    assert_eq!(file.slave.conduct.refusals.of(AlState::Op), None);
+    assert!(file.slave.conduct.ignores_acknowledge && file.slave.is_sii_blank);
     assert_eq!(file.storage.unwrap().value, PathBuf::from("N1.nvm"));
     let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
     assert_eq!((level.event_code.value.0, level.level.value), (0x3917_0000, EventLevel::Observation));
@@ -196,6 +220,20 @@ const WRONG: &[(&str, &str)] = &[
     ("name with a digit first", "model = \"nx-ect101\"\nname = \"1N\""),
     ("name empty", "model = \"nx-ect101\"\nname = \"\""),
     ("timing", "model = \"nx-ect101\"\ntiming = \"fsat\""),
+    ("outputs before OP", "model = \"nx-ect101\"\noutputs_before_op = \"notrequired\""),
+    ("outputs before OP as truth", "model = \"nx-ect101\"\noutputs_before_op = false"),
+    ("blank SII", "model = \"nx-ect101\"\nblank_sii = 1"),
+    ("times", "model = \"nx-ect101\"\ntimes = \"1s\""),
+    (
+        "times of the wrong name",
+        "model = \"nx-ect101\"\ntimes.mailboxes = \"1s\"\ntimes.transitions.SPO = \"1s\"",
+    ),
+    (
+        "times too long",
+        "model = \"nx-ect101\"\ntimes = { transitions = { PS = \"61s\" }, sii = \"soon\", mailbox = 5 }",
+    ),
+    ("transitions as a number", "model = \"nx-ect101\"\ntimes.transitions = 20"),
+    ("refusals", "model = \"nx-ect101\"\nrefuse = { safeop = 1, op = 0, pre_op = 0x10000, acknowledge = 1 }"),
     ("storage", "model = \"nx-ect101\"\nstorage = \"\""),
     ("period", "model = \"nx-ect101\"\ncpu.task_period = \"1h\""),
     ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"101ms\""),

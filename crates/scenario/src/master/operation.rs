@@ -110,6 +110,10 @@ impl Operation {
         matches!(self.what, What::Listen { .. })
     }
 
+    pub(crate) const fn waits_for_state(&self) -> bool {
+        matches!(self.what, What::Reach { .. })
+    }
+
     pub(crate) fn words(&self) -> String {
         let unit = format!("unit {}", self.unit + 1);
         match &self.what {
@@ -236,6 +240,10 @@ fn way(unit: usize, status: AlStatus, target: AlState, slave: &mut Slave) -> Vec
             steps.push(Step::Close(unit));
         }
         steps.push(reach(target));
+    }
+    if at == 2 && goal == 3 {
+        // A unit waits for outputs on its way to OP: a master that has stopped begins with them again.
+        steps.push(part(What::Open));
     }
     while at < goal {
         at += 1;

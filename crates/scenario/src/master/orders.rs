@@ -12,6 +12,7 @@ impl Master {
     pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
         match order {
             MasterOrder::Take(units, state) => {
+                self.process_data.allow();
                 self.queue_for(units, now, |unit| Operation::take(unit, state))
             }
             MasterOrder::Request { units, state, acknowledge } => {

@@ -26,6 +26,8 @@ pub(crate) const fn logical_address(unit: usize) -> u32 {
 pub(crate) struct ProcessData {
     cycle: Duration,
     next: Instant,
+    /// The scenario has stopped the exchange: a unit that comes to SAFE-OP does not begin it.
+    is_stopped: bool,
     units: Vec<Image>,
     cycles: u64,
 }
@@ -56,7 +58,13 @@ struct Awaited {
 
 impl ProcessData {
     pub(crate) fn new(units: usize, cycle: Duration) -> Self {
-        Self { cycle, next: Instant::NEVER, units: vec![Image::default(); units], cycles: 0 }
+        Self {
+            cycle,
+            next: Instant::NEVER,
+            is_stopped: false,
+            units: vec![Image::default(); units],
+            cycles: 0,
+        }
     }
 
     pub(crate) const fn cycle(&self) -> Duration {
@@ -66,22 +74,28 @@ impl ProcessData {
     /// Goes on with this cycle.
     pub(crate) fn exchange(&mut self, cycle: Duration, now: Instant) {
         self.cycle = cycle;
+        self.is_stopped = false;
         if self.units.iter().any(|image| image.is_open) {
             self.next = now;
         }
     }
 
-    pub(crate) fn stop(&mut self) {
+    pub(crate) const fn stop(&mut self) {
         self.next = Instant::NEVER;
+        self.is_stopped = true;
+    }
+
+    /// An order that comes to process data lets them begin.
+    pub(crate) const fn allow(&mut self) {
+        self.is_stopped = false;
     }
 
     pub(crate) fn open(&mut self, unit: usize, outputs_bytes: u16, inputs_bytes: u16, now: Instant) {
         let Some(image) = self.units.get_mut(unit) else { return };
-        image.is_open = true;
-        image.outputs_bytes = usize::from(outputs_bytes);
-        image.bytes = vec![0; usize::from(outputs_bytes) + usize::from(inputs_bytes)];
-        image.fill_outputs();
-        self.next = self.next.min(now);
+        image.open(usize::from(outputs_bytes), usize::from(inputs_bytes));
+        if !self.is_stopped {
+            self.next = self.next.min(now);
+        }
     }
 
     pub(crate) fn close(&mut self, unit: usize) {
@@ -89,7 +103,7 @@ impl ProcessData {
             image.is_open = false;
         }
         if !self.units.iter().any(|image| image.is_open) {
-            self.stop();
+            self.next = Instant::NEVER;
         }
     }
 
@@ -144,6 +158,17 @@ impl ProcessData {
 }
 
 impl Image {
+    /// Process data of the same lengths go on with what has come.
+    fn open(&mut self, outputs_bytes: usize, inputs_bytes: usize) {
+        let length_bytes = outputs_bytes + inputs_bytes;
+        if !self.is_open || (self.outputs_bytes, self.bytes.len()) != (outputs_bytes, length_bytes) {
+            self.outputs_bytes = outputs_bytes;
+            self.bytes = vec![0; length_bytes];
+        }
+        self.is_open = true;
+        self.fill_outputs();
+    }
+
     fn send(&mut self, logical: u32, ticket: &mut u64) -> Vec<Sent> {
         let all = 0..self.bytes.len();
         let parts = if all.len() <= DATAGRAM_BYTES_MAX {

@@ -9,7 +9,7 @@ use wire::AlState;
 use crate::{Choice, Controller, FrameKind, UnitSet};
 use words::{
     bytes, choice, controller, entries, entry, event, fault, frames, indicator, limited, number, numbers,
-    one, pattern, percent, position, state, unit, units,
+    one, pattern, percent, position, state, transition, unit, units,
 };
 
 /// What stands in a place.
@@ -21,6 +21,8 @@ pub enum Value {
     Unit(usize),
     /// `SAFE-OP`.
     State(AlState),
+    /// `PS`, the letters of a transition.
+    Transition(&'static str),
     /// `12`, `0x0C`.
     Number(u64),
     /// `1.5ms`.
@@ -129,6 +131,7 @@ const PLACES: &[Place] = &[
         unit(words).map(|at| (Value::Unit(at), 2))
     }),
     place("state", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| one(words, state)),
+    place("transition", "a transition by its letters, such as IP, PS or SO", |words| one(words, transition)),
     place("number", "a number such as 12 or 0x0C", |words| {
         one(words, |word| number(word).map(Value::Number))
     }),

@@ -71,7 +71,7 @@ impl World {
     pub(crate) fn registers(&self, at: usize, offset: u16, length_bytes: usize) -> Vec<u8> {
         let mut bytes = vec![0; length_bytes];
         if let Some(esc) = self.network.esc(at) {
-            esc.look(offset, &mut bytes);
+            esc.look(offset, &mut bytes, self.now);
         }
         bytes
     }

@@ -1,13 +1,19 @@
 //! What steps do to units, CPU Units and the line.
 
-use device::Start;
+use device::{Device, SiiTiming, Start, TransitionTimes};
+use esc::Esc;
 use nx_ect101::NxEct101;
 use plc::Io;
+use time::Instant;
+use wire::AlStatusCode;
 
 use super::{Cpu, World};
 use crate::UnitSet;
 use crate::master::Master;
-use crate::orders::{CpuOrder, LineOrder, UnitOrder};
+use crate::orders::{ConductOrder, CpuOrder, LineOrder, UnitOrder};
+
+/// A byte of an EEPROM that nobody has written.
+const ERASED: u8 = 0xFF;
 
 impl World {
     pub(crate) fn master_mut(&mut self) -> &mut Master {
@@ -26,6 +32,11 @@ impl World {
                 self.each_unit(UnitSet::One(at), |unit| unit.set_id_switch(id));
             }
             UnitOrder::SpoilSii(at, word) => self.spoil_sii(at, word),
+            UnitOrder::EraseSii(units) => self.each_slave(units, |_, esc| esc.sii_image_mut().fill(ERASED)),
+            UnitOrder::Conduct(units, order) => {
+                let now = self.now;
+                self.each_slave(units, |device, esc| conduct(device, esc, order, now));
+            }
             UnitOrder::Inject(units, fault) => self.each_unit(units, |unit| unit.inject(fault)),
             UnitOrder::Remove(units, fault) => self.each_unit(units, |unit| unit.remove(fault)),
         }
@@ -100,6 +111,14 @@ impl World {
         }
     }
 
+    fn each_slave(&mut self, units: UnitSet, order: impl Fn(&mut Device<NxEct101>, &mut Esc)) {
+        for at in units.positions(self.count()) {
+            if let Some((device, esc)) = self.network.slave_mut(at) {
+                order(device, esc);
+            }
+        }
+    }
+
     fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
         let positions = units.positions(self.cpus.len());
         self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
@@ -120,5 +139,25 @@ impl World {
 
     fn start(&mut self, at: usize, start: Start) {
         self.network.restart(at, self.now, start);
+    }
+}
+
+fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: ConductOrder, now: Instant) {
+    match order {
+        ConductOrder::EveryTransition(time) => {
+            device.conduct_mut().transition_times = TransitionTimes::every(time);
+        }
+        ConductOrder::Transition(letters, time) => {
+            device.conduct_mut().transition_times.set(letters, time);
+        }
+        ConductOrder::SiiTime(time) if time.is_zero() => esc.set_sii_timing(SiiTiming::Immediate),
+        ConductOrder::SiiTime(time) => esc.set_sii_timing(SiiTiming::Busy(time)),
+        ConductOrder::SiiBusy(time) => esc.keep_sii_busy(now + time),
+        ConductOrder::SdoTime(time) => device.set_response_time(time),
+        ConductOrder::Refuse(state, code) => {
+            device.conduct_mut().refusals.set(state, Some(AlStatusCode(code)));
+        }
+        ConductOrder::IgnoreAcknowledge => device.conduct_mut().ignores_acknowledge = true,
+        ConductOrder::Behave => device.behave(esc),
     }
 }

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use std::time::Duration;
 
 use ethercrab::MainDevice;
-use ethercrab::subdevice_group::{HasPdi, Op, PreOp};
+use ethercrab::subdevice_group::{HasPdi, Op, PreOp, SafeOp};
 use tokio::time::MissedTickBehavior;
 
 use super::story::Story;
@@ -14,6 +14,8 @@ use crate::failure::Failure;
 
 const CYCLE: Duration = Duration::from_millis(1);
 const CYCLES: u16 = 3000;
+/// More than the time that the ESI gives a unit.
+const OP_PATIENCE_CYCLES: u16 = 10_000;
 const CYCLES_BETWEEN_LINES: u16 = 500;
 /// By then the first values have to be back; by the manual they take 7 ms.
 const PATIENCE_CYCLES: u16 = 1000;
@@ -67,6 +69,22 @@ pub(super) fn sizes<S: HasPdi>(
     let unit = group.subdevice(master, 0).map_err(master_failed("finding the unit"))?;
     let io = unit.io_raw();
     Ok((io.outputs().len(), io.inputs().len()))
+}
+
+/// Asks for OP and sends process data until the unit is there: it waits for outputs.
+pub(super) async fn into_op(
+    master: &MainDevice<'static>,
+    group: Group<SafeOp>,
+) -> Result<Group<Op>, Failure> {
+    let group = group.request_into_op(master).await.map_err(master_failed("SAFE-OP to OP"))?;
+    let mut ticks = tokio::time::interval(CYCLE);
+    for _ in 0..OP_PATIENCE_CYCLES {
+        ticks.tick().await;
+        if group.tx_rx(master).await.map_err(master_failed("SAFE-OP to OP"))?.all_op() {
+            return Ok(group);
+        }
+    }
+    Err(failed("SAFE-OP to OP", "the unit does not come"))
 }
 
 /// Exchanges process data for [`CYCLES`].

@@ -39,6 +39,8 @@ pub(super) fn unit_of_unit(order: &UnitOrder) -> UnitSet {
         | UnitOrder::PowerOn(units)
         | UnitOrder::ResetErrors(units)
         | UnitOrder::ClearLog(units, _)
+        | UnitOrder::EraseSii(units)
+        | UnitOrder::Conduct(units, _)
         | UnitOrder::Inject(units, _)
         | UnitOrder::Remove(units, _) => *units,
         UnitOrder::SetIdSwitch(unit, _) | UnitOrder::SpoilSii(unit, _) => UnitSet::One(*unit),

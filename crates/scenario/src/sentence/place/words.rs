@@ -49,6 +49,10 @@ pub(super) fn state(word: &str) -> Option<Value> {
     Some(Value::State(state))
 }
 
+pub(super) fn transition(word: &str) -> Option<Value> {
+    device::TRANSITIONS.iter().find(|row| row.letters == word).map(|row| Value::Transition(row.letters))
+}
+
 pub(super) fn number(word: &str) -> Option<u64> {
     match word.strip_prefix("0x").or_else(|| word.strip_prefix("16#")) {
         Some(digits) => u64::from_str_radix(digits, 16).ok(),

@@ -1,0 +1,92 @@
+//! How a slave departs from a quick and willing one: the times of its transitions, what it refuses and ignores.
+
+use time::Duration;
+use wire::{AlState, AlStatusCode};
+
+use crate::state_machine::TRANSITIONS;
+
+/// The conduct of a slave. The default is quick and willing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Conduct {
+    /// How long a request waits in AL control before the slave takes it.
+    pub transition_times: TransitionTimes,
+    /// States that it refuses.
+    pub refusals: Refusals,
+    /// While it shows an error, a request with the acknowledge bit is ignored. INIT without the bit is not.
+    pub ignores_acknowledge: bool,
+}
+
+/// The time of each transition, a row of [`TRANSITIONS`] each.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TransitionTimes([Duration; TRANSITIONS.len()]);
+
+impl TransitionTimes {
+    /// The same time for every transition.
+    #[must_use]
+    pub const fn every(time: Duration) -> Self {
+        Self([time; TRANSITIONS.len()])
+    }
+
+    /// Sets the time of the transition with these letters, such as `PS`; false if there is none.
+    pub fn set(&mut self, letters: &str, time: Duration) -> bool {
+        let row = TRANSITIONS.iter().position(|row| row.letters == letters);
+        let place = row.and_then(|row| self.0.get_mut(row));
+        place.map(|place| *place = time).is_some()
+    }
+
+    /// The time from one state to another; zero for what is no transition.
+    #[must_use]
+    pub fn of(&self, from: AlState, to: AlState) -> Duration {
+        let row = TRANSITIONS.iter().position(|row| row.from == from && row.to == to);
+        row.and_then(|row| self.0.get(row)).copied().unwrap_or(Duration::ZERO)
+    }
+}
+
+/// The AL status code with which each state is refused.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Refusals([Option<AlStatusCode>; STATES.len()]);
+
+const STATES: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];
+
+impl Refusals {
+    /// Refuses `state` with this code, or no longer; false for a state that no slave of ours reaches.
+    pub fn set(&mut self, state: AlState, code: Option<AlStatusCode>) -> bool {
+        let place = STATES.iter().position(|&known| known == state).and_then(|at| self.0.get_mut(at));
+        place.map(|place| *place = code).is_some()
+    }
+
+    /// The code with which `state` is refused, if it is.
+    #[must_use]
+    pub fn of(&self, state: AlState) -> Option<AlStatusCode> {
+        let at = STATES.iter().position(|&known| known == state)?;
+        *self.0.get(at)?
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_transition_has_its_own_time() {
+        let mut times = TransitionTimes::every(Duration::from_millis(1));
+        assert!(times.set("PS", Duration::from_millis(7)));
+        assert!(!times.set("PB", Duration::from_millis(7)), "there is no BOOT");
+        for row in TRANSITIONS {
+            let expected = if row.letters == "PS" { 7 } else { 1 };
+            assert_eq!(times.of(row.from, row.to), Duration::from_millis(expected), "{}", row.letters);
+        }
+        assert_eq!(times.of(AlState::Init, AlState::Op), Duration::ZERO, "no transition");
+    }
+
+    #[test]
+    fn each_state_has_its_own_refusal() {
+        let mut refusals = Refusals::default();
+        for (code, state) in (1..).map(AlStatusCode).zip(STATES) {
+            assert!(refusals.set(state, Some(code)));
+        }
+        assert_eq!(STATES.map(|state| refusals.of(state).map(|code| code.0)), [1, 2, 3, 4].map(Some));
+        assert!(!refusals.set(AlState::Boot, Some(AlStatusCode(1))));
+        assert!(refusals.set(AlState::Op, None) && refusals.of(AlState::Op).is_none());
+    }
+}

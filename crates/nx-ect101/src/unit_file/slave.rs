@@ -1,0 +1,99 @@
+//! What the file says of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
+
+use core::ops::RangeInclusive;
+
+use device::{Conduct, Refusals, TRANSITIONS, TransitionTimes};
+use time::Duration;
+use toml::de::DeValue;
+use wire::{AlState, AlStatusCode};
+
+use super::error::Problem;
+use super::reader::{Reader, Section, wrong_type};
+use super::values;
+use crate::slave_settings::{OutputsRule, SlaveSettings};
+
+/// The longest is more than any master waits.
+const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
+const OUTPUTS_RULES: [(&str, OutputsRule); 2] =
+    [("required", OutputsRule::Required), ("not-required", OutputsRule::NotRequired)];
+const REFUSED_STATES: [(&str, AlState); 4] =
+    [("init", AlState::Init), ("pre_op", AlState::PreOp), ("safe_op", AlState::SafeOp), ("op", AlState::Op)];
+const ACKNOWLEDGE: &str = "acknowledge";
+
+pub(super) fn slave(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> SlaveSettings {
+    let mut slave = SlaveSettings::default();
+    let rule = |place: &str, value: &DeValue<'_>| values::choice(place, value, &OUTPUTS_RULES);
+    if let Some(rule) = reader.value(file, "outputs_before_op", rule) {
+        slave.outputs_before_op = rule.value;
+    }
+    slave.is_sii_blank = truth(reader, file, "blank_sii");
+    times(reader, file, &mut slave);
+    refusals(reader, file, &mut slave.conduct);
+    slave
+}
+
+fn times(reader: &mut Reader<'_>, file: &Section<'_, '_>, slave: &mut SlaveSettings) {
+    let Some(section) = reader.section(file, "times") else { return };
+    reader.only(&section, &["transitions", "sii", "mailbox"]);
+    slave.conduct.transition_times = transitions(reader, &section);
+    slave.sii_time = reader.value(&section, "sii", time).map_or(Duration::ZERO, |time| time.value);
+    slave.mailbox_time = reader.value(&section, "mailbox", time).map(|time| time.value);
+}
+
+/// One time for all, or a table of those that take one.
+fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>) -> TransitionTimes {
+    const KEY: &str = "transitions";
+    let is_table = times.get(KEY).is_some_and(|value| value.get_ref().is_table());
+    if !is_table {
+        let every = reader.value(times, KEY, |place, value| match value {
+            DeValue::String(_) => time(place, value),
+            _ => Err(wrong_type(
+                place,
+                value,
+                "a time for all, \"0ms\" to \"60s\", or a table: { PS = \"50ms\" }",
+            )),
+        });
+        return every.map_or(TransitionTimes::default(), |every| TransitionTimes::every(every.value));
+    }
+    let mut each = TransitionTimes::default();
+    let Some(section) = reader.section(times, KEY) else { return each };
+    let letters: Vec<&str> = TRANSITIONS.iter().map(|row| row.letters).collect();
+    reader.only(&section, &letters);
+    for letters in letters {
+        if let Some(time) = reader.value(&section, letters, time) {
+            each.set(letters, time.value);
+        }
+    }
+    each
+}
+
+fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, conduct: &mut Conduct) {
+    let Some(section) = reader.section(file, "refuse") else { return };
+    let mut keys = REFUSED_STATES.map(|(key, _)| key).to_vec();
+    keys.push(ACKNOWLEDGE);
+    reader.only(&section, &keys);
+    let mut refusals = Refusals::default();
+    for (key, state) in REFUSED_STATES {
+        let code = reader.value(&section, key, |place, value| {
+            values::integer(place, value, 1..=0xFFFF, "an AL status code, 0x0001 to 0xFFFF")
+        });
+        refusals.set(state, code.map(|code| AlStatusCode(code.value)));
+    }
+    conduct.refusals = refusals;
+    conduct.ignores_acknowledge = truth(reader, &section, ACKNOWLEDGE);
+}
+
+fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
+    let expected = "a time, \"0ms\" to \"60s\"";
+    let written = values::text(place, value, expected)?;
+    let time = written.parse().ok().filter(|time| TIMES.contains(time));
+    time.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", values::shown(written)), expected))
+}
+
+/// A key that is `true` or `false`; left out it is false.
+fn truth(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> bool {
+    let truth = reader.value(section, key, |place, value| {
+        value.as_bool().ok_or_else(|| wrong_type(place, value, "true or false"))
+    });
+    truth.is_some_and(|truth| truth.value)
+}
