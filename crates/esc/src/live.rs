@@ -46,8 +46,9 @@ impl Esc {
     }
 
     fn live(&self, now: Instant) -> Live {
+        let sync_manager_count = usize::from(self.config.sync_manager_count);
         let mut sync_managers = [[0; 2]; SYNC_MANAGERS_MAX];
-        for (values, sm) in sync_managers.iter_mut().zip(&self.sync_managers) {
+        for (values, sm) in sync_managers.iter_mut().zip(&self.sync_managers).take(sync_manager_count) {
             *values = [sm.status(), sm.pdi_control()];
         }
         let has_clock = self.config.distributed_clocks;
@@ -57,7 +58,7 @@ impl Esc {
             watchdog_status: self.watchdog.status(),
             sii_control: self.sii.status(now),
             sync_managers,
-            sync_manager_count: usize::from(self.config.sync_manager_count),
+            sync_manager_count,
             system_time: has_clock.then(|| self.dc.system_time(&self.memory, now)),
         }
     }
