@@ -218,17 +218,31 @@ fn op_without_process_data_ends_when_there_were_some() {
     stage.run_for_ms(110);
     assert_eq!(stage.al(), (SAFE_OP | 0x10, 0x001B));
     assert_eq!(text_ids(&mut stage), [0x8500]);
-    assert_eq!(stage.request(OP | 0x10), (OP, 0));
+    assert_eq!(stage.request(OP | 0x10), (SAFE_OP, 0), "an acknowledged fall-back waits for new ones");
+    stage.exchange(&[2; 180]);
     stage.run_for_ms(90);
     assert_eq!(stage.al().0, OP);
     stage.run_for_ms(20);
-    assert_eq!(stage.al(), (SAFE_OP | 0x10, 0x001B), "behind an acknowledged fall-back too");
+    assert_eq!(stage.al(), (SAFE_OP | 0x10, 0x001B));
     assert_eq!(text_ids(&mut stage), [0x8500; 2]);
 }
 
 #[test]
-fn op_before_the_first_process_data_waits_for_them() {
+fn op_without_any_process_data_is_refused_when_the_time_of_the_esi_is_over() {
     let mut stage = Stage::power_on("");
+    stage.enter_pre_op();
+    assert_eq!(stage.request(SAFE_OP), (SAFE_OP, 0));
+    assert_eq!(stage.request(OP), (SAFE_OP, 0));
+    stage.run_for_ms(8990);
+    assert_eq!((stage.al(), stage.history().len()), ((SAFE_OP, 0), 0));
+    stage.run_for_ms(10);
+    assert_eq!(stage.al(), (SAFE_OP | 0x10, 0x001B));
+    assert_eq!(text_ids(&mut stage), [0x8500]);
+}
+
+#[test]
+fn op_may_come_before_the_first_process_data_and_waits_for_them() {
+    let mut stage = Stage::power_on("outputs_before_op = \"not-required\"");
     stage.enter_pre_op();
     assert_eq!(stage.request(SAFE_OP), (SAFE_OP, 0));
     assert_eq!(stage.request(OP), (OP, 0));

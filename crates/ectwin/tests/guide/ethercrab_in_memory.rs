@@ -24,7 +24,7 @@ async fn our_application_brings_the_unit_to_op() {
     assert_eq!(unit.sdo_read::<u32>(0x1018, 2).await.unwrap(), 0x017C);
     // A unit waits for outputs on its way to OP, so process data run from SAFE-OP on, a cycle each millisecond.
     let mut ticks = tokio::time::interval(Duration::from_millis(1));
-    let group = group.request_into_op(&master).await.unwrap();
+    let group = group.into_safe_op(&master).await.unwrap().request_into_op(&master).await.unwrap();
     while !group.tx_rx(&master).await.unwrap().all_op() {
         ticks.tick().await;
     }

@@ -21,7 +21,7 @@ pub(crate) async fn into_op<const UNITS: usize, const BYTES: usize>(
     group: SubDeviceGroup<UNITS, BYTES, DefaultLock, PreOp>,
     master: &MainDevice<'static>,
 ) -> SubDeviceGroup<UNITS, BYTES, DefaultLock, Op> {
-    let group = group.request_into_op(master).await.unwrap();
+    let group = group.into_safe_op(master).await.unwrap().request_into_op(master).await.unwrap();
     let mut ticks = tokio::time::interval(Duration::from_millis(1));
     let in_op = async {
         while !group.tx_rx(master).await.unwrap().all_op() {
