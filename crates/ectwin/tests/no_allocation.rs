@@ -4,7 +4,8 @@ use allocation_counter::measure;
 use ectwin::{AlState, Duration, EventLog, Fault, FrameFate, Setup, Twin};
 use wire::{Command, FrameBuilder};
 
-const UNIT: &str = "model = \"nx-ect101\"\noutputs_before_op = \"not-required\"\n[cpu]\nprogram = \"builtin:copy\"";
+const UNIT: &str =
+    "model = \"nx-ect101\"\noutputs_before_op = \"not-required\"\n[cpu]\nprogram = \"builtin:copy\"";
 const RECEIVE: u16 = 0x1000;
 const SEND: u16 = 0x1200;
 const MAILBOX_BYTES: usize = 400;
