@@ -17,6 +17,7 @@ fn waiting_bench() -> Bench {
     bench
 }
 
+/// C055
 #[test]
 fn op_comes_with_the_first_outputs() {
     let mut bench = waiting_bench();
@@ -38,6 +39,7 @@ fn outputs_that_came_in_safe_op_are_enough() {
     assert_eq!(bench.status(), (0x08, 0));
 }
 
+/// C056
 #[test]
 fn without_outputs_the_request_is_refused_in_time() {
     let mut bench = waiting_bench();

@@ -1,12 +1,16 @@
 //! What the slave stack is told about the unit.
 
 use device::{
-    AbortProfile, Area, DeviceConfig, EscConfig, MailboxConfig, RefusedInOp, SyncManagerWrites, WatchdogCheck,
+    AbortProfile, Area, Conduct, DeviceConfig, EscConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp,
+    SiiTiming, SyncManagerWrites, TransitionTimes, WatchdogCheck,
 };
+use time::Duration;
 
-use crate::description::description;
+use crate::description::{description, timeouts};
 use crate::layout;
 use crate::settings::UnitSettings;
+use crate::slave_settings::{OutputsRule, SlaveSettings};
+use crate::timing::Timing;
 
 /// A byte of an EEPROM that nobody has written.
 const ERASED: u8 = 0xFF;
@@ -30,34 +34,67 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
             sync_manager_count: 8,
             ram_kib: 8,
             distributed_clocks: true,
-            sii: slave.sii_timing(timing),
+            sii: sii_timing(slave, timing),
             sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
         },
         sii_image,
         mailbox: Some(MailboxConfig {
             receive: area(layout::MAILBOX_RECEIVE_START),
             send: area(layout::MAILBOX_SEND_START),
-            response_time: slave.mailbox_time(timing),
+            response_time: mailbox_time(slave, timing),
             aborts: AbortProfile::COARSE,
         }),
         outputs_start: layout::OUTPUTS_START,
         inputs_start: layout::INPUTS_START,
-        outputs_before_op: slave.outputs_before_op.of_stack(),
+        outputs_before_op: outputs_before_op(slave.outputs_before_op),
         watchdog_check: WatchdogCheck::TriggerRequired,
         // Manual, 8-3-4: the state is kept when the error occurs.
         refused_in_op: RefusedInOp::StayInOp,
-        conduct: slave.conduct(timing),
+        conduct: conduct(slave, timing),
+    }
+}
+
+fn outputs_before_op(rule: OutputsRule) -> OutputsBeforeOp {
+    match rule {
+        OutputsRule::Required => {
+            OutputsBeforeOp::Within(Duration::from_millis(timeouts().safe_op_op_ms.into()))
+        }
+        OutputsRule::NotRequired => OutputsBeforeOp::NotRequired,
+    }
+}
+
+/// Fast, no time is left; what is refused stays.
+fn conduct(slave: &SlaveSettings, timing: Timing) -> Conduct {
+    let conduct = slave.conduct.clone();
+    match timing {
+        Timing::Exact => conduct,
+        Timing::Fast => Conduct { transition_times: TransitionTimes::default(), ..conduct },
+    }
+}
+
+fn sii_timing(slave: &SlaveSettings, timing: Timing) -> SiiTiming {
+    if timing == Timing::Fast || slave.sii_time.is_zero() {
+        SiiTiming::Immediate
+    } else {
+        SiiTiming::Busy(slave.sii_time)
+    }
+}
+
+fn mailbox_time(slave: &SlaveSettings, timing: Timing) -> Duration {
+    match (timing, slave.mailbox_time) {
+        (Timing::Exact, Some(time)) => time,
+        _ => timing.sdo_response(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use device::{Device, OutputsBeforeOp, SiiTiming, Unit};
-    use time::{Duration, Instant};
+    use device::{Device, Unit};
+    use time::Instant;
     use wire::AlState;
 
     use super::*;
-    use crate::{NxEct101, Timing};
+    use crate::NxEct101;
 
     #[test]
     fn a_unit_starts_on_its_stack() {
