@@ -62,6 +62,16 @@ pub enum WatchdogCheck {
     TriggerRequired,
 }
 
+/// How long the unit takes from power to its first step. Until then the controller answers alone: AL status is INIT, the
+/// PDI is not operational, and a request waits in AL control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StartUp {
+    /// When it is powered on for the first time; zero: it has been under power for long.
+    pub first: Duration,
+    /// At every later start.
+    pub again: Duration,
+}
+
 /// Everything about the stack of one unit.
 #[derive(Clone, Debug)]
 pub struct DeviceConfig {
@@ -71,6 +81,10 @@ pub struct DeviceConfig {
     pub sii_image: Vec<u8>,
     /// The mailboxes; none for a unit without.
     pub mailbox: Option<MailboxConfig>,
+    /// From power to the first step of the unit.
+    pub start_up: StartUp,
+    /// From the first step of the unit to its first refresh; less than a refresh period.
+    pub refresh_phase: Duration,
     /// Where the outputs' SyncManager 2 starts.
     pub outputs_start: u16,
     /// Where the inputs' SyncManager 3 starts. (A unit without mailbox uses the same numbers.)

@@ -1,6 +1,7 @@
 //! One slave: the stack around a unit, on one ESC.
 
 mod requests;
+mod start_up;
 mod watch;
 
 use esc::{AlEvents, Esc, Pdi, Port, SmIndex};
@@ -10,7 +11,8 @@ use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 use crate::conduct::Conduct;
 use crate::config::DeviceConfig;
 use crate::mailbox_service::MailboxService;
-use crate::unit::{Exchange, PortLinks, Start, Unit};
+use crate::unit::{Exchange, PortLinks, RefreshCause, Start, Unit};
+use start_up::Power;
 
 /// What the stack listens to. Process data are not among it: the refresh runs freely.
 const EVENTS: AlEvents = AlEvents::AL_CONTROL
@@ -26,6 +28,8 @@ pub struct Device<U> {
     mailbox: Option<MailboxService>,
     status: AlStatus,
     code: AlStatusCode,
+    /// The AL status code that the master finds after a restart.
+    code_at_start: Option<AlStatusCode>,
     conduct: Conduct,
     /// When the state request that waits in AL control is taken.
     request_due: Option<Instant>,
@@ -36,7 +40,7 @@ pub struct Device<U> {
     /// Emergencies that found no mailbox, or no room in it.
     emergencies_lost: u64,
     next_refresh: Instant,
-    is_off: bool,
+    power: Power,
 }
 
 impl<U: Unit> Device<U> {
@@ -51,19 +55,20 @@ impl<U: Unit> Device<U> {
             mailbox: None,
             status: AlStatus::default(),
             code: AlStatusCode::NO_ERROR,
+            code_at_start: None,
             request_due: None,
             op_request: None,
             outputs_came: false,
             emergencies_lost: 0,
             next_refresh: now,
-            is_off: false,
+            power: Power::Off,
         };
         let mailbox = device.config.mailbox;
         device.mailbox = mailbox.and_then(|mailbox| {
             device.unit.objects().map(|objects| MailboxService::new(mailbox, objects.table()))
         });
         let mut esc = esc;
-        device.start(&mut esc, now);
+        device.begin_start_up(device.config.start_up.first, &mut esc, now);
         (device, esc)
     }
 
@@ -76,36 +81,23 @@ impl<U: Unit> Device<U> {
         self.request_due = None;
         self.op_request = None;
         self.outputs_came = false;
-        self.is_off = false;
+        self.code_at_start = code;
         if let Some(mailbox) = &mut self.mailbox {
             mailbox.reset();
         }
-        self.start(esc, now);
-        if let (Some(code), None) = (code, self.unit.fault()) {
-            self.refuse(AlState::Init, code, &mut esc.pdi(), now);
-        }
+        self.begin_start_up(self.config.start_up.again, esc, now);
     }
 
     /// Whether the slave has no power.
     #[must_use]
     pub const fn is_off(&self) -> bool {
-        self.is_off
+        matches!(self.power, Power::Off)
     }
 
     /// The slave loses its power: it does nothing until [`Device::restart`]. Its cables are the network's.
     pub(crate) fn power_off(&mut self, now: Instant) {
-        self.is_off = true;
+        self.power = Power::Off;
         self.unit.power_off(now);
-    }
-
-    fn start(&mut self, esc: &mut Esc, now: Instant) {
-        let mut pdi = esc.pdi();
-        pdi.set_event_mask(EVENTS);
-        self.open_sync_managers(&mut pdi);
-        self.next_refresh = now;
-        self.follow_alias(&mut pdi);
-        self.unit.entered(now, AlState::Init);
-        self.watch_fault(&mut pdi, now);
     }
 
     /// The unit model.
@@ -155,8 +147,10 @@ impl<U: Unit> Device<U> {
     /// When the device has to be polled next, whatever the wire does.
     #[must_use]
     pub fn deadline(&self) -> Instant {
-        if self.is_off {
-            return Instant::NEVER;
+        match self.power {
+            Power::Off => return Instant::NEVER,
+            Power::StartingUp { next, .. } => return next,
+            Power::On => {}
         }
         let mailbox = self.mailbox.as_ref().map_or(Instant::NEVER, MailboxService::deadline);
         let outputs = self.op_request.map_or(Instant::NEVER, |request| request.deadline);
@@ -171,11 +165,11 @@ impl<U: Unit> Device<U> {
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
     pub fn poll(&mut self, esc: &mut Esc, now: Instant) {
         esc.advance(now);
-        if self.is_off {
-            return;
-        }
-        if esc.pdi().take_reset_request() {
+        if !self.is_off() && esc.pdi().take_reset_request() {
             self.restart(esc, now, Start::EscReset);
+        }
+        if !self.has_started(esc, now) {
+            return;
         }
         let mut pdi = esc.pdi();
         if pdi.take_activation_event() {
@@ -204,7 +198,7 @@ impl<U: Unit> Device<U> {
 
     /// Runs the unit's refresh and sets the time of the next one; what was missed is not made up for.
     fn refresh(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        self.exchange(pdi, now);
+        self.exchange(RefreshCause::Period, pdi, now);
         let period = self.unit.refresh_period();
         self.next_refresh += period;
         if self.next_refresh <= now && period > Duration::ZERO {
@@ -213,7 +207,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    fn exchange(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+    fn exchange(&mut self, cause: RefreshCause, pdi: &mut Pdi<'_>, now: Instant) {
         let state = self.status.state;
         self.outputs_came |= pdi.outputs_received(SmIndex::OUTPUTS);
         let valid = state == AlState::Op && pdi.outputs_received(SmIndex::OUTPUTS) && !pdi.watchdog_expired();
@@ -221,10 +215,11 @@ impl<U: Unit> Device<U> {
         let unit = &mut self.unit;
         if matches!(state, AlState::SafeOp | AlState::Op) {
             pdi.exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
-                unit.refresh(now, Exchange { state, links, outputs: valid.then_some(outputs), inputs });
+                let outputs = valid.then_some(outputs);
+                unit.refresh(now, Exchange { cause, state, links, outputs, inputs });
             });
         } else {
-            unit.refresh(now, Exchange { state, links, outputs: None, inputs: &mut [] });
+            unit.refresh(now, Exchange { cause, state, links, outputs: None, inputs: &mut [] });
         }
     }
 
@@ -237,7 +232,7 @@ impl<U: Unit> Device<U> {
         if mailbox.poll(now, state, pdi, objects) {
             self.follow_alias(pdi);
             if self.unit.take_status_change() {
-                self.exchange(pdi, now);
+                self.exchange(RefreshCause::Change, pdi, now);
             }
         }
     }
@@ -286,7 +281,7 @@ impl<U: Unit> Device<U> {
             mailbox.reset();
         }
         self.unit.entered(now, state);
-        self.exchange(pdi, now);
+        self.exchange(RefreshCause::Change, pdi, now);
     }
 
     /// INIT has no mailbox, and process data begin with SAFE-OP (reference 5.1): what the state does not have

@@ -13,11 +13,11 @@ mod state_machine;
 mod unit;
 
 pub use conduct::{Conduct, Refusals, TransitionTimes};
-pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, WatchdogCheck};
+pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, StartUp, WatchdogCheck};
 pub use device::Device;
 pub use esc::{EscConfig, SiiTiming, SyncManagerWrites};
 pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;
 pub use state_machine::{Check, TRANSITIONS, Transition, refusal, transition};
-pub use unit::{Exchange, PortLinks, ProcessDataAreas, Start, Unit};
+pub use unit::{Exchange, PortLinks, ProcessDataAreas, RefreshCause, Start, Unit};

@@ -24,8 +24,19 @@ pub struct PortLinks {
     pub out_port: bool,
 }
 
+/// Why the stack calls the unit's refresh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RefreshCause {
+    /// The period of the unit ([`Unit::refresh_period`]) is over.
+    Period,
+    /// A state or a status has changed between two periods, and the master is to see it at once.
+    Change,
+}
+
 /// One refresh: what the SyncManagers hold, for the unit to take and to fill.
 pub struct Exchange<'a> {
+    /// Why it happens.
+    pub cause: RefreshCause,
     /// State of the EtherCAT state machine at this refresh.
     pub state: AlState,
     /// The links at the ports.
@@ -91,6 +102,9 @@ pub trait Unit {
     fn restart(&mut self, _now: Instant, _start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
         None
     }
+
+    /// The processor of the unit runs, and initializes the rest: half of the start-up time is over.
+    fn initializing(&mut self, _now: Instant) {}
 
     /// The slave loses its power. It is restarted with [`Start::PowerOn`] when it gets it back.
     fn power_off(&mut self, _now: Instant) {}

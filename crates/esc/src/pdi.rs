@@ -5,7 +5,7 @@ use wire::{AlControl, AlStatus, AlStatusCode};
 
 use crate::esc::Esc;
 use crate::events::{AlEvents, EcatEvents};
-use crate::ports::Port;
+use crate::ports::{self, Port};
 use crate::registers::at;
 use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
 
@@ -31,6 +31,12 @@ impl<'a> Pdi<'a> {
         let changed = self.esc.al_events.contains(AlEvents::SYNC_MANAGER_ACTIVATION);
         self.esc.al_events -= AlEvents::SYNC_MANAGER_ACTIVATION;
         changed
+    }
+
+    /// The application begins to run, or has not begun yet: DL status bit 0. It needs a loaded SII too.
+    pub fn set_operational(&mut self, operational: bool) {
+        let is_loaded = self.esc.sii.is_loaded();
+        ports::set_pdi_operational(&mut self.esc.memory, operational && is_loaded);
     }
 
     /// The state request that waits, if there is one. The wire cannot write the next until it is taken.

@@ -44,6 +44,8 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
             response_time: mailbox_time(slave, timing),
             aborts: AbortProfile::COARSE,
         }),
+        start_up: settings.start_up,
+        refresh_phase: settings.refresh_phase,
         outputs_start: layout::OUTPUTS_START,
         inputs_start: layout::INPUTS_START,
         outputs_before_op: outputs_before_op(slave.outputs_before_op),

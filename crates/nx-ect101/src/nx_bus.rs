@@ -6,6 +6,8 @@
 
 mod messages;
 
+use time::Duration;
+
 use crate::allocation::{ImageLayout, IoAllocation};
 use crate::data_sets::Direction;
 use crate::status::SlaveStatus;
@@ -93,6 +95,11 @@ pub struct CpuHeader {
     pub io_stopped: bool,
     /// Counts the error resets in the NX Bus Function Module; with each the unit resets its errors too. It wraps.
     pub error_resets: u32,
+    /// Counts the task periods of the primary periodic task, from 1. It wraps. A count that no longer changes is a
+    /// task that has stopped.
+    pub task_periods: u32,
+    /// Period of the primary periodic task; zero: not known, and the unit does not watch the task.
+    pub task_period: Duration,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has none.
     pub system_time_ns: u64,
 }

@@ -1,5 +1,8 @@
 //! How a unit is set up, before it gets power.
 
+use device::StartUp;
+use time::Duration;
+
 use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
@@ -24,6 +27,10 @@ pub struct UnitSettings {
     pub timing: Timing,
     /// What it does as an EtherCAT slave.
     pub slave: SlaveSettings,
+    /// From power to the first step of the unit, when it is powered on first and at later starts.
+    pub start_up: StartUp,
+    /// From the first step of the unit to its first refresh.
+    pub refresh_phase: Duration,
     /// I/O allocation of the CPU Unit.
     pub io_allocation: IoAllocation,
     /// Event levels that the user has changed.
@@ -107,6 +114,8 @@ impl UnitSettings {
             information: file.information.clone(),
             timing: file.timing.value,
             slave: file.slave.clone(),
+            start_up: file.timing.value.start_up(file.start_up.as_ref().map(|start_up| start_up.value)),
+            refresh_phase: file.refresh_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
             io_allocation: file.io_allocation(),
             event_levels: EventLevels::from_unit_file(file),
             newest_acknowledged: NewestAcknowledged::default(),
@@ -131,6 +140,8 @@ impl Default for UnitSettings {
             information: UnitInformation::default(),
             timing: Timing::Exact,
             slave: SlaveSettings::default(),
+            start_up: Timing::Exact.start_up(None),
+            refresh_phase: Duration::ZERO,
             io_allocation: IoAllocation::factory(),
             event_levels: EventLevels::default(),
             newest_acknowledged: NewestAcknowledged::default(),

@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use device::StartUp;
 use serde::Deserialize;
 use time::Duration;
 
@@ -14,6 +15,9 @@ static TIMES: LazyLock<TimingFile> =
 #[serde(deny_unknown_fields)]
 struct TimingFile {
     sdo_response_us: u64,
+    start_up_ms: u64,
+    task_silence_periods: u64,
+    task_silence_min_ms: u64,
     transmission_per_slave_ns: u64,
     transmission_per_byte_ns: u64,
     t_slave: Vec<SlaveRow>,
@@ -49,6 +53,19 @@ impl Timing {
         }
     }
 
+    /// The start-up time that a unit file names, or that of the model. Without a name for it the unit has been under
+    /// power for long when it is powered on first, so that a master finds it ready.
+    #[must_use]
+    pub fn start_up(self, named: Option<Duration>) -> StartUp {
+        match self {
+            Self::Exact => {
+                let again = named.unwrap_or(Duration::from_millis(TIMES.start_up_ms));
+                StartUp { first: named.unwrap_or(Duration::ZERO), again }
+            }
+            Self::Fast => StartUp::default(),
+        }
+    }
+
     /// How long after its request an SDO response is complete (manual, 7-9-2).
     #[must_use]
     pub fn sdo_response(self) -> Duration {
@@ -62,6 +79,12 @@ impl Timing {
 /// From the receipt of an SDO request to its response.
 pub(crate) fn sdo_response() -> Duration {
     Duration::from_micros(TIMES.sdo_response_us)
+}
+
+/// How long no task period may begin before the task of the CPU Unit counts as stopped.
+pub(crate) fn task_silence(task_period: Duration) -> Duration {
+    let periods = task_period * TIMES.task_silence_periods;
+    periods.max(Duration::from_millis(TIMES.task_silence_min_ms))
 }
 
 /// What each slave adds to the transmission time of a frame.

@@ -5,7 +5,7 @@ mod diagnosis;
 mod memory;
 mod nx_bus_side;
 
-use device::{Check, Exchange, ProcessDataAreas, Start, Unit};
+use device::{Check, Exchange, ProcessDataAreas, RefreshCause, Start, Unit};
 use objects::ObjectServer;
 use time::{Duration, Instant};
 use wire::{AlState, AlStatusCode, Emergency};
@@ -20,7 +20,7 @@ use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
-use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd, UnitHeader};
+use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd};
 use crate::nx_objects::NxObject;
 use crate::pdo_settings::PdoSettings;
 use crate::rules;
@@ -28,6 +28,7 @@ use crate::settings::UnitSettings;
 use crate::status::{NxUnitStatus, SlaveStatus};
 
 use memory::KeptMemory;
+use nx_bus_side::TaskWatch;
 
 /// An NX-ECT101 in operation.
 #[derive(Debug)]
@@ -49,13 +50,18 @@ pub struct NxEct101 {
     plan: ExchangePlan,
     /// The data M to C as last received. What is not exchanged stays 0.
     m_to_c: Vec<u8>,
+    /// The data C to M as the last period has taken it.
+    c_to_m: Vec<u8>,
     period: Duration,
     status: SlaveStatus,
     nx_unit_status: NxUnitStatus,
     /// The unit has not told yet what its start has found.
     is_starting: bool,
+    /// Its processor runs, and it initializes the rest.
+    is_initializing: bool,
     /// Whether the CPU Unit did I/O refreshing when last looked.
     cpu_refreshing: bool,
+    task_watch: TaskWatch,
     /// It has done so since the unit started.
     is_initialized: bool,
     /// It has stopped, which is the present cause of NX Unit I/O Communications Error.
@@ -88,6 +94,7 @@ impl NxEct101 {
         diagnosis.start(settings.event_levels, settings.newest_acknowledged);
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
+        let c_to_m_layout = settings.io_allocation.layout(Direction::CToM);
         let mut io_findings = Vec::new();
         rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
         let serial = memory.contents().serial();
@@ -102,13 +109,16 @@ impl NxEct101 {
             pdo_findings: Vec::with_capacity(rules::MAX_FINDINGS),
             m_to_c: vec![0; m_to_c_layout.size_bytes()],
             m_to_c_layout,
-            c_to_m_layout: settings.io_allocation.layout(Direction::CToM),
+            c_to_m: vec![0; c_to_m_layout.size_bytes()],
+            c_to_m_layout,
             plan: ExchangePlan::empty(),
             period,
             status: SlaveStatus::default(),
             nx_unit_status: NxUnitStatus::default(),
             is_starting: true,
+            is_initializing: false,
             cpu_refreshing: false,
+            task_watch: TaskWatch::default(),
             is_initialized: false,
             io_communications_lost: false,
             io_stopped: false,
@@ -118,7 +128,7 @@ impl NxEct101 {
         (unit, cpu_end)
     }
 
-    /// EtherCAT Slave Status as the CPU Unit was last told.
+    /// EtherCAT Slave Status, NX object 6003:01. The device variables of the CPU Unit follow while I/O is refreshed.
     #[must_use]
     pub fn slave_status(&self) -> SlaveStatus {
         self.status
@@ -149,7 +159,7 @@ impl NxEct101 {
     /// Works out the status words of both sides (manual, 6-3-2 and 7-5-5).
     fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader) {
         let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
-        let refreshing = cpu.refreshing && self.io_is_refreshed();
+        let refreshing = self.cpu_refreshing && self.io_is_refreshed();
         let messages = &self.objects.messages;
         self.status = SlaveStatus {
             sdo_enabled: process_data || exchange.state == AlState::PreOp,
@@ -180,14 +190,18 @@ impl NxEct101 {
         self.bus.m_to_c.publish(self.header(), &self.m_to_c);
     }
 
-    /// Fills the inputs from the newest data of the CPU Unit.
-    fn refresh_c_to_m(&mut self, inputs: &mut [u8]) {
+    /// Fills the inputs with the data of the CPU Unit that the period before has taken: the unit works one T_slave on it.
+    /// That is the third T_slave of the I/O response time (manual, 7-9-1); the other two are the waits for a refresh.
+    fn refresh_c_to_m(&mut self, cause: RefreshCause, inputs: &mut [u8]) {
         inputs.fill(0);
-        let image = if self.io_is_refreshed() { Some(self.bus.c_to_m.newest().bytes()) } else { None };
+        let image = self.io_is_refreshed().then_some(self.c_to_m.as_slice());
         if let Some(image) = image {
             exchange::copy(&self.plan.c_to_m, image, inputs);
         }
         self.objects.take_unmapped_entries(image);
+        if cause == RefreshCause::Period {
+            self.c_to_m.copy_from_slice(self.bus.c_to_m.newest().bytes());
+        }
         let status = StatusToMaster {
             nx_unit: self.nx_unit_status,
             new_messages: self.objects.diagnosis.has_new_messages(),
@@ -242,15 +256,20 @@ impl Unit for NxEct101 {
         self.objects.show(&self.settings.information);
         self.pdo_findings.clear();
         self.m_to_c.fill(0);
-        self.restart_diagnosis(start)
+        self.c_to_m.fill(0);
+        self.is_initializing = false;
+        let code = self.restart_diagnosis(start);
+        self.leave_nx_bus(false);
+        code
+    }
+
+    fn initializing(&mut self, _now: Instant) {
+        self.is_initializing = true;
     }
 
     /// The CPU Unit misses the unit: its I/O data is not active, and that is an error.
     fn power_off(&mut self, _now: Instant) {
-        self.status = SlaveStatus::default();
-        self.nx_unit_status = NxUnitStatus::default();
-        let header = UnitHeader { status: self.status, error: true, ..UnitHeader::default() };
-        self.bus.m_to_c.publish(header, &self.m_to_c);
+        self.leave_nx_bus(true);
     }
 
     fn take_emergency(&mut self) -> Option<Emergency> {
@@ -276,12 +295,12 @@ impl Unit for NxEct101 {
         let cpu = self.bus.c_to_m.newest().header;
         self.objects.diagnosis.set_time(cpu.system_time_ns);
         self.tell_start();
-        self.watch_io_communications(cpu.refreshing);
+        self.watch_io_communications(exchange.cause, cpu);
         self.follow_nx_bus(cpu);
         self.answer_messages();
         self.update_status(&exchange, cpu);
         self.refresh_m_to_c(exchange.outputs);
-        self.refresh_c_to_m(exchange.inputs);
+        self.refresh_c_to_m(exchange.cause, exchange.inputs);
         // Only now, so that no flag is older than a response that the CPU Unit has got.
         self.bus.messages.send();
     }

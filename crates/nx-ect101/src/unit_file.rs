@@ -71,6 +71,8 @@ pub struct ChangedLevel {
 pub struct CpuSection {
     /// Period of the primary periodic task, 125 µs to 100 ms; 1 ms when left out.
     pub task_period: Located<Duration>,
+    /// From power-on to the first task period, 0 s to 100 ms; when left out, a scenario's seed decides, else 0.
+    pub task_phase: Option<Located<Duration>>,
     /// Mode at power-on; RUN when left out.
     pub mode: Located<CpuMode>,
     /// Fail-soft operation of the NX bus; fail-soft when left out.
@@ -106,6 +108,10 @@ pub struct UnitFile {
     pub timing: Located<Timing>,
     /// What it does as an EtherCAT slave; all as the standard says, and quick, when left out.
     pub slave: SlaveSettings,
+    /// Start-up time, 0 s to 60 s; that of the model when left out.
+    pub start_up: Option<Located<Duration>>,
+    /// From the first step of the unit to its first refresh, 0 s to 2 ms; when left out, a scenario's seed decides, else 0.
+    pub refresh_phase: Option<Located<Duration>>,
     /// File of the non-volatile memory, relative to the unit file; memory only when left out.
     pub storage: Option<Located<PathBuf>>,
     /// I/O allocation of the CPU Unit; the factory setting when left out.

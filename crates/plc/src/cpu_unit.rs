@@ -9,7 +9,7 @@ use time::{Duration, Instant};
 
 use crate::cpu_event::{CpuEvent, CpuRecord};
 use crate::io::Io;
-use crate::nx_bus_function::{IoRefreshing, NxBusFunction};
+use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
 use crate::program::{Program, Slot};
 
 pub use settings::{CpuSettings, OperatingMode};
@@ -23,17 +23,21 @@ pub struct CpuUnit {
     user_program: Slot,
     io: Io,
     mode: OperatingMode,
+    mode_at_power_on: OperatingMode,
     /// The task period of the settings, for programs that ask for none.
     own_period: Duration,
     task_period: Duration,
+    task_phase: Duration,
     powered_on: Instant,
     system_time_ns: Option<u64>,
     io_refreshing: bool,
+    /// How many task periods have begun. It wraps.
+    task_periods: u32,
     deadline: Instant,
 }
 
 impl CpuUnit {
-    /// Turns a CPU Unit on. Its first task period begins at `now`. All memory that it ever uses is allocated
+    /// Turns a CPU Unit on. Its first task period begins at `now` and the task's phase. All memory that it ever uses is allocated
     /// here.
     ///
     /// # Panics
@@ -59,12 +63,15 @@ impl CpuUnit {
             attached: Vec::new(),
             user_program: Slot::new(program),
             mode: settings.mode,
+            mode_at_power_on: settings.mode,
             own_period: settings.task_period,
             task_period: program_period.unwrap_or(settings.task_period),
+            task_phase: settings.task_phase,
             powered_on: now,
             system_time_ns: settings.system_time_ns,
             io_refreshing: true,
-            deadline: now,
+            task_periods: 0,
+            deadline: now + settings.task_phase,
         }
     }
 
@@ -92,6 +99,10 @@ impl CpuUnit {
             self.user_program.run(&mut self.io);
         }
         self.io.nx_objects.send(&mut self.bus.messages);
+        if self.io.nx_bus_reset == NxBusReset::Asked {
+            self.io.nx_bus_reset = NxBusReset::UnderWay;
+            self.reset_errors();
+        }
         self.deadline += self.task_period * (missed_periods + 1);
     }
 
@@ -163,6 +174,20 @@ impl CpuUnit {
         self.nx_bus_function.reset_errors();
     }
 
+    /// Turns the power of the CPU Rack off and on, as far as the CPU Unit is concerned: its first task period begins at
+    /// `now`, in the operating mode of its settings. All variables and what is forced begin again; RETAIN variables of
+    /// the user program and the system time go on. No error of the NX Bus Function Module is left. Runtimes outside
+    /// stay attached: they have power of their own.
+    pub fn cycle_power(&mut self, now: Instant) {
+        self.system_time_ns = self.system_time_ns_at(now);
+        (self.powered_on, self.deadline) = (now, now + self.task_phase);
+        self.mode = self.mode_at_power_on;
+        self.io_refreshing = true;
+        self.nx_bus_function.power_on();
+        self.io.power_on();
+        self.user_program.start_anew();
+    }
+
     /// Whether the NX Bus Function Module has stopped I/O refreshing because of an error of the unit.
     #[must_use]
     pub fn is_io_stopped(&self) -> bool {
@@ -193,12 +218,18 @@ impl CpuUnit {
     }
 
     fn begin_period(&mut self, now: Instant, missed_periods: u64) {
+        self.task_periods = self.task_periods.wrapping_add(1);
         let running = now.saturating_since(self.powered_on);
-        let system_time_ns = self.system_time_ns.map(|start_ns| start_ns.saturating_add(running.as_nanos()));
+        let system_time_ns = self.system_time_ns_at(now);
         self.io.begin_period(Instant::ZERO + running, system_time_ns);
         if missed_periods > 0 {
             self.io.log(CpuEvent::TaskPeriodExceeded { missed_periods });
         }
+    }
+
+    fn system_time_ns_at(&self, now: Instant) -> Option<u64> {
+        let running = now.saturating_since(self.powered_on);
+        self.system_time_ns.map(|start_ns| start_ns.saturating_add(running.as_nanos()))
     }
 
     fn refresh_inputs(&mut self) {
@@ -208,15 +239,22 @@ impl CpuUnit {
         match self.nx_bus_function.hear(&image.header) {
             Some(IoRefreshing::Stopped) => self.io.log(CpuEvent::IoRefreshingStopped),
             Some(IoRefreshing::GoesOn) => self.io.log(CpuEvent::IoRefreshingResumed),
-            None => {}
+            Some(IoRefreshing::Off) | None => {}
         }
-        self.io.take_inputs(image.header, self.nx_bus_function.refreshing(), image.bytes());
+        if !self.nx_bus_function.awaits_reset() {
+            self.io.nx_bus_reset = NxBusReset::None;
+        }
+        let refreshing =
+            if self.io_refreshing { self.nx_bus_function.refreshing() } else { IoRefreshing::Off };
+        self.io.take_inputs(image.header, refreshing, image.bytes());
     }
 
     fn refresh_outputs(&mut self) {
         let mut header = CpuHeader {
             refreshing: self.io_refreshing,
             messages_enabled: true,
+            task_periods: self.task_periods,
+            task_period: self.task_period,
             system_time_ns: self.io.system_time_ns().unwrap_or(0),
             ..CpuHeader::default()
         };

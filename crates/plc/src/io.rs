@@ -8,7 +8,7 @@ use time::Instant;
 
 use crate::cpu_event::{CpuEvent, CpuEventLog};
 use crate::device_variables::{DeviceVariables, Memory};
-use crate::nx_bus_function::IoRefreshing;
+use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
 use crate::program::ProgramEvent;
 
@@ -28,6 +28,7 @@ pub struct Io {
     /// When the task period began, counted from power-on.
     now: Instant,
     system_time_ns: Option<u64>,
+    pub(crate) nx_bus_reset: NxBusReset,
     /// The program that runs now has reported that it stops.
     has_stopped: bool,
 }
@@ -50,6 +51,7 @@ impl Io {
             events: CpuEventLog::new(),
             now: Instant::ZERO,
             system_time_ns: None,
+            nx_bus_reset: NxBusReset::None,
             has_stopped: false,
         };
         io.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
@@ -156,6 +158,12 @@ impl Io {
         self.log(CpuEvent::Program(event));
     }
 
+    /// Resets the errors of the NX Bus Function Module and, with its next refresh, those of the unit, as
+    /// [`crate::CpuUnit::reset_errors`] does.
+    pub const fn reset_nx_bus(&mut self) {
+        self.nx_bus_reset = NxBusReset::Asked;
+    }
+
     /// EtherCAT Slave Status of the unit.
     #[must_use]
     pub fn status(&self) -> SlaveStatus {
@@ -177,6 +185,13 @@ impl Io {
     /// Takes in what the unit tells, data and statuses; what is forced stays.
     pub(crate) fn take_inputs(&mut self, header: UnitHeader, refreshing: IoRefreshing, m_to_c: &[u8]) {
         self.memory.refresh(self.unit_number, header, refreshing, m_to_c);
+    }
+
+    /// The CPU Unit gets power again: all values begin again, nothing is forced, and no NX object is asked for.
+    pub(crate) fn power_on(&mut self) {
+        self.memory = Memory::new(self.m_to_c_layout.size_bytes(), self.c_to_m_layout.size_bytes());
+        self.nx_bus_reset = NxBusReset::None;
+        self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
     }
 
     /// A task period begins, so long after power-on.

@@ -8,12 +8,32 @@
 use nx_ect101::nx_bus::{CpuHeader, UnitHeader};
 use nx_ect101::unit_file::FailSoftOperation;
 
-/// Whether the NX Bus Function Module lets I/O be refreshed.
+/// Whether I/O is refreshed on the NX bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IoRefreshing {
     GoesOn,
-    /// Because of an error of the unit.
+    /// The NX Bus Function Module has stopped it because of an error of the unit.
     Stopped,
+    /// The CPU Unit does none.
+    Off,
+}
+
+/// A reset of its errors that a program asks for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum NxBusReset {
+    /// None, or it is complete.
+    #[default]
+    None,
+    /// It begins at the end of the task period.
+    Asked,
+    /// The unit has not followed yet.
+    UnderWay,
+}
+
+impl NxBusReset {
+    pub(crate) fn is_pending(self) -> bool {
+        self != Self::None
+    }
 }
 
 /// The NX Bus Function Module.
@@ -40,6 +60,17 @@ impl NxBusFunction {
     pub(crate) const fn reset_errors(&mut self) {
         self.error_resets = self.error_resets.wrapping_add(1);
         self.awaits_reset = true;
+    }
+
+    /// Whether the unit has yet to follow the last reset.
+    pub(crate) const fn awaits_reset(&self) -> bool {
+        self.awaits_reset
+    }
+
+    /// The CPU Rack gets power again: no error is left. The unit keeps counting resets, so the count goes on.
+    pub(crate) const fn power_on(&mut self) {
+        self.refreshing = IoRefreshing::GoesOn;
+        self.awaits_reset = false;
     }
 
     /// What the unit is told.

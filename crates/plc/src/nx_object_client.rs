@@ -171,7 +171,7 @@ impl Call {
 
 #[cfg(test)]
 mod tests {
-    use device::{Exchange, PortLinks, Unit};
+    use device::{Exchange, PortLinks, RefreshCause, Unit};
     use nx_ect101::{IoAllocation, NxEct101, UnitSettings, nx_bus};
     use time::Instant;
     use wire::AlState;
@@ -181,8 +181,8 @@ mod tests {
     const SERIAL: (ObjectIndex, SubIndex) = (ObjectIndex(0x1000), SubIndex(7));
 
     fn refresh(unit: &mut NxEct101) {
-        let exchange =
-            Exchange { state: AlState::Init, links: PortLinks::default(), outputs: None, inputs: &mut [] };
+        let (cause, links) = (RefreshCause::Period, PortLinks::default());
+        let exchange = Exchange { cause, state: AlState::Init, links, outputs: None, inputs: &mut [] };
         unit.refresh(Instant::ZERO, exchange);
     }
 

@@ -30,6 +30,19 @@ pub trait Host {
         value: &mut [u8; NX_OBJECT_BYTES_MAX],
     ) -> Poll<Result<usize, NxFault>>;
 
+    /// ResetNXBError: begins to reset the errors of the NX Bus Function Module.
+    ///
+    /// # Errors
+    /// Error ID: there is no NX bus here.
+    fn reset_nx_bus(&mut self) -> Result<(), NxFault> {
+        Err(NxFault::of(NxFault::OUT_OF_RANGE))
+    }
+
+    /// Whether the reset that was begun last is complete.
+    fn nx_bus_is_reset(&self) -> bool {
+        true
+    }
+
     /// SetAlarm: a user-defined error with its code and attached information.
     fn set_alarm(&mut self, alarm: Alarm);
 

@@ -2,7 +2,7 @@
 //! knows of NX, and it is small enough for every state to be tried.
 
 use device::{
-    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start,
+    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start, StartUp,
     Unit, WatchdogCheck,
 };
 use esc::EscConfig;
@@ -91,6 +91,8 @@ pub(crate) fn config() -> DeviceConfig {
         mailbox: None,
         outputs_start: OUTPUTS_START,
         inputs_start: INPUTS_START,
+        start_up: StartUp::default(),
+        refresh_phase: Duration::ZERO,
         outputs_before_op: OutputsBeforeOp::NotRequired,
         watchdog_check: WatchdogCheck::Off,
         refused_in_op: RefusedInOp::DropToSafeOp,

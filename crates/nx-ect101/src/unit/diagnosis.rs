@@ -105,10 +105,10 @@ impl NxEct101 {
     pub fn nx_condition(&self) -> NxCondition {
         let faults = self.faults().map(Fault::event);
         let errors = faults.chain(self.io_findings.iter().map(|finding| finding.event));
-        let condition = match (self.is_starting, self.is_initialized) {
-            (true, _) => NxCondition::WaitingForInitialization,
-            (false, false) => NxCondition::Initializing,
-            (false, true) => NxCondition::Normal,
+        let condition = match (self.is_initializing, self.is_starting, self.is_initialized) {
+            (false, ..) => NxCondition::WaitingForInitialization,
+            (true, false, true) => NxCondition::Normal,
+            (true, ..) => NxCondition::Initializing,
         };
         errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
     }
@@ -142,6 +142,7 @@ impl NxEct101 {
 
     /// Tells what the start has found, once. It waits for the first refresh, which knows the time.
     pub(super) fn tell_start(&mut self) {
+        self.is_initializing = true;
         if !core::mem::take(&mut self.is_starting) {
             return;
         }

@@ -1,13 +1,47 @@
 //! What goes between the unit and the NX bus besides the data: what the CPU Unit has decided, NX messages, statuses.
 
+use device::RefreshCause;
+use time::Duration;
+
 use crate::fault::Fault;
 use crate::nx_bus::{CpuHeader, UnitHeader};
 use crate::nx_server;
+use crate::status::{NxUnitStatus, SlaveStatus};
+use crate::timing::task_silence;
 use crate::unit::NxEct101;
 
+/// Watches the primary periodic task of the CPU Unit, by the task periods that it counts.
+#[derive(Debug, Default)]
+pub(super) struct TaskWatch {
+    /// The count that was seen last.
+    task_periods: u32,
+    /// How many periods of the unit have passed since it changed. Periods are counted, not time: a process that was
+    /// suspended has missed task periods and refreshes alike.
+    silent_periods: u64,
+}
+
+impl TaskWatch {
+    /// A period of the unit passes.
+    pub(super) const fn pass(&mut self, task_periods: u32) {
+        let is_silent = self.task_periods == task_periods;
+        self.silent_periods = if is_silent { self.silent_periods.saturating_add(1) } else { 0 };
+        self.task_periods = task_periods;
+    }
+
+    /// Whether the task counts as stopped.
+    pub(super) fn has_stopped(&self, refresh_period: Duration, task_period: Duration) -> bool {
+        let silence = refresh_period * self.silent_periods;
+        !task_period.is_zero() && silence > task_silence(task_period)
+    }
+}
+
 impl NxEct101 {
-    /// A CPU Unit that stops I/O refreshing is an NX bus without I/O communications.
-    pub(super) fn watch_io_communications(&mut self, refreshing: bool) {
+    /// A CPU Unit that stops I/O refreshing, or its task, is an NX bus without I/O communications.
+    pub(super) fn watch_io_communications(&mut self, cause: RefreshCause, cpu: CpuHeader) {
+        if cause == RefreshCause::Period {
+            self.task_watch.pass(cpu.task_periods);
+        }
+        let refreshing = cpu.refreshing && !self.task_watch.has_stopped(self.period, cpu.task_period);
         if self.cpu_refreshing && !refreshing {
             self.io_communications_lost = true;
             self.objects.diagnosis.see(Fault::IoCommunications);
@@ -25,6 +59,16 @@ impl NxEct101 {
             self.error_resets = cpu.error_resets;
             self.reset_errors();
         }
+    }
+
+    /// The unit takes no part in the NX bus until its next refresh: it has lost its power, or starts again. Only the
+    /// first is an error for the CPU Unit.
+    pub(super) fn leave_nx_bus(&mut self, error: bool) {
+        self.status = SlaveStatus::default();
+        self.nx_unit_status = NxUnitStatus::default();
+        let error_resets = self.error_resets;
+        let header = UnitHeader { status: self.status, error, error_resets, ..UnitHeader::default() };
+        self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
     /// What the unit tells the CPU Unit along with its data.

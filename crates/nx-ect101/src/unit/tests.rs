@@ -1,6 +1,6 @@
 //! The unit between a master's SyncManagers and a CPU Unit's NX bus, without either.
 
-use device::PortLinks;
+use device::{PortLinks, RefreshCause};
 use wire::{ObjectIndex, SubIndex};
 
 use super::*;
@@ -20,6 +20,8 @@ const REFRESHING: CpuHeader = CpuHeader {
     messages_enabled: true,
     io_stopped: false,
     error_resets: 0,
+    task_periods: 0,
+    task_period: Duration::ZERO,
     system_time_ns: 1_700_000_000_000_000_000,
 };
 
@@ -47,7 +49,8 @@ impl Bench {
     }
 
     fn refresh(&mut self, state: AlState, outputs: Option<&[u8]>) {
-        self.unit.refresh(NOW, Exchange { state, links: self.links, outputs, inputs: &mut self.inputs });
+        let (cause, inputs) = (RefreshCause::Period, &mut self.inputs);
+        self.unit.refresh(NOW, Exchange { cause, state, links: self.links, outputs, inputs });
     }
 }
 
@@ -57,6 +60,7 @@ fn data_goes_both_ways_in_op() {
     bench.enter_safe_op();
     let outputs: Vec<u8> = (0..180).collect();
     bench.cpu.c_to_m.publish(REFRESHING, &[0xA5; 180]);
+    bench.refresh(AlState::Op, Some(&outputs));
     bench.refresh(AlState::Op, Some(&outputs));
     let image = bench.cpu.m_to_c.newest();
     assert_eq!(image.bytes(), outputs);
@@ -108,6 +112,7 @@ fn what_only_one_side_has_stays_0() {
     let mut bench = Bench::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
     bench.enter_safe_op();
     bench.cpu.c_to_m.publish(REFRESHING, &[9; 70]);
+    bench.refresh(AlState::Op, Some(&[5; 180]));
     bench.refresh(AlState::Op, Some(&[5; 180]));
     assert_eq!(
         bench.cpu.m_to_c.newest().bytes(),
@@ -174,6 +179,8 @@ fn a_unit_file_sets_up_a_unit() {
         software_id: 0,
         information: UnitInformation::default(),
         timing: Timing::Fast,
+        start_up: Timing::Fast.start_up(None),
+        refresh_phase: Duration::ZERO,
         io_allocation,
         event_levels,
         newest_acknowledged: NewestAcknowledged::NewestRecord,

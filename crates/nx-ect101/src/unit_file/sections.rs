@@ -16,7 +16,7 @@ use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
 use crate::timing::Timing;
 
-const UNIT_KEYS: [&str; 21] = [
+const UNIT_KEYS: [&str; 23] = [
     "model",
     "name",
     "unit_number",
@@ -29,6 +29,8 @@ const UNIT_KEYS: [&str; 21] = [
     "hardware_version",
     "software_version",
     "timing",
+    "start_up",
+    "refresh_phase",
     "outputs_before_op",
     "blank_sii",
     "times",
@@ -62,6 +64,8 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     let timing = reader.value(file, "timing", |place, value| {
         values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
     });
+    let start_up = reader.value(file, "start_up", values::start_up);
+    let refresh_phase = reader.value(file, "refresh_phase", values::refresh_phase);
     let slave = slave::slave(reader, file);
     let name = reader.value(file, "name", values::identifier);
     let storage = reader.value(file, "storage", values::path);
@@ -78,6 +82,8 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
         alias,
         information: information::information(reader, file),
         timing: timing.unwrap_or(Located::left_out(Timing::Exact)),
+        start_up,
+        refresh_phase,
         slave,
         storage,
         io_allocation,
@@ -217,16 +223,18 @@ fn level(place: &str, value: &DeValue<'_>) -> Result<EventLevel, Problem> {
 fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
     let mut cpu = CpuSection {
         task_period: Located::left_out(Duration::from_millis(1)),
+        task_phase: None,
         mode: Located::left_out(CpuMode::Run),
         fail_soft: Located::left_out(FailSoftOperation::FailSoft),
         program: None,
         statement_budget: Located::left_out(STATEMENT_BUDGET_DEFAULT),
     };
     let Some(section) = reader.section(file, "cpu") else { return cpu };
-    reader.only(&section, &["task_period", "mode", "fail_soft", "program", "statement_budget"]);
+    reader.only(&section, &["task_period", "task_phase", "mode", "fail_soft", "program", "statement_budget"]);
     if let Some(task_period) = reader.value(&section, "task_period", values::task_period) {
         cpu.task_period = task_period;
     }
+    cpu.task_phase = reader.value(&section, "task_phase", values::task_phase);
     let modes = [("run", CpuMode::Run), ("program", CpuMode::Program)];
     if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
         cpu.mode = mode;

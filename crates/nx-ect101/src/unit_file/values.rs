@@ -13,6 +13,8 @@ use super::reader::wrong_type;
 
 /// Task periods that a CPU Unit can have.
 const TASK_PERIODS: RangeInclusive<Duration> = Duration::from_micros(125)..=Duration::from_millis(100);
+/// Start-up times that a unit can have.
+const START_UP_TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
 /// Longest name of a variable on the CPU Unit.
 const NAME_MAX_LENGTH: usize = 127;
 /// How much of a text a message repeats.
@@ -67,10 +69,33 @@ pub(super) fn identifier(place: &str, value: &DeValue<'_>) -> Result<String, Pro
 
 /// The period of a task.
 pub(super) fn task_period(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    let expected = "a duration, \"125us\" to \"100ms\"";
+    duration(place, value, &TASK_PERIODS, "a duration, \"125us\" to \"100ms\"")
+}
+
+/// The start-up time of a unit.
+pub(super) fn start_up(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
+    duration(place, value, &START_UP_TIMES, "a duration, \"0ms\" to \"60s\"")
+}
+
+/// Where in its period the unit refreshes.
+pub(super) fn refresh_phase(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
+    duration(place, value, &(Duration::ZERO..=Duration::from_millis(2)), "a duration, \"0us\" to \"2ms\"")
+}
+
+/// Where in its period the task begins.
+pub(super) fn task_phase(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
+    duration(place, value, &(Duration::ZERO..=*TASK_PERIODS.end()), "a duration, \"0us\" to \"100ms\"")
+}
+
+fn duration(
+    place: &str,
+    value: &DeValue<'_>,
+    allowed: &RangeInclusive<Duration>,
+    expected: &'static str,
+) -> Result<Duration, Problem> {
     let written = text(place, value, expected)?;
-    let period = written.parse().ok().filter(|period| TASK_PERIODS.contains(period));
-    period.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", shown(written)), expected))
+    let duration = written.parse().ok().filter(|duration| allowed.contains(duration));
+    duration.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", shown(written)), expected))
 }
 
 /// The path of a file.

@@ -1,6 +1,6 @@
 //! The unit between a master, a CPU Unit and a memory, by its public faces.
 
-use device::{Check, Exchange, PortLinks, Start, Unit};
+use device::{Check, Exchange, PortLinks, RefreshCause, Start, Unit};
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
 use nx_ect101::{
     EventCode, EventLevel, MemoryAtPowerOn, NewestAcknowledged, NonVolatileMemory, NxEct101, UnitSettings,
@@ -109,8 +109,8 @@ impl Bench {
         let inputs_bytes = if has_inputs { self.unit.process_data().inputs_bytes } else { 0 };
         self.inputs.clear();
         self.inputs.resize(usize::from(inputs_bytes), 0xEE);
-        let (links, inputs) = (PortLinks::default(), &mut self.inputs);
-        self.unit.refresh(NOW, Exchange { state: self.state, links, outputs: None, inputs });
+        let (cause, links, inputs) = (RefreshCause::Period, PortLinks::default(), &mut self.inputs);
+        self.unit.refresh(NOW, Exchange { cause, state: self.state, links, outputs: None, inputs });
     }
 
     /// The octets of all emergency messages that wait, `most` at most.

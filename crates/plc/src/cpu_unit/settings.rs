@@ -33,6 +33,8 @@ pub struct CpuSettings {
     pub unit_number: u8,
     /// Task period of the primary periodic task; not zero.
     pub task_period: Duration,
+    /// From power-on to the first task period.
+    pub task_phase: Duration,
     /// Operating mode at power-on.
     pub mode: OperatingMode,
     /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
@@ -53,6 +55,7 @@ impl CpuSettings {
             device_name: file.name.value.clone(),
             unit_number: file.unit_number.value,
             task_period: file.cpu.task_period.value,
+            task_phase: file.cpu.task_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
             mode,
             system_time_ns: None,
             fail_soft: file.cpu.fail_soft.value,
@@ -67,6 +70,7 @@ impl Default for CpuSettings {
             device_name: "N1".to_owned(),
             unit_number: 1,
             task_period: Duration::from_millis(1),
+            task_phase: Duration::ZERO,
             mode: OperatingMode::Run,
             system_time_ns: None,
             fail_soft: FailSoftOperation::FailSoft,

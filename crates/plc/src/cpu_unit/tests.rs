@@ -4,7 +4,7 @@ mod fail_soft;
 mod forced;
 mod programs;
 
-use device::{Check, Exchange, PortLinks, Unit};
+use device::{Check, Exchange, PortLinks, RefreshCause, Unit};
 use nx_ect101::unit_file::{FailSoftOperation, UnitFile};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
@@ -58,6 +58,7 @@ impl Bench {
                 self.unit.refresh(
                     now,
                     Exchange {
+                        cause: RefreshCause::Period,
                         state: self.state,
                         links: PortLinks::default(),
                         outputs,

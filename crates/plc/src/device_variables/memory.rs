@@ -1,5 +1,6 @@
 //! The memory behind the variables, and the bits of it that are forced.
 
+use nx_ect101::SlaveStatus;
 use nx_ect101::nx_bus::UnitHeader;
 
 use super::ports::{
@@ -58,17 +59,22 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// Zeros, nothing forced.
+    /// Zeros and the default of EtherCAT Slave Status (manual, 6-3-2), nothing forced.
     pub(crate) fn new(m_to_c_bytes: usize, c_to_m_bytes: usize) -> Self {
-        Self {
+        let mut memory = Self {
             m_to_c: Image::new(m_to_c_bytes),
             c_to_m: Image::new(c_to_m_bytes),
             status: Image::new(STATUS_BYTES),
-        }
+        };
+        memory.take_io_data(SlaveStatus::default(), &[]);
+        memory
     }
 
-    /// Takes in what the unit with this NX Unit number tells. What is forced stays. The system-defined tables end
+    /// Takes in what the unit with this NX Unit number reports. What is forced stays. The system-defined tables end
     /// at unit 32: one with a higher number has no element in them.
+    ///
+    /// The data M to C and EtherCAT Slave Status are I/O data: they keep their last values while no I/O is refreshed.
+    /// The rest comes from the NX Bus Function Module, which needs no I/O refreshing (manual, A-3-2).
     pub(crate) fn refresh(
         &mut self,
         unit_number: u8,
@@ -76,21 +82,27 @@ impl Memory {
         refreshing: IoRefreshing,
         m_to_c: &[u8],
     ) {
-        let is_stopped = refreshing == IoRefreshing::Stopped;
-        let length_bytes = self.m_to_c.bytes.len().min(m_to_c.len());
-        self.m_to_c.bytes[..length_bytes].copy_from_slice(&m_to_c[..length_bytes]);
+        let is_active = header.io_data_active && refreshing == IoRefreshing::GoesOn;
+        if is_active {
+            self.take_io_data(header.status, m_to_c);
+        }
         let status = &mut self.status.bytes;
-        status[SLAVE_STATUS..][..2].copy_from_slice(&header.status.bits().to_le_bytes());
-        status[IO_DATA_ACTIVE] = (header.io_data_active && !is_stopped).into();
+        status[IO_DATA_ACTIVE] = is_active.into();
         status[UNIT_ERROR] = header.error.into();
         // The NX Bus Function Module itself can always be asked (manual, A-5-1).
         status[MESSAGE_TABLE] = 1;
-        status[ERROR_TABLE] = is_stopped.into();
+        status[ERROR_TABLE] = (refreshing == IoRefreshing::Stopped).into();
         if u16::from(unit_number) < SYSTEM_TABLE_ELEMENTS {
             status[MESSAGE_TABLE + usize::from(unit_number)] = header.messages_enabled.into();
             status[ERROR_TABLE + usize::from(unit_number)] = header.error.into();
         }
         self.apply_forced();
+    }
+
+    fn take_io_data(&mut self, slave_status: SlaveStatus, m_to_c: &[u8]) {
+        let length_bytes = self.m_to_c.bytes.len().min(m_to_c.len());
+        self.m_to_c.bytes[..length_bytes].copy_from_slice(&m_to_c[..length_bytes]);
+        self.status.bytes[SLAVE_STATUS..][..2].copy_from_slice(&slave_status.bits().to_le_bytes());
     }
 
     pub(crate) fn slave_status(&self) -> u16 {

@@ -91,6 +91,15 @@ impl Host for IoHost<'_> {
         }))
     }
 
+    fn reset_nx_bus(&mut self) -> Result<(), NxFault> {
+        self.io.reset_nx_bus();
+        Ok(())
+    }
+
+    fn nx_bus_is_reset(&self) -> bool {
+        !self.io.nx_bus_reset.is_pending()
+    }
+
     fn set_alarm(&mut self, alarm: Alarm) {
         self.io.report(alarm.into());
     }

@@ -93,6 +93,8 @@ pub(super) const BLOCKS: &[Row] = &[
     row("NX_ReadObj", "Execute: BOOL, UnitProxy: _sNXUNIT_ID, Obj: _sNXOBJ_ACCESS, TimeOut: UINT, ReadDat: a variable",
         "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD, ErrorIDEx: DWORD",
         "reads an NX object at the rising edge of Execute; TimeOut in 0.1 s, 0 is 2.0 s"),
+    row("ResetNXBError", "Execute: BOOL", "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD",
+        "resets the errors of the NX Bus Function Module, and with them those of the unit, at the rising edge of Execute"),
     row("NX_WriteObj", "Execute: BOOL, UnitProxy: _sNXUNIT_ID, Obj: _sNXOBJ_ACCESS, TimeOut: UINT, WriteDat: a variable",
         "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD, ErrorIDEx: DWORD",
         "writes an NX object at the rising edge of Execute; TimeOut in 0.1 s, 0 is 2.0 s"),

@@ -29,6 +29,10 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("_NxRead", &[UNIT, INDEX, SUB, NUMBER], STATUS, "begins to read an NX object", read),
     row("_NxWrite", &[UNIT, INDEX, SUB, NUMBER, DATA], STATUS, "begins to write an NX object", write),
     row("_NxReadResult", &[MADE, DATA], STATUS, "what became of a call that reads", read_result),
+    row("_NxBusReset", &[], STATUS, "begins to reset the errors of the NX Bus Function Module", reset_bus),
+    row("_NxBusResult", &[], STATUS, "whether that is complete", |call| {
+        Ok(if call.machine.host.nx_bus_is_reset() { DONE } else { PENDING })
+    }),
     row("_NxWriteResult", &[MADE], STATUS, "what became of a call, whatever was read", write_result),
 ];
 
@@ -63,6 +67,10 @@ fn write(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
         None => Err(WRONG_LENGTH),
     };
     Ok(note(call, made))
+}
+
+fn reset_bus(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    Ok(call.machine.host.reset_nx_bus().map_or_else(status_of, |()| PENDING))
 }
 
 fn note(call: &mut Call<'_, '_>, made: Result<NxCallNumber, NxFault>) -> u64 {

@@ -138,9 +138,9 @@ fn what_is_set_in_pre_op_counts_from_the_next_safe_op_on() {
     bench.refresh(AlState::Op, Some(&[7; 180]));
     bench.unit.entered(NOW, AlState::PreOp);
     set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_01F0, 0x7000_02F0]).expect("mappable");
-    bench
-        .unit
-        .refresh(NOW, Exchange { state: AlState::PreOp, links: bench.links, outputs: None, inputs: &mut [] });
+    let (cause, links) = (RefreshCause::Period, bench.links);
+    let exchange = Exchange { cause, state: AlState::PreOp, links, outputs: None, inputs: &mut [] };
+    bench.unit.refresh(NOW, exchange);
     assert_eq!(bench.cpu.m_to_c.newest().bytes(), [7; 180], "not before");
     bench.enter_safe_op();
     bench.refresh(AlState::SafeOp, None);

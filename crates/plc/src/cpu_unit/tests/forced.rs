@@ -15,8 +15,8 @@ const IMAGE_BYTES: usize = 44;
 
 #[derive(Clone, Debug)]
 enum Step {
-    /// The unit publishes its data, all bytes the same, and this status.
-    Publish(u8, u16),
+    /// The unit publishes its data, all bytes the same, and this status; whether its I/O data is active.
+    Publish(u8, u16, bool),
     /// From now on the program fills the whole image with this, or leaves it alone.
     ProgramFills(Option<u8>),
     Cycle,
@@ -34,7 +34,7 @@ enum Step {
 fn steps() -> impl Strategy<Value = Vec<Step>> {
     let mode = prop_oneof![Just(OperatingMode::Run), Just(OperatingMode::Program)];
     let step = prop_oneof![
-        1 => (any::<u8>(), any::<u16>()).prop_map(|(fill, status)| Step::Publish(fill, status)),
+        1 => any::<(u8, u16, bool)>().prop_map(|(fill, status, active)| Step::Publish(fill, status, active)),
         1 => any::<Option<u8>>().prop_map(Step::ProgramFills),
         3 => Just(Step::Cycle),
         1 => mode.prop_map(Step::SetMode),
@@ -131,7 +131,7 @@ struct Run {
     seen_to: std::sync::mpsc::Sender<Seen>,
     /// M to C, C to M, status word.
     model: [Bits; 3],
-    published: (Vec<u8>, u16),
+    published: Option<(Vec<u8>, u16)>,
     program_fills: Option<u8>,
 }
 
@@ -152,7 +152,7 @@ impl Run {
         let mut model = [Bits::zeros(IMAGE_BYTES), Bits::zeros(IMAGE_BYTES), Bits::zeros(2)];
         model[2].write(0..16, &status.to_le_bytes());
         let places = places(cpu.io());
-        let published = (vec![0; IMAGE_BYTES], status);
+        let published = None;
         Self { unit, cpu, places, fill, seen, seen_to, model, published, program_fills: None }
     }
 
@@ -166,12 +166,11 @@ impl Run {
 
     fn step(&mut self, step: Step) {
         match step {
-            Step::Publish(fill, bits) => {
+            Step::Publish(fill, bits, io_data_active) => {
                 let status = SlaveStatus::from_bits(bits);
-                self.unit
-                    .m_to_c
-                    .publish(UnitHeader { status, ..UnitHeader::default() }, &[fill; IMAGE_BYTES]);
-                self.published = (vec![fill; IMAGE_BYTES], status.bits());
+                let header = UnitHeader { status, io_data_active, ..UnitHeader::default() };
+                self.unit.m_to_c.publish(header, &[fill; IMAGE_BYTES]);
+                self.published = io_data_active.then(|| (vec![fill; IMAGE_BYTES], status.bits()));
             }
             Step::ProgramFills(fill) => {
                 self.program_fills = fill;
@@ -221,9 +220,10 @@ impl Run {
     fn cycle(&mut self) {
         self.cpu.cycle(self.cpu.deadline());
         assert_eq!(self.unit.c_to_m.newest().bytes(), self.model[1].see(WHOLE), "what goes out is forced");
-        let (data, status) = &self.published;
-        self.model[0].write(WHOLE, data);
-        self.model[2].write(0..16, &status.to_le_bytes());
+        if let Some((data, status)) = &self.published {
+            self.model[0].write(WHOLE, data);
+            self.model[2].write(0..16, &status.to_le_bytes());
+        }
         let seen: Vec<_> = self.seen.try_iter().collect();
         if self.cpu.mode() == OperatingMode::Program {
             assert_eq!(seen, []);

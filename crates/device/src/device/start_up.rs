@@ -1,0 +1,76 @@
+//! From power to the first step of the unit: until then its controller answers alone.
+
+use esc::Esc;
+use time::{Duration, Instant};
+use wire::AlState;
+
+use super::{Device, EVENTS};
+use crate::unit::Unit;
+
+/// Whether a slave has power, and how far it has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Power {
+    Off,
+    StartingUp {
+        phase: Phase,
+        /// When the phase is over.
+        next: Instant,
+        /// How long each phase takes.
+        phase_time: Duration,
+    },
+    On,
+}
+
+/// The two halves of the start-up time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// Nothing of the unit runs yet.
+    Waiting,
+    /// Its processor runs, the application does not.
+    Initializing,
+}
+
+impl<U: Unit> Device<U> {
+    /// The slave has got power, or starts again. Without a start-up time it takes its first step at once.
+    pub(super) fn begin_start_up(&mut self, start_up: Duration, esc: &mut Esc, now: Instant) {
+        let phase_time = Duration::from_nanos(start_up.as_nanos() / 2);
+        self.power = Power::StartingUp { phase: Phase::Waiting, next: now + phase_time, phase_time };
+        esc.pdi().set_operational(false);
+        self.has_started(esc, now);
+    }
+
+    /// Whether the unit runs at `now`; what is due of its start-up happens first.
+    pub(super) fn has_started(&mut self, esc: &mut Esc, now: Instant) -> bool {
+        while let Power::StartingUp { phase, next, phase_time } = self.power {
+            if now < next {
+                return false;
+            }
+            match phase {
+                Phase::Waiting => {
+                    self.unit.initializing(now);
+                    let next = next + phase_time;
+                    self.power = Power::StartingUp { phase: Phase::Initializing, next, phase_time };
+                }
+                Phase::Initializing => {
+                    self.power = Power::On;
+                    self.start(esc, now);
+                }
+            }
+        }
+        !self.is_off()
+    }
+
+    fn start(&mut self, esc: &mut Esc, now: Instant) {
+        let mut pdi = esc.pdi();
+        pdi.set_operational(true);
+        pdi.set_event_mask(EVENTS);
+        self.open_sync_managers(&mut pdi);
+        self.next_refresh = now + self.config.refresh_phase;
+        self.follow_alias(&mut pdi);
+        self.unit.entered(now, AlState::Init);
+        self.watch_fault(&mut pdi, now);
+        if let (Some(code), None) = (self.code_at_start.take(), self.unit.fault()) {
+            self.refuse(AlState::Init, code, &mut pdi, now);
+        }
+    }
+}
