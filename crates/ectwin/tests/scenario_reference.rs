@@ -21,6 +21,7 @@ Every key, sentence, place and fault of a scenario file. [Write a scenario](writ
 | `seed` | seed of the dice, a number | 1 |
 | `limit` | the moment behind which nothing goes on: who still waits then has waited in vain | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
+| `cycle_phase` | where in its period the cycle lies, from the beginning | the seed decides |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program`, to run another program than that of the unit file | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | it only does what steps order |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |
@@ -53,7 +54,7 @@ In each period it takes in what the slaves have sent, runs once, and gives out w
   SAFE-OP or OP. For that the master reads AL status of each slave in each period; without an answer twice in a row, the slave is
   not there.
 
-It has no NX bus: NX_ReadObj and NX_WriteObj end with an error (16#400).
+It has no NX bus: NX_ReadObj, NX_WriteObj and ResetNXBError end with an error (16#400).
 
 ## Steps
 A step is a table, and happens behind the step in front of it. It tells one of these:

@@ -1,7 +1,18 @@
 //! The scenario's dice: the same numbers in every run of the same seed (SplitMix64).
 
+use time::Duration;
+
 /// Makes another seed for the dice of steps, so that a fault of the line does not move them.
 pub(crate) const DICE_OF_STEPS: u64 = 0x5EED_0000_57E9_5000;
+
+/// Makes another seed for the phases of units, tasks and master, so that they move neither steps nor faults.
+const DICE_OF_PHASES: u64 = 0x5EED_0000_0F00_A5E5;
+
+/// The dice for the phases of one participant: the master is 0, the units count from 1.
+pub(crate) fn dice_of_phases(seed: u64, participant: u64) -> Dice {
+    let mut dice = Dice::new(seed ^ DICE_OF_PHASES);
+    Dice::new(dice.next().wrapping_add(participant))
+}
 
 /// A source of numbers.
 #[derive(Clone, Debug)]
@@ -22,6 +33,11 @@ impl Dice {
     /// A number below `limit`, which is not 0.
     pub(crate) fn below(&mut self, limit: u64) -> u64 {
         self.next() % limit.max(1)
+    }
+
+    /// A moment in a period.
+    pub(crate) fn phase(&mut self, period: Duration) -> Duration {
+        Duration::from_nanos(self.below(period.as_nanos()))
     }
 
     /// Whether something happens that does so in so many of a hundred cases.

@@ -150,7 +150,7 @@ impl Condition {
                 begins(world.io(at).m_to_c().get(*first..).unwrap_or_default(), bytes)
             }
             Self::DirectionValid { m_to_c, valid, .. } => {
-                let status = world.io(at).status();
+                let status = world.unit(at).slave_status();
                 let seen = if *m_to_c { status.m_to_c_valid } else { status.c_to_m_valid };
                 holds(seen == *valid, || format!("{name}: it is {}", truth(seen)))
             }
@@ -158,7 +158,7 @@ impl Condition {
                 begins(world.inputs(at).get(*first..).unwrap_or_default(), bytes)
             }
             Self::DataValid { valid, .. } => {
-                let status = world.io(at).status();
+                let status = world.unit(at).slave_status();
                 let seen = [status.m_to_c_valid, status.c_to_m_valid];
                 holds(seen == [*valid; 2], || {
                     format!("{name}: M to C valid is {}, C to M valid is {}", truth(seen[0]), truth(seen[1]))

@@ -100,12 +100,12 @@ pub(crate) struct Sent {
 }
 
 impl Master {
-    pub(crate) fn new(units: usize, cycle: Duration) -> Self {
+    pub(crate) fn new(units: usize, cycle: Duration, phase: Duration) -> Self {
         Self {
             slaves: (0..units).map(Slave::new).collect(),
             operations: VecDeque::new(),
             waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
-            process_data: ProcessData::new(units, cycle),
+            process_data: ProcessData::new(units, cycle, phase),
             task: None,
             states: States::new(units),
             told: Story::default(),

@@ -193,6 +193,10 @@ pub enum CpuOrder {
     Release(String),
     /// Releases everything.
     ReleaseAll(UnitSet),
+    /// Resets the errors of the NX Bus Function Module, and those of the unit.
+    ResetNxBus(UnitSet),
+    /// Turns the power of CPU Unit and unit off, and on at once.
+    CycleRackPower(UnitSet),
     /// Replaces the user program, in PROGRAM mode.
     Load {
         /// Of which unit.

@@ -42,6 +42,7 @@ const POOL: &[(Teller, &str)] = &[
     ("cpu", "start I/O refreshing of unit #"),
     ("cpu", "stop the task of unit #"),
     ("cpu", "start the task of unit #"),
+    ("cpu", "reset the errors of the NX Bus Function Module of unit #"),
     ("master", "request OP of unit #"),
     ("master", "request 0x05 of unit #"),
     ("master", "acknowledge and request PRE-OP of unit #"),

@@ -30,6 +30,8 @@ pub struct Scenario {
     pub units: Vec<UnitSource>,
     /// Cycle of the process data.
     pub cycle: Duration,
+    /// Where in its period the cycle lies, from time 0; none: the seed decides.
+    pub cycle_phase: Option<Duration>,
     /// The master's own user program; none: it only does what steps order.
     pub master: Option<MasterProgram>,
     /// Programs that steps load into CPU Units.

@@ -11,6 +11,7 @@ use plc::{CpuSettings, CpuUnit};
 use time::{Duration, Instant};
 use wire::{AlStatus, AlStatusCode};
 
+use crate::dice::{Dice, dice_of_phases};
 use crate::expectation::StateName;
 use crate::line::Line;
 use crate::master::{Master, Sent, Ticket};
@@ -55,15 +56,16 @@ impl World {
     pub(crate) fn power_on(scenario: &Scenario, seed: u64, recording: Recording) -> Self {
         let now = Instant::ZERO;
         let mut cpus = Vec::new();
-        let units = scenario.units.iter().map(|source| {
-            let (config, unit, cpu) = powered(source, now);
+        let units = (1..).zip(&scenario.units).map(|(participant, source)| {
+            let (config, unit, cpu) = powered(source, dice_of_phases(seed, participant), now);
             cpus.push(Cpu { unit: cpu, is_running: true, told: Story::default() });
             (config, unit)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
         let watched = (0..count).map(|_| Watched::default()).collect();
-        let master = Master::new(count, scenario.cycle);
+        let phase = scenario.cycle_phase.unwrap_or_else(|| dice_of_phases(seed, 0).phase(scenario.cycle));
+        let master = Master::new(count, scenario.cycle, phase);
         let master = match &scenario.master {
             Some(program) => master.with_program(program.clone(), now),
             None => master,
@@ -175,13 +177,19 @@ impl World {
     }
 }
 
-/// A unit with its CPU Unit, as its file says.
-fn powered(source: &UnitSource, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
-    let settings = UnitSettings::from_unit_file(&source.file);
+/// A unit with its CPU Unit, as its file says. Phases that it leaves out are the dice's.
+fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
+    let mut settings = UnitSettings::from_unit_file(&source.file);
+    let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
+    let (refresh_phase, task_phase) = (dice.phase(period), dice.phase(source.file.cpu.task_period.value));
+    settings.refresh_phase = source.file.refresh_phase.as_ref().map_or(refresh_phase, |named| named.value);
     let (unit, bus) = NxEct101::power_on(&settings);
     let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
-    let cpu =
-        CpuSettings { system_time_ns: Some(SYSTEM_TIME_NS), ..CpuSettings::from_unit_file(&source.file) };
+    let cpu = CpuSettings {
+        system_time_ns: Some(SYSTEM_TIME_NS),
+        task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
+        ..CpuSettings::from_unit_file(&source.file)
+    };
     let program = source.program.start();
     (config, unit, CpuUnit::power_on(now, cpu, bus, program))
 }

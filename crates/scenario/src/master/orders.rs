@@ -61,9 +61,10 @@ impl Master {
             }
             MasterOrder::Restart => {
                 let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
+                let phase = self.process_data.phase();
                 let ticket = self.ticket + 1;
                 let task = self.task.take().map(|task| task.restart(now));
-                *self = Self { ticket, task, ..Self::new(units, cycle) };
+                *self = Self { ticket, task, ..Self::new(units, cycle, phase) };
             }
         }
     }

@@ -25,6 +25,8 @@ pub(crate) const fn logical_address(unit: usize) -> u32 {
 #[derive(Debug)]
 pub(crate) struct ProcessData {
     cycle: Duration,
+    /// Where in its period the cycle lies, from time 0.
+    phase: Duration,
     next: Instant,
     /// The scenario has stopped the exchange: a unit that comes to SAFE-OP does not begin it.
     is_stopped: bool,
@@ -57,9 +59,10 @@ struct Awaited {
 }
 
 impl ProcessData {
-    pub(crate) fn new(units: usize, cycle: Duration) -> Self {
+    pub(crate) fn new(units: usize, cycle: Duration, phase: Duration) -> Self {
         Self {
             cycle,
+            phase,
             next: Instant::NEVER,
             is_stopped: false,
             units: vec![Image::default(); units],
@@ -71,13 +74,28 @@ impl ProcessData {
         self.cycle
     }
 
+    pub(crate) const fn phase(&self) -> Duration {
+        self.phase
+    }
+
     /// Goes on with this cycle.
     pub(crate) fn exchange(&mut self, cycle: Duration, now: Instant) {
         self.cycle = cycle;
         self.is_stopped = false;
         if self.units.iter().any(|image| image.is_open) {
+            self.phase = now.saturating_since(Instant::ZERO);
             self.next = now;
         }
+    }
+
+    /// The first moment behind `now` that lies on the cycle.
+    fn after(&self, now: Instant) -> Instant {
+        let first = Instant::ZERO + self.phase;
+        if now < first {
+            return first;
+        }
+        let passed = now.saturating_since(first).as_nanos();
+        first + self.cycle * (passed / self.cycle.as_nanos().max(1) + 1)
     }
 
     pub(crate) const fn stop(&mut self) {
@@ -124,7 +142,7 @@ impl ProcessData {
     /// The frames of one cycle.
     pub(crate) fn send(&mut self, now: Instant, ticket: &mut u64) -> Vec<Sent> {
         self.cycles += 1;
-        self.next = now + self.cycle;
+        self.next = self.after(now);
         let open = self.units.iter_mut().enumerate().filter(|(_, image)| image.is_open);
         open.flat_map(|(unit, image)| image.send(logical_address(unit), ticket)).collect()
     }

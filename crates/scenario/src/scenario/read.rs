@@ -36,6 +36,7 @@ struct File {
     seed: Option<u64>,
     limit: Option<Spanned<String>>,
     cycle: Option<Spanned<String>>,
+    cycle_phase: Option<Spanned<String>>,
     capture: Option<String>,
     master: Option<Spanned<MasterEntry>>,
     #[serde(default)]
@@ -132,6 +133,7 @@ impl Reader<'_> {
         self.is_ground_missing = !self.errors.is_empty();
         let limit = file.limit.and_then(|limit| self.duration(&limit)).unwrap_or(DEFAULT_LIMIT);
         let cycle = file.cycle.and_then(|cycle| self.cycle(&cycle)).unwrap_or(DEFAULT_CYCLE);
+        let cycle_phase = file.cycle_phase.and_then(|phase| self.duration(&phase));
         let (steps, random) = self.read_steps(file.steps, limit);
         Scenario {
             title: file.title.into_inner(),
@@ -139,6 +141,7 @@ impl Reader<'_> {
             limit,
             units: core::mem::take(&mut self.units),
             cycle,
+            cycle_phase,
             master: self.master.take(),
             programs: core::mem::take(&mut self.programs),
             steps,

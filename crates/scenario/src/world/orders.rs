@@ -54,6 +54,8 @@ impl World {
                 self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
             }
             CpuOrder::SetTaskRunning(units, on) => self.each_cpu(*units, |cpu| cpu.is_running = *on),
+            CpuOrder::ResetNxBus(units) => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
+            CpuOrder::CycleRackPower(units) => self.each(*units, Self::cycle_rack_power),
             CpuOrder::JumpTime(units, ahead) => {
                 self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*ahead))
             }
@@ -135,6 +137,14 @@ impl World {
     fn power_off(&mut self, at: usize) {
         self.network.power_off(at, self.now);
         self.recording.tell(self.now, &format!("unit {}", at + 1), "is switched off");
+    }
+
+    fn cycle_rack_power(&mut self, at: usize) {
+        self.start(at, Start::PowerOn);
+        if let Some(cpu) = self.cpus.get_mut(at) {
+            cpu.unit.cycle_power(self.now);
+            cpu.is_running = true;
+        }
     }
 
     fn start(&mut self, at: usize, start: Start) {

@@ -53,6 +53,8 @@ pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
         | CpuOrder::SetIoRefreshing(units, _)
         | CpuOrder::SetTaskRunning(units, _)
         | CpuOrder::ReleaseAll(units)
+        | CpuOrder::ResetNxBus(units)
+        | CpuOrder::CycleRackPower(units)
         | CpuOrder::JumpTime(units, _) => Some(*units),
         CpuOrder::SetInputs(unit, _) | CpuOrder::Load { unit, .. } => Some(UnitSet::One(*unit)),
         CpuOrder::Force { .. } | CpuOrder::Write { .. } | CpuOrder::Release(_) => None,
