@@ -31,15 +31,18 @@ pub fn run<'o, P: FramePort>(
     stop: &AtomicBool,
 ) -> io::Result<Statistics> {
     let mut parts = twin.into_parts();
-    let (line, cpus) = (&mut parts.line, &mut parts.cpus);
+    let (line, cpus, error_reset) = (&mut parts.line, &mut parts.cpus, &parts.error_reset);
     let mut changes = ProgramChanges::watch(parts.programs)?;
     let mut reports = Reports::default();
     thread::scope(|scope| {
         let tasks = thread::Builder::new().name("cpu-unit".to_owned());
         let tasks = tasks.spawn_scoped(scope, || {
-            let _stop_all = StopOnPanic(stop);
             keep_pace(clock, stop, |now| {
                 changes.apply(cpus);
+                if error_reset.swap(false, Ordering::Relaxed) {
+                    cpus.iter_mut().for_each(CpuUnit::reset_errors);
+                    tracing::info!("the errors of all NX Bus Function Modules are reset");
+                }
                 let next = turn(cpus, now);
                 reports.tell(cpus, now);
                 next
@@ -52,17 +55,6 @@ pub fn run<'o, P: FramePort>(
         tasks.join().map_err(|_| cpu_units_panicked())?;
         result
     })
-}
-
-/// Without its CPU Units a line is no line: when their thread panics, the frames stop too.
-struct StopOnPanic<'a>(&'a AtomicBool);
-
-impl Drop for StopOnPanic<'_> {
-    fn drop(&mut self) {
-        if thread::panicking() {
-            self.0.store(true, Ordering::Relaxed);
-        }
-    }
 }
 
 fn cpu_units_panicked() -> io::Error {
@@ -95,7 +87,6 @@ impl Twin {
         let clock = Clock::start_at(now);
         let frames = spawn("units", &shared, move |shared| serve_frames(shared, port, &clock))?;
         let tasks = spawn("cpu-unit", &shared, move |shared| {
-            let _stop_all = StopOnPanic(&shared.stop);
             keep_pace(&clock, &shared.stop, |now| turn(&mut shared.cpus(), now));
         });
         let mut live = Live { shared, frames: Some(frames), tasks: None, clock };

@@ -1,5 +1,8 @@
 //! A line of units in virtual time: frame in, frame out, and a look at the units' side.
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use device::Network;
 use link::{FrameFate, Responder};
 use nx_ect101::NxEct101;
@@ -21,6 +24,7 @@ pub struct Twin {
     line: Line,
     cpus: Vec<CpuUnit>,
     programs: Vec<(usize, WatchedProgram)>,
+    error_reset: ErrorReset,
     now: Instant,
 }
 
@@ -30,8 +34,12 @@ pub(crate) struct Parts {
     pub(crate) cpus: Vec<CpuUnit>,
     /// User programs in files, with the positions of their units.
     pub(crate) programs: Vec<(usize, WatchedProgram)>,
+    pub(crate) error_reset: ErrorReset,
     pub(crate) now: Instant,
 }
+
+/// A flag that someone outside sets, so that the errors of all NX Bus Function Modules are reset.
+pub(crate) type ErrorReset = Arc<AtomicBool>;
 
 impl Twin {
     /// Gives power to one unit, as its unit file tells it.
@@ -56,7 +64,7 @@ impl Twin {
             keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
         }
         let line = Line { network: Network::power_on(units, now), keepers };
-        let mut twin = Self { line, cpus, programs, now };
+        let mut twin = Self { line, cpus, programs, error_reset: ErrorReset::default(), now };
         twin.poll(now);
         twin
     }
@@ -114,8 +122,15 @@ impl Twin {
         self.cpus.iter_mut().map(connect).collect()
     }
 
+    /// Lets [`crate::run`] reset the errors of all NX Bus Function Modules, and of their units, whenever this flag is
+    /// set: a signal handler can do that.
+    pub fn reset_errors_on(&mut self, flag: Arc<AtomicBool>) {
+        self.error_reset = flag;
+    }
+
     pub(crate) fn into_parts(self) -> Parts {
-        Parts { line: self.line, cpus: self.cpus, programs: self.programs, now: self.now }
+        let Self { line, cpus, programs, error_reset, now } = self;
+        Parts { line, cpus, programs, error_reset, now }
     }
 
     fn poll(&mut self, now: Instant) {

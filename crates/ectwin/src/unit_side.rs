@@ -188,6 +188,12 @@ impl UnitSide<'_> {
         self.network.restart(self.position, self.now, Start::PowerOn);
     }
 
+    /// Turns the power of the CPU Rack off and on again: that of the unit and of its CPU Unit.
+    pub fn cycle_rack_power(&mut self) {
+        self.cycle_power();
+        self.cpu.cycle_power(self.now);
+    }
+
     /// Turns the ID switch. The unit looks at it when it starts (manual, 3-3).
     pub fn set_id_switch(&mut self, id_switch: u8) {
         self.unit_mut().set_id_switch(id_switch);

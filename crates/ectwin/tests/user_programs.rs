@@ -33,6 +33,16 @@ fn an_error_in_a_program_is_told_with_its_place() {
 }
 
 #[test]
+fn sigusr1_resets_the_errors_of_the_nx_bus_function_modules() {
+    let program = written("counts", "SetAlarm(1);");
+    let mut running = Running::start(&program);
+    running.wait_for("user-defined error 16#1 ");
+    let kill = std::process::Command::new("kill").args(["-USR1", &running.id().to_string()]).status();
+    assert!(must(kill).success());
+    running.wait_for("the errors of all NX Bus Function Modules are reset");
+}
+
+#[test]
 fn a_changed_program_is_loaded_and_a_wrong_one_is_not() {
     let program = written("changed", "SetAlarm(1);");
     let mut running = Running::start(&program);

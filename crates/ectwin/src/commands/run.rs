@@ -8,7 +8,7 @@ use std::sync::atomic::AtomicBool;
 
 use ectwin::{ModbusServer, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
-use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
@@ -31,9 +31,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let setups = with_storage(args, setups)?;
     let clock = Clock::start();
     let mut recorder = capture.map(|capture| record(capture, args, &link, &clock)).transpose()?;
-    let stop = stop_on_signals().map_err(Failure::LinkLost)?;
+    let stop = flag_of(&[SIGINT, SIGTERM]).map_err(Failure::LinkLost)?;
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
+    twin.reset_errors_on(flag_of(&[SIGUSR1]).map_err(Failure::LinkLost)?);
     let modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| opcua::serve(&mut twin, listener)).transpose()?;
@@ -110,13 +111,13 @@ fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Resu
     Recorder::start(capture, &link.to_string(), clock).map_err(|source| Failure::Unwritable { path, source })
 }
 
-/// A flag that SIGINT and SIGTERM set.
-fn stop_on_signals() -> std::io::Result<Arc<AtomicBool>> {
-    let stop = Arc::new(AtomicBool::new(false));
-    for signal in [SIGINT, SIGTERM] {
-        signal_hook::flag::register(signal, Arc::clone(&stop))?;
+/// A flag that these signals set.
+fn flag_of(signals: &[i32]) -> std::io::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for &signal in signals {
+        signal_hook::flag::register(signal, Arc::clone(&flag))?;
     }
-    Ok(stop)
+    Ok(flag)
 }
 
 fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {

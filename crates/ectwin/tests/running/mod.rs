@@ -26,6 +26,11 @@ impl Running {
         Self { child, stderr }
     }
 
+    /// Its process id.
+    pub(crate) fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// Waits for a line with these words.
     pub(crate) fn wait_for(&mut self, words: &str) {
         let mut line = String::new();
