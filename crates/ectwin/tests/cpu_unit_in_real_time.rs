@@ -27,8 +27,9 @@ async fn expect_minor_fault(pdu_loop: ethercrab::PduLoop<'static>, meanwhile: im
     let unit = group.subdevice(&master, 0).unwrap();
     assert_eq!(unit.sdo_read::<u8>(0x2002, 1).await.unwrap(), 0);
     meanwhile();
+    let mut looks = tokio::time::interval(Duration::from_millis(10));
     while unit.sdo_read::<u8>(0x2002, 1).await.unwrap() != MINOR_FAULT {
-        tokio::time::sleep(Duration::from_millis(10)).await;
+        looks.tick().await;
     }
     let error: [u8; 12] = unit.sdo_read(0x2004, 1).await.unwrap();
     assert_eq!(error[..4], 0x8020_0000_u32.to_le_bytes());
