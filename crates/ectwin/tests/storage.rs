@@ -12,7 +12,7 @@ use ectwin::{Duration, EventLog, Fault, Setup, SetupError, Twin};
 use nx_ect101::NonVolatileMemory;
 use wire::{Command as Datagram, FrameBuilder, returned_datagrams};
 
-const UNIT: &str = "model = \"nx-ect101\"\nid_switch = 0x00\nstorage = \"N1.nvm\"\n";
+const UNIT: &str = "model = \"nx-ect101\"\nstart_up = \"0ms\"\nid_switch = 0x00\nstorage = \"N1.nvm\"\n";
 /// A word of the EEPROM that means nothing.
 const SPARE_WORD: u32 = 0x03F0;
 const ALIAS_WORD: u32 = 4;

@@ -257,7 +257,7 @@ fn whatever_happens_what_the_unit_tells_goes_together() {
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("a folder for temporary files");
     for (run, unit_file) in (0..RUNS).zip(UNIT_FILES.into_iter().cycle()) {
-        let text = format!("model = \"nx-ect101\"\nstorage = \"{run}.nvm\"\n{unit_file}");
+        let text = format!("model = \"nx-ect101\"\nstart_up = \"0ms\"\nstorage = \"{run}.nvm\"\n{unit_file}");
         let setup = Setup::from_toml(&text).expect("a right file").with_storage(&folder).expect("a folder");
         let setup = setup.program(|_: &mut Io| {}).system_time_ns(SYSTEM_TIME_NS);
         let twin = Twin::power_on([setup]);

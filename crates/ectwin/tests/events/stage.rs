@@ -29,7 +29,8 @@ pub(crate) struct Stage {
 impl Stage {
     /// A unit with this text in its file, whose CPU Unit leaves the data alone.
     pub(crate) fn power_on(unit_file: &str) -> Self {
-        let setup = Setup::from_toml(&format!("model = \"nx-ect101\"\n{unit_file}")).expect("a right file");
+        let setup = Setup::from_toml(&format!("model = \"nx-ect101\"\nstart_up = \"0ms\"\n{unit_file}"))
+            .expect("a right file");
         let setup = setup.program(|_: &mut Io| {}).system_time_ns(SYSTEM_TIME_NS);
         let mut stage = Self { twin: Twin::power_on([setup]), emergencies: Vec::new(), counter: 0 };
         stage.run_for_ms(2);

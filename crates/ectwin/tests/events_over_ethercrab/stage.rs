@@ -50,7 +50,8 @@ impl Stage {
     /// A unit at its factory setting, whose CPU Unit runs no program.
     pub(crate) fn power_on() -> Self {
         let (frames_tx, frames_rx, pdu_loop) = patient_master::frames();
-        let setup = Setup::from_toml("model = \"nx-ect101\"").unwrap().program(|_: &mut Io| {});
+        let setup =
+            Setup::from_toml("model = \"nx-ect101\"\nstart_up = \"0ms\"").unwrap().program(|_: &mut Io| {});
         let live = Twin::power_on([setup]).serve_ethercrab(frames_tx, frames_rx).unwrap();
         let master = patient_master::master(pdu_loop, 0);
         Self { master, live, inputs: RefCell::default(), cycles: Cell::default() }

@@ -2,6 +2,8 @@ use ectwin::{AlState, AlStatusCode, Duration, EventCode, EventLevel, Fault, Setu
 
 const PROCESSING_ERROR: EventCode = EventCode(0x4020_0000);
 const A_WHILE: Duration = Duration::from_millis(10);
+/// What the unit needs to start again, and a little more.
+const START_UP: Duration = Duration::from_millis(310);
 
 #[test]
 fn a_unit_that_fails_says_so_and_comes_back_when_it_is_restarted() {
@@ -28,7 +30,7 @@ fn a_unit_that_fails_says_so_and_comes_back_when_it_is_restarted() {
     // Its page in docs/events names the recovery: the cause goes, and the unit starts anew.
     side.remove(Fault::Processing);
     side.restart();
-    twin.run_for(A_WHILE);
+    twin.run_for(START_UP);
     let side = twin.unit(0);
     assert_eq!(side.al_status_code(), AlStatusCode(0x0060), "slave restarted locally");
     assert_eq!((side.error_status(), side.error_log().history().count()), (0, 1), "the log remembers");
