@@ -23,7 +23,7 @@ fn serve(program: impl FnMut(&mut Io) + Send + 'static) -> (Live, ethercrab::Pdu
 /// Waits for the error: the test ends by its own limit if none comes.
 async fn expect_minor_fault(pdu_loop: ethercrab::PduLoop<'static>, meanwhile: impl FnOnce()) {
     let master = patient_master::master(pdu_loop, 10);
-    let group = master.init_single_group::<1, 512>(ethercat_now).await.unwrap();
+    let group = master.init_single_group::<2, 512>(ethercat_now).await.unwrap();
     let unit = group.subdevice(&master, 0).unwrap();
     assert_eq!(unit.sdo_read::<u8>(0x2002, 1).await.unwrap(), 0);
     meanwhile();
