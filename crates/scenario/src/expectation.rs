@@ -205,12 +205,14 @@ impl Condition {
                 holds(master.gave_up().is_some(), || "the master has not given up".to_owned())
             }
             Self::SdoRefused(code) => {
-                holds(*master.last_sdo() == Some(Err(*code)), || master.last_sdo_words())
+                holds(master.last_sdo().result() == Some(&Err(*code)), || master.last_sdo().words())
             }
             Self::SdoGave(bytes) => {
-                holds(master.last_sdo().as_ref() == Some(&Ok(bytes.clone())), || master.last_sdo_words())
+                holds(master.last_sdo().result() == Some(&Ok(bytes.clone())), || master.last_sdo().words())
             }
-            Self::SdoTaken => holds(matches!(master.last_sdo(), Some(Ok(_))), || master.last_sdo_words()),
+            Self::SdoTaken => {
+                holds(matches!(master.last_sdo().result(), Some(Ok(_))), || master.last_sdo().words())
+            }
             Self::Emergency { code, times } => {
                 let seen = master.emergencies().iter().filter(|received| *received == code).count() as u64;
                 let enough = times.map_or(seen > 0, |times| seen == times);

@@ -1,6 +1,7 @@
 //! The scripted master: works off its orders in virtual time, one acyclic frame at a time, and exchanges process
 //! data beside.
 
+mod last_sdo;
 mod operation;
 mod orders;
 mod process_data;
@@ -18,6 +19,7 @@ use wire::{AlState, Returned, returned_datagrams};
 use crate::orders::FrameKind;
 use crate::story::Story;
 
+use last_sdo::LastSdo;
 use operation::{Operation, Outcome, Step};
 use process_data::ProcessData;
 use program::Task;
@@ -60,7 +62,7 @@ pub(crate) struct Master {
     ticket: u64,
     mailbox: MailboxHabits,
     gave_up: Option<String>,
-    last_sdo: Option<Result<Vec<u8>, u32>>,
+    last_sdo: LastSdo,
     emergencies: Vec<u16>,
     story: Vec<String>,
 }
@@ -114,7 +116,7 @@ impl Master {
             ticket: 0,
             mailbox: MailboxHabits::default(),
             gave_up: None,
-            last_sdo: None,
+            last_sdo: LastSdo::default(),
             emergencies: Vec::new(),
             story: Vec::new(),
         }
@@ -252,9 +254,9 @@ impl Master {
                     let any = self.listens.contains(&true);
                     self.next_listen = if any { now + LISTEN_PERIOD } else { Instant::NEVER };
                 }
-                Step::SdoResult(result) => {
-                    self.last_sdo = Some(result);
-                    self.story.push(self.last_sdo_words());
+                Step::SdoResult { number, result } => {
+                    self.story.push(last_sdo::words(&result));
+                    self.last_sdo.answer(number, result);
                 }
                 Step::Tell(words) => self.story.push(words),
             }
@@ -268,7 +270,9 @@ impl Master {
             self.gave_up = Some(reason);
         }
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
-        self.operations.drain(..parts.max(1));
+        for operation in self.operations.drain(..parts.max(1)) {
+            self.last_sdo.give_up(operation.ordered_sdo());
+        }
         self.begin(now);
     }
 
@@ -288,17 +292,8 @@ impl Master {
         self.gave_up.as_deref()
     }
 
-    pub(crate) const fn last_sdo(&self) -> &Option<Result<Vec<u8>, u32>> {
+    pub(crate) const fn last_sdo(&self) -> &LastSdo {
         &self.last_sdo
-    }
-
-    pub(crate) fn last_sdo_words(&self) -> String {
-        match &self.last_sdo {
-            None => "no SDO was answered".to_owned(),
-            Some(Ok(value)) if value.is_empty() => "the last SDO was taken".to_owned(),
-            Some(Ok(value)) => format!("the last SDO gave {}", crate::expectation::hex(value)),
-            Some(Err(code)) => format!("the last SDO was refused with {code:#010X}"),
-        }
     }
 
     pub(crate) fn emergencies(&self) -> &[u16] {

@@ -3,6 +3,7 @@
 use nx_ect101::layout;
 use wire::{AlState, AlStatus, Command, FrameBuilder, Returned};
 
+use super::last_sdo::{SdoNumber, SdoResult};
 use super::process_data::logical_address;
 use super::sdo::{Phase, Received, SdoMessage};
 use super::slave::Slave;
@@ -24,6 +25,8 @@ pub(crate) struct Operation {
     what: What,
     /// It belongs to a larger order.
     is_part: bool,
+    /// The step that orders it asks for an SDO, and for nothing else.
+    ordered_sdo: Option<SdoNumber>,
 }
 
 #[derive(Clone, Debug)]
@@ -67,14 +70,14 @@ pub(crate) enum Step {
     /// A unit has a mailbox from now on, or has none any more.
     Listen { unit: usize, listens: bool },
     /// An SDO was answered.
-    SdoResult(Result<Vec<u8>, u32>),
+    SdoResult { number: Option<SdoNumber>, result: SdoResult },
     /// Something to tell.
     Tell(String),
 }
 
 impl Operation {
     const fn new(unit: usize, what: What) -> Self {
-        Self { unit, what, is_part: false }
+        Self { unit, what, is_part: false, ordered_sdo: None }
     }
 
     pub(crate) const fn take(unit: usize, state: AlState) -> Self {
@@ -100,6 +103,15 @@ impl Operation {
     /// The same as a part of a larger order, which it takes with it when it fails.
     pub(crate) fn within_an_order(self) -> Self {
         Self { is_part: true, ..self }
+    }
+
+    /// The same as the SDO of this number.
+    pub(super) fn ordered_as(self, number: SdoNumber) -> Self {
+        Self { ordered_sdo: Some(number), ..self }
+    }
+
+    pub(super) const fn ordered_sdo(&self) -> Option<SdoNumber> {
+        self.ordered_sdo
     }
 
     pub(crate) const fn is_part(&self) -> bool {
@@ -167,7 +179,7 @@ impl Operation {
             }
             return Outcome::Again;
         }
-        let unit = self.unit;
+        let (unit, number) = (self.unit, self.ordered_sdo);
         match &mut self.what {
             What::Write { .. } => Outcome::Done(Vec::new()),
             What::Take(target) => {
@@ -182,7 +194,7 @@ impl Operation {
             }
             What::Reach { bits, .. } => reached(unit, *bits, answer),
             What::Open => Outcome::Done(open(unit, slaves)),
-            What::Sdo { phase, .. } => phase.answer(answer),
+            What::Sdo { phase, .. } => phase.answer(answer, number),
             What::Listen { full: false } if answer.data.first().is_some_and(|status| status & 0x08 == 0) => {
                 Outcome::Done(Vec::new())
             }

@@ -35,10 +35,14 @@ impl Master {
                 }
             }
             MasterOrder::WriteSdo(unit, entry, bytes) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::download(unit, entry, &bytes));
+                let number = self.last_sdo.order();
+                let order = |unit| Operation::download(unit, entry, &bytes).ordered_as(number);
+                self.queue_for(UnitSet::One(unit), now, order);
             }
             MasterOrder::ReadSdo(unit, entry) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::upload(unit, entry));
+                let number = self.last_sdo.order();
+                let order = |unit| Operation::upload(unit, entry).ordered_as(number);
+                self.queue_for(UnitSet::One(unit), now, order);
             }
             MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
             MasterOrder::StopExchange => self.process_data.stop(),

@@ -4,6 +4,7 @@ use nx_ect101::layout;
 use wire::{CoeHeader, CoeService, Emergency, MailboxHeader, MailboxType, Returned};
 
 use super::MailboxHabits;
+use super::last_sdo::SdoNumber;
 use super::operation::{Outcome, Step};
 
 /// Bit 1 of the activate byte: its change asks for the last message once more.
@@ -57,7 +58,7 @@ impl Phase {
     }
 
     /// What the answer to its last frame leads to.
-    pub(crate) fn answer(&mut self, answer: &Returned) -> Outcome {
+    pub(crate) fn answer(&mut self, answer: &Returned, number: Option<SdoNumber>) -> Outcome {
         match self {
             Phase::Ask | Phase::Asked | Phase::AskedAgain => *self = Phase::Wait,
             Phase::Wait if answer.data.first().is_some_and(|status| status & 0x08 != 0) => {
@@ -65,7 +66,7 @@ impl Phase {
             }
             Phase::Read if answer.data.len() > 1 => {
                 return match SdoMessage::received(&answer.data) {
-                    Received::Answer(result) => Outcome::Done(vec![Step::SdoResult(result)]),
+                    Received::Answer(result) => Outcome::Done(vec![Step::SdoResult { number, result }]),
                     Received::Emergency(code) => {
                         *self = Phase::Wait;
                         Outcome::Received(code)
