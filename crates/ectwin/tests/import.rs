@@ -87,3 +87,39 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
     }
     assert!(!bench.folder.join("x.toml").exists());
 }
+
+#[test]
+fn differences_are_counted_by_kind_in_text_and_json() {
+    let bench = with_capture("import-kinds");
+    let two = ["--unit", "units/unit.toml", "--unit", "units/unit.toml", "-o", "units/two.toml"];
+    assert_eq!(bench.ectwin(&[&["import", "captures/live.pcapng"], &two[..]].concat()).code, Some(0));
+    // The third unit is not there, and two frames get lost besides.
+    let lose = "steps = [\n  { line = \"lose the next 2 frames\" },";
+    bench.put("units/two.toml", &bench.text("units/two.toml").replace("steps = [", lose));
+    let ended = bench.ectwin(&["replay", "units/two.toml", "--json", "out.jsonl"]);
+    assert_eq!(ended.code, Some(1), "{}{}", ended.stdout, ended.stderr);
+
+    let case = bench.json_lines("out.jsonl").remove(0);
+    let differences = case["differences"].as_array().unwrap();
+    let counts: Vec<u64> = differences.iter().map(|kind| kind["count"].as_u64().unwrap()).collect();
+    assert!(counts.is_sorted_by(|one, next| one >= next), "the most frequent first: {counts:?}");
+    let seen = case["failure"]["seen"].as_str().unwrap();
+    assert!(seen.starts_with(&format!("{} answers differ; ", counts.iter().sum::<u64>())), "{seen}");
+    let find = |kind: &str, command: Option<&str>, place: Option<&str>| {
+        let is_it = |row: &&serde_json::Value| {
+            row["kind"] == kind && row["command"].as_str() == command && row["place"].as_str() == place
+        };
+        differences.iter().find(is_it).unwrap_or_else(|| panic!("no {kind} of {command:?} {place:?}: {case}"))
+    };
+    assert_eq!(find("missing_answer", None, None)["count"], 2);
+    find("working_counter", Some("APWR"), Some("AL control"));
+    find("working_counter", Some("APRD"), Some("AL status"));
+    for row in differences {
+        let told =
+            format!("        differs {} × {}", row["count"], row["kind"].as_str().unwrap().replace('_', " "));
+        assert!(ended.stdout.contains(&told), "`{told}` is not in:\n{}", ended.stdout);
+        assert!(ended.stdout.contains(row["first"].as_str().unwrap()), "{}", ended.stdout);
+    }
+    let merged = bench.ectwin(&["merge", "out.jsonl"]);
+    assert_eq!(merged.code, Some(1), "{}", merged.stderr);
+}

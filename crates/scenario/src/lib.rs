@@ -30,7 +30,7 @@ pub use orders::{
     Mode, Order, UnitOrder, UnitSet,
 };
 pub use programs::{Controller, ProgramFile};
-pub use recorded::RecordedFrames;
+pub use recorded::{Aspect, DifferenceKind, RecordedFrames};
 pub use recording::Recording;
 pub use replay::{Failure, Report};
 pub use scenario::{

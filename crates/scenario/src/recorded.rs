@@ -4,13 +4,18 @@
 //! changes, times of distributed clocks, error counters, and process data, which depend on the phase of the CPU
 //! Unit. Working counters are compared everywhere.
 
+mod areas;
+mod differences;
+
 use std::collections::BTreeSet;
 
 use capture::{Direction, NotACapture, Packet, read_packets};
 use time::{Duration, Instant};
 use wire::{Command, Returned, returned_datagrams};
 
-use crate::expectation::hex;
+use differences::Differences;
+
+pub use differences::{Aspect, DifferenceKind};
 
 /// From power-on to the first frame, so that the unit has started.
 const LEAD: Duration = Duration::from_millis(10);
@@ -18,18 +23,6 @@ const LEAD: Duration = Duration::from_millis(10);
 const PASSED: u8 = 0x02;
 /// Where the first byte of the source address lies.
 const SOURCE_ADDRESS: usize = 6;
-
-/// Registers whose values depend on the moment of the look, from the first to the last.
-const PASSED_OVER: &[(u16, u16)] = &[
-    // AL status and code; ECAT and AL events; error counters; watchdog status.
-    (0x0130, 0x0135),
-    (0x0210, 0x0223),
-    (0x0300, 0x0313),
-    (0x0440, 0x0443),
-    // SyncManager status, and distributed clocks.
-    (0x0800, 0x087F),
-    (0x0900, 0x09FF),
-];
 
 /// The frames of a capture, ready to be sent.
 #[derive(Clone, Debug, Default)]
@@ -141,12 +134,12 @@ pub(crate) struct Recorded {
     answered: usize,
     /// Numbers of frames that are on their way, or lost, and were answered in the capture.
     missing: BTreeSet<usize>,
-    differences: Vec<String>,
+    differences: Differences,
 }
 
 impl Recorded {
-    pub(crate) const fn new(frames: RecordedFrames) -> Self {
-        Self { frames, sent: 0, answered: 0, missing: BTreeSet::new(), differences: Vec::new() }
+    pub(crate) fn new(frames: RecordedFrames) -> Self {
+        Self { frames, sent: 0, answered: 0, missing: BTreeSet::new(), differences: Differences::default() }
     }
 
     pub(crate) fn deadline(&self) -> Instant {
@@ -176,12 +169,7 @@ impl Recorded {
         else {
             return;
         };
-        let (seen, captured) = (returned_datagrams(frame), returned_datagrams(captured));
-        for (place, (seen, captured)) in seen.iter().zip(&captured).enumerate() {
-            if let Some(words) = difference(seen, captured) {
-                self.differences.push(format!("frame {}, datagram {}: {words}", number + 1, place + 1));
-            }
-        }
+        self.differences.compare(number, &returned_datagrams(frame), &returned_datagrams(captured));
     }
 
     pub(crate) fn is_done(&self) -> bool {
@@ -192,38 +180,21 @@ impl Recorded {
         format!("{} of {} frames are sent, {} came back", self.sent, self.frames.len(), self.answered)
     }
 
-    /// What was answered in another way, then what has not come back.
+    /// The first of them in words: what was answered in another way, then what has not come back.
     pub(crate) fn differences(&self) -> Vec<String> {
-        let missing = self.missing.iter().map(|number| format!("frame {}: no answer comes back", number + 1));
-        self.differences.iter().cloned().chain(missing).collect()
+        self.all_differences().described().to_vec()
     }
 
-    pub(crate) fn difference_count(&self) -> usize {
-        self.differences.len() + self.missing.len()
+    pub(crate) fn difference_count(&self) -> u64 {
+        self.differences.count() + self.missing.len() as u64
     }
-}
 
-/// What is not as it was; none if nothing is.
-fn difference(seen: &Returned, captured: &Returned) -> Option<String> {
-    let header = &captured.header;
-    let name = format!("{:?} of {:#06X}", header.command, header.offset);
-    if seen.working_counter != captured.working_counter {
-        let (now, then) = (seen.working_counter, captured.working_counter);
-        return Some(format!("{name}: working counter {now}, captured {then}"));
+    /// All of them by kind, the most frequent first.
+    pub(crate) fn difference_kinds(&self) -> Vec<DifferenceKind> {
+        self.all_differences().kinds()
     }
-    if is_passed_over(captured) || seen.data == captured.data {
-        return None;
-    }
-    let place = seen.data.iter().zip(&captured.data).position(|(now, then)| now != then).unwrap_or(0);
-    let part = |data: &[u8]| hex(data.get(place..data.len().min(place + 8)).unwrap_or_default());
-    Some(format!("{name}: from byte {place} on {}, captured {}", part(&seen.data), part(&captured.data)))
-}
 
-fn is_passed_over(datagram: &Returned) -> bool {
-    let header = &datagram.header;
-    if matches!(header.command, Command::Lrd | Command::Lwr | Command::Lrw) {
-        return true;
+    fn all_differences(&self) -> Differences {
+        self.differences.clone().with_missing(self.missing.iter().copied())
     }
-    let last = header.offset.saturating_add(header.length_bytes.saturating_sub(1));
-    PASSED_OVER.iter().any(|&(from, to)| header.offset <= to && from <= last)
 }

@@ -5,6 +5,7 @@ use time::{Duration, Instant};
 use crate::dice::{DICE_OF_STEPS, Dice};
 use crate::expectation::Condition;
 use crate::orders::{Expectation, Mode, Order};
+use crate::recorded::DifferenceKind;
 use crate::recording::Recording;
 use crate::scenario::{Scenario, Step, Trigger};
 use crate::world::{QUIET_STEP, World};
@@ -19,6 +20,8 @@ pub struct Report {
     pub lasted: Duration,
     /// Process data cycles of the master.
     pub cycles: u64,
+    /// In what the answers of a capture differ, the most frequent kind first.
+    pub differences: Vec<DifferenceKind>,
     /// Trace and capture, where they were wanted.
     pub recording: Recording,
 }
@@ -83,7 +86,8 @@ impl Scenario {
             world.recording().tell(now, "verdict", &failure.to_string());
         }
         let cycles = world.master().cycles();
-        Report { seed, failure, lasted, cycles, recording: world.into_recording() }
+        let differences = world.recorded_master().difference_kinds();
+        Report { seed, failure, lasted, cycles, differences, recording: world.into_recording() }
     }
 }
 

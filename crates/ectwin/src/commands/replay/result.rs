@@ -34,6 +34,25 @@ pub(crate) struct CaseResult {
     pub(crate) virtual_ns: u64,
     /// Process data cycles of the master.
     pub(crate) cycles: u64,
+    /// In what the answers of a capture differ; left out if they do not.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) differences: Vec<Difference>,
+}
+
+/// Answers that differ from the captured ones in one way.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Difference {
+    /// What differs: `working_counter`, `data`, `datagrams`, `missing_answer`.
+    pub(crate) kind: String,
+    /// Mnemonic of the command; none if it is a whole frame that differs.
+    pub(crate) command: Option<String>,
+    /// What the command asks for; none if it is a whole frame that differs.
+    pub(crate) place: Option<String>,
+    /// How many there are.
+    pub(crate) count: u64,
+    /// The first of them, in words.
+    pub(crate) first: String,
 }
 
 /// How a case ended.
@@ -81,6 +100,28 @@ impl CaseResult {
             failure,
             virtual_ns: report.lasted.as_nanos(),
             cycles: report.cycles,
+            differences: report.differences.iter().map(Difference::of).collect(),
+        }
+    }
+}
+
+impl Difference {
+    fn of(kind: &scenario::DifferenceKind) -> Self {
+        Self {
+            kind: kind.aspect.id().to_owned(),
+            command: kind.mnemonic(),
+            place: kind.place.map(str::to_owned),
+            count: kind.count,
+            first: kind.first.clone(),
+        }
+    }
+
+    /// What it is called in a text.
+    pub(super) fn words(&self) -> String {
+        let kind = self.kind.replace('_', " ");
+        match (&self.command, &self.place) {
+            (Some(command), Some(place)) => format!("{kind} of {command}, {place}"),
+            _ => kind,
         }
     }
 }

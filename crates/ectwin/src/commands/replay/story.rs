@@ -2,7 +2,7 @@
 
 use time::Duration;
 
-use super::result::{CaseResult, Verdict};
+use super::result::{CaseResult, Difference, Verdict};
 
 /// One line for a case; of a failure where, what was seen, and how to see it again; then the trace, if wanted.
 pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
@@ -13,6 +13,9 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
     };
     let mut story = format!("{word}  {}: {} ({lasted})\n", result.file, result.title);
     story.push_str(&failure(result));
+    if result.failure.is_none() {
+        story.push_str(&differences(result));
+    }
     story.push_str(trace.unwrap_or_default());
     story
 }
@@ -21,7 +24,7 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
 pub(crate) fn failure(result: &CaseResult) -> String {
     let Some(failed) = &result.failure else { return String::new() };
     let at = Duration::from_nanos(failed.at_ns);
-    format!(
+    let told = format!(
         "        {}:{}: `{}`\n        seen    {}\n        at      {at}\n        seed    {}\n        repeat  {}\n",
         result.file,
         failed.line,
@@ -29,7 +32,17 @@ pub(crate) fn failure(result: &CaseResult) -> String {
         failed.seen,
         result.seed,
         repeat(result)
-    )
+    );
+    told + &differences(result)
+}
+
+/// A line for each kind of difference between the answers of a capture and those of the units.
+fn differences(result: &CaseResult) -> String {
+    let line = |difference: &Difference| {
+        let Difference { count, first, .. } = difference;
+        format!("        differs {count} × {}; first: {first}\n", difference.words())
+    };
+    result.differences.iter().map(line).collect()
 }
 
 /// The one command that shows it again.
