@@ -95,6 +95,11 @@ impl<W: Write> PcapngWriter<W> {
         self.finish_block()
     }
 
+    /// What it writes to. Each call of a method that adds something writes one whole block to it.
+    pub const fn out_mut(&mut self) -> &mut W {
+        &mut self.out
+    }
+
     /// Passes everything on to the medium.
     ///
     /// # Errors

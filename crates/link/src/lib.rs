@@ -22,6 +22,6 @@ mod udp;
 pub use clock::Clock;
 pub use open::{OpenError, open};
 pub use port::{FRAME_BUFFER_BYTES, FramePort};
-pub use recorder::{Recorder, Recording};
+pub use recorder::{Medium, Recorder, Recording};
 pub use runner::{FrameFate, Observer, Responder, Seen, Statistics};
 pub use spec::{DEFAULT_UDP_PORT, LinkSpec, NotALink};

@@ -1,6 +1,8 @@
 //! Recording what a link carries, on a thread of its own, so that no frame waits for a disk.
 
-use std::io::{self, Write};
+mod outlet;
+
+use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -10,23 +12,26 @@ use time::Instant;
 
 use crate::{Clock, FRAME_BUFFER_BYTES, Observer, Seen};
 
+pub use outlet::Medium;
+use outlet::Outlet;
+
 /// Frames that may wait for the disk: two seconds of a 1 ms master, requests and answers.
 const QUEUE_FRAMES: usize = 4096;
 /// A quiet link is written out after this time, so that a reader sees the last frames.
 const IDLE_FLUSH: Duration = Duration::from_millis(200);
 
 /// Writes request and answer of each frame to a capture. Frames that come faster than the medium takes them
-/// are counted as lost, never waited for.
+/// are counted as lost, never waited for. A medium that refuses a write, such as a full disk, is reported at once and
+/// tried again; what it then takes is a whole capture, with a comment where frames are missing.
 pub struct Recorder {
     origin_unix_nanos: u64,
     queue: SyncSender<Record>,
     lost_since_last: u64,
-    lost: u64,
-    writer: JoinHandle<io::Result<u64>>,
+    writer: JoinHandle<io::Result<Recording>>,
 }
 
 /// What a recording came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Recording {
     /// Frames in the capture.
     pub written: u64,
@@ -46,29 +51,29 @@ impl Recorder {
     /// Starts a capture of the link `link_name` into `out`, with the times of `clock`.
     ///
     /// # Errors
-    /// The head of the capture cannot be written, or there is no thread to be had.
-    pub fn start(out: impl Write + Send + 'static, link_name: &str, clock: &Clock) -> io::Result<Self> {
-        let writer = PcapngWriter::new(io::BufWriter::with_capacity(1 << 16, out), link_name)?;
+    /// There is no thread to be had.
+    pub fn start(out: impl Medium + 'static, link_name: &str, clock: &Clock) -> io::Result<Self> {
+        let writer = PcapngWriter::new(Outlet::new(out, link_name), link_name)?;
         let (queue, records) = sync_channel(QUEUE_FRAMES);
         let thread = std::thread::Builder::new().name("capture".to_owned());
         Ok(Self {
             origin_unix_nanos: clock.origin_unix_nanos(),
             queue,
             lost_since_last: 0,
-            lost: 0,
-            writer: thread.spawn(move || write_all(writer, &records))?,
+            writer: thread.spawn(move || Writing::new(writer).all(&records))?,
         })
     }
 
     /// Ends the capture: writes what still waits.
     ///
     /// # Errors
-    /// The medium refused a write, now or earlier; the capture ends there.
+    /// The medium refuses a write; the capture ends with the last whole frame that it has taken.
     pub fn finish(self) -> io::Result<Recording> {
-        let Self { queue, writer, lost, .. } = self;
+        let Self { queue, writer, lost_since_last, .. } = self;
         drop(queue);
-        let written = writer.join().map_err(|_| io::Error::other("the capture thread panicked"))??;
-        Ok(Recording { written, lost })
+        let recording = writer.join().map_err(|_| io::Error::other("the capture thread panicked"))??;
+        // The losses that no later frame has told the thread of.
+        Ok(Recording { lost: recording.lost + lost_since_last, ..recording })
     }
 
     fn record(&mut self, at: Instant, direction: Direction, frame: &[u8]) {
@@ -86,10 +91,7 @@ impl Recorder {
         to.copy_from_slice(from);
         match self.queue.try_send(record) {
             Ok(()) => self.lost_since_last = 0,
-            Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => {
-                self.lost_since_last += 1;
-                self.lost += 1;
-            }
+            Err(TrySendError::Full(_) | TrySendError::Disconnected(_)) => self.lost_since_last += 1,
         }
     }
 }
@@ -103,94 +105,56 @@ impl Observer for Recorder {
     }
 }
 
-fn write_all<W: Write>(mut writer: PcapngWriter<W>, records: &Receiver<Record>) -> io::Result<u64> {
-    let (mut written, mut lost, mut last_nanos) = (0, 0, 0);
-    loop {
-        match records.recv_timeout(IDLE_FLUSH) {
-            Ok(record) => {
-                write_one(&mut writer, &record)?;
-                written += 1;
-                lost += record.lost_before;
-                last_nanos = record.at_nanos;
-            }
-            Err(RecvTimeoutError::Timeout) => writer.flush()?,
-            Err(RecvTimeoutError::Disconnected) => break,
-        }
-    }
-    writer.statistics(last_nanos, written + lost, lost)?;
-    writer.finish().map(|_| written)
+/// The thread's side: frames become blocks.
+struct Writing<M> {
+    writer: PcapngWriter<Outlet<M>>,
+    recording: Recording,
+    /// Frames that are missing in front of the next one.
+    missing: u64,
+    last_nanos: u64,
 }
 
-fn write_one<W: Write>(writer: &mut PcapngWriter<W>, record: &Record) -> io::Result<()> {
-    let comment = (record.lost_before > 0)
-        .then(|| format!("{} frames before this one are missing in the capture", record.lost_before));
-    let frame = record.bytes.get(..record.length_bytes).unwrap_or_default();
-    writer.packet(record.at_nanos, record.direction, frame, comment.as_deref())
+impl<M: Medium> Writing<M> {
+    fn new(writer: PcapngWriter<Outlet<M>>) -> Self {
+        Self { writer, recording: Recording::default(), missing: 0, last_nanos: 0 }
+    }
+
+    fn all(mut self, records: &Receiver<Record>) -> io::Result<Recording> {
+        // The head of the capture: a medium that takes nothing is known before the first frame.
+        self.writer.out_mut().push();
+        loop {
+            match records.recv_timeout(IDLE_FLUSH) {
+                Ok(record) => self.take(&record)?,
+                Err(RecvTimeoutError::Timeout) => self.writer.out_mut().push(),
+                Err(RecvTimeoutError::Disconnected) => return self.end(),
+            }
+        }
+    }
+
+    fn take(&mut self, record: &Record) -> io::Result<()> {
+        self.missing += record.lost_before;
+        self.recording.lost += record.lost_before;
+        self.last_nanos = record.at_nanos;
+        self.writer.out_mut().push_if_due();
+        if !self.writer.out_mut().has_room() {
+            self.missing += 1;
+            self.recording.lost += 1;
+            return Ok(());
+        }
+        let missing = std::mem::take(&mut self.missing);
+        let comment =
+            (missing > 0).then(|| format!("{missing} frames before this one are missing in the capture"));
+        let frame = record.bytes.get(..record.length_bytes).unwrap_or_default();
+        self.recording.written += 1;
+        self.writer.packet(record.at_nanos, record.direction, frame, comment.as_deref())
+    }
+
+    fn end(mut self) -> io::Result<Recording> {
+        let Recording { written, lost } = self.recording;
+        self.writer.statistics(self.last_nanos, written + lost, lost)?;
+        self.writer.out_mut().end().map(|()| self.recording)
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::{Arc, Mutex};
-
-    use super::*;
-
-    /// A medium that another handle reads back.
-    #[derive(Clone, Default)]
-    struct Shared(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Shared {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().unwrap().extend_from_slice(bytes);
-            Ok(bytes.len())
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    fn exchange<'a>(request: &'a [u8], answer: Option<&'a [u8]>) -> Seen<'a> {
-        Seen { received: Instant::from_nanos(1), request, answered: Instant::from_nanos(2), answer }
-    }
-
-    #[test]
-    fn request_and_answer_are_two_records() {
-        let shared = Shared::default();
-        let mut recorder = Recorder::start(shared.clone(), "memory", &Clock::start()).unwrap();
-        recorder.frame(exchange(b"request", Some(b"answered")));
-        recorder.frame(exchange(b"destroyed", None));
-        assert_eq!(recorder.finish().unwrap(), Recording { written: 3, lost: 0 });
-        let capture = shared.0.lock().unwrap();
-        for text in [&b"request"[..], b"answered", b"destroyed"] {
-            assert!(capture.windows(text.len()).any(|window| window == text));
-        }
-    }
-
-    /// A medium that takes nothing until it is told to.
-    struct Stuck(std::sync::mpsc::Receiver<()>);
-
-    impl Write for Stuck {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            let _ = self.0.recv();
-            Ok(bytes.len())
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    #[test]
-    fn what_the_medium_cannot_take_is_counted_and_never_waited_for() {
-        let (go, stuck) = std::sync::mpsc::channel();
-        let mut recorder = Recorder::start(Stuck(stuck), "memory", &Clock::start()).unwrap();
-        let total = 2 * QUEUE_FRAMES as u64;
-        for _ in 0..total {
-            recorder.frame(exchange(&[0; FRAME_BUFFER_BYTES], None));
-        }
-        drop(go);
-        let recording = recorder.finish().unwrap();
-        assert!(recording.lost > 0);
-        assert_eq!(recording.written + recording.lost, total);
-    }
-}
+mod tests;

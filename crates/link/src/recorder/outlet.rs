@@ -1,0 +1,141 @@
+//! What goes to the medium of a capture, and waits while the medium refuses it.
+
+use std::fs::File;
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+/// What waits until it is worth a write.
+const BUFFER_BYTES: usize = 1 << 16;
+/// Most that waits for a medium that refuses writes. What comes then is lost.
+const WAITING_BYTES_MAX: usize = 1 << 20;
+/// From one try to the next.
+const RETRY: Duration = Duration::from_millis(200);
+/// Where the length of a block is in it, counted from its first byte (draft-ietf-opsawg-pcapng, 3.1).
+const BLOCK_LENGTH: std::ops::Range<usize> = 4..8;
+
+/// Where a capture goes.
+pub trait Medium: Write + Send {
+    /// Cuts off what is behind the first `length_bytes`: part of a block that will never be whole.
+    ///
+    /// # Errors
+    /// The medium keeps what it has got, such as a pipe.
+    fn cut(&mut self, length_bytes: u64) -> io::Result<()> {
+        let _ = length_bytes;
+        Err(io::ErrorKind::Unsupported.into())
+    }
+}
+
+impl Medium for File {
+    fn cut(&mut self, length_bytes: u64) -> io::Result<()> {
+        self.set_len(length_bytes)
+    }
+}
+
+/// A medium with a buffer of whole blocks in front. Writing to it never fails.
+pub(super) struct Outlet<M> {
+    medium: M,
+    link_name: String,
+    waiting: Vec<u8>,
+    /// How many bytes of `waiting` the medium has taken.
+    taken: usize,
+    /// Bytes on the medium in front of `waiting`.
+    before: u64,
+    refusal: Option<Refusal>,
+}
+
+/// The medium has refused a write.
+struct Refusal {
+    error: io::Error,
+    at: Instant,
+}
+
+impl<M: Medium> Outlet<M> {
+    pub(super) fn new(medium: M, link_name: &str) -> Self {
+        let (waiting, link_name) = (Vec::with_capacity(2 * BUFFER_BYTES), link_name.to_owned());
+        Self { medium, link_name, waiting, taken: 0, before: 0, refusal: None }
+    }
+
+    pub(super) const fn has_room(&self) -> bool {
+        self.waiting.len() < WAITING_BYTES_MAX
+    }
+
+    /// Passes on what is worth it, or what was refused some time ago.
+    pub(super) fn push_if_due(&mut self) {
+        let is_due = match &self.refusal {
+            Some(refusal) => refusal.at.elapsed() >= RETRY,
+            None => self.waiting.len() >= BUFFER_BYTES,
+        };
+        if is_due {
+            self.push();
+        }
+    }
+
+    /// Passes everything on. What the medium refuses waits; the first refusal is reported, and the end of it.
+    pub(super) fn push(&mut self) {
+        match (self.try_push(), &self.refusal) {
+            (Ok(()), None) => {}
+            (Ok(()), Some(_)) => {
+                tracing::warn!("the capture of {} is written again", self.link_name);
+                self.refusal = None;
+            }
+            (Err(error), known) => {
+                if known.is_none() {
+                    tracing::error!(
+                        "the capture of {} cannot be written: {error}; this is tried again",
+                        self.link_name
+                    );
+                }
+                self.refusal = Some(Refusal { error, at: Instant::now() });
+            }
+        }
+    }
+
+    fn try_push(&mut self) -> io::Result<()> {
+        while let Some(rest) = self.waiting.get(self.taken..).filter(|rest| !rest.is_empty()) {
+            match self.medium.write(rest) {
+                Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
+                Ok(taken) => self.taken += taken,
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(error),
+            }
+        }
+        self.before += self.taken as u64;
+        self.taken = 0;
+        self.waiting.clear();
+        self.medium.flush()
+    }
+
+    /// The last try. Without success the capture ends with the last block that is whole.
+    pub(super) fn end(&mut self) -> io::Result<()> {
+        self.push();
+        let Some(refusal) = self.refusal.take() else { return Ok(()) };
+        let whole_bytes = self.before + whole_blocks(&self.waiting, self.taken) as u64;
+        // A pipe keeps a part of a block. The refusal matters more.
+        let _ = self.medium.cut(whole_bytes);
+        Err(refusal.error)
+    }
+}
+
+/// The length of all blocks that end within the first `taken` bytes.
+fn whole_blocks(blocks: &[u8], taken: usize) -> usize {
+    let mut end = 0;
+    while let Some(length) = blocks.get(end..).and_then(|block| block.get(BLOCK_LENGTH)?.try_into().ok()) {
+        let next = end + u32::from_le_bytes(length) as usize;
+        if next > taken || next == end {
+            break;
+        }
+        end = next;
+    }
+    end
+}
+
+impl<M> Write for Outlet<M> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.waiting.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
