@@ -1,5 +1,8 @@
 //! The server: it accepts clients on a thread of its own.
 
+mod clients;
+mod notices;
+
 use std::io;
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -7,19 +10,22 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use plc::outside::OutsideEnd;
-use tokio::net::{TcpListener, TcpStream};
+use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
-use tokio::sync::{Semaphore, oneshot};
+use tokio::sync::oneshot;
 
-use crate::connection;
 use crate::map::ModbusMap;
 use crate::unit::Unit;
 
-/// Most clients at a time; one more is hung up on.
-pub const CONNECTIONS_MAX: usize = 16;
+use clients::Clients;
+use notices::{Notice, Notices};
+
+pub use clients::CONNECTIONS_MAX;
 
 /// How long accepting rests after an error, such as no file descriptor to be had.
 const REST: Duration = Duration::from_millis(100);
+/// File descriptors that the runtime opens at its start, and more. It panics if it gets too few for its signals.
+const RUNTIME_DESCRIPTORS: usize = 8;
 
 /// A Modbus TCP server. Dropping it closes all connections and ends its thread.
 #[derive(Debug)]
@@ -33,13 +39,15 @@ pub struct Server {
 /// mean the first too.
 ///
 /// # Errors
-/// The listener cannot be used, or there is no thread to be had.
+/// The listener cannot be used, there are too few file descriptors, or there is no thread to be had.
 pub fn serve(
     listener: std::net::TcpListener,
     units: impl IntoIterator<Item = (ModbusMap, OutsideEnd)>,
 ) -> io::Result<Server> {
     let units: Arc<[Unit]> = units.into_iter().map(|(map, end)| Unit::new(map, end)).collect();
     let address = listener.local_addr()?;
+    let room = (0..RUNTIME_DESCRIPTORS).map(|_| listener.try_clone()).collect::<io::Result<Vec<_>>>()?;
+    drop(room);
     listener.set_nonblocking(true)?;
     let runtime = Builder::new_current_thread().enable_io().enable_time().build()?;
     let listener = {
@@ -80,38 +88,28 @@ fn run(runtime: &Runtime, listener: &TcpListener, units: &Arc<[Unit]>, stopped: 
     });
 }
 
+/// Accepts clients, and says once a second what went wrong with it.
 async fn accept(listener: &TcpListener, units: &Arc<[Unit]>) {
-    let places = Arc::new(Semaphore::new(CONNECTIONS_MAX));
+    let mut clients = Clients::new(Arc::clone(units));
+    let mut notices = Notices::default();
     loop {
-        let (stream, client) = match listener.accept().await {
-            Ok(accepted) => accepted,
-            Err(error) => {
-                tracing::warn!("no Modbus client can be accepted: {error}");
-                tokio::time::sleep(REST).await;
+        let accepted = tokio::select! {
+            accepted = listener.accept() => accepted,
+            () = notices.due() => {
+                notices.report();
                 continue;
             }
         };
-        let Ok(place) = Arc::clone(&places).try_acquire_owned() else {
-            tracing::warn!("Modbus client {client} refused: {CONNECTIONS_MAX} are connected");
-            continue;
-        };
-        let units = Arc::clone(units);
-        tokio::spawn(async move {
-            attend(stream, client, &units).await;
-            drop(place);
-        });
-    }
-}
-
-async fn attend(stream: TcpStream, client: SocketAddr, units: &[Unit]) {
-    tracing::debug!("Modbus client {client} connected");
-    // Answers are small, and clients wait for them.
-    let ended = match stream.set_nodelay(true) {
-        Ok(()) => connection::serve(stream, units).await,
-        Err(error) => Err(error),
-    };
-    match ended {
-        Ok(()) => tracing::debug!("Modbus client {client} has gone"),
-        Err(error) => tracing::info!("connection of Modbus client {client} closed: {error}"),
+        match accepted {
+            Ok((stream, client)) => {
+                if let Some(closed) = clients.admit(stream, client) {
+                    notices.add(Notice::Closed { client: closed, for_client: client });
+                }
+            }
+            Err(error) => {
+                notices.add(Notice::NotAccepted(error.to_string()));
+                tokio::time::sleep(REST).await;
+            }
+        }
     }
 }

@@ -118,24 +118,39 @@ fn a_client_that_sends_half_a_frame_is_hung_up_on_and_delays_nobody() {
     });
 }
 
+/// Reads a register; whether there is an answer.
+fn is_served(client: &mut TcpStream) -> bool {
+    client.write_all(&frame(&[0x03, 0, 0, 0, 1])).is_ok()
+        && client.read(&mut [0; 11]).is_ok_and(|octets| octets > 0)
+}
+
 #[test]
-fn one_client_too_many_is_hung_up_on_until_another_goes() {
+fn one_client_too_many_takes_the_place_of_the_one_that_is_silent_longest() {
     let bench = Bench::with(nothing);
-    let request = frame(&[0x03, 0, 0, 0, 1]);
     let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| raw(&bench)).collect();
-    for client in &mut clients {
-        client.write_all(&request).unwrap();
-        assert_eq!(answer(client), [3, 2, 0, 0]);
+    assert!(clients.iter_mut().all(is_served));
+    // From now on the sixth is silent, then the tenth.
+    for silent in [5, 9] {
+        assert!(clients.iter_mut().enumerate().all(|(at, client)| at == silent || is_served(client)));
+        let mut one_more = raw(&bench);
+        assert!(is_served(&mut one_more), "it is taken in");
+        let closed = std::mem::replace(&mut clients[silent], one_more);
+        assert_eq!(rest(closed), []);
+        assert!(clients.iter_mut().all(is_served), "nobody else is closed");
     }
-    assert_eq!(rest(raw(&bench)), []);
-    clients.pop();
-    // The server hears of it in its own time.
-    let is_served = || {
-        let mut client = raw(&bench);
-        let sent = client.write_all(&request);
-        sent.is_ok() && client.read(&mut [0; 11]).is_ok_and(|octets| octets > 0)
-    };
-    assert!((0..10_000).any(|_| is_served()));
+}
+
+#[test]
+fn a_client_that_has_gone_leaves_its_place_and_nobody_is_closed() {
+    let bench = Bench::with(nothing);
+    let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| raw(&bench)).collect();
+    assert!(clients.iter_mut().all(is_served));
+    let gone = clients.pop().unwrap();
+    gone.shutdown(std::net::Shutdown::Write).unwrap();
+    // The server closes in its turn: now it knows.
+    assert_eq!(rest(gone), []);
+    clients.push(raw(&bench));
+    assert!(clients.iter_mut().rev().all(is_served));
 }
 
 proptest! {
