@@ -9,6 +9,7 @@ use ectwin::explain::Unexplained;
 use link::OpenError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 
+use crate::descriptors;
 use crate::output::colour_on_stderr;
 use crate::unit_files::FileProblem;
 
@@ -62,8 +63,9 @@ impl Failure {
         ExitCode::from(self.exit_code())
     }
 
-    const fn exit_code(&self) -> u8 {
+    fn exit_code(&self) -> u8 {
         match self {
+            _ if self.source().is_some_and(descriptors::are_exhausted) => 3,
             Self::Unexplained(_)
             | Self::ProgramWrong(_)
             | Self::RulesBroken
@@ -82,7 +84,32 @@ impl Failure {
         }
     }
 
+    /// What the system has refused.
+    fn source(&self) -> Option<&io::Error> {
+        match self {
+            Self::Unreadable { source, .. }
+            | Self::ProgramUnreadable { source, .. }
+            | Self::Unwritable { source, .. }
+            | Self::Modbus { source, .. }
+            | Self::Link(OpenError::Failed { source, .. })
+            | Self::LinkLost(source) => Some(source),
+            #[cfg(feature = "opcua")]
+            Self::OpcUa { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+
     fn words(&self) -> (String, Option<String>) {
+        let (message, help) = self.message_and_help();
+        match self.source() {
+            Some(source) if descriptors::are_exhausted(source) => {
+                (message, Some("allow this process more open files, such as `ulimit -n 1024`".to_owned()))
+            }
+            _ => (message, help),
+        }
+    }
+
+    fn message_and_help(&self) -> (String, Option<String>) {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), Some(reason.help().to_owned())),
             Self::BadFile(problems) | Self::ProgramWrong(problems) => {

@@ -2,18 +2,25 @@
 
 mod cli;
 mod commands;
+mod descriptors;
 mod failure;
 mod output;
+mod overwrite;
 mod privileges;
 mod unit_files;
 
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Parser;
+use signal_hook::consts::SIGXFSZ;
 
 fn main() -> ExitCode {
     let cli = cli::Cli::parse();
     output::start_logging(cli.verbose);
+    // A write beyond the file size limit of the process is then refused, as by a full disk, and does not end it. There
+    // is no handler to be had for a signal that the system does not know.
+    let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
     match commands::run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),

@@ -1,10 +1,11 @@
 //! The non-volatile memory of units in files.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use device::Network;
-use nx_ect101::{MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
+use nx_ect101::{Damage, MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
+use storage::StoredFile;
 
 /// What a unit has found in its file, and who keeps the file from now on.
 #[derive(Debug)]
@@ -20,21 +21,25 @@ impl MemoryFile {
         Self { found: MemoryAtPowerOn::Factory, writer: None }
     }
 
-    /// Reads the file. One that is damaged gets another name and is left alone; the unit starts with the fault
-    /// that the manual names, and stores a new memory once its power was cycled.
+    /// Claims the file for this unit, and reads it. One that is damaged gets another name and is left alone; the unit
+    /// starts with the fault that the manual names, and stores a new memory once its power was cycled. One that never
+    /// was a memory is refused, and not touched.
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
-        let found = match storage::read(path)? {
+        let file = StoredFile::claim(path)?;
+        let found = match file.read()?.map(|bytes| NonVolatileMemory::decode(&bytes)) {
             None => MemoryAtPowerOn::Factory,
-            Some(bytes) => match NonVolatileMemory::decode(&bytes) {
-                Ok(memory) => MemoryAtPowerOn::Stored(Box::new(memory)),
-                Err(damage) => {
-                    let aside = storage::set_aside(path)?;
-                    tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
-                    MemoryAtPowerOn::Damaged
-                }
-            },
+            Some(Ok(memory)) => MemoryAtPowerOn::Stored(Box::new(memory)),
+            Some(Err(Damage::NoMemory)) => {
+                let words = "it is there, and is not the memory of a unit; it is left as it is";
+                return Err(io::Error::new(io::ErrorKind::InvalidData, words));
+            }
+            Some(Err(damage)) => {
+                let aside = file.set_aside()?;
+                tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
+                MemoryAtPowerOn::Damaged
+            }
         };
-        let writer = storage::Writer::start(PathBuf::from(path), room_bytes(&found))?;
+        let writer = storage::Writer::start(file, room_bytes(&found))?;
         Ok(Self { found, writer: Some(writer) })
     }
 

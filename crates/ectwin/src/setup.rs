@@ -86,10 +86,11 @@ impl Setup {
 
     /// Gives the unit the non-volatile memory in the file that the unit file names, seen from `folder`, and
     /// keeps it there. Without a name it stays memory only. A damaged file gets another name, and the unit
-    /// starts with the fault that the manual tells (00200000).
+    /// starts with the fault that the manual names (00200000).
     ///
     /// # Errors
-    /// [`SetupError::Storage`] when the file cannot be read.
+    /// [`SetupError::Storage`] when the file cannot be used: another unit keeps its memory there, it is not the
+    /// memory of a unit, or its folder is missing or cannot be written.
     pub fn with_storage(mut self, folder: &Path) -> Result<Self, SetupError> {
         if let Some(storage) = &self.file.storage {
             let path = folder.join(&storage.value);
@@ -133,6 +134,12 @@ impl Setup {
     #[must_use]
     pub fn device_variables(&self) -> DeviceVariables {
         DeviceVariables::of_unit_file(&self.file)
+    }
+
+    /// The file of the user program; none if it is not in one.
+    #[must_use]
+    pub fn program_path(&self) -> Option<&Path> {
+        self.program_file.as_ref().map(|(path, _)| path.as_path())
     }
 
     /// The file of the user program, if it is in one.

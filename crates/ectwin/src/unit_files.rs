@@ -36,9 +36,10 @@ pub(crate) fn with_storage(path: &Path, setup: Setup) -> Result<Setup, Failure> 
     })
 }
 
-/// The file of the non-volatile memory that this unit file names.
+/// The file of the non-volatile memory that this unit file names, behind symbolic links.
 pub(crate) fn storage_path(path: &Path, setup: &Setup) -> Option<PathBuf> {
-    setup.file().storage.as_ref().map(|storage| folder_of(path).join(&storage.value))
+    let path = folder_of(path).join(&setup.file().storage.as_ref()?.value);
+    Some(storage::resolve(&path).unwrap_or(path))
 }
 
 fn folder_of(path: &Path) -> &Path {

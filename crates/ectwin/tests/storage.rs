@@ -150,7 +150,10 @@ fn what_changes_while_the_memory_is_broken_is_stored_once_it_is_sound() {
 fn a_damaged_memory_is_new_when_the_power_was_cycled() {
     let folder = folder_of("new");
     let path = folder.join("N1.nvm");
-    fs::write(&path, b"rubbish").expect("writable");
+    drop(start(&folder));
+    let mut damaged = fs::read(&path).expect("stored");
+    damaged.truncate(100);
+    fs::write(&path, &damaged).expect("writable");
     let mut twin = start(&folder);
     twin.unit(0).remove(Fault::NonVolatileMemory);
     twin.unit(0).restart();
@@ -162,7 +165,7 @@ fn a_damaged_memory_is_new_when_the_power_was_cycled() {
     twin.unit(0).inject(Fault::IoCommunications);
     drop(twin);
     assert_eq!(stored_events(&folder), ["80200000"]);
-    assert_eq!(fs::read(folder.join("N1.nvm.damaged-1")).expect("kept"), b"rubbish");
+    assert_eq!(fs::read(folder.join("N1.nvm.damaged-1")).expect("kept"), damaged);
 }
 
 #[test]

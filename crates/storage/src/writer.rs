@@ -1,19 +1,23 @@
 //! A thread that keeps a file up to date.
 
 use std::io;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use triple_buffer::{Input, Output, triple_buffer};
 
-use crate::file;
+use crate::StoredFile;
 
-/// Keeps one file up to date, on a thread of its own. Dropping it waits until the newest contents are stored.
+/// From one try to the next, if the file cannot be written: somebody has to make room on the disk first.
+const RETRY: Duration = Duration::from_secs(1);
+
+/// Keeps one file up to date, on a thread of its own. Dropping it waits until the newest contents are stored, or
+/// refused once more.
 ///
 /// [`Writer::store`] never waits: contents that are newer than what is being written take the place of those
-/// that wait.
+/// that wait. A write that is refused, such as by a full disk, is reported at once and repeated until it succeeds.
 #[derive(Debug)]
 pub struct Writer {
     newest: Input<Vec<u8>>,
@@ -27,12 +31,12 @@ impl Writer {
     ///
     /// # Errors
     /// There is no thread to be had.
-    pub fn start(path: PathBuf, room_bytes: usize) -> io::Result<Self> {
+    pub fn start(file: StoredFile, room_bytes: usize) -> io::Result<Self> {
         let (newest, contents) = triple_buffer(&vec![0; room_bytes]);
         let stop = Arc::new(AtomicBool::new(false));
         let stopped = Arc::clone(&stop);
         let thread = thread::Builder::new().name("storage".to_owned());
-        let thread = thread.spawn(move || keep(&path, contents, &stopped))?;
+        let thread = thread.spawn(move || keep(Kept { file, refused: None }, contents, &stopped))?;
         Ok(Self { newest, stop, thread: Some(thread) })
     }
 
@@ -58,41 +62,64 @@ impl Drop for Writer {
     }
 }
 
-fn keep(path: &Path, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
-    let mut unsaved = false;
+fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
+    let mut is_unsaved = false;
     loop {
         // Before the look at the contents, so that the last ones are not missed.
-        let last = stop.load(Ordering::Acquire);
-        if contents.update() {
-            unsaved = !is_stored(path, contents.output_buffer());
-        } else if last {
-            // A disk that was full may have room by now.
-            let _ = unsaved && is_stored(path, contents.output_buffer());
-            return;
-        } else {
-            thread::park();
+        let is_last = stop.load(Ordering::Acquire);
+        is_unsaved |= contents.update();
+        if is_unsaved {
+            is_unsaved = !kept.is_stored(contents.output_buffer());
+        }
+        match (is_last, is_unsaved) {
+            (true, true) => return kept.lose(),
+            (true, false) => return,
+            (false, true) => thread::park_timeout(RETRY),
+            (false, false) => thread::park(),
         }
     }
 }
 
-fn is_stored(path: &Path, bytes: &[u8]) -> bool {
-    let result = file::write(path, bytes);
-    if let Err(error) = &result {
-        tracing::error!("{}: not stored: {error}", path.display());
+/// The file, and what is known of writing it.
+struct Kept {
+    file: StoredFile,
+    /// Why the last write was refused; none if it was not.
+    refused: Option<String>,
+}
+
+impl Kept {
+    fn is_stored(&mut self, bytes: &[u8]) -> bool {
+        let refused = self.file.write(bytes).err().map(|error| error.to_string());
+        let path = self.file.path().display();
+        match (&refused, &self.refused) {
+            (Some(reason), before) if Some(reason) != before.as_ref() => {
+                tracing::error!("{path}: not stored: {reason}; this is tried again every second");
+            }
+            (None, Some(_)) => tracing::warn!("{path}: stored again"),
+            _ => {}
+        }
+        self.refused = refused;
+        self.refused.is_none()
     }
-    result.is_ok()
+
+    fn lose(&self) {
+        tracing::error!(
+            "{}: the last changes are lost, nothing made room for them",
+            self.file.path().display()
+        );
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::file::tests::Folder;
+    use crate::stored_file::tests::Folder;
 
     #[test]
     fn the_newest_contents_are_stored_when_the_writer_is_dropped() {
         let folder = Folder::of_test("writer");
-        let path = folder.file("N1.nvm");
-        let mut writer = Writer::start(path.clone(), 64).expect("a thread");
+        let file = folder.claim("N1.nvm").expect("free");
+        let mut writer = Writer::start(file, 64).expect("a thread");
         for generation in 0..=200_u8 {
             writer.store(|bytes| {
                 bytes.clear();
@@ -100,14 +127,26 @@ mod tests {
             });
         }
         drop(writer);
-        assert_eq!(file::read(&path).expect("readable"), Some(vec![200; 1000]));
+        assert_eq!(folder.contents("N1.nvm"), Some(vec![200; 1000]));
     }
 
     #[test]
     fn without_contents_nothing_is_written() {
         let folder = Folder::of_test("nothing");
-        let path = folder.file("N1.nvm");
-        drop(Writer::start(path.clone(), 64).expect("a thread"));
-        assert_eq!(file::read(&path).expect("readable"), None);
+        drop(Writer::start(folder.claim("N1.nvm").expect("free"), 64).expect("a thread"));
+        assert_eq!(folder.names(), [""; 0]);
+    }
+
+    #[test]
+    fn what_is_refused_is_stored_once_it_can_be() {
+        let folder = Folder::of_test("refused");
+        let mut kept = Kept { file: folder.claim("N1.nvm").expect("free"), refused: None };
+        // A folder in the way is refused as a full disk is: the new file cannot take its place.
+        std::fs::create_dir(folder.file("N1.nvm")).expect("writable");
+        assert!(!kept.is_stored(b"kept") && kept.refused.is_some());
+        assert_eq!(folder.names(), [".N1.nvm.ectwin-lock", "N1.nvm"], "what is refused takes no room");
+        std::fs::remove_dir(folder.file("N1.nvm")).expect("empty");
+        assert!(kept.is_stored(b"kept") && kept.refused.is_none());
+        assert_eq!(folder.contents("N1.nvm").as_deref(), Some(&b"kept"[..]));
     }
 }

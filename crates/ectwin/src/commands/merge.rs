@@ -8,6 +8,7 @@ use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failu
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::overwrite::{self, Output};
 use crate::unit_files::FileProblem;
 
 /// Cases that one line of a message names.
@@ -21,6 +22,9 @@ struct Read<'a> {
 
 /// Tells the failed cases and the sum of all.
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
+    if let Some(path) = &args.junit {
+        overwrite::refuse(&[Output { option: "--junit", path }], &args.results)?;
+    }
     let read = read_all(&args.results)?;
     let results = complete(read)?;
     let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);

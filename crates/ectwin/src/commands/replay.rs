@@ -18,6 +18,7 @@ use std::fs;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::overwrite::{self, Output};
 
 use campaign::Campaign;
 use captures::Captures;
@@ -39,7 +40,8 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         return campaign.bless(&args.files);
     }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
-    let captures = Captures::choose(args.pcap.as_deref(), cases.len())?;
+    overwrite::refuse(&outputs(args), campaign.inputs())?;
+    let captures = Captures::choose(args.pcap.as_deref(), cases.len(), campaign.inputs())?;
     if let Some(seed) = campaign.drawn_seed() {
         output::print_line(format_args!("seed {seed}, drawn at random"))?;
     }
@@ -48,6 +50,12 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
     threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
     results.close(shard.partition, campaign.count())
+}
+
+fn outputs(args: &ReplayArgs) -> Vec<Output<'_>> {
+    let all = [("--json", &args.json), ("--junit", &args.junit), ("--pcap", &args.pcap)];
+    let given = all.into_iter().filter_map(|(option, path)| Some(Output { option, path: path.as_deref()? }));
+    given.collect()
 }
 
 /// Our part of the cases. Only `--partition auto` reads the environment.

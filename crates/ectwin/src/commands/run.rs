@@ -12,12 +12,14 @@ use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
+use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
-use crate::{output, unit_files};
+use crate::{descriptors, output, overwrite, unit_files};
 
 /// Emulates the units until SIGINT, SIGTERM or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let setups = setups(args)?;
+    refuse_overwriting(args, &setups)?;
     let units = setups.len();
     // First whatever needs a privilege, then no privileges, then the threads, which inherit that.
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
@@ -59,6 +61,7 @@ fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
         let setup = unit_files::read(path, args.program.as_deref())?;
         Ok(if args.fast { setup.fast() } else { setup })
     };
+    descriptors::make_room(args.units.len());
     args.units.iter().map(read).collect()
 }
 
@@ -67,20 +70,35 @@ fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failur
     pairs.map(|(path, setup)| unit_files::with_storage(path, setup)).collect()
 }
 
+fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
+    let Some(path) = &args.pcap else { return Ok(()) };
+    let programs = setups.iter().filter_map(Setup::program_path).map(Path::to_owned);
+    let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups));
+    overwrite::refuse(&[Output { option: "--pcap", path }], files)
+}
+
+/// The files of the non-volatile memories.
+fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = PathBuf> + 'a {
+    let pairs = args.units.iter().zip(setups);
+    pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup))
+}
+
 /// What is read or written while the units run. Programs that unit files name are where these are.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
-    let pairs = args.units.iter().zip(setups);
-    let stored = pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup));
     let read = args.units.iter().chain(&args.program).cloned();
-    stored.map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
+    memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
 }
 
-fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
-    TcpListener::bind(address).map_err(|source| Failure::Modbus { address, source })
+/// A listener, and the address that was asked for.
+type Listener = (SocketAddr, TcpListener);
+
+fn listen(address: SocketAddr) -> Result<Listener, Failure> {
+    let listener = TcpListener::bind(address).map_err(|source| Failure::Modbus { address, source })?;
+    Ok((address, listener))
 }
 
-fn serve_modbus(twin: &mut Twin, listener: TcpListener) -> Result<ModbusServer, Failure> {
-    let server = twin.serve_modbus(listener).map_err(Failure::LinkLost)?;
+fn serve_modbus(twin: &mut Twin, (address, listener): Listener) -> Result<ModbusServer, Failure> {
+    let server = twin.serve_modbus(listener).map_err(|source| Failure::Modbus { address, source })?;
     tracing::info!("Modbus TCP is served at {}", server.address());
     Ok(server)
 }
@@ -89,14 +107,15 @@ fn serve_modbus(twin: &mut Twin, listener: TcpListener) -> Result<ModbusServer, 
 mod opcua {
     use ectwin::OpcUaServer;
 
-    use super::{Failure, SocketAddr, TcpListener, Twin};
+    use super::{Failure, Listener, SocketAddr, TcpListener, Twin};
 
-    pub(super) fn listen(address: SocketAddr) -> Result<TcpListener, Failure> {
-        TcpListener::bind(address).map_err(|source| Failure::OpcUa { address, source })
+    pub(super) fn listen(address: SocketAddr) -> Result<Listener, Failure> {
+        let listener = TcpListener::bind(address).map_err(|source| Failure::OpcUa { address, source })?;
+        Ok((address, listener))
     }
 
-    pub(super) fn serve(twin: &mut Twin, listener: TcpListener) -> Result<OpcUaServer, Failure> {
-        let server = twin.serve_opcua(listener).map_err(Failure::LinkLost)?;
+    pub(super) fn serve(twin: &mut Twin, (address, listener): Listener) -> Result<OpcUaServer, Failure> {
+        let server = twin.serve_opcua(listener).map_err(|source| Failure::OpcUa { address, source })?;
         tracing::info!("OPC UA is served at opc.tcp://{}", server.address());
         Ok(server)
     }

@@ -27,7 +27,7 @@ static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 /// Why bytes are no memory of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Damage {
-    /// They do not begin as a memory does.
+    /// They do not begin as a memory does: they belong to somebody else.
     NoMemory,
     /// A version that this program does not know.
     Version {
@@ -86,11 +86,13 @@ impl NonVolatileMemory {
     pub fn decode(bytes: &[u8]) -> Result<Self, Damage> {
         let length_bytes = bytes.len();
         let too_short = Damage::Length { length_bytes };
-        let (body, checksum) = bytes.split_last_chunk::<CHECKSUM_BYTES>().ok_or(too_short)?;
-        let mut reader = Reader(body);
-        if reader.take::<8>().ok_or(too_short)? != *MAGIC {
+        // First: what begins in another way is somebody else's file, and no damaged memory, however short it is.
+        if !bytes.starts_with(MAGIC) {
             return Err(Damage::NoMemory);
         }
+        let (body, checksum) = bytes.split_last_chunk::<CHECKSUM_BYTES>().ok_or(too_short)?;
+        let mut reader = Reader(body);
+        reader.take::<8>().ok_or(too_short)?;
         let version = reader.u16().ok_or(too_short)?;
         if version != VERSION {
             return Err(Damage::Version { version });

@@ -148,7 +148,10 @@ fn each_kind_of_damage_has_its_name() {
     assert_eq!(changed(0, b'x'), Err(Damage::NoMemory));
     assert_eq!(changed(8, 9), Err(Damage::Version { version: 9 }));
     assert_eq!(changed(100, 0x5A), Err(Damage::Checksum));
-    assert_eq!(NonVolatileMemory::decode(&[]), Err(Damage::Length { length_bytes: 0 }));
+    for foreign in [&b""[..], b"rubbish", b"model = \"nx-ect101\"\n", &bytes[..7]] {
+        assert_eq!(NonVolatileMemory::decode(foreign), Err(Damage::NoMemory));
+    }
+    assert_eq!(NonVolatileMemory::decode(&bytes[..8]), Err(Damage::Length { length_bytes: 8 }));
     assert_eq!(NonVolatileMemory::decode(&bytes[..50]), Err(Damage::Length { length_bytes: 50 }));
 }
 

@@ -12,11 +12,14 @@ use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::overwrite::{self, Output};
 use crate::unit_files::FileProblem;
 
 /// Scenarios × seeds.
 pub(super) struct Campaign {
     scenarios: Vec<Loaded>,
+    /// Every file that was read.
+    inputs: Vec<PathBuf>,
     seeds: Seeds,
     is_drawn: bool,
     fingerprint: u64,
@@ -71,9 +74,9 @@ impl Campaign {
         let seeds = Seeds::wanted(args);
         let mut fingerprint = Fingerprint::new();
         fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
-        let (mut scenarios, mut problems) = (Vec::new(), Vec::new());
+        let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for path in files(&args.files)? {
-            match load(&path, &mut fingerprint) {
+            match load(&path, &mut fingerprint, &mut inputs) {
                 Ok(scenario) => scenarios.push(Loaded { path, scenario }),
                 Err(found) => problems.extend(found),
             }
@@ -85,7 +88,7 @@ impl Campaign {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
         }
         let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
-        let campaign = Self { scenarios, seeds, is_drawn, fingerprint: fingerprint.0 };
+        let campaign = Self { scenarios, inputs, seeds, is_drawn, fingerprint: fingerprint.0 };
         match campaign.count() {
             0..=CASES_MAX => Ok(campaign),
             count => Err(Failure::Refused {
@@ -110,10 +113,17 @@ impl Campaign {
                 return Err(Failure::Refused { message: format!("{}: {failure}", path.display()), help });
             }
             let trace = path.with_extension("trace");
+            // A scenario of that name is no golden trace.
+            overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
             output::write(Some(&trace), report.recording.trace().unwrap_or_default().as_bytes())?;
             output::print_line(format_args!("blessed {}", trace.display()))?;
         }
         Ok(())
+    }
+
+    /// Every file that was read.
+    pub(super) fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
     }
 
     /// How many cases there are in all parts.
@@ -195,16 +205,22 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Reads one scenario, and the files that it names, seen from its folder.
 pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
-    load(path, &mut Fingerprint::new()).map_err(Failure::BadFile)
+    load(path, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
 }
 
 /// Reads a scenario, and the files that it names, seen from its folder.
-fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<FileProblem>> {
+fn load(
+    path: &Path,
+    fingerprint: &mut Fingerprint,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<Scenario, Vec<FileProblem>> {
+    inputs.push(path.to_owned());
     let text = fs::read_to_string(path).map_err(|error| vec![unreadable(path, &error)])?;
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
     let folder = path.parent().unwrap_or(Path::new(""));
     let parsed = Scenario::parse(&text, |unit_file| {
+        inputs.push(folder.join(unit_file));
         let text = fs::read_to_string(folder.join(unit_file)).map_err(|error| error.to_string())?;
         fingerprint.add(text.as_bytes());
         Ok(text)
@@ -216,6 +232,7 @@ fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<File
         errors.iter().map(problem).collect()
     })?;
     if let Some(name) = scenario.capture.clone() {
+        inputs.push(folder.join(&name));
         load_capture(&mut scenario, &folder.join(&name), fingerprint).map_err(|reason| {
             let at = text.find(&name).unwrap_or_default();
             let help =
@@ -224,7 +241,9 @@ fn load(path: &Path, fingerprint: &mut Fingerprint) -> Result<Scenario, Vec<File
         })?;
     }
     // Beside the file, if at all.
-    if let Ok(trace) = fs::read_to_string(path.with_extension("trace")) {
+    let golden = path.with_extension("trace");
+    if let Ok(trace) = fs::read_to_string(&golden) {
+        inputs.push(golden);
         fingerprint.add(trace.as_bytes());
         scenario.golden_trace = Some(trace);
     }

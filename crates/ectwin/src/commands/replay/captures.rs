@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::result::CaseResult;
 use crate::failure::Failure;
+use crate::overwrite::{self, Output};
 
 /// Where they go.
 pub(super) enum Captures {
@@ -12,18 +13,18 @@ pub(super) enum Captures {
     None,
     /// The one case.
     File(PathBuf),
-    /// Each case to a file of its own, named after its number, scenario and seed.
-    Folder(PathBuf),
+    /// Each case to a file of its own, named after its number, scenario and seed. A scenario may replay one of them.
+    Folder { folder: PathBuf, inputs: Vec<PathBuf> },
 }
 
 impl Captures {
     /// A path that ends with `/`, or is a folder, is one; else it is a file, and there must be one case.
-    pub(super) fn choose(path: Option<&Path>, cases: usize) -> Result<Self, Failure> {
+    pub(super) fn choose(path: Option<&Path>, cases: usize, inputs: &[PathBuf]) -> Result<Self, Failure> {
         let Some(path) = path else { return Ok(Self::None) };
         if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
             let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
             fs::create_dir_all(path).map_err(unwritable)?;
-            return Ok(Self::Folder(path.to_owned()));
+            return Ok(Self::Folder { folder: path.to_owned(), inputs: inputs.to_vec() });
         }
         if cases > 1 {
             let message = format!("--pcap {} is one file, and there are {cases} cases", path.display());
@@ -38,7 +39,11 @@ impl Captures {
         let path = match (self, capture) {
             (Self::None, _) | (_, None) => return Ok(()),
             (Self::File(path), _) => path.clone(),
-            (Self::Folder(folder), _) => folder.join(file_name(result)),
+            (Self::Folder { folder, inputs }, _) => {
+                let path = folder.join(file_name(result));
+                overwrite::refuse(&[Output { option: "--pcap", path: &path }], inputs)?;
+                path
+            }
         };
         fs::write(&path, capture.unwrap_or_default()).map_err(|source| Failure::Unwritable { path, source })
     }

@@ -1,0 +1,42 @@
+//! What a command writes never takes the place of what it reads, by whatever path either comes.
+
+use std::path::Path;
+
+use storage::Identity;
+
+use crate::failure::Failure;
+
+/// A file that the command line asks for.
+#[derive(Clone, Copy)]
+pub(crate) struct Output<'a> {
+    /// The option that names it.
+    pub(crate) option: &'a str,
+    pub(crate) path: &'a Path,
+}
+
+/// Refuses outputs that are one of `inputs`, or one file for two of them.
+pub(crate) fn refuse(
+    outputs: &[Output<'_>],
+    inputs: impl IntoIterator<Item = impl AsRef<Path>>,
+) -> Result<(), Failure> {
+    let written: Vec<_> =
+        outputs.iter().filter_map(|output| Some((output, Identity::of(output.path)?))).collect();
+    for (place, (output, identity)) in written.iter().enumerate() {
+        if let Some((other, _)) = written.iter().take(place).find(|(_, other)| other == identity) {
+            return Err(refused(output, &format!("is the file of {} too", other.option)));
+        }
+    }
+    for input in inputs {
+        let identity = Identity::of(input.as_ref());
+        if let Some((output, _)) = written.iter().find(|(_, written)| Some(written) == identity.as_ref()) {
+            let input = input.as_ref().display();
+            return Err(refused(output, &format!("would overwrite {input}, which this command uses")));
+        }
+    }
+    Ok(())
+}
+
+fn refused(output: &Output<'_>, why: &str) -> Failure {
+    let message = format!("{} {} {why}", output.option, output.path.display());
+    Failure::Refused { message, help: "give another file; nothing has been written".to_owned() }
+}

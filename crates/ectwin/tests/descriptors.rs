@@ -1,0 +1,55 @@
+//! Too few file descriptors: a message at the start, and no panic at any number of them; later, whoever is connected is
+//! served.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+#[expect(dead_code, reason = "each test uses a part of it")]
+mod started;
+
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::path::Path;
+
+use started::{Started, free_link};
+
+const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
+/// With fewer not even the program's libraries are found.
+const FEWEST: u32 = 4;
+const MOST: u32 = 64;
+
+/// Reads a register; whether there is an answer.
+fn is_served(client: &mut TcpStream) -> bool {
+    let request = [0, 1, 0, 0, 0, 6, 1, 0x03, 0, 0, 0, 1];
+    client.write_all(&request).is_ok() && client.read_exact(&mut [0; 11]).is_ok()
+}
+
+#[test]
+fn at_any_number_of_descriptors_there_is_a_message_or_a_server_that_goes_on() {
+    let modbus = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
+    let link = free_link();
+    let arguments = ["run", UNIT, "--link", &link, "--modbus", &modbus];
+    let first_ready = (FEWEST..MOST).find_map(|descriptors| {
+        let started = Started::new(Path::new("."), &format!("ulimit -n {descriptors};"), &arguments);
+        let ended = match started.is_ready() {
+            Ok(ready) => return Some(ready),
+            Err(ended) => ended,
+        };
+        assert_eq!(ended.code, Some(3), "{descriptors}: {}", ended.stderr);
+        assert!(ended.stderr.contains("help: allow this process more open files"), "{}", ended.stderr);
+        None
+    });
+    let mut server = first_ready.unwrap();
+    // Few are left: some clients are taken in, and then none.
+    let mut clients: Vec<TcpStream> = (0..24).map(|_| TcpStream::connect(&modbus).unwrap()).collect();
+    assert!(is_served(&mut clients[0]));
+    let told = server.wait_for("no Modbus client can be accepted");
+    assert!(told.contains("Too many open files"), "{told}");
+    assert!(is_served(&mut clients[0]), "whoever is connected is served");
+    // Once others have gone there is room again.
+    clients.truncate(1);
+    let mut next = TcpStream::connect(&modbus).unwrap();
+    assert!(is_served(&mut next) && is_served(&mut clients[0]));
+    let ended = server.interrupt();
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
+}

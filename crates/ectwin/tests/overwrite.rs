@@ -1,0 +1,130 @@
+//! No command writes over a file that it reads, by whatever path it is named.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+#[expect(dead_code, reason = "each test uses a part of it")]
+mod started;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+
+use started::{Started, ended, folder_of, free_link};
+
+/// Every command with an output that may be there already, and the input that it names as output.
+const CASES: &[(&[&str], &str)] = &[
+    (&["esi", "unit.toml", "-o", "OUT"], "unit.toml"),
+    (&["sii", "unit.toml", "-o", "OUT"], "unit.toml"),
+    (&["merge", "result.jsonl", "--junit", "OUT"], "result.jsonl"),
+    (&["replay", "scenario.toml", "--junit", "OUT"], "scenario.toml"),
+    (&["replay", "scenario.toml", "--json", "OUT"], "scenario.toml"),
+    (&["replay", "scenario.toml", "--pcap", "OUT"], "scenario.toml"),
+    (&["replay", "scenario.toml", "--json", "OUT"], "unit.toml"),
+    (&["replay", "scenario.toml", "--pcap", "OUT"], "live.pcapng"),
+    (&["replay", "scenario.toml", "--junit", "OUT"], "scenario.trace"),
+    // Its golden trace would have its own name.
+    (&["replay", "named.trace", "--bless"], "named.trace"),
+    (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "unit.toml"),
+    (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "N1.nvm"),
+    (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "program.st"),
+    (&["run", "unit.toml", "--link", "LINK", "--program", "other.st", "--pcap", "OUT"], "other.st"),
+    // These two write over nothing at all.
+    (&["import", "live.pcapng", "--unit", "unit.toml", "-o", "OUT"], "unit.toml"),
+    (&["search", "dice.toml", "-o", "OUT"], "dice.toml"),
+];
+
+const SCENARIO: &str = "title = \"again\"\ncapture = \"live.pcapng\"\nunits = [\"unit.toml\"]\nsteps = [\n\
+    { expect = \"the capture is replayed\", within = \"1s\" } ]\n";
+const LIVE: &str = "title = \"live\"\nunits = [\"unit.toml\"]\nsteps = [\n\
+    { master = \"take unit 1 to PRE-OP\" }, { expect = \"unit 1 is in PRE-OP\", within = \"1s\" } ]\n";
+
+/// A folder with every input.
+fn inputs(name: &str) -> std::path::PathBuf {
+    let folder = folder_of(name);
+    let put = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    put("unit.toml", "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n[cpu]\nprogram = \"program.st\"\n");
+    put("program.st", ";\n");
+    put("other.st", ";\n");
+    put("scenario.toml", LIVE);
+    put("named.trace", LIVE);
+    put("dice.toml", &LIVE.replace("{ expect", "{ random = 3, within = \"1s\" },\n{ expect"));
+    let live = ["replay", "scenario.toml", "--pcap", "live.pcapng", "--json", "result.jsonl"];
+    assert_eq!(ended(&folder, "", &live).code, Some(0));
+    put("scenario.toml", SCENARIO);
+    assert_eq!(ended(&folder, "", &["replay", "scenario.toml", "--bless"]).code, Some(0));
+    Started::new(&folder, "", &["run", "unit.toml", "--link", &free_link()]).ready().interrupt();
+    folder
+}
+
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files =
+        fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
+    files.map(|path| (path.display().to_string(), fs::read(&path).unwrap())).collect()
+}
+
+#[test]
+fn an_output_that_is_an_input_is_refused_and_nothing_is_written() {
+    let folder = inputs("inputs");
+    let link = free_link();
+    for (arguments, input) in CASES {
+        for way in ["same", "dotted", "soft", "hard"] {
+            let output = folder.join(way);
+            let _gone = fs::remove_file(&output);
+            let output = match way {
+                "same" => (*input).to_owned(),
+                "dotted" => format!("./{input}"),
+                "soft" => symlink(input, &output).map(|()| "soft".to_owned()).unwrap(),
+                _ => fs::hard_link(folder.join(input), &output).map(|()| "hard".to_owned()).unwrap(),
+            };
+            let before = contents(&folder);
+            let arguments: Vec<&str> = arguments
+                .iter()
+                .map(|argument| match *argument {
+                    "OUT" => output.as_str(),
+                    "LINK" => link.as_str(),
+                    other => other,
+                })
+                .collect();
+            let refused = ended(&folder, "", &arguments);
+            assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.stderr);
+            assert_eq!(contents(&folder), before, "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn a_capture_that_one_case_of_a_folder_replays_is_not_replaced() {
+    let folder = inputs("folder");
+    fs::create_dir(folder.join("out")).unwrap();
+    fs::rename(folder.join("live.pcapng"), folder.join("out/0001-scenario-seed-1.pcapng")).unwrap();
+    let scenario = SCENARIO.replace("live.pcapng", "out/0001-scenario-seed-1.pcapng");
+    fs::write(folder.join("scenario.toml"), scenario).unwrap();
+    fs::remove_file(folder.join("scenario.trace")).unwrap();
+    let before = contents(&folder.join("out"));
+    let refused = ended(&folder, "", &["replay", "scenario.toml", "--pcap", "out/"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("would overwrite"), "{}", refused.stderr);
+    assert_eq!(contents(&folder.join("out")), before);
+}
+
+#[test]
+fn one_file_for_two_outputs_is_refused_and_a_device_is_not() {
+    let folder = inputs("outputs");
+    let refused = ended(&folder, "", &["replay", "scenario.toml", "--json", "out", "--junit", "./out"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("--junit ./out is the file of --json too"), "{}", refused.stderr);
+    assert!(!folder.join("out").exists());
+    let device = ["replay", "scenario.toml", "--json", "/dev/null", "--junit", "/dev/null"];
+    assert_eq!(ended(&folder, "", &device).code, Some(0));
+}
+
+#[test]
+fn a_capture_in_the_place_of_a_memory_that_is_not_there_yet_is_refused() {
+    let folder = inputs("memory");
+    fs::remove_file(folder.join("N1.nvm")).unwrap();
+    let link = free_link();
+    let refused = ended(&folder, "", &["run", "unit.toml", "--link", &link, "--pcap", "./N1.nvm"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(!folder.join("N1.nvm").exists());
+}

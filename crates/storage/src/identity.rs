@@ -1,0 +1,32 @@
+//! Whether two paths mean one file.
+
+use std::fs;
+use std::os::unix::fs::MetadataExt;
+use std::path::{Path, PathBuf};
+
+use crate::place;
+
+/// Equal for two paths that mean one file: by symbolic links, by hard links, or because both would make it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Identity(Which);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Which {
+    There { device: u64, inode: u64 },
+    Missing(PathBuf),
+}
+
+impl Identity {
+    /// Of the file at this path; none where a write replaces nothing: a device, a pipe, a folder, or no place for a file.
+    #[must_use]
+    pub fn of(path: &Path) -> Option<Self> {
+        let which = match fs::metadata(path) {
+            Ok(metadata) if metadata.is_file() => {
+                Which::There { device: metadata.dev(), inode: metadata.ino() }
+            }
+            Ok(_) => return None,
+            Err(_) => Which::Missing(place::resolve(path).ok()?),
+        };
+        Some(Self(which))
+    }
+}

@@ -1,0 +1,59 @@
+//! Where a file is: behind symbolic links, and beside others.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use rustix::io::Errno;
+
+/// Symbolic links that one path may lead through, as in the kernel.
+const LINKS_MAX: usize = 40;
+
+/// The file that a path means, behind all symbolic links. The file may be missing, its folder may not.
+///
+/// # Errors
+/// The folder is missing or cannot be read, or the links are a circle.
+pub fn resolve(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..LINKS_MAX {
+        let Ok(target) = fs::read_link(&path) else {
+            let name = path.file_name().ok_or(io::ErrorKind::IsADirectory)?;
+            return Ok(folder(&path).canonicalize()?.join(name));
+        };
+        path = folder(&path).join(target);
+    }
+    Err(Errno::LOOP.into())
+}
+
+/// The path with more letters at its end.
+pub(crate) fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = OsString::from(path);
+    name.push(suffix);
+    PathBuf::from(name)
+}
+
+/// What the names of our own files beside this one have in common. They are as long as the longest of them, so that a
+/// name that is too long for any of them is refused with the first.
+pub(crate) fn own_prefix(path: &Path) -> OsString {
+    let mut prefix = OsString::from(".");
+    prefix.push(path.file_name().unwrap_or_default());
+    prefix.push(".ectwin-");
+    prefix
+}
+
+/// One of our own files beside this one. Four letters tell them apart.
+pub(crate) fn own(path: &Path, which: &str) -> PathBuf {
+    let mut name = own_prefix(path);
+    name.push(which);
+    folder(path).join(name)
+}
+
+pub(crate) fn folder(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The new name is on the disk only when the folder is.
+pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
+    File::open(folder(path))?.sync_all()
+}

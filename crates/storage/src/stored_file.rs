@@ -1,0 +1,126 @@
+//! Claiming, reading, replacing and setting aside one file.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read, Write};
+use std::os::unix::fs::OpenOptionsExt;
+use std::path::{Path, PathBuf};
+
+use rustix::fs::OFlags;
+
+use crate::lock::{self, Lock};
+use crate::place;
+use crate::temporary::{self, Temporary};
+
+/// Largest contents: more than any owner stores, and less than it takes to fill the memory.
+const BYTES_MAX: u64 = 16 << 20;
+/// Names for files that are set aside.
+const ASIDE_MAX: u32 = 999;
+
+/// A file that belongs to its owner alone.
+///
+/// Two locks guard it: one on its name, which lasts while the file of that name is replaced, and one on the file
+/// itself, which other names may have too (hard links).
+#[derive(Debug)]
+pub struct StoredFile {
+    /// Behind all symbolic links, so that they stay when the file is replaced.
+    path: PathBuf,
+    /// The file that was found or written last, locked; none if there was none yet.
+    latest: Option<File>,
+    _lock: Lock,
+}
+
+impl StoredFile {
+    /// Claims the file at this path, which may be missing.
+    ///
+    /// # Errors
+    /// Somebody else has claimed it, it is no regular file, or its folder is missing or cannot be written.
+    pub fn claim(path: &Path) -> io::Result<Self> {
+        let path = place::resolve(path)?;
+        let lock = Lock::take(place::own(&path, "lock"))?;
+        if lock.was_left() {
+            temporary::remove_leftovers(&path)?;
+        }
+        let latest = open(&path)?;
+        latest.as_ref().map_or(Ok(()), lock::exclusively)?;
+        Ok(Self { path, latest, _lock: lock })
+    }
+
+    /// Where it is, behind all symbolic links.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The contents; none if there is no such file yet.
+    ///
+    /// # Errors
+    /// It cannot be read, or is larger than anything that is stored.
+    pub fn read(&self) -> io::Result<Option<Vec<u8>>> {
+        if self.latest.is_none() {
+            return Ok(None);
+        }
+        let mut bytes = Vec::new();
+        // Opened once more: `latest` may be at its end, or for writing only.
+        open(&self.path)?.map_or(Ok(0), |file| file.take(BYTES_MAX + 1).read_to_end(&mut bytes))?;
+        if bytes.len() as u64 > BYTES_MAX {
+            return Err(io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                "it is larger than any memory of a unit",
+            ));
+        }
+        Ok(Some(bytes))
+    }
+
+    /// Replaces the contents. When it returns, a loss of power does not undo it; if the program is killed
+    /// before, the file has its old contents or the new ones. Permissions stay.
+    ///
+    /// # Errors
+    /// The folder cannot be written, or the disk is full; the file is as it was.
+    pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let mut temporary = Temporary::create(&self.path, self.latest.as_ref())?;
+        // Before it has the name, so that nobody else gets hold of it.
+        lock::exclusively(&temporary.file)?;
+        temporary.file.write_all(bytes)?;
+        temporary.file.sync_all()?;
+        self.latest = Some(temporary.replace(&self.path)?);
+        place::sync_folder(&self.path)
+    }
+
+    /// Gives a file that cannot be used the first free name of `NAME.damaged-1`, `NAME.damaged-2` and so on.
+    ///
+    /// # Errors
+    /// It cannot be renamed, or all names are taken.
+    pub fn set_aside(&self) -> io::Result<PathBuf> {
+        for number in 1..=ASIDE_MAX {
+            let aside = place::beside(&self.path, &format!(".damaged-{number}"));
+            match fs::symlink_metadata(&aside) {
+                Ok(_) => {}
+                Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                    fs::rename(&self.path, &aside)?;
+                    place::sync_folder(&self.path)?;
+                    return Ok(aside);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        let words = format!("{ASIDE_MAX} damaged files are beside it; remove some");
+        Err(io::Error::new(io::ErrorKind::AlreadyExists, words))
+    }
+}
+
+/// None: there is no such file. Nothing but a regular file is opened, and none is waited for.
+fn open(path: &Path) -> io::Result<Option<File>> {
+    let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits() as i32;
+    let file = match OpenOptions::new().read(true).custom_flags(flags).open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+        opened => opened?,
+    };
+    if file.metadata()?.is_file() {
+        Ok(Some(file))
+    } else {
+        Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file"))
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;
