@@ -7,6 +7,7 @@ use core::fmt;
 use nx_ect101::{EventCode, EventLevel, Pattern};
 use wire::{AlState, ObjectIndex, SubIndex};
 
+use crate::hex::hex;
 use crate::orders::UnitSet;
 use crate::programs::Controller;
 use crate::sentence::IndicatorName;
@@ -253,11 +254,6 @@ fn is_text(seen: Option<String>, wanted: &str) -> Result<(), Seen> {
 
 fn truth(value: bool) -> &'static str {
     if value { "TRUE" } else { "FALSE" }
-}
-
-pub(crate) fn hex(bytes: &[u8]) -> String {
-    let words: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
-    if words.is_empty() { "nothing".to_owned() } else { words.join(" ") }
 }
 
 pub(crate) fn codes(codes: &[EventCode]) -> String {

@@ -6,6 +6,7 @@
 mod builder;
 mod dice;
 mod expectation;
+mod hex;
 mod line;
 mod master;
 mod orders;

@@ -1,6 +1,6 @@
 //! The SDO that was ordered last, and its answer: what sentences call "the last SDO".
 
-use crate::expectation::hex;
+use crate::hex::hex;
 
 /// The value that was read, nothing for one that was written, or the abort code.
 pub(super) type SdoResult = Result<Vec<u8>, u32>;

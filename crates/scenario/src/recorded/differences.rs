@@ -3,7 +3,7 @@
 use wire::{Command, Returned};
 
 use super::areas;
-use crate::expectation::hex;
+use crate::hex::hex;
 
 /// Differences that are described one by one.
 const DESCRIBED: usize = 3;
