@@ -149,6 +149,6 @@ fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {
 }
 
 fn tell(statistics: Statistics) {
-    let Statistics { frames, destroyed, overlong, dropped, unsent, late_polls } = statistics;
-    tracing::info!(frames, destroyed, overlong, dropped, unsent, late_polls, "stopped");
+    let Statistics { frames, destroyed, dropped, unsent, overlong, late_polls } = statistics;
+    tracing::info!(frames, destroyed, dropped, unsent, overlong, late_polls, "stopped");
 }
