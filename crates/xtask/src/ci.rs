@@ -5,10 +5,10 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use crate::outcome::Outcome;
+use crate::outcome::Ending;
 use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
-use crate::{arrows, conformance, tidy};
+use crate::{advisories, arrows, conformance, tidy};
 
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]
@@ -24,26 +24,27 @@ pub(crate) struct Options {
 struct Step {
     name: &'static str,
     in_quick: bool,
-    run: fn(Scope) -> Outcome,
+    run: fn(Scope) -> Ending,
 }
 
 /// The cheap ones first: who waits wants to hear of them early.
 const STEPS: &[Step] = &[
-    Step { name: "format", in_quick: true, run: |_| cargo(&["fmt", "--all", "--check"]) },
-    Step { name: "arrows", in_quick: true, run: |_| arrows::check() },
-    Step { name: "conformance", in_quick: true, run: |_| conformance::check() },
-    Step { name: "tidy", in_quick: true, run: |_| tidy::check() },
-    Step { name: "licences", in_quick: false, run: |_| tools::licences() },
-    Step { name: "clippy", in_quick: true, run: |_| tools::clippy() },
-    Step { name: "tests", in_quick: true, run: tests_step::tests },
-    Step { name: "features", in_quick: false, run: |_| tests_step::features() },
-    Step { name: "doc tests", in_quick: false, run: |_| tests_step::doc_tests() },
-    Step { name: "documentation", in_quick: false, run: |_| tools::documentation() },
+    Step { name: "format", in_quick: true, run: |_| cargo(&["fmt", "--all", "--check"]).into() },
+    Step { name: "arrows", in_quick: true, run: |_| arrows::check().into() },
+    Step { name: "conformance", in_quick: true, run: |_| conformance::check().into() },
+    Step { name: "tidy", in_quick: true, run: |_| tidy::check().into() },
+    Step { name: "licences", in_quick: false, run: |_| tools::licences().into() },
+    Step { name: "advisories", in_quick: false, run: |_| advisories::check() },
+    Step { name: "clippy", in_quick: true, run: |_| tools::clippy().into() },
+    Step { name: "tests", in_quick: true, run: |scope| tests_step::tests(scope).into() },
+    Step { name: "features", in_quick: false, run: |_| tests_step::features().into() },
+    Step { name: "doc tests", in_quick: false, run: |_| tests_step::doc_tests().into() },
+    Step { name: "documentation", in_quick: false, run: |_| tools::documentation().into() },
 ];
 
 struct Ended {
     name: &'static str,
-    outcome: Outcome,
+    ending: Ending,
     took: Duration,
 }
 
@@ -59,7 +60,7 @@ pub(crate) fn run(options: &Options) -> ExitCode {
     let skips = tools::skips();
     let skips_fail = options.no_skips || std::env::var("CI").is_ok_and(|value| value == "true");
     print_summary(&ended, &skips);
-    let failed = ended.iter().filter(|step| step.outcome.is_err()).count();
+    let failed = ended.iter().filter(|step| matches!(step.ending, Ending::Failed(_))).count();
     if skips_fail && !skips.is_empty() {
         println!("what was skipped counts as failed here");
         return ExitCode::FAILURE;
@@ -70,25 +71,46 @@ pub(crate) fn run(options: &Options) -> ExitCode {
 fn run_step(step: &Step, scope: Scope) -> Ended {
     println!("== {}", step.name);
     let start = Instant::now();
-    let outcome = (step.run)(scope);
-    if let Err(reason) = &outcome {
+    let ending = (step.run)(scope);
+    if let Ending::Failed(reason) | Ending::NotHere(reason) = &ending {
         println!("{reason}");
     }
-    Ended { name: step.name, outcome, took: start.elapsed() }
+    Ended { name: step.name, ending, took: start.elapsed() }
 }
 
 fn print_summary(ended: &[Ended], skips: &[String]) {
     println!("\n== summary");
     for step in ended {
-        let word = if step.outcome.is_ok() { "ok" } else { "FAILED" };
-        println!("{word:>8}  {:<14} {:>6.1} s", step.name, step.took.as_secs_f64());
+        println!("{:>8}  {:<14} {:>6.1} s", word(&step.ending), step.name, step.took.as_secs_f64());
+    }
+    for step in ended {
+        if let Ending::NotHere(reason) = &step.ending {
+            println!("not checked here: {}: {reason}", step.name);
+        }
     }
     for skip in skips {
         println!("skipped: {skip}");
     }
     println!("skipped: {}{}", skips.len(), reasons(skips));
-    let failed = ended.iter().filter(|step| step.outcome.is_err()).count();
-    println!("checks: {} passed, {failed} failed", ended.len() - failed);
+    println!("{}", counts(ended));
+}
+
+const fn word(ending: &Ending) -> &'static str {
+    match ending {
+        Ending::Passed => "ok",
+        Ending::Failed(_) => "FAILED",
+        Ending::NotHere(_) => "not here",
+    }
+}
+
+/// A check that could not be made is counted by itself: it has not passed.
+fn counts(ended: &[Ended]) -> String {
+    let count = |wanted: &str| ended.iter().filter(|step| word(&step.ending) == wanted).count();
+    let not_here = match count("not here") {
+        0 => String::new(),
+        count => format!(", {count} not made here"),
+    };
+    format!("checks: {} passed, {} failed{not_here}", count("ok"), count("FAILED"))
 }
 
 /// The reasons in brackets, each once: a skip reads `what: reason`.
@@ -102,7 +124,16 @@ fn reasons(skips: &[String]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::reasons;
+    use super::*;
+
+    #[test]
+    fn a_check_that_cannot_be_made_has_neither_passed_nor_failed() {
+        let ended = |ending| Ended { name: "x", ending, took: Duration::ZERO };
+        let all =
+            [Ending::Passed, Ending::NotHere("no index".into()), Ending::Failed("no".into())].map(ended);
+        assert_eq!(counts(&all), "checks: 1 passed, 1 failed, 1 not made here");
+        assert_eq!(counts(&all[..1]), "checks: 1 passed, 0 failed");
+    }
 
     #[test]
     fn each_reason_is_named_once() {

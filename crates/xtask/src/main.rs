@@ -1,5 +1,6 @@
 //! Our own checks: `cargo xtask ci` runs all of them and names those that failed.
 
+mod advisories;
 mod arrows;
 mod bless;
 mod ci;
@@ -42,6 +43,8 @@ enum Task {
     },
     /// The licences and origins of what we depend on
     Licences,
+    /// Known vulnerabilities of what we depend on, where their index can be had
+    Advisories,
     /// The habits of the house: lengths, words, pages, purposes
     Tidy,
     /// Write what is generated and kept: pages of events, the table of the setting rules, where statements are pinned
@@ -56,6 +59,7 @@ fn main() -> ExitCode {
         Task::Conformance { bless: true } => conformance::bless(),
         Task::Conformance { bless: false } => conformance::check(),
         Task::Licences => tools::licences(),
+        Task::Advisories => advisories::check().told(),
         Task::Tidy => tidy::check(),
         Task::Bless => bless::bless(),
     };

@@ -69,7 +69,7 @@ pub(crate) fn documentation() -> Outcome {
     run(command)
 }
 
-/// cargo-deny over deny.toml, but for the advisories, whose list is on another host.
+/// cargo-deny over deny.toml, but for the advisories, which are a step of their own.
 pub(crate) fn licences() -> Outcome {
     if !has_cargo("deny") {
         return skip("licences", "cargo-deny is not installed");

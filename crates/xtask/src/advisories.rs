@@ -1,0 +1,82 @@
+//! Known vulnerabilities of what we depend on, by cargo-deny, where its index of advisories can be had.
+//!
+//! The index lies in a Git repository on a host of its own. A machine that reaches crates.io alone cannot check: this is
+//! said in the summary, and is neither a failure of the change nor a skip, which installing a tool would mend.
+
+use std::io::Read;
+use std::process::{Child, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::outcome::Ending;
+use crate::tools::{cargo, command, has_cargo, skip};
+
+/// How long fetching the index may take.
+const FETCH_TIME: Duration = Duration::from_secs(120);
+/// How often a fetch is looked after.
+const LOOK_AGAIN: Duration = Duration::from_millis(100);
+/// Most characters of the reason why a fetch failed.
+const REASON_CHARACTERS: usize = 160;
+
+/// Fetches the index and checks by it.
+pub(crate) fn check() -> Ending {
+    if !has_cargo("deny") {
+        return skip("advisories", "cargo-deny is not installed").into();
+    }
+    match fetch() {
+        Ok(()) => cargo(&["deny", "--log-level", "error", "check", "--disable-fetch", "advisories"]).into(),
+        Err(reason) => Ending::NotHere(format!("the index of advisories cannot be had: {reason}")),
+    }
+}
+
+fn fetch() -> Result<(), String> {
+    let mut command = command("cargo");
+    command.args(["deny", "--log-level", "error", "fetch", "db"]);
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
+    // Git must not ask for a password.
+    command.env("GIT_TERMINAL_PROMPT", "0");
+    let mut child = command.spawn().map_err(|error| error.to_string())?;
+    if !ends_in_time(&mut child)? {
+        return Err(format!("no answer within {} s", FETCH_TIME.as_secs()));
+    }
+    let mut told = String::new();
+    if let Some(stderr) = &mut child.stderr {
+        stderr.read_to_string(&mut told).map_err(|error| error.to_string())?;
+    }
+    match child.wait() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(reason(&told).unwrap_or_else(|| status.to_string())),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Waits for the child; one that takes too long is ended.
+fn ends_in_time(child: &mut Child) -> Result<bool, String> {
+    let start = Instant::now();
+    while start.elapsed() < FETCH_TIME {
+        if child.try_wait().map_err(|error| error.to_string())?.is_some() {
+            return Ok(true);
+        }
+        std::thread::sleep(LOOK_AGAIN);
+    }
+    let _already_ended = child.kill();
+    child.wait().map(|_| false).map_err(|error| error.to_string())
+}
+
+/// The innermost cause, which cargo-deny prints last.
+fn reason(told: &str) -> Option<String> {
+    let last = told.lines().map(str::trim).rfind(|line| !line.is_empty())?;
+    Some(last.chars().take(REASON_CHARACTERS).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reason_is_the_innermost_cause_on_one_line() {
+        let told = "error: failed to fetch\n\nCaused by:\n    could not resolve host\n\n";
+        assert_eq!(reason(told).as_deref(), Some("could not resolve host"));
+        assert_eq!(reason(&"x".repeat(1_000)).map(|reason| reason.len()), Some(REASON_CHARACTERS));
+        assert_eq!(reason(" \n"), None);
+    }
+}
