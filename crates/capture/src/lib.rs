@@ -6,7 +6,7 @@ mod reader;
 
 use std::io::{self, Write};
 
-pub use reader::{NotACapture, Packet, read_packets};
+pub use reader::{NotACapture, Packet, Packets, packets, read_packets};
 
 const SECTION_HEADER: u32 = 0x0A0D_0D0A;
 const INTERFACE_DESCRIPTION: u32 = 1;

@@ -64,27 +64,51 @@ impl core::error::Error for NotACapture {}
 /// # Errors
 /// [`NotACapture`]: what is wrong, and where.
 pub fn read_packets(bytes: &[u8]) -> Result<Vec<Packet>, NotACapture> {
-    let mut reader = Reader { bytes, at: 0, big_endian: false, interfaces: Vec::new(), packets: Vec::new() };
+    packets(bytes)?.collect()
+}
+
+/// The packets of a capture one after the other, in the order of the file; the last is what is wrong, if anything is.
+///
+/// # Errors
+/// [`NotACapture::NoSection`].
+pub fn packets(bytes: &[u8]) -> Result<Packets<'_>, NotACapture> {
     if bytes.get(..4) != Some(&SECTION_HEADER.to_le_bytes()) {
         return Err(NotACapture::NoSection);
     }
-    while reader.at < bytes.len() {
-        reader.block()?;
-    }
-    Ok(reader.packets)
+    Ok(Packets { bytes, at: 0, big_endian: false, interfaces: Vec::new() })
 }
 
-struct Reader<'a> {
+/// An iterator over the packets of a capture.
+#[derive(Debug)]
+pub struct Packets<'a> {
     bytes: &'a [u8],
     at: usize,
     big_endian: bool,
     /// Nanoseconds of a tick of each interface, as a fraction.
     interfaces: Vec<(u64, u64)>,
-    packets: Vec<Packet>,
 }
 
-impl<'a> Reader<'a> {
-    fn block(&mut self) -> Result<(), NotACapture> {
+impl Iterator for Packets<'_> {
+    type Item = Result<Packet, NotACapture>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while self.at < self.bytes.len() {
+            match self.block() {
+                Ok(None) => {}
+                Ok(Some(packet)) => return Some(Ok(packet)),
+                Err(reason) => {
+                    self.at = self.bytes.len();
+                    return Some(Err(reason));
+                }
+            }
+        }
+        None
+    }
+}
+
+impl<'a> Packets<'a> {
+    /// Passes a block; the packet, if it is one.
+    fn block(&mut self) -> Result<Option<Packet>, NotACapture> {
         let at = self.at;
         let broken = NotACapture::Block { at };
         let block_type = self.word(at).ok_or(broken)?;
@@ -102,13 +126,13 @@ impl<'a> Reader<'a> {
             return Err(broken);
         }
         let body = self.bytes.get(at + 8..at + length - 4).ok_or(broken)?;
-        match block_type {
-            INTERFACE_DESCRIPTION => self.interface(body)?,
-            ENHANCED_PACKET => self.packet(body, at)?,
-            _ => {}
-        }
+        let packet = match block_type {
+            INTERFACE_DESCRIPTION => self.interface(body).map(|()| None)?,
+            ENHANCED_PACKET => Some(self.packet(body, at)?),
+            _ => None,
+        };
         self.at += length;
-        Ok(())
+        Ok(packet)
     }
 
     fn interface(&mut self, body: &'a [u8]) -> Result<(), NotACapture> {
@@ -123,7 +147,7 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn packet(&mut self, body: &'a [u8], at: usize) -> Result<(), NotACapture> {
+    fn packet(&self, body: &'a [u8], at: usize) -> Result<Packet, NotACapture> {
         let broken = NotACapture::Block { at };
         let word =
             |place: usize| body.get(place..place + 4).and_then(|bytes| self.number(bytes)).ok_or(broken);
@@ -140,8 +164,7 @@ impl<'a> Reader<'a> {
         };
         let at_nanos =
             u64::try_from(u128::from(time) * u128::from(nanos) / u128::from(ticks)).unwrap_or(u64::MAX);
-        self.packets.push(Packet { at_nanos, direction, frame });
-        Ok(())
+        Ok(Packet { at_nanos, direction, frame })
     }
 
     /// The value of an option among those that begin at `at`.

@@ -72,9 +72,10 @@ pub(crate) struct RunArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) pcap: Option<PathBuf>,
     /// Run this user program instead of the one that the unit files name: FILE.st in Structured Text, or FILE.wasm
-    /// where the feature `wasm` is built in; changed, it is loaded anew
-    #[arg(long, value_name = "FILE")]
-    pub(crate) program: Option<PathBuf>,
+    /// where the feature `wasm` is built in. Several files, or a folder, are one program. It is reloaded when a file
+    /// changes
+    #[arg(long = "program", value_name = "FILE")]
+    pub(crate) programs: Vec<PathBuf>,
     /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone is one of 127.0.0.1
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::modbus)]
     pub(crate) modbus: Option<SocketAddr>,
@@ -207,9 +208,9 @@ pub(crate) enum St {
 
 #[derive(Debug, Args)]
 pub(crate) struct StCheckArgs {
-    /// The program
-    #[arg(value_name = "FILE.st")]
-    pub(crate) program: PathBuf,
+    /// The files of the program; of a folder all .st files below it
+    #[arg(required = true, value_name = "FILE.st")]
+    pub(crate) programs: Vec<PathBuf>,
     /// The unit file whose device variables the program uses; left out, those of the factory setting
     #[arg(long, value_name = "FILE")]
     pub(crate) unit: Option<PathBuf>,

@@ -6,31 +6,31 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use ectwin::explain::Unexplained;
+use ectwin::user_files::Unreadable;
 use link::OpenError;
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use user_file::escaped;
 
 use crate::descriptors;
-use crate::output::colour_on_stderr;
-use crate::unit_files::FileProblem;
+use crate::file_problem::FileProblems;
 
 /// Why a command failed.
 pub(crate) enum Failure {
     /// `explain` does not know it.
     Unexplained(Unexplained),
     /// A file is not what it should be, with the places in it.
-    BadFile(Vec<FileProblem>),
+    BadFile(FileProblems),
     /// The setting rules are not satisfied. The findings are the command's result, told already.
     RulesBroken,
     /// A program is wrong, with the places in it; nothing if that has been told.
-    ProgramWrong(Vec<FileProblem>),
+    ProgramWrong(FileProblems),
     /// A case of a campaign failed. Its story has been told.
     CasesFailed,
     /// What was asked for makes no sense together, or with what is there.
     Refused { message: String, help: String },
     /// A file cannot be read.
-    Unreadable { path: PathBuf, source: io::Error },
-    /// The file of a user program cannot be read.
-    ProgramUnreadable { path: PathBuf, source: io::Error },
+    Unreadable { path: PathBuf, source: Unreadable },
+    /// A folder cannot be read.
+    FolderUnreadable { path: PathBuf, source: io::Error },
     /// A file cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
     /// The link cannot be opened.
@@ -53,10 +53,10 @@ impl Failure {
         let (message, help) = self.words();
         let mut text = match self {
             Self::BadFile(_) | Self::ProgramWrong(_) | Self::RulesBroken | Self::CasesFailed => message,
-            _ => format!("error: {message}\n"),
+            _ => format!("error: {}\n", escaped(&message)),
         };
         if let Some(help) = help {
-            text.push_str(&format!("help: {help}\n"));
+            text.push_str(&format!("help: {}\n", escaped(&help)));
         }
         // Nobody is left to tell if stderr is closed.
         let _ = io::stderr().write_all(text.as_bytes());
@@ -76,7 +76,7 @@ impl Failure {
             Self::BadFile(_)
             | Self::Refused { .. }
             | Self::Unreadable { .. }
-            | Self::ProgramUnreadable { .. }
+            | Self::FolderUnreadable { .. }
             | Self::Unwritable { .. } => 2,
             Self::Link(_) | Self::Modbus { .. } => 3,
             #[cfg(feature = "opcua")]
@@ -112,17 +112,15 @@ impl Failure {
     fn message_and_help(&self) -> (String, Option<String>) {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), Some(reason.help().to_owned())),
-            Self::BadFile(problems) | Self::ProgramWrong(problems) => {
-                (problems.iter().map(|problem| picture(problem)).collect(), None)
-            }
+            Self::BadFile(problems) | Self::ProgramWrong(problems) => (problems.pictures(), None),
             Self::RulesBroken | Self::CasesFailed => (String::new(), None),
             Self::Refused { message, help } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {
-                (format!("cannot read {}: {source}", path.display()), Some(help_to_read(source)))
+                (format!("cannot read {}: {source}", path.display()), Some(source.help()))
             }
-            Self::ProgramUnreadable { path, source } => {
-                let help = "give the path of a user program, such as scenarios/programs/a-3-3.st";
-                (format!("cannot read {}: {source}", path.display()), Some(help.to_owned()))
+            Self::FolderUnreadable { path, source } => {
+                let help = "check the path and its permissions".to_owned();
+                (format!("cannot read {}: {source}", path.display()), Some(help))
             }
             Self::Unwritable { path, source } => (format!("cannot write {}: {source}", path.display()), None),
             Self::Link(error) => (error.to_string(), Some(error.help())),
@@ -152,24 +150,4 @@ fn help_to_listen(error: &io::Error) -> Option<String> {
         _ => return None,
     };
     Some(help.to_owned())
-}
-
-fn help_to_read(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "give the path of a unit file, such as units/nx-ect101.toml".to_owned(),
-        io::ErrorKind::InvalidData => "a unit file is text in UTF-8".to_owned(),
-        _ => "check the path and its permissions".to_owned(),
-    }
-}
-
-/// The place in the file with what is wrong there, in plain letters unless someone looks at it in colour.
-fn picture(diagnostic: &dyn Diagnostic) -> String {
-    let theme = if colour_on_stderr() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
-    let mut text = String::new();
-    let drawn =
-        GraphicalReportHandler::new_themed(theme).with_links(false).render_report(&mut text, diagnostic);
-    if drawn.is_err() {
-        text = format!("{diagnostic}\n");
-    }
-    text
 }

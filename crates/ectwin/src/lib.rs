@@ -36,6 +36,8 @@ mod program_files;
 mod setup;
 mod twin;
 mod unit_side;
+pub mod user_files;
+mod watched_program;
 
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;

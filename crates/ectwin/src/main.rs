@@ -4,6 +4,7 @@ mod cli;
 mod commands;
 mod descriptors;
 mod failure;
+mod file_problem;
 mod output;
 mod overwrite;
 mod privileges;

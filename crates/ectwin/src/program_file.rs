@@ -1,56 +1,95 @@
-//! A user program in a file: the ending of its name tells the language.
+//! A user program in files: the ending of a name tells the language.
 
 use std::fmt;
-use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use plc::{DeviceVariables, Program, StructuredText};
+use st::Sources;
+
+use crate::user_files::{self, Unreadable, Wanted};
 
 /// The ending of programs in WebAssembly; every other one is Structured Text.
 const WEB_ASSEMBLY: &str = "wasm";
 
-/// Why a program in a file cannot be used.
+/// Why a program in files cannot be used.
 #[derive(Debug)]
 pub(crate) enum ProgramFileError {
-    /// The file cannot be read.
-    Unreadable(io::Error),
+    /// A file cannot be read.
+    Unreadable { path: PathBuf, reason: Unreadable },
     /// What is wrong with a program in Structured Text, and where.
     StructuredText(st::Problems),
     /// What is wrong with a program in WebAssembly.
-    WebAssembly(String),
+    WebAssembly { path: PathBuf, reason: String },
 }
 
-/// Reads the program in this file for a CPU Unit that has these variables.
-///
-/// # Errors
-/// It cannot be read, or is wrong.
-pub(crate) fn load(
-    path: &Path,
-    variables: &DeviceVariables,
-    budget_statements: u64,
-) -> Result<Box<dyn Program + Send>, ProgramFileError> {
-    if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(WEB_ASSEMBLY)) {
-        let octets = std::fs::read(path).map_err(ProgramFileError::Unreadable)?;
-        return web_assembly(&octets, variables, budget_statements).map_err(ProgramFileError::WebAssembly);
+/// What the files of a program hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum ProgramText {
+    StructuredText(Sources),
+    WebAssembly(PathBuf, Vec<u8>),
+}
+
+impl ProgramText {
+    /// Reads the files of a program.
+    ///
+    /// # Errors
+    /// One of them cannot be read.
+    pub(crate) fn read(paths: &[PathBuf]) -> Result<Self, ProgramFileError> {
+        let unreadable = |(path, reason)| ProgramFileError::Unreadable { path, reason };
+        match paths.iter().find(|path| is_web_assembly(path)) {
+            None => user_files::program_sources(paths).map(Self::StructuredText).map_err(unreadable),
+            Some(path) if paths.len() == 1 => {
+                let bytes = user_files::bytes(path, Wanted::Program);
+                let bytes = bytes.map_err(|reason| unreadable((path.clone(), reason)))?;
+                Ok(Self::WebAssembly(path.clone(), bytes))
+            }
+            Some(path) => {
+                let reason = "a program in WebAssembly is one file".to_owned();
+                Err(ProgramFileError::WebAssembly { path: path.clone(), reason })
+            }
+        }
     }
-    let source = std::fs::read_to_string(path).map_err(ProgramFileError::Unreadable)?;
-    let program = StructuredText::compile(&source, variables).map_err(ProgramFileError::StructuredText)?;
-    Ok(Box::new(program.with_budget(budget_statements)))
+
+    /// The program for a CPU Unit that has these variables.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn compile(
+        &self,
+        variables: &DeviceVariables,
+        budget_statements: u64,
+    ) -> Result<Box<dyn Program + Send>, ProgramFileError> {
+        match self {
+            Self::StructuredText(sources) => {
+                let program = StructuredText::compile(sources.clone(), variables);
+                let program = program.map_err(ProgramFileError::StructuredText)?;
+                Ok(Box::new(program.with_budget(budget_statements)))
+            }
+            Self::WebAssembly(path, bytes) => {
+                let wrong = |reason| ProgramFileError::WebAssembly { path: path.clone(), reason };
+                web_assembly(bytes, variables, budget_statements).map_err(wrong)
+            }
+        }
+    }
+}
+
+fn is_web_assembly(path: &Path) -> bool {
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(WEB_ASSEMBLY))
 }
 
 #[cfg(feature = "wasm")]
 fn web_assembly(
-    octets: &[u8],
+    bytes: &[u8],
     variables: &DeviceVariables,
     budget_statements: u64,
 ) -> Result<Box<dyn Program + Send>, String> {
-    let program = wasm::WasmProgram::load(octets, variables).map_err(|error| error.to_string())?;
+    let program = wasm::WasmProgram::load(bytes, variables).map_err(|error| error.to_string())?;
     Ok(Box::new(program.with_budget(budget_statements)))
 }
 
 #[cfg(not(feature = "wasm"))]
 fn web_assembly(
-    _octets: &[u8],
+    _bytes: &[u8],
     _variables: &DeviceVariables,
     _budget_statements: u64,
 ) -> Result<Box<dyn Program + Send>, String> {
@@ -60,9 +99,11 @@ fn web_assembly(
 impl fmt::Display for ProgramFileError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unreadable(error) => write!(formatter, "it cannot be read: {error}"),
+            Self::Unreadable { path, reason } => {
+                write!(formatter, "{} cannot be read: {reason}", path.display())
+            }
             Self::StructuredText(problems) => problems.fmt(formatter),
-            Self::WebAssembly(reason) => formatter.write_str(reason),
+            Self::WebAssembly { path, reason } => write!(formatter, "{}: {reason}", path.display()),
         }
     }
 }

@@ -1,16 +1,14 @@
 //! User programs in files while they run: a changed file is loaded anew, and what the CPU Units tell is logged.
 
 use std::io;
-use std::path::Path;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
-use std::time::{Duration as WallDuration, SystemTime};
+use std::time::Duration as WallDuration;
 
 use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, Program, ProgramEvent};
 use time::{Duration, Instant};
 
-use crate::program_file::{self, ProgramFileError};
-use crate::setup::WatchedProgram;
+use crate::watched_program::{Watch, WatchedProgram};
 
 /// How often the files are looked at.
 const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
@@ -34,10 +32,13 @@ impl ProgramChanges {
             return Ok(Self { changed, _watch: None });
         }
         let (watch, ended) = channel();
-        let mut files: Vec<_> = programs.into_iter().map(WatchedFile::new).collect();
+        let mut watches: Vec<_> =
+            programs.into_iter().map(|(position, program)| (position, Watch::new(program))).collect();
         let body = move || {
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK_AGAIN) {
-                let programs = files.iter_mut().filter_map(WatchedFile::changed);
+                let programs = watches
+                    .iter_mut()
+                    .filter_map(|(position, watch)| watch.look().map(|program| (*position, program)));
                 if programs.map(|program| sender.send(program).is_ok()).any(|sent| !sent) {
                     return;
                 }
@@ -63,61 +64,6 @@ impl ProgramChanges {
 
 /// The position of a unit, and its new program.
 type Changed = (usize, Box<dyn Program + Send>);
-
-/// A file, what it looked like when its program was read, and what it looked like last.
-struct WatchedFile {
-    position: usize,
-    program: WatchedProgram,
-    read: Option<FileStamp>,
-    seen: Option<FileStamp>,
-}
-
-/// What tells a changed file: when it was written last, and its length in bytes.
-pub(crate) type FileStamp = (SystemTime, u64);
-
-impl WatchedFile {
-    fn new((position, program): (usize, WatchedProgram)) -> Self {
-        let read = program.stamp;
-        Self { position, program, read, seen: read }
-    }
-
-    /// The program, if its file has changed and it is right. A wrong one is told, and the old one goes on.
-    fn changed(&mut self) -> Option<Changed> {
-        // While an editor replaces it, the file may not be there for a moment.
-        let stamp = stamp(&self.program.path)?;
-        // One that is being written changes from look to look: it is read when it stands still.
-        if self.seen.replace(stamp) != Some(stamp) || self.read == Some(stamp) {
-            return None;
-        }
-        let path = self.program.path.display();
-        let WatchedProgram { variables, budget_statements, .. } = &self.program;
-        match program_file::load(&self.program.path, variables, *budget_statements) {
-            Ok(program) => {
-                tracing::info!("{path} has changed, and is loaded");
-                Some((self.position, program))
-            }
-            Err(ProgramFileError::Unreadable(error)) => {
-                tracing::warn!("{path} cannot be read: {error}; the old program goes on");
-                None
-            }
-            Err(wrong) => {
-                // A problem in Structured Text begins with its place.
-                let gap = if matches!(wrong, ProgramFileError::WebAssembly(_)) { " " } else { "" };
-                for line in wrong.to_string().lines() {
-                    tracing::warn!("{path}:{gap}{line}");
-                }
-                tracing::warn!("{path} has changed and is wrong: the old program goes on");
-                None
-            }
-        }
-    }
-}
-
-/// What a file looks like now; none if it is not there.
-pub(crate) fn stamp(path: &Path) -> Option<FileStamp> {
-    let metadata = std::fs::metadata(path).ok()?;
-    Some((metadata.modified().ok()?, metadata.len()))
-}
 
 /// What CPU Units tell, on its way into the log.
 #[derive(Debug, Default)]

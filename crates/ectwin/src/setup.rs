@@ -11,8 +11,8 @@ use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, Structure
 use time::Instant;
 
 use crate::memory_file::MemoryFile;
-use crate::program_file::{self, ProgramFileError};
-use crate::program_files::{self, FileStamp};
+use crate::program_file::{ProgramFileError, ProgramText};
+use crate::watched_program::{self, Stamps, WatchedProgram};
 
 pub use error::SetupError;
 
@@ -23,10 +23,18 @@ pub use error::SetupError;
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
-    /// The file of the program, and what it looked like before it was read.
-    program_file: Option<(PathBuf, Option<FileStamp>)>,
+    /// The files of the program, if it is in files.
+    program_files: Option<ProgramFiles>,
     system_time_ns: Option<u64>,
     memory: Option<MemoryFile>,
+}
+
+/// The files of a user program as they were read.
+struct ProgramFiles {
+    paths: Vec<PathBuf>,
+    /// What they looked like before.
+    stamps: Option<Stamps>,
+    text: ProgramText,
 }
 
 impl Setup {
@@ -48,20 +56,21 @@ impl Setup {
         Self::read(text, Some(folder))
     }
 
-    /// Reads the text of a unit file, and the user program in this file in place of the one that the text names.
+    /// Reads the text of a unit file, and the user program in these files and folders in place of the one that the text
+    /// names.
     ///
     /// # Errors
     /// What is wrong with it, or with the program, and where.
-    pub fn from_toml_with_program(text: &str, program: &Path) -> Result<Self, SetupError> {
+    pub fn from_toml_with_programs(text: &str, programs: &[PathBuf]) -> Result<Self, SetupError> {
         let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
-        Self::without_program(file).program_file(program)
+        Self::without_program(file).with_program_files(programs)
     }
 
     /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
     #[must_use]
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
         self.program = Box::new(program);
-        self.program_file = None;
+        self.program_files = None;
         self
     }
 
@@ -79,8 +88,17 @@ impl Setup {
     ///
     /// # Errors
     /// [`SetupError::ProgramUnreadable`], [`SetupError::ProgramWrong`], [`SetupError::WebAssemblyWrong`].
-    pub fn program_file(mut self, path: &Path) -> Result<Self, SetupError> {
-        self.take_program_file(path.to_owned(), None)?;
+    pub fn program_file(self, path: &Path) -> Result<Self, SetupError> {
+        self.with_program_files(&[path.to_owned()])
+    }
+
+    /// Gives the CPU Unit the user program in these files: several in Structured Text are one program, and a folder
+    /// stands for all files below it that end with `.st`.
+    ///
+    /// # Errors
+    /// As [`Setup::program_file`].
+    pub fn with_program_files(mut self, paths: &[PathBuf]) -> Result<Self, SetupError> {
+        self.take_program_files(paths.to_vec(), None)?;
         Ok(self)
     }
 
@@ -136,17 +154,16 @@ impl Setup {
         DeviceVariables::of_unit_file(&self.file)
     }
 
-    /// The file of the user program; none if it is not in one.
-    #[must_use]
-    pub fn program_path(&self) -> Option<&Path> {
-        self.program_file.as_ref().map(|(path, _)| path.as_path())
+    /// The files of the user program; none if it is not in files.
+    pub fn program_paths(&self) -> impl Iterator<Item = &Path> {
+        self.program_files.iter().flat_map(|files| &files.paths).map(PathBuf::as_path)
     }
 
-    /// The file of the user program, if it is in one.
-    pub(crate) fn watched_program(&self) -> Option<WatchedProgram> {
-        let (path, stamp) = self.program_file.clone()?;
+    /// The files of the user program, if it is in files; they are handed over.
+    pub(crate) fn watched_program(&mut self) -> Option<WatchedProgram> {
+        let ProgramFiles { paths, stamps, text } = self.program_files.take()?;
         let budget_statements = self.file.cpu.statement_budget.value;
-        Some(WatchedProgram { path, stamp, variables: self.device_variables(), budget_statements })
+        Some(WatchedProgram { paths, stamps, text, variables: self.device_variables(), budget_statements })
     }
 
     pub(crate) fn power_on(self, now: Instant) -> Powered {
@@ -172,50 +189,44 @@ impl Setup {
 
     fn without_program(file: UnitFile) -> Self {
         let program = Box::new(|_: &mut Io| {});
-        Self { file, program, program_file: None, system_time_ns: None, memory: None }
+        Self { file, program, program_files: None, system_time_ns: None, memory: None }
     }
 
     fn with_named_program(
         mut self,
-        name: &Located<PathBuf>,
+        name: &Located<Vec<PathBuf>>,
         folder: Option<&Path>,
     ) -> Result<Self, SetupError> {
-        let path = name.value.display().to_string();
-        if let Some(builtin) = Builtin::named(&path) {
+        let path = name.value.first().map(|path| path.display().to_string()).unwrap_or_default();
+        if let (Some(builtin), 1) = (Builtin::named(&path), name.value.len()) {
             self.program = builtin.program();
             return Ok(self);
         }
         let span = name.span.clone().unwrap_or_default();
         let Some(folder) = folder else {
             let reason = "a text has no folder to find it in".to_owned();
-            return Err(SetupError::ProgramUnreadable { path, reason, span: Some(span) });
+            let help = "`Setup::from_toml_in` knows the folder".to_owned();
+            return Err(SetupError::ProgramUnreadable { path, reason, help, span: Some(span) });
         };
-        self.take_program_file(folder.join(&name.value), Some(span))?;
+        self.take_program_files(name.value.iter().map(|path| folder.join(path)).collect(), Some(span))?;
         Ok(self)
     }
 
-    fn take_program_file(&mut self, path: PathBuf, span: Option<Range<usize>>) -> Result<(), SetupError> {
-        let stamp = program_files::stamp(&path);
-        self.program = self.load_file(&path, span)?;
-        self.program_file = Some((path, stamp));
-        Ok(())
-    }
-
-    fn load_file(
-        &self,
-        path: &Path,
+    fn take_program_files(
+        &mut self,
+        paths: Vec<PathBuf>,
         span: Option<Range<usize>>,
-    ) -> Result<Box<dyn Program + Send>, SetupError> {
+    ) -> Result<(), SetupError> {
         let budget_statements = self.file.cpu.statement_budget.value;
-        let loaded = program_file::load(path, &self.device_variables(), budget_statements);
-        let path = path.display().to_string();
-        loaded.map_err(|error| match error {
-            ProgramFileError::Unreadable(error) => {
-                SetupError::ProgramUnreadable { path, reason: error.to_string(), span }
-            }
-            ProgramFileError::StructuredText(problems) => SetupError::ProgramWrong { path, problems },
-            ProgramFileError::WebAssembly(reason) => SetupError::WebAssemblyWrong { path, reason },
-        })
+        let stamps = watched_program::stamps(&paths);
+        let read = ProgramText::read(&paths).and_then(|text| {
+            let program = text.compile(&self.device_variables(), budget_statements)?;
+            Ok((text, program))
+        });
+        let (text, program) = read.map_err(|error| refused(error, span))?;
+        self.program = program;
+        self.program_files = Some(ProgramFiles { paths, stamps, text });
+        Ok(())
     }
 
     fn compile(&self, source: &str) -> Result<StructuredText, st::Problems> {
@@ -232,12 +243,15 @@ pub(crate) struct Powered {
     pub(crate) writer: Option<storage::Writer>,
 }
 
-/// A user program in a file, to be loaded anew when the file changes.
-#[derive(Debug)]
-pub(crate) struct WatchedProgram {
-    pub(crate) path: PathBuf,
-    /// What the file looked like before it was read.
-    pub(crate) stamp: Option<FileStamp>,
-    pub(crate) variables: DeviceVariables,
-    pub(crate) budget_statements: u64,
+fn refused(error: ProgramFileError, span: Option<Range<usize>>) -> SetupError {
+    match error {
+        ProgramFileError::Unreadable { path, reason } => {
+            let path = path.display().to_string();
+            SetupError::ProgramUnreadable { path, reason: reason.to_string(), help: reason.help(), span }
+        }
+        ProgramFileError::StructuredText(problems) => SetupError::ProgramWrong { problems },
+        ProgramFileError::WebAssembly { path, reason } => {
+            SetupError::WebAssemblyWrong { path: path.display().to_string(), reason }
+        }
+    }
 }

@@ -11,8 +11,9 @@ use plc::outside::{self, OutsideEnd};
 use time::{Duration, Instant};
 
 use crate::memory_file::Keeper;
-use crate::setup::{Powered, WatchedProgram};
+use crate::setup::Powered;
 use crate::unit_side::UnitSide;
+use crate::watched_program::WatchedProgram;
 use crate::{Setup, SetupError};
 
 /// Units under power, in the order of the chain, with their CPU Units.
@@ -56,7 +57,7 @@ impl Twin {
         let now = Instant::ZERO;
         let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
         let mut programs = Vec::new();
-        for (position, setup) in setups.into_iter().enumerate() {
+        for (position, mut setup) in setups.into_iter().enumerate() {
             programs.extend(setup.watched_program().map(|program| (position, program)));
             let Powered { config, unit, cpu, writer } = setup.power_on(now);
             units.push((config, unit));

@@ -52,7 +52,7 @@ fn an_unknown_model_is_refused_with_its_place() {
 #[test]
 fn a_value_out_of_range_is_refused_with_its_place() {
     let text = "model = \"nx-ect101\"\n\n[cpu]\ntask_period = \"1s\"\n";
-    expect(&run_unit_file("too-long.toml", text), BAD_FILE, &["too-long.toml", "4:15", "100ms"]);
+    expect(&run_unit_file("too-long.toml", text), BAD_FILE, &["too-long.toml", "4:15", "125us", "32ms"]);
 }
 
 #[test]

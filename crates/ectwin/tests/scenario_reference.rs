@@ -22,13 +22,14 @@ Every key, sentence, place and fault of a scenario file. [Write a scenario](writ
 | `limit` | the moment behind which nothing goes on: who still waits then has waited in vain | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
 | `cycle_phase` | where in its period the cycle lies, from the beginning | the seed decides |
-| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program`, to run another program than that of the unit file | one unit at its factory setting |
+| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | it only does what steps order |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |
 | `steps` | list of steps | refused: every file needs it |
 
 Paths are seen from the scenario file, the program of a unit file from that file. A unit may run the programs `"builtin:copy"`,
-`"builtin:messages"` and `"builtin:pulse"`, or a file in Structured Text.
+`"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
+[one program](structured-text.md#several-files).
 
 ## The master's user program
 The scripted master can run a program in Structured Text of its own, as an NJ/NX-series CPU Unit does with its built-in port
@@ -36,7 +37,7 @@ The scripted master can run a program in Structured Text of its own, as an NJ/NX
 
 | key of `master` | value | left out |
 |---|---|---|
-| `program` | path of a program in Structured Text | refused |
+| `program` | path of a program in Structured Text, or a list of paths | refused |
 | `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E005"` for the node address 5 |
 | `task_period` | 125us to 1s | the cycle of the process data, in step with them |
 

@@ -52,5 +52,5 @@ fn a_changed_program_is_loaded_and_a_wrong_one_is_not() {
     running.wait_for("the old program goes on");
     change(&program, "SetAlarm(3);");
     running.wait_for("a user program was loaded");
-    running.wait_for("user-defined error 16#3 ");
+    running.wait_for_before("user-defined error 16#3 ", "has changed");
 }

@@ -69,7 +69,7 @@ pub struct ChangedLevel {
 /// Section `[cpu]`: the CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpuSection {
-    /// Period of the primary periodic task, 125 µs to 100 ms; 1 ms when left out.
+    /// Period of the primary periodic task, one of those that CPU Units have; 1 ms when left out.
     pub task_period: Located<Duration>,
     /// From power-on to the first task period, 0 s to 100 ms; when left out, a scenario's seed decides, else 0.
     pub task_phase: Option<Located<Duration>>,
@@ -77,8 +77,8 @@ pub struct CpuSection {
     pub mode: Located<CpuMode>,
     /// Fail-soft operation of the NX bus; fail-soft when left out.
     pub fail_soft: Located<FailSoftOperation>,
-    /// User program, relative to the unit file; none when left out.
-    pub program: Option<Located<PathBuf>>,
+    /// Files and folders of the user program, relative to the unit file; none when left out.
+    pub program: Option<Located<Vec<PathBuf>>>,
     /// How many statements a scan of a program in Structured Text may run, 1 to 1,000,000,000;
     /// [`STATEMENT_BUDGET_DEFAULT`] when left out.
     pub statement_budget: Located<u64>,
@@ -94,7 +94,7 @@ pub struct UnitFile {
     pub model: Located<Model>,
     /// Device name on the NX bus, an IEC 61131-3 identifier of up to 127 characters; `N1` when left out.
     pub name: Located<String>,
-    /// NX Unit number, 1 to 63; 1 when left out.
+    /// NX Unit number, 1 to 32; 1 when left out.
     pub unit_number: Located<u8>,
     /// Serial number; 1 when left out.
     pub serial: Located<u32>,

@@ -3,6 +3,7 @@
 use core::fmt;
 use std::any::Any;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use time::Duration;
 
@@ -91,6 +92,8 @@ pub struct ProgramTrouble {
     pub line: usize,
     /// Column in characters, from 1; 0 if there is none to tell.
     pub column: usize,
+    /// The file of the source, where the program has several.
+    pub file: Option<Arc<str>>,
 }
 
 impl ProgramEvent {
@@ -100,8 +103,10 @@ impl ProgramEvent {
         if stopped.fault == st::Fault::BudgetUsedUp {
             return Self::TaskOverrun { budget_statements };
         }
-        let (line, column) = stopped.span.line_and_column(program.source());
-        Self::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column })
+        let sources = program.sources();
+        let st::Place { file, line, column, .. } = sources.place(stopped.span);
+        let file = file.filter(|_| sources.are_several()).map(Arc::from);
+        Self::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column, file })
     }
 }
 
@@ -135,6 +140,9 @@ impl fmt::Display for ProgramEvent {
 
 impl fmt::Display for ProgramTrouble {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(file) = &self.file {
+            write!(formatter, "{file}, ")?;
+        }
         match self.line {
             0 => formatter.write_str(&self.what),
             line => write!(formatter, "line {line}, column {}: {}", self.column, self.what),

@@ -6,7 +6,7 @@ mod host;
 use std::any::Any;
 
 use nx_ect101::unit_file::STATEMENT_BUDGET_DEFAULT;
-use st::{Instance, Problems};
+use st::{Instance, Problems, Sources};
 use time::Duration;
 
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
@@ -39,10 +39,10 @@ impl StructuredText {
     /// Reads and checks a program against the device variables of the CPU Unit that is to run it.
     ///
     /// # Errors
-    /// Everything that is wrong with it, with places.
-    pub fn compile(source: &str, variables: &DeviceVariables) -> Result<Self, Problems> {
+    /// What is wrong with it, with places.
+    pub fn compile(sources: impl Into<Sources>, variables: &DeviceVariables) -> Result<Self, Problems> {
         let globals = globals::of(variables);
-        let program = st::compile(source, &globals.list)?;
+        let program = st::compile(sources, &globals.list)?;
         let bindings = program.externals().iter().map(|external| Binding {
             variable: globals.variables[external.global],
             external: external.clone(),
@@ -54,6 +54,14 @@ impl StructuredText {
             unit_number: variables.unit_number(),
             calls: PendingCalls::default(),
         })
+    }
+
+    /// Checks files that may be only a part of a program, against the device variables of a CPU Unit.
+    ///
+    /// # Errors
+    /// What is wrong with them, with places.
+    pub fn judge(sources: impl Into<Sources>, variables: &DeviceVariables) -> Result<(), Problems> {
+        st::judge(sources, &globals::of(variables).list)
     }
 
     /// Lets a scan run so many statements at most; from 1.

@@ -6,6 +6,7 @@
 mod builder;
 mod dice;
 mod expectation;
+mod files;
 mod hex;
 mod line;
 mod master;
@@ -23,18 +24,19 @@ mod story;
 mod world;
 
 pub use builder::ScenarioBuilder;
-pub use capture::NotACapture;
 pub use expectation::Condition;
+pub use files::Files;
 pub use master::MasterProgram;
 pub use orders::{
     Choice, ConductOrder, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder,
     Mode, Order, UnitOrder, UnitSet,
 };
 pub use programs::{Controller, ProgramFile};
-pub use recorded::{Aspect, DifferenceKind, RecordedFrames};
+pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
 pub use replay::{Failure, Report};
 pub use scenario::{
     RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram,
 };
 pub use search::Found;
+pub use user_file::Wanted;

@@ -23,7 +23,7 @@ impl core::fmt::Display for Controller {
 /// A user program in Structured Text, read and checked against the device variables of its CPU Unit.
 #[derive(Clone, Debug)]
 pub struct ProgramFile {
-    /// The file, as it is named.
+    /// Its files, as they are named.
     pub name: String,
     /// The program, at its beginning.
     pub program: StructuredText,

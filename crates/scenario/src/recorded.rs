@@ -6,10 +6,11 @@
 
 mod areas;
 mod differences;
+mod refusal;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
-use capture::{Direction, NotACapture, Packet, read_packets};
+use capture::{Direction, Packet, packets};
 use time::{Duration, Instant};
 use wire::{Command, Returned, returned_datagrams};
 
@@ -17,12 +18,19 @@ use differences::Differences;
 
 pub use differences::{Aspect, DifferenceKind};
 
+pub use refusal::NotReplayable;
+
 /// From power-on to the first frame, so that the unit has started.
 const LEAD: Duration = Duration::from_millis(10);
 /// Bit of a source address that every ESC sets: the frame has passed the units.
 const PASSED: u8 = 0x02;
 /// Where the first byte of the source address lies.
 const SOURCE_ADDRESS: usize = 6;
+
+/// The longest silence between two frames of a master: a replay passes through it period by period.
+const SILENCE_MAX: Duration = Duration::from_secs(3_600);
+/// The longest time from the first frame to the last.
+const DURATION_MAX: Duration = Duration::from_secs(24 * 3_600);
 
 /// The frames of a capture, ready to be sent.
 #[derive(Clone, Debug, Default)]
@@ -41,27 +49,30 @@ impl RecordedFrames {
     /// Reads a capture: frames of a master and the answers that belong to them.
     ///
     /// # Errors
-    /// [`NotACapture`].
-    pub fn read(bytes: &[u8]) -> Result<Self, NotACapture> {
+    /// [`NotReplayable`].
+    pub fn read(bytes: &[u8]) -> Result<Self, NotReplayable> {
         let mut exchanges: Vec<Exchange> = Vec::new();
+        // Of each sequence of datagrams: the frames that have no answer yet, the oldest first.
+        let mut unanswered: HashMap<Names, Vec<usize>> = HashMap::new();
         let mut origin = None;
-        for packet in read_packets(bytes)? {
-            let origin = *origin.get_or_insert(packet.at_nanos);
+        for packet in packets(bytes)? {
+            let packet = packet?;
             let datagrams = returned_datagrams(&packet.frame);
             if datagrams.is_empty() {
                 continue;
             }
             if is_answer(&packet) {
                 // The newest: numbers come again, and an older frame may have been lost.
-                let asked = exchanges
-                    .iter_mut()
-                    .rev()
-                    .find(|exchange| exchange.answer.is_none() && exchange.is_of(&datagrams));
-                if let Some(exchange) = asked {
+                let asked = unanswered.get_mut(&names(&datagrams)).and_then(Vec::pop);
+                if let Some(exchange) = asked.and_then(|asked| exchanges.get_mut(asked)) {
                     exchange.answer = Some(packet.frame);
                 }
             } else {
-                let after = Duration::from_nanos(packet.at_nanos.saturating_sub(origin));
+                let origin = *origin.get_or_insert(packet.at_nanos);
+                let before = exchanges.last().map_or(Duration::ZERO, |exchange| exchange.after);
+                let after = Duration::from_nanos(packet.at_nanos.saturating_sub(origin)).max(before);
+                refuse_long(exchanges.len() + 1, before, after)?;
+                unanswered.entry(names(&datagrams)).or_default().push(exchanges.len());
                 exchanges.push(Exchange { after, frame: packet.frame, answer: None });
             }
         }
@@ -115,15 +126,23 @@ fn is_answer(packet: &Packet) -> bool {
     }
 }
 
-impl Exchange {
-    /// Whether these datagrams answer it: the same commands with the same numbers.
-    fn is_of(&self, datagrams: &[Returned]) -> bool {
-        let names = |datagrams: &[Returned]| {
-            let names = datagrams.iter().map(|datagram| (datagram.header.command, datagram.header.index));
-            names.collect::<Vec<_>>()
-        };
-        names(&returned_datagrams(&self.frame)) == names(datagrams)
+/// Commands and numbers of the datagrams of a frame: an answer has those of its question.
+type Names = Vec<(Command, u8)>;
+
+fn names(datagrams: &[Returned]) -> Names {
+    datagrams.iter().map(|datagram| (datagram.header.command, datagram.header.index)).collect()
+}
+
+/// A clock that was set while the capture ran must not make a replay of years.
+fn refuse_long(frame: usize, before: Duration, after: Duration) -> Result<(), NotReplayable> {
+    let silence = Duration::from_nanos(after.as_nanos() - before.as_nanos());
+    if silence > SILENCE_MAX {
+        return Err(NotReplayable::Silence { frame, silence });
     }
+    if after > DURATION_MAX {
+        return Err(NotReplayable::TooLong { frame });
+    }
+    Ok(())
 }
 
 /// The recorded master at work.

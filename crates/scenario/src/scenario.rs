@@ -7,13 +7,11 @@ use nx_ect101::unit_file::UnitFile;
 use plc::{Builtin, Io, Program};
 use time::Duration;
 
-use capture::NotACapture;
-
 use crate::expectation::Condition;
 use crate::master::MasterProgram;
 use crate::orders::Order;
 use crate::programs::{LoadedProgram, ProgramFile};
-use crate::recorded::RecordedFrames;
+use crate::recorded::{NotReplayable, RecordedFrames};
 
 pub use error::{ScenarioError, ScenarioErrors};
 
@@ -52,8 +50,8 @@ impl Scenario {
     /// Takes the bytes of the capture that the file names. Without them nothing of it is sent.
     ///
     /// # Errors
-    /// [`NotACapture`].
-    pub fn load_capture(&mut self, bytes: &[u8]) -> Result<(), NotACapture> {
+    /// [`NotReplayable`].
+    pub fn load_capture(&mut self, bytes: &[u8]) -> Result<(), NotReplayable> {
         self.recorded = RecordedFrames::read(bytes)?;
         Ok(())
     }

@@ -91,8 +91,9 @@ impl Story {
 
     pub(crate) fn error_words(&self) -> String {
         let words = self.errors.iter().map(|trouble| {
-            let ProgramTrouble { what, line, column } = trouble;
-            format!("{line}:{column} {what}")
+            let ProgramTrouble { what, line, column, file } = trouble;
+            let file = file.as_ref().map(|file| format!("{file}:")).unwrap_or_default();
+            format!("{file}{line}:{column} {what}")
         });
         listed("errors of the program", words)
     }
@@ -125,7 +126,7 @@ mod tests {
 
     fn error(line: usize) -> CpuEvent {
         let what = "division by zero".into();
-        CpuEvent::Program(ProgramEvent::Error(ProgramTrouble { what, line, column: 1 }))
+        CpuEvent::Program(ProgramEvent::Error(ProgramTrouble { what, line, column: 1, file: None }))
     }
 
     #[test]

@@ -23,7 +23,7 @@ use std::collections::HashMap;
 
 use crate::code::{Slot, Unit};
 use crate::machine::Layout;
-use crate::problem::{Problem, Span};
+use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 use crate::program::{External, Global, Task, Variable};
 use crate::syntax::ast::{File, Pou, TypeDeclaration};
 use crate::system::System;
@@ -32,9 +32,6 @@ use scope::{Scope, Symbol};
 
 /// Most slots of a program: 8 MiB.
 const SLOTS_MAX: u32 = 1 << 20;
-
-/// Most problems that are told at once.
-const PROBLEMS_MAX: usize = 50;
 
 /// What a program is made of.
 #[derive(Debug, Default)]
@@ -61,8 +58,21 @@ pub(crate) struct Surroundings<'t> {
     pub(crate) globals: &'t [Global],
 }
 
+/// What a program is checked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Purpose {
+    /// It is to run, so that it needs a PROGRAM.
+    Run,
+    /// It may be a part of a program: blocks, functions or types alone.
+    Judge,
+}
+
 /// Checks a file.
-pub(crate) fn check(file: &File, surroundings: &Surroundings<'_>) -> Result<Checked, Vec<Problem>> {
+pub(crate) fn check(
+    file: &File,
+    surroundings: &Surroundings<'_>,
+    purpose: Purpose,
+) -> Result<Checked, Vec<Problem>> {
     let mut checker = Checker::new(surroundings);
     checker.enter(surroundings.prelude, Origin::Library);
     checker.resolve_types(surroundings.prelude);
@@ -72,6 +82,7 @@ pub(crate) fn check(file: &File, surroundings: &Surroundings<'_>) -> Result<Chec
     checker.resolve_types(file);
     checker.units(file);
     checker.refuse_recursion();
+    checker.refuse_lack(file, purpose);
     if checker.problems.is_empty() { Ok(checker.out) } else { Err(checker.problems) }
 }
 
@@ -171,7 +182,7 @@ impl<'t> Checker<'t> {
 
     /// Tells a problem, and has no value to give.
     fn refuse<T>(&mut self, problem: Problem) -> Option<T> {
-        if self.problems.len() < PROBLEMS_MAX {
+        if self.problems.len() < PROBLEMS_SOUGHT {
             self.problems.push(problem);
         }
         None
@@ -179,7 +190,7 @@ impl<'t> Checker<'t> {
 
     /// Whether so much is wrong that the rest is left aside.
     fn is_given_up(&self) -> bool {
-        self.problems.len() >= PROBLEMS_MAX
+        self.problems.len() >= PROBLEMS_SOUGHT
     }
 
     /// Takes slots with these initial values out of the memory.

@@ -15,6 +15,7 @@ mod operators;
 mod problem;
 mod program;
 mod retain;
+mod sources;
 mod syntax;
 mod system;
 mod types;
@@ -24,8 +25,9 @@ pub use elementary::{Class, Elementary};
 pub use fault::Fault;
 pub use host::{Alarm, Host, NX_OBJECT_BYTES_MAX, NoHost, NxCallNumber, NxFault};
 pub use library::{Entry, reference, text_of, value_of};
-pub use problem::{Problem, Problems, Span};
-pub use program::{External, Global, Instance, Program, Stopped, compile};
+pub use problem::{PROBLEMS_MAX, Problem, Problems, Span, stopped_words};
+pub use program::{External, Global, Instance, Program, Stopped, compile, judge};
+pub use sources::{Place, Sources};
 
-/// The longest source in bytes.
+/// The longest source in bytes, all files of a program together.
 pub const SOURCE_BYTES_MAX: usize = 1 << 20;

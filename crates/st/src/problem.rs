@@ -3,6 +3,12 @@
 use core::fmt;
 use core::ops::Range;
 
+use crate::sources::{Place, Sources};
+
+/// How many problems of a program are told at once.
+pub const PROBLEMS_MAX: usize = 20;
+/// How many are looked for: one more shows that there are more than are told.
+pub(crate) const PROBLEMS_SOUGHT: usize = PROBLEMS_MAX + 1;
 /// Longest message that is told as it is.
 const MESSAGE_BYTES_MAX: usize = 300;
 
@@ -83,47 +89,70 @@ fn shortened(text: String) -> String {
     start + "…" + &end.into_iter().rev().collect::<String>()
 }
 
-/// Everything that is wrong with a program, in the order of the source; never empty.
+/// What is wrong with a program, in the order of its files; never empty, and [`PROBLEMS_MAX`] at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problems {
-    /// The source, to tell lines and columns.
-    source: String,
+    /// The files, to tell names, lines and columns.
+    sources: Sources,
     list: Vec<Problem>,
+    are_cut: bool,
 }
 
 impl Problems {
-    pub(crate) fn new(source: &str, mut list: Vec<Problem>) -> Self {
+    pub(crate) fn new(sources: impl Into<Sources>, mut list: Vec<Problem>) -> Self {
         list.sort_by_key(|problem| problem.span.start);
         list.dedup();
-        Self { source: source.to_owned(), list }
+        let are_cut = list.len() > PROBLEMS_MAX;
+        list.truncate(PROBLEMS_MAX);
+        Self { sources: sources.into(), list, are_cut }
     }
 
-    /// The problems, in the order of the source.
+    /// The problems, in the order of the files.
     #[must_use]
     pub fn list(&self) -> &[Problem] {
         &self.list
     }
 
-    /// The source that they lie in.
+    /// Where a problem lies.
     #[must_use]
-    pub fn source(&self) -> &str {
-        &self.source
+    pub fn place(&self, problem: &Problem) -> Place<'_> {
+        self.sources.place(problem.span)
+    }
+
+    /// Whether there are more than the list has: reading stopped behind the last of it.
+    #[must_use]
+    pub const fn are_cut(&self) -> bool {
+        self.are_cut
     }
 }
 
-/// A line for each: `line:column: message (help)`.
+/// A line for each: `file:line:column: message (help)`, without the file if the source has none.
 impl fmt::Display for Problems {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, problem) in self.list.iter().enumerate() {
-            let (line, column) = problem.span.line_and_column(&self.source);
-            let newline = if place == 0 { "" } else { "\n" };
-            write!(formatter, "{newline}{line}:{column}: {}", problem.message)?;
+            if place > 0 {
+                writeln!(formatter)?;
+            }
+            let Place { file, line, column, .. } = self.place(problem);
+            if let Some(file) = file {
+                write!(formatter, "{file}:")?;
+            }
+            write!(formatter, "{line}:{column}: {}", problem.message)?;
             if let Some(help) = &problem.help {
                 write!(formatter, " ({help})")?;
             }
         }
+        if self.are_cut {
+            write!(formatter, "\n{}", stopped_words())?;
+        }
         Ok(())
     }
+}
+
+/// What is told behind the last problem when there are more.
+#[must_use]
+pub fn stopped_words() -> String {
+    format!("stopped at {PROBLEMS_MAX} problems; there are more")
 }
 
 impl core::error::Error for Problems {}

@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::check::{Checked, Surroundings, check};
+use crate::SOURCE_BYTES_MAX;
+use crate::check::{Checked, Purpose, Surroundings, check};
 use crate::code::Slot;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
@@ -11,9 +12,11 @@ use crate::host::Host;
 use crate::library::PRELUDE;
 use crate::machine::{Layout, Machine};
 use crate::memory::Memory;
-use crate::problem::{Problems, Span};
+use crate::problem::{Problem, Problems, Span};
 use crate::retain::{self, Retained};
-use crate::syntax::parse;
+use crate::sources::Sources;
+use crate::syntax::ast::File;
+use crate::syntax::{parse, parse_from};
 use crate::system::System;
 use crate::types::Type;
 use crate::value;
@@ -81,7 +84,7 @@ pub struct Program {
 
 #[derive(Debug)]
 struct Inner {
-    source: String,
+    sources: Sources,
     checked: Checked,
     retained: Vec<Retained>,
 }
@@ -89,22 +92,68 @@ struct Inner {
 /// Reads and checks a program. What it takes for granted are the library and `globals`.
 ///
 /// # Errors
-/// Everything that is wrong with it, with places, at most 50 things.
+/// What is wrong with it, with places.
 ///
 /// # Panics
 /// If a global has a type that cannot be read: whoever gives globals knows their types.
-pub fn compile(source: &str, globals: &[Global]) -> Result<Program, Problems> {
-    let (file, problems) = parse(source);
-    if !problems.is_empty() {
-        return Err(Problems::new(source, problems));
+pub fn compile(sources: impl Into<Sources>, globals: &[Global]) -> Result<Program, Problems> {
+    let sources = sources.into();
+    match checked(&sources, globals, Purpose::Run) {
+        Ok(checked) => {
+            let retained = retain::of(&checked.variables);
+            Ok(Program { inner: Arc::new(Inner { sources, checked, retained }) })
+        }
+        Err(problems) => Err(Problems::new(sources, problems)),
     }
+}
+
+/// Checks files that may be only a part of a program: blocks, functions or types without a PROGRAM.
+///
+/// # Errors
+/// What is wrong with them, with places.
+///
+/// # Panics
+/// As [`compile`].
+pub fn judge(sources: impl Into<Sources>, globals: &[Global]) -> Result<(), Problems> {
+    let sources = sources.into();
+    match checked(&sources, globals, Purpose::Judge) {
+        Ok(_) => Ok(()),
+        Err(problems) => Err(Problems::new(sources, problems)),
+    }
+}
+
+fn checked(sources: &Sources, globals: &[Global], purpose: Purpose) -> Result<Checked, Vec<Problem>> {
+    let file = read(sources)?;
     let declarations = declarations(globals);
     let (declared, wrong) = parse(&declarations);
     assert!(wrong.is_empty(), "the device variables: {}", Problems::new(&declarations, wrong));
-    let surroundings = Surroundings { prelude: &PRELUDE, declared: &declared, globals };
-    let checked = check(&file, &surroundings).map_err(|problems| Problems::new(source, problems))?;
-    let retained = retain::of(&checked.variables);
-    Ok(Program { inner: Arc::new(Inner { source: source.to_owned(), checked, retained }) })
+    check(&file, &Surroundings { prelude: &PRELUDE, declared: &declared, globals }, purpose)
+}
+
+/// All files as one tree. Each is read by itself: what one leaves open does not reach into the next.
+fn read(sources: &Sources) -> Result<File, Vec<Problem>> {
+    if sources.size_bytes() > SOURCE_BYTES_MAX {
+        let size_bytes = sources.size_bytes();
+        let message = format!("the source has {size_bytes} bytes, {SOURCE_BYTES_MAX} are the most");
+        return Err(vec![Problem::new(Span::default(), message)]);
+    }
+    let (mut whole, mut problems) = (File::default(), Vec::new());
+    for (text, start) in sources.each() {
+        let (file, wrong) = parse_from(text, start);
+        problems.extend(wrong);
+        whole.append(file);
+    }
+    problems.extend(second_unnamed(&whole));
+    if problems.is_empty() { Ok(whole) } else { Err(problems) }
+}
+
+/// Statements without a PROGRAM around them can be in one file only: of two, no one knows which is first.
+fn second_unnamed(file: &File) -> Option<Problem> {
+    let mut unnamed = file.units.iter().filter(|unit| unit.is_unnamed_program());
+    let second = unnamed.nth(1)?;
+    let message = "another file has statements without a PROGRAM too";
+    let help = "write PROGRAM name … END_PROGRAM around the statements of each";
+    Some(Problem::new(second.name.span, message).help(help))
 }
 
 fn declarations(globals: &[Global]) -> String {
@@ -123,10 +172,10 @@ impl Program {
         &self.inner.checked.externals
     }
 
-    /// The source that it was made of.
+    /// The files that it was made of.
     #[must_use]
-    pub fn source(&self) -> &str {
-        &self.inner.source
+    pub fn sources(&self) -> &Sources {
+        &self.inner.sources
     }
 
     /// The program at its beginning: every variable has its initial value.

@@ -9,22 +9,17 @@ mod parser;
 mod tests;
 mod token;
 
-use crate::SOURCE_BYTES_MAX;
-use crate::problem::{Problem, Span};
+use crate::problem::Problem;
 use ast::File;
 pub(crate) use literal::date_prefix;
 
-/// How many problems are told of one source; what lies behind the last is not read.
-pub(crate) const PROBLEMS_MAX: usize = 20;
+/// Reads the file that begins at byte `start` of `source` and ends with it: the tree of what could be read, and what
+/// could not.
+pub(crate) fn parse_from(source: &str, start: usize) -> (File, Vec<Problem>) {
+    parser::Parser::new(source, start).file()
+}
 
-/// Reads a file: the tree of what could be read, and what could not.
-///
-/// A source longer than [`SOURCE_BYTES_MAX`] is not read at all.
+/// Reads a file.
 pub(crate) fn parse(source: &str) -> (File, Vec<Problem>) {
-    if source.len() > SOURCE_BYTES_MAX {
-        let size_bytes = source.len();
-        let message = format!("the source has {size_bytes} bytes, {SOURCE_BYTES_MAX} are the most");
-        return (File::default(), vec![Problem::new(Span::default(), message)]);
-    }
-    parser::Parser::new(source).file()
+    parse_from(source, 0)
 }

@@ -117,7 +117,12 @@ impl Host {
             let _ = io.write(binding.variable, &binding.value);
         }
         for text in self.reports.drain(..) {
-            io.report(ProgramEvent::Error(ProgramTrouble { what: text.into(), line: 0, column: 0 }));
+            io.report(ProgramEvent::Error(ProgramTrouble {
+                what: text.into(),
+                line: 0,
+                column: 0,
+                file: None,
+            }));
         }
     }
 

@@ -94,5 +94,5 @@ const fn fuel(budget_statements: u64) -> u64 {
 }
 
 fn trouble(what: String) -> ProgramTrouble {
-    ProgramTrouble { what: what.into(), line: 0, column: 0 }
+    ProgramTrouble { what: what.into(), line: 0, column: 0, file: None }
 }

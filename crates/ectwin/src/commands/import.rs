@@ -1,20 +1,34 @@
 //! `ectwin import CAPTURE`: a scenario that sends the frames of a capture again and compares the answers.
 
-use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use ectwin::user_files::{self, Wanted};
 use scenario::RecordedFrames;
 use time::Duration;
+use user_file::of_another_kind;
 
 use super::search::{folder_of, refuse_existing, write_new};
 use crate::cli::ImportArgs;
 use crate::failure::Failure;
 use crate::{output, unit_files};
 
+/// Most default units that are written for a capture: the position of a slave in a datagram can be any number.
+const UNITS_MAX: usize = 1_000;
+
 /// Writes the scenario, and tells what is in it.
 pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     refuse_existing(&args.output)?;
     let frames = read(&args.capture)?;
+    if args.units.is_empty() && frames.units() > UNITS_MAX {
+        return Err(Failure::Refused {
+            message: format!(
+                "{} shows a line of {} units; {UNITS_MAX} are the most that a scenario gets by itself",
+                args.capture.display(),
+                frames.units()
+            ),
+            help: "give the unit files by --unit, if the capture is right".to_owned(),
+        });
+    }
     for unit in &args.units {
         unit_files::parse(unit)?;
     }
@@ -39,7 +53,14 @@ fn read(path: &Path) -> Result<RecordedFrames, Failure> {
         message: format!("{}: {reason}", path.display()),
         help: "give a capture of master and units, as `ectwin run --pcap` writes it".to_owned(),
     };
-    let bytes = fs::read(path).map_err(|error| refused(format!("the capture cannot be read: {error}")))?;
+    let unreadable = |source| Failure::Unreadable { path: path.to_owned(), source };
+    let bytes = user_files::bytes(path, Wanted::Capture).map_err(unreadable)?;
+    if let Some(refusal) = of_another_kind(&bytes, &path.to_string_lossy(), Wanted::Capture) {
+        return Err(Failure::Refused {
+            message: format!("{}: {}", path.display(), refusal.message),
+            help: refusal.help,
+        });
+    }
     let frames = RecordedFrames::read(&bytes).map_err(|error| refused(error.to_string()))?;
     match (frames.len(), frames.answers()) {
         (0, _) => Err(refused("it holds no EtherCAT frame of a master".to_owned())),

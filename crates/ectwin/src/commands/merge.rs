@@ -1,15 +1,16 @@
 //! `ectwin merge RESULT.jsonl…`: the parts of a campaign as one, if none of its cases is missing or double.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
+
+use ectwin::user_files::{self, Wanted};
 
 use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
+use crate::file_problem::{FileProblem, FileProblems};
 use crate::output;
 use crate::overwrite::{self, Output};
-use crate::unit_files::FileProblem;
 
 /// Cases that one line of a message names.
 const NAMED_CASES: usize = 8;
@@ -41,13 +42,13 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
 }
 
 fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
-    let (mut results, mut problems) = (Vec::new(), Vec::new());
+    let (mut results, mut problems) = (Vec::new(), FileProblems::default());
     for path in paths {
-        let text = match fs::read_to_string(path) {
+        let text = match user_files::text(path, Wanted::Results) {
             Ok(text) => text,
             Err(error) => {
-                let help = "give the files that the parts have written by `ectwin replay --json`";
-                problems.push(FileProblem::of_file(format!("cannot read {}: {error}", path.display()), help));
+                let message = format!("cannot read {}: {error}", path.display());
+                problems.push(FileProblem::of_file(&message, &error.help()));
                 continue;
             }
         };
@@ -57,7 +58,7 @@ fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
                 Ok(result) => results.push(Read { result, from: path }),
                 Err(reason) => {
                     let span = start..start + line.trim_end().len();
-                    problems.push(no_result(path, &text, span, &reason));
+                    problems.push_by(|| no_result(path, &text, span, &reason));
                 }
             }
             start += line.len();

@@ -58,7 +58,7 @@ fn ready(link: &LinkSpec, units: usize, modbus: Option<&ModbusServer>) -> String
 
 fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
     let read = |path: &PathBuf| {
-        let setup = unit_files::read(path, args.program.as_deref())?;
+        let setup = unit_files::read(path, &args.programs)?;
         Ok(if args.fast { setup.fast() } else { setup })
     };
     descriptors::make_room(args.units.len());
@@ -72,7 +72,7 @@ fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failur
 
 fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
     let Some(path) = &args.pcap else { return Ok(()) };
-    let programs = setups.iter().filter_map(Setup::program_path).map(Path::to_owned);
+    let programs = setups.iter().flat_map(Setup::program_paths).map(Path::to_owned);
     let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups));
     overwrite::refuse(&[Output { option: "--pcap", path }], files)
 }

@@ -1,9 +1,10 @@
 //! `ectwin search FILE`: seeds, until a replay fails; what is left of it is a scenario file of a few steps.
 
-use std::fs::{self, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use ectwin::user_files::{self, Beside, Wanted};
 use scenario::{Found, Recording, Scenario};
 use time::Duration;
 
@@ -16,8 +17,8 @@ use crate::output;
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     let path = &args.scenario;
     let scenario = read_scenario(path)?;
-    let text =
-        fs::read_to_string(path).map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
+    let text = user_files::text(path, Wanted::Scenario)
+        .map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
     if scenario.random.is_none() {
         return Err(without_dice(path));
     }
@@ -105,10 +106,7 @@ pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
 fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failure> {
     let (folder, other) = (folder_of(path), folder_of(output));
     let mut names = Vec::new();
-    let parsed = Scenario::parse(text, |name| {
-        names.push(name.to_owned());
-        fs::read_to_string(folder.join(name)).map_err(|error| error.to_string())
-    });
+    let parsed = Scenario::parse_with(text, &mut Beside::new(folder, |name, _| names.push(name.to_owned())));
     names.extend(parsed.ok().and_then(|scenario| scenario.capture));
     let is_same = |name: &String| {
         let (one, another) = (folder.join(name).canonicalize(), other.join(name).canonicalize());

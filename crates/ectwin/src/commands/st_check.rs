@@ -1,11 +1,14 @@
 //! `ectwin st check FILE.st`.
 
+use ectwin::st::{Place, Problems};
 use ectwin::unit_file::UnitFile;
-use ectwin::{DeviceVariables, StructuredText, st};
+use ectwin::user_files;
+use ectwin::{DeviceVariables, StructuredText};
 use serde::Serialize;
 
 use crate::cli::StCheckArgs;
 use crate::failure::Failure;
+use crate::file_problem::FileProblems;
 use crate::{output, unit_files};
 
 /// The unit whose device variables a program sees when none is named: the factory setting.
@@ -14,10 +17,13 @@ const FACTORY: &str = "model = \"nx-ect101\"";
 #[derive(Serialize)]
 struct Document<'a> {
     problems: Vec<Row<'a>>,
+    /// Whether there are more problems than these.
+    more: bool,
 }
 
 #[derive(Serialize)]
 struct Row<'a> {
+    file: &'a str,
     line: usize,
     column: usize,
     message: &'a str,
@@ -27,18 +33,23 @@ struct Row<'a> {
 /// Checks a program and tells what is wrong with it.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
     let variables = DeviceVariables::of_unit_file(&unit_file(args)?);
-    let unreadable = |source| Failure::ProgramUnreadable { path: args.program.clone(), source };
-    let source = std::fs::read_to_string(&args.program).map_err(unreadable)?;
-    let checked = StructuredText::compile(&source, &variables);
+    let unreadable = |(path, source)| Failure::Unreadable { path, source };
+    let sources = user_files::program_sources(&args.programs).map_err(unreadable)?;
+    let judged = StructuredText::judge(sources, &variables);
     if args.json {
-        let problems = checked.as_ref().err().map(rows).unwrap_or_default();
-        output::print(output::json(&Document { problems })?.as_bytes())?;
+        let problems = judged.as_ref().err();
+        let more = problems.is_some_and(Problems::are_cut);
+        let problems = problems.map(rows).unwrap_or_default();
+        output::print(output::json(&Document { problems, more })?.as_bytes())?;
     }
-    match checked {
-        Ok(_) if args.json => Ok(()),
-        Ok(_) => output::print_line(format_args!("{}: no problems", args.program.display())),
-        Err(_) if args.json => Err(Failure::ProgramWrong(Vec::new())),
-        Err(problems) => Err(Failure::ProgramWrong(unit_files::of_program(&args.program, &problems))),
+    match judged {
+        Ok(()) if args.json => Ok(()),
+        Ok(()) => {
+            let names: Vec<_> = args.programs.iter().map(|path| path.display().to_string()).collect();
+            output::print_line(format_args!("{}: no problems", names.join(", ")))
+        }
+        Err(_) if args.json => Err(Failure::ProgramWrong(FileProblems::default())),
+        Err(problems) => Err(Failure::ProgramWrong(FileProblems::of_program(&problems))),
     }
 }
 
@@ -50,11 +61,11 @@ fn unit_file(args: &StCheckArgs) -> Result<UnitFile, Failure> {
     }
 }
 
-fn rows(problems: &st::Problems) -> Vec<Row<'_>> {
-    let row = |problem: &'_ st::Problem| problem.span.line_and_column(problems.source());
+fn rows(problems: &Problems) -> Vec<Row<'_>> {
     let rows = problems.list().iter().map(|problem| {
-        let (line, column) = row(problem);
-        Row { line, column, message: &problem.message, help: problem.help.as_deref() }
+        let Place { file, line, column, .. } = problems.place(problem);
+        let file = file.unwrap_or_default();
+        Row { file, line, column, message: &problem.message, help: problem.help.as_deref() }
     });
     rows.collect()
 }

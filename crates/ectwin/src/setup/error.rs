@@ -17,13 +17,13 @@ pub enum SetupError {
         path: String,
         /// Why.
         reason: String,
+        /// What helps.
+        help: String,
         /// Its bytes in the unit file; none if the unit file does not name it.
         span: Option<Range<usize>>,
     },
     /// Its user program is wrong.
     ProgramWrong {
-        /// The path.
-        path: String,
         /// What is wrong with it, and where.
         problems: st::Problems,
     },
@@ -56,13 +56,7 @@ impl fmt::Display for SetupError {
                     "the user program {path} cannot be read: {reason}; programs without a file are `{names}`"
                 )
             }
-            Self::ProgramWrong { path, problems } => {
-                for (place, line) in problems.to_string().lines().enumerate() {
-                    let newline = if place == 0 { "" } else { "\n" };
-                    write!(formatter, "{newline}{path}:{line}")?;
-                }
-                Ok(())
-            }
+            Self::ProgramWrong { problems } => problems.fmt(formatter),
             Self::WebAssemblyWrong { path, reason } => write!(formatter, "{path}: {reason}"),
             Self::Storage { path, reason, .. } => {
                 write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")

@@ -19,8 +19,16 @@ pub(crate) struct Running {
 
 impl Running {
     pub(crate) fn start(program: &Path) -> Self {
+        Self::start_all(&[program])
+    }
+
+    /// With a program of several files.
+    pub(crate) fn start_all(programs: &[impl AsRef<Path>]) -> Self {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
-        command.args(["-v", "run", UNIT, "--link", "udp:127.0.0.1:0", "--program"]).arg(program);
+        command.args(["-v", "run", UNIT, "--link", "udp:127.0.0.1:0"]);
+        for program in programs {
+            command.arg("--program").arg(program.as_ref());
+        }
         let mut child = must(command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn());
         let stderr = BufReader::new(must(child.stderr.take().ok_or("it has a pipe")));
         Self { child, stderr }
@@ -33,12 +41,23 @@ impl Running {
 
     /// Waits for a line with these words.
     pub(crate) fn wait_for(&mut self, words: &str) {
+        let _line = self.line_with(|line| line.contains(words), words);
+    }
+
+    /// Waits for a line with these words, in front of which none has those.
+    pub(crate) fn wait_for_before(&mut self, words: &str, those: &str) {
+        let line = self.line_with(|line| line.contains(words) || line.contains(those), words);
+        assert!(line.contains(words), "{line}");
+    }
+
+    fn line_with(&mut self, is_awaited: impl Fn(&str) -> bool, words: &str) -> String {
         let mut line = String::new();
-        while !line.contains(words) {
+        while !is_awaited(&line) {
             line.clear();
             let read = must(self.stderr.read_line(&mut line));
             assert_ne!(read, 0, "the command ended before it said `{words}`");
         }
+        line
     }
 }
 

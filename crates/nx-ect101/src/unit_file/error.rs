@@ -22,7 +22,7 @@ pub struct UnitFileError {
 
 impl UnitFileError {
     pub(super) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
-        let (line, column) = position(text, span.start);
+        let (line, column) = user_file::line_and_column(text, span.start);
         let Problem { message, expected, nearest } = problem;
         Self { span, line, column, message, expected, nearest }
     }
@@ -44,30 +44,38 @@ impl fmt::Display for UnitFileError {
 
 impl core::error::Error for UnitFileError {}
 
-/// Everything that is wrong with a unit file, in the order of the file; at least one thing.
+/// What is wrong with a unit file, in the order of the file: at least one thing, and
+/// [`MISTAKES_MAX`](user_file::MISTAKES_MAX) things at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitFileErrors(pub(super) Vec<UnitFileError>);
+pub struct UnitFileErrors {
+    pub(super) list: Vec<UnitFileError>,
+    pub(super) more: usize,
+}
 
 impl UnitFileErrors {
     /// The errors in the order of the file.
     pub fn iter(&self) -> impl Iterator<Item = &UnitFileError> {
-        self.0.iter()
+        self.list.iter()
+    }
+
+    /// How many errors there are beside those of the list.
+    #[must_use]
+    pub const fn more(&self) -> usize {
+        self.more
     }
 
     /// The errors as lines `file:line:column: message`.
     #[must_use]
     pub fn in_file(&self, file: impl fmt::Display) -> String {
-        self.0.iter().map(|error| format!("{file}:{error}")).collect::<Vec<_>>().join("\n")
+        let errors = self.list.iter().map(|error| format!("{file}:{error}"));
+        errors.chain(user_file::and_more(self.more)).collect::<Vec<_>>().join("\n")
     }
 }
 
 impl fmt::Display for UnitFileErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (at, error) in self.0.iter().enumerate() {
-            let separator = if at == 0 { "" } else { "\n" };
-            write!(formatter, "{separator}{error}")?;
-        }
-        Ok(())
+        let errors = self.list.iter().map(ToString::to_string);
+        formatter.write_str(&errors.chain(user_file::and_more(self.more)).collect::<Vec<_>>().join("\n"))
     }
 }
 
@@ -118,13 +126,4 @@ fn is_near(word: &str, name: &str) -> bool {
     let slips = distance <= (length / 3).max(2) && distance < length;
     let part = word.chars().count() >= 3 && (name.contains(word) || word.contains(name));
     slips || part || strsim::jaro_winkler(word, name) >= 0.85
-}
-
-/// Line and column, both from 1, of the byte at `offset`.
-fn position(text: &str, offset: usize) -> (usize, usize) {
-    let before: Vec<char> =
-        text.char_indices().take_while(|(at, _)| *at < offset).map(|(_, character)| character).collect();
-    let line = before.iter().filter(|character| **character == '\n').count() + 1;
-    let column = before.iter().rev().take_while(|character| **character != '\n').count() + 1;
-    (line, column)
 }

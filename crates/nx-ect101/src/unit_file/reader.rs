@@ -4,10 +4,10 @@ use core::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+use user_file::{Mistakes, Wanted, of_another_kind};
 
 use super::error::{Problem, UnitFileError, UnitFileErrors};
 use super::located::Located;
-use super::values;
 
 /// A value as the TOML parser hands it out.
 pub(super) type Value<'i> = Spanned<DeValue<'i>>;
@@ -17,8 +17,12 @@ pub(super) fn parse<T>(
     text: &str,
     read: impl FnOnce(&mut Reader<'_>, &Section<'_, '_>) -> Option<T>,
 ) -> Result<T, UnitFileErrors> {
+    let mut reader = Reader { text, errors: Mistakes::default() };
+    if let Some(refusal) = of_another_kind(text.as_bytes(), "", Wanted::UnitFile) {
+        reader.refuse(0..0, Problem::new(format!("{}; {}", refusal.message, refusal.help), ""));
+        return Err(reader.into_errors());
+    }
     let (document, syntax_errors) = DeTable::parse_recoverable(text);
-    let mut reader = Reader { text, errors: Vec::new() };
     if !syntax_errors.is_empty() {
         syntax_errors.iter().for_each(|error| reader.refuse_syntax(error));
         return Err(reader.into_errors());
@@ -33,20 +37,28 @@ pub(super) fn parse<T>(
 /// Collects errors.
 pub(super) struct Reader<'t> {
     text: &'t str,
-    errors: Vec<UnitFileError>,
+    errors: Mistakes<UnitFileError>,
 }
 
 impl Reader<'_> {
     /// Notes what is wrong at `span`.
     pub(super) fn refuse(&mut self, span: Range<usize>, problem: Problem) {
-        self.errors.push(UnitFileError::new(self.text, span, problem));
+        self.refuse_by(span, || problem);
+    }
+
+    /// Notes what is wrong at `span`, in words that are found only if it is told.
+    pub(super) fn refuse_by(&mut self, span: Range<usize>, problem: impl FnOnce() -> Problem) {
+        let text = self.text;
+        self.errors.note(span.start, || UnitFileError::new(text, span, problem()));
     }
 
     /// Refuses every key of `section` that is none of `keys`.
     pub(super) fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
-        for (key, _) in section.table.iter().filter(|(key, _)| !keys.contains(&key.get_ref().as_ref())) {
-            let message = format!("unknown key `{}`", section.place_of(key.get_ref()));
-            self.refuse(key.span(), Problem::unknown(message, key.get_ref(), keys));
+        for (key, _) in section.entries().into_iter().filter(|(key, _)| !keys.contains(&key.value)) {
+            self.refuse_by(key.span.unwrap_or_default(), || {
+                let message = format!("unknown key `{}`", section.place_of(&user_file::shown(key.value)));
+                Problem::unknown(message, key.value, keys)
+            });
         }
     }
 
@@ -108,14 +120,14 @@ impl Reader<'_> {
         let span = error.span().unwrap_or(0..0);
         let found = match self.text.get(span.clone()).unwrap_or("") {
             "" => String::new(),
-            found => format!(" at `{}`", values::shown(found)),
+            found => format!(" at `{}`", user_file::shown(found)),
         };
         self.refuse(span, Problem::new(format!("not TOML: {message}{found}"), expected));
     }
 
-    fn into_errors(mut self) -> UnitFileErrors {
-        self.errors.sort_by_key(|error| error.span.start);
-        UnitFileErrors(self.errors)
+    fn into_errors(self) -> UnitFileErrors {
+        let (list, more) = self.errors.into_parts();
+        UnitFileErrors { list, more }
     }
 }
 
@@ -132,9 +144,12 @@ impl<'d, 'i> Section<'d, 'i> {
         self.table.iter().find(|(known, _)| known.get_ref() == key).map(|(_, value)| value)
     }
 
-    /// All keys with their spans, and their values.
-    pub(super) fn entries(&self) -> impl Iterator<Item = (Located<&'d str>, &'d Value<'i>)> {
-        self.table.iter().map(|(key, value)| (Located::at(key.span(), key.get_ref().as_ref()), value))
+    /// All keys with their spans, and their values, in the order of the file.
+    pub(super) fn entries(&self) -> Vec<(Located<&'d str>, &'d Value<'i>)> {
+        let mut entries: Vec<_> = self.table.iter().collect();
+        entries.sort_unstable_by_key(|(key, _)| key.span().start);
+        let located = |key: &'d Spanned<_>| Located::at(key.span(), AsRef::<str>::as_ref(key.get_ref()));
+        entries.into_iter().map(|(key, value)| (located(key), value)).collect()
     }
 
     /// `key` with the tables that it stands in.

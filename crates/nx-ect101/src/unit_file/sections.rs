@@ -41,6 +41,8 @@ const UNIT_KEYS: [&str; 23] = [
     "event_levels",
     "cpu",
 ];
+/// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
+const UNIT_NUMBER_MAX: u64 = 32;
 const DATA_SET_KEYS: [(&str, DataSetKind); 3] =
     [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
 
@@ -52,8 +54,9 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     }
     let model = reader
         .value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
-    let unit_number =
-        reader.value(file, "unit_number", |place, value| values::integer(place, value, 1..=63, "1 to 63"));
+    let unit_number = reader.value(file, "unit_number", |place, value| {
+        values::integer(place, value, 1..=UNIT_NUMBER_MAX, "1 to 32, which CPU Units have")
+    });
     let serial = reader.value(file, "serial", |place, value| {
         values::integer(place, value, 0..=u32::MAX.into(), "0 to 4294967295")
     });
@@ -200,8 +203,10 @@ fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<ChangedL
     let mut levels = Vec::new();
     for (key, value) in section.entries() {
         let Some(code) = changeable.clone().find(|code| code.to_string() == key.value) else {
-            let message =
-                format!("`event_levels`: no event `{}` whose level can be changed", values::shown(key.value));
+            let message = format!(
+                "`event_levels`: no event `{}` whose level can be changed",
+                user_file::shown(key.value)
+            );
             let names: Vec<String> = changeable.clone().map(|code| code.to_string()).collect();
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             reader.refuse(key.span.unwrap_or_default(), Problem::unknown(message, key.value, &names));
@@ -248,7 +253,7 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
     if let Some(fail_soft) = reader.value(&section, "fail_soft", fail_soft) {
         cpu.fail_soft = fail_soft;
     }
-    cpu.program = reader.value(&section, "program", values::path);
+    cpu.program = reader.value(&section, "program", values::paths);
     cpu
 }
 

@@ -90,7 +90,56 @@ fn a_file_with_every_key_reads_as_written() {
     assert_eq!((level.event_code.value.0, level.level.value), (0x3917_0000, EventLevel::Observation));
     assert_eq!(file.cpu.task_period.value, Duration::from_millis(1));
     assert_eq!((file.cpu.mode.value, file.cpu.fail_soft.value), (CpuMode::Run, FailSoftOperation::Stop));
-    assert_eq!(file.cpu.program.unwrap().value, PathBuf::from("echo.st"));
+    assert_eq!(file.cpu.program.unwrap().value, [PathBuf::from("echo.st")]);
+}
+
+#[test]
+fn task_periods_are_those_of_cpu_units() {
+    let is_taken = |period: &str| {
+        UnitFile::parse(&format!("model = \"nx-ect101\"\ncpu.task_period = \"{period}\"")).is_ok()
+    };
+    for period in
+        ["125us", "250us", "500us", "750us", "1ms", "1250us", "2ms", "4ms", "8ms", "31750us", "32ms"]
+    {
+        assert!(is_taken(period), "{period}");
+    }
+    for period in ["0ms", "1us", "124us", "126us", "249us", "375us", "1100us", "32250us", "100ms", "1s"] {
+        assert!(!is_taken(period), "{period}");
+    }
+}
+
+#[test]
+fn unit_numbers_are_those_of_the_nx_bus() {
+    let read = |number: u8| UnitFile::parse(&format!("model = \"nx-ect101\"\nunit_number = {number}"));
+    for number in 0..=u8::MAX {
+        assert_eq!(read(number).is_ok(), (1..=32).contains(&number), "{number}");
+    }
+}
+
+#[test]
+fn several_programs_are_a_list() {
+    let text = "model = \"nx-ect101\"\ncpu.program = [\"a.st\", \"blocks\"]";
+    let program = UnitFile::parse(text).unwrap().cpu.program.unwrap();
+    assert_eq!(program.value, [PathBuf::from("a.st"), PathBuf::from("blocks")]);
+}
+
+#[test]
+fn mistakes_without_number_are_told_up_to_twenty() {
+    let keys: String = (0..20_000).rev().map(|at| format!("key_{at:05} = 1\n")).collect();
+    let errors = UnitFile::parse(&format!("{keys}model = \"nx-ect101\"\n")).unwrap_err();
+    assert_eq!((errors.iter().count(), errors.more()), (20, 19_980));
+    let first = errors.iter().next().unwrap();
+    assert_eq!((first.line, first.message.as_str()), (1, "unknown key `key_19999`"));
+    assert_eq!(errors.to_string().lines().last(), Some("and 19980 more"));
+    // Text that is no TOML at all, with more than one mistake in each line.
+    let broken = UnitFile::parse(&"= ] [ \"\n".repeat(20_000)).unwrap_err();
+    assert!(broken.iter().count() <= 20 && broken.to_string().len() < 10_000, "{broken}");
+}
+
+#[test]
+fn a_key_without_end_is_cut() {
+    let errors = UnitFile::parse(&format!("model = \"nx-ect101\"\n{} = 1", "k".repeat(100_000))).unwrap_err();
+    assert!(errors.to_string().len() < 400, "{}", errors.to_string().len());
 }
 
 #[test]
@@ -198,7 +247,7 @@ const WRONG: &[(&str, &str)] = &[
         "model = \"nx-ect101\"\nunit_nr = 1\nunitnumber = 1\nzzz = 1\n[cpu]\nperiod = 1\ntaskperiod = 1",
     ),
     ("key in the wrong table", "model = \"nx-ect101\"\n[cpu]\nserial = 1"),
-    ("unit number", "model = \"nx-ect101\"\nunit_number = 64"),
+    ("unit number", "model = \"nx-ect101\"\nunit_number = 33"),
     ("unit number 0", "model = \"nx-ect101\"\nunit_number = 0"),
     ("unit number as text", "model = \"nx-ect101\"\nunit_number = \"1\""),
     ("serial too big", "model = \"nx-ect101\"\nserial = 4294967296"),
@@ -236,7 +285,11 @@ const WRONG: &[(&str, &str)] = &[
     ("refusals", "model = \"nx-ect101\"\nrefuse = { safeop = 1, op = 0, pre_op = 0x10000, acknowledge = 1 }"),
     ("storage", "model = \"nx-ect101\"\nstorage = \"\""),
     ("period", "model = \"nx-ect101\"\ncpu.task_period = \"1h\""),
-    ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"101ms\""),
+    ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"33ms\""),
+    ("period between two steps", "model = \"nx-ect101\"\ncpu.task_period = \"300us\""),
+    ("programs of two types", "model = \"nx-ect101\"\ncpu.program = [\"a.st\", 2]"),
+    ("no program in a list", "model = \"nx-ect101\"\ncpu.program = []"),
+    ("program as a number", "model = \"nx-ect101\"\ncpu.program = 3"),
     ("period as a number", "model = \"nx-ect101\"\ncpu.task_period = 1"),
     ("mode", "model = \"nx-ect101\"\n[cpu]\nmode = \"RUN\""),
     ("fail-soft as a word", "model = \"nx-ect101\"\n[cpu]\nfail_soft = \"stop\""),

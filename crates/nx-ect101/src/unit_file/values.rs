@@ -5,20 +5,25 @@ use std::path::PathBuf;
 
 use time::Duration;
 use toml::de::DeValue;
+use user_file::shown;
 use wire::{ObjectIndex, SubIndex};
 
 use super::entries::EntryAddress;
 use super::error::Problem;
 use super::reader::wrong_type;
 
-/// Task periods that a CPU Unit can have.
-const TASK_PERIODS: RangeInclusive<Duration> = Duration::from_micros(125)..=Duration::from_millis(100);
 /// Start-up times that a unit can have.
 const START_UP_TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
+/// The shortest task period of a CPU Unit.
+const TASK_PERIOD_MIN: Duration = Duration::from_micros(125);
+/// All other periods are multiples of this one.
+const TASK_PERIOD_STEP: Duration = Duration::from_micros(250);
+/// The longest one.
+const TASK_PERIOD_MAX: Duration = Duration::from_millis(32);
+/// Beyond every refresh period of a unit.
+const REFRESH_PHASE_MAX: Duration = Duration::from_millis(2);
 /// Longest name of a variable on the CPU Unit.
 const NAME_MAX_LENGTH: usize = 127;
-/// How much of a text a message repeats.
-const SHOWN_LENGTH: usize = 40;
 
 /// An integer from `range`; `expected` names the range.
 pub(super) fn integer<T: TryFrom<u64>>(
@@ -67,35 +72,54 @@ pub(super) fn identifier(place: &str, value: &DeValue<'_>) -> Result<String, Pro
     Err(Problem::new(format!("`{place}` is \"{}\"", shown(name)), expected))
 }
 
-/// The period of a task.
+/// The period of the primary periodic task: one that some CPU Unit has.
 pub(super) fn task_period(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    duration(place, value, &TASK_PERIODS, "a duration, \"125us\" to \"100ms\"")
+    let expected = "a task period of a CPU Unit: \"125us\", or \"250us\" to \"32ms\" in steps of 250us";
+    duration(place, value, is_task_period, expected)
 }
 
 /// The start-up time of a unit.
 pub(super) fn start_up(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    duration(place, value, &START_UP_TIMES, "a duration, \"0ms\" to \"60s\"")
+    duration(place, value, |time| START_UP_TIMES.contains(&time), "a duration, \"0ms\" to \"60s\"")
 }
 
 /// Where in its period the unit refreshes.
 pub(super) fn refresh_phase(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    duration(place, value, &(Duration::ZERO..=Duration::from_millis(2)), "a duration, \"0us\" to \"2ms\"")
+    duration(place, value, |phase| phase <= REFRESH_PHASE_MAX, "a duration, \"0us\" to \"2ms\"")
 }
 
 /// Where in its period the task begins.
 pub(super) fn task_phase(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    duration(place, value, &(Duration::ZERO..=*TASK_PERIODS.end()), "a duration, \"0us\" to \"100ms\"")
+    duration(place, value, |phase| phase <= TASK_PERIOD_MAX, "a duration, \"0us\" to \"32ms\"")
 }
 
 fn duration(
     place: &str,
     value: &DeValue<'_>,
-    allowed: &RangeInclusive<Duration>,
+    is_allowed: impl Fn(Duration) -> bool,
     expected: &'static str,
 ) -> Result<Duration, Problem> {
     let written = text(place, value, expected)?;
-    let duration = written.parse().ok().filter(|duration| allowed.contains(duration));
+    let duration = written.parse().ok().filter(|duration| is_allowed(*duration));
     duration.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", shown(written)), expected))
+}
+
+fn is_task_period(period: Duration) -> bool {
+    let is_step = period.as_nanos().is_multiple_of(TASK_PERIOD_STEP.as_nanos());
+    period == TASK_PERIOD_MIN || is_step && (TASK_PERIOD_STEP..=TASK_PERIOD_MAX).contains(&period)
+}
+
+/// The paths of files or folders that belong together: one, or a list.
+pub(super) fn paths(place: &str, value: &DeValue<'_>) -> Result<Vec<PathBuf>, Problem> {
+    match value.as_array() {
+        None if value.is_str() => path(place, value).map(|path| vec![path]),
+        Some(list) if !list.is_empty() => {
+            let each = list.iter().enumerate();
+            each.map(|(at, value)| path(&format!("{place}[{at}]"), value.get_ref())).collect()
+        }
+        Some(_) => Err(Problem::new(format!("`{place}` is an empty list"), "at least one path")),
+        None => Err(wrong_type(place, value, "the path of a file or of a folder, or a list of paths")),
+    }
 }
 
 /// The path of a file.
@@ -131,10 +155,4 @@ pub(super) fn entry_address(place: &str, value: &DeValue<'_>) -> Result<EntryAdd
 pub(super) fn hexadecimal(text: &str, digits: usize) -> Option<u32> {
     let exact = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());
     u32::from_str_radix(text, 16).ok().filter(|_| exact)
-}
-
-/// The head of a text, on one line.
-pub(super) fn shown(text: &str) -> String {
-    let head: String = text.chars().take(SHOWN_LENGTH).flat_map(char::escape_debug).collect();
-    if text.chars().count() > SHOWN_LENGTH { format!("{head}...") } else { head }
 }

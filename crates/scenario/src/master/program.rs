@@ -21,7 +21,7 @@ const TABLE_BYTES: usize = NODE_ADDRESS_MAX as usize;
 /// The user program of the master, read and checked.
 #[derive(Clone, Debug)]
 pub struct MasterProgram {
-    /// The file, as the scenario names it.
+    /// Its files, as the scenario names them.
     pub name: String,
     /// Period of the task; none: that of the process data, and in step with them.
     pub task_period: Option<Duration>,
@@ -41,12 +41,12 @@ impl MasterProgram {
     /// Reads and checks a program for these units.
     pub(crate) fn compile(
         name: &str,
-        text: &str,
+        sources: st::Sources,
         variables: &MasterVariables,
         nodes: Vec<Node>,
         task_period: Option<Duration>,
     ) -> Result<Self, Problems> {
-        let program = st::compile(text, &variables.globals)?;
+        let program = st::compile(sources, &variables.globals)?;
         let task_period = program.period_ns().map(Duration::from_nanos).or(task_period);
         let bindings = program.externals().iter().map(|external| Binding {
             source: variables.sources[external.global],

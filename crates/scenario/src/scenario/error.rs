@@ -20,9 +20,7 @@ pub struct ScenarioError {
 
 impl ScenarioError {
     pub(super) fn new(text: &str, span: Range<usize>, message: String, help: String) -> Self {
-        let before = text.get(..span.start).unwrap_or(text);
-        let line = before.matches('\n').count() + 1;
-        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        let (line, column) = user_file::line_and_column(text, span.start);
         Self { line, column, span, message, help }
     }
 }
@@ -34,26 +32,30 @@ impl fmt::Display for ScenarioError {
     }
 }
 
-/// Everything that is wrong, in the order of the file.
+/// What is wrong, in the order of the file; [`MISTAKES_MAX`](user_file::MISTAKES_MAX) things at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ScenarioErrors(pub(super) Vec<ScenarioError>);
+pub struct ScenarioErrors {
+    pub(super) list: Vec<ScenarioError>,
+    pub(super) more: usize,
+}
 
 impl ScenarioErrors {
     /// One after the other.
     pub fn iter(&self) -> impl Iterator<Item = &ScenarioError> {
-        self.0.iter()
+        self.list.iter()
+    }
+
+    /// How many there are beside those of the list.
+    #[must_use]
+    pub const fn more(&self) -> usize {
+        self.more
     }
 }
 
 impl fmt::Display for ScenarioErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (place, error) in self.0.iter().enumerate() {
-            if place > 0 {
-                writeln!(formatter)?;
-            }
-            error.fmt(formatter)?;
-        }
-        Ok(())
+        let errors = self.list.iter().map(ToString::to_string);
+        formatter.write_str(&errors.chain(user_file::and_more(self.more)).collect::<Vec<_>>().join("\n"))
     }
 }
 

@@ -14,8 +14,10 @@ use plc::DeviceVariables;
 use serde::Deserialize;
 use time::Duration;
 use toml::Spanned;
+use user_file::{Mistakes, Wanted, of_another_kind};
 
 use super::{RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram};
+use crate::files::{Files, Texts};
 use crate::master::MasterProgram;
 use crate::programs::LoadedProgram;
 use crate::recorded::RecordedFrames;
@@ -70,42 +72,55 @@ impl Scenario {
     /// by its path as it is seen from the scenario.
     ///
     /// # Errors
-    /// Everything that is wrong, in the order of the file: text that is no TOML (then nothing else is judged),
+    /// What is wrong, in the order of the file: text that is no TOML (then nothing else is judged),
     /// unknown keys, sentences that are none, units that do not exist, steps that contradict each other, and what is
     /// wrong with programs, with its place in their files.
     pub fn parse(
         text: &str,
-        mut files: impl FnMut(&str) -> Result<String, String>,
+        files: impl FnMut(&str) -> Result<String, String>,
     ) -> Result<Self, ScenarioErrors> {
+        Self::parse_with(text, &mut Texts(files))
+    }
+
+    /// Reads the text of a scenario file that may name folders of programs too.
+    ///
+    /// # Errors
+    /// As [`Scenario::parse`].
+    pub fn parse_with(text: &str, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
+        let alone = |span: Range<usize>, message: String, help: String| ScenarioErrors {
+            list: vec![ScenarioError::new(text, span, message, help)],
+            more: 0,
+        };
+        if let Some(refusal) = of_another_kind(text.as_bytes(), "", Wanted::Scenario) {
+            return Err(alone(0..0, refusal.message, refusal.help));
+        }
         let file: File = toml::from_str(text).map_err(|error| {
-            let span = error.span().unwrap_or_default();
-            ScenarioErrors(vec![ScenarioError::new(text, span, error.message().to_owned(), String::new())])
+            alone(error.span().unwrap_or_default(), error.message().to_owned(), String::new())
         })?;
         let mut reader = Reader {
             text,
-            files: &mut files,
+            files,
             units: Vec::new(),
             unit_spans: Vec::new(),
             variables: Vec::new(),
             master: None,
             is_ground_missing: false,
             programs: Vec::new(),
-            errors: Vec::new(),
+            errors: Mistakes::default(),
         };
         let scenario = reader.scenario(file);
-        let mut errors = reader.errors;
-        if errors.is_empty() {
+        if reader.errors.is_empty() {
             return Ok(scenario);
         }
-        errors.sort_by_key(|error| error.span.start);
-        Err(ScenarioErrors(errors))
+        let (list, more) = reader.errors.into_parts();
+        Err(ScenarioErrors { list, more })
     }
 }
 
 struct Reader<'a> {
     text: &'a str,
     /// Gives the texts of files.
-    files: &'a mut dyn FnMut(&str) -> Result<String, String>,
+    files: &'a mut dyn Files,
     units: Vec<UnitSource>,
     /// Where each of them is in the file.
     unit_spans: Vec<Range<usize>>,
@@ -117,12 +132,13 @@ struct Reader<'a> {
     is_ground_missing: bool,
     /// Programs that steps load.
     programs: Vec<LoadedProgram>,
-    errors: Vec<ScenarioError>,
+    errors: Mistakes<ScenarioError>,
 }
 
 impl Reader<'_> {
     fn refuse(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
-        self.errors.push(ScenarioError::new(self.text, span, message.into(), help.into()));
+        let text = self.text;
+        self.errors.note(span.start, || ScenarioError::new(text, span, message.into(), help.into()));
     }
 
     fn scenario(&mut self, file: File) -> Scenario {

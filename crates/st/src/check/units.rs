@@ -1,7 +1,7 @@
 //! The bodies of the program organization units.
 
 use super::expressions::Body;
-use super::{Checker, Pending};
+use super::{Checker, Pending, Purpose};
 use crate::code::Unit;
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{File, Pou, PouKind};
@@ -24,9 +24,19 @@ impl<'t> Checker<'t> {
         while let Some(pending) = self.pending.pop() {
             self.body(&pending);
         }
+    }
+
+    /// Refuses a file that is right and has nothing to run, or nothing at all.
+    pub(super) fn refuse_lack(&mut self, file: &File, purpose: Purpose) {
         let has_program = file.units.iter().any(|pou| pou.kind == PouKind::Program);
-        if !has_program && self.problems.is_empty() {
-            let problem = Problem::new(Span::default(), "there is no PROGRAM in it");
+        let is_empty = file.units.is_empty() && file.types.is_empty() && file.globals.is_empty();
+        let lacks = match purpose {
+            Purpose::Run if !has_program => "there is no PROGRAM in it",
+            Purpose::Judge if is_empty => "there is nothing in it",
+            _ => return,
+        };
+        if self.problems.is_empty() {
+            let problem = Problem::new(Span::default(), lacks);
             self.refuse::<()>(problem.help("write PROGRAM name … END_PROGRAM, or statements alone"));
         }
     }

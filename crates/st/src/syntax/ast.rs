@@ -45,6 +45,16 @@ pub(crate) struct ProgramInstance {
     pub(crate) program: Name,
 }
 
+impl File {
+    /// Takes over what another file of the same program has.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.types.extend(other.types);
+        self.units.extend(other.units);
+        self.globals.extend(other.globals);
+        self.configurations.extend(other.configurations);
+    }
+}
+
 /// A program organization unit. A file that begins with statements or VAR sections outside of all of them is a
 /// PROGRAM without a name: so the manual prints its examples.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,6 +65,13 @@ pub(crate) struct Pou {
     pub(crate) result: Option<TypeName>,
     pub(crate) sections: Vec<VarSection>,
     pub(crate) body: Vec<Statement>,
+}
+
+impl Pou {
+    /// Whether it is made of what stands in a file outside of all others.
+    pub(crate) fn is_unnamed_program(&self) -> bool {
+        self.kind == PouKind::Program && self.name.text.is_empty()
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,10 +4,9 @@ mod skipped;
 
 use logos::Logos as _;
 
-use super::PROBLEMS_MAX;
 use super::keyword::Keyword;
 use super::token::{Lexeme, Token};
-use crate::problem::{Problem, Span};
+use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 
 type Cursor<'source> = logos::Lexer<'source, Token>;
 
@@ -20,14 +19,15 @@ pub(crate) struct Lexed {
     pub(crate) problems: Vec<Problem>,
 }
 
-/// Cuts `source` into tokens. Behind the last problem that is told, the rest is left aside.
-pub(crate) fn lex(source: &str) -> Lexed {
+/// Cuts `source` into tokens from byte `start` on. Behind the last problem that is told, the rest is left aside.
+pub(crate) fn lex(source: &str, start: usize) -> Lexed {
     let mut lexed = Lexed { lexemes: Vec::new(), pragmas: Vec::new(), problems: Vec::new() };
     let mut cursor = Token::lexer(source);
+    cursor.bump(start);
     while let Some(found) = cursor.next() {
         let token = found.unwrap_or(Token::Unknown);
         lexed.take(token, &mut cursor);
-        if lexed.problems.len() >= PROBLEMS_MAX {
+        if lexed.problems.len() >= PROBLEMS_SOUGHT {
             break;
         }
     }

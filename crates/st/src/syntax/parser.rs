@@ -12,12 +12,11 @@ mod spelling;
 mod statements;
 mod types;
 
-use super::PROBLEMS_MAX;
 use super::ast::Name;
 use super::keyword::Keyword;
 use super::lexer::{self, Lexed};
 use super::token::{Lexeme, Token};
-use crate::problem::{Problem, Span};
+use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 use blocks::Block;
 
 /// How deep expressions, statements, types and initial values may be nested in one another, all together.
@@ -35,6 +34,8 @@ type Parsed<T> = Result<T, Failed>;
 /// Reads one source.
 pub(super) struct Parser<'source> {
     source: &'source str,
+    /// Where in the source its file begins.
+    start: usize,
     lexemes: Vec<Lexeme>,
     /// Where pragmas stood.
     pragmas: Vec<Span>,
@@ -52,10 +53,11 @@ pub(super) struct Parser<'source> {
 }
 
 impl<'source> Parser<'source> {
-    pub(super) fn new(source: &'source str) -> Self {
-        let Lexed { lexemes, pragmas, problems } = lexer::lex(source);
+    pub(super) fn new(source: &'source str, start: usize) -> Self {
+        let Lexed { lexemes, pragmas, problems } = lexer::lex(source, start);
         Self {
             source,
+            start,
             lexemes,
             pragmas,
             place: 0,
@@ -143,10 +145,10 @@ impl<'source> Parser<'source> {
             return;
         }
         let is_known = self.problems.iter().any(|known| known.span.start == problem.span.start);
-        if !is_known && self.problems.len() < PROBLEMS_MAX {
+        if !is_known && self.problems.len() < PROBLEMS_SOUGHT {
             self.problems.push(problem);
         }
-        if self.problems.len() >= PROBLEMS_MAX {
+        if self.problems.len() >= PROBLEMS_SOUGHT {
             self.stop();
         }
     }
@@ -279,8 +281,9 @@ impl<'source> Parser<'source> {
         Some(help.to_owned())
     }
 
-    /// The line of a place, counted from 1.
+    /// The line of a place in its file, counted from 1.
     fn line(&self, span: Span) -> usize {
-        span.line_and_column(self.source).0
+        let before = self.source.get(self.start..span.start as usize).unwrap_or_default();
+        before.matches('\n').count() + 1
     }
 }

@@ -53,7 +53,7 @@ fn replay_scan(instance: &mut Instance, scan: &Scan, budget: u64) -> Result<(), 
 }
 
 fn described(instance: &Instance, stopped: Stopped) -> String {
-    let (line, column) = stopped.span.line_and_column(instance.program().source());
+    let st::Place { line, column, .. } = instance.program().sources().place(stopped.span);
     format!("{} at {line}:{column}", stopped.fault)
 }
 

@@ -1,9 +1,8 @@
 //! What is to be replayed: scenario files, read and checked, times seeds.
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
+use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Recording, Scenario};
 
 use super::partition::Partition;
@@ -11,9 +10,9 @@ use super::result::CASES_MAX;
 use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
+use crate::file_problem::{FileProblem, FileProblems};
 use crate::output;
 use crate::overwrite::{self, Output};
-use crate::unit_files::FileProblem;
 
 /// Scenarios × seeds.
 pub(super) struct Campaign {
@@ -74,11 +73,11 @@ impl Campaign {
         let seeds = Seeds::wanted(args);
         let mut fingerprint = Fingerprint::new();
         fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
-        let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), FileProblems::default());
         for path in files(&args.files)? {
             match load(&path, &mut fingerprint, &mut inputs) {
                 Ok(scenario) => scenarios.push(Loaded { path, scenario }),
-                Err(found) => problems.extend(found),
+                Err(found) => problems.append(found),
             }
         }
         if !problems.is_empty() {
@@ -186,21 +185,8 @@ fn files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 }
 
 fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let mut found = Vec::new();
-    let mut folders = vec![folder.to_owned()];
-    while let Some(folder) = folders.pop() {
-        let unreadable = |source| Failure::Unreadable { path: folder.clone(), source };
-        for entry in fs::read_dir(&folder).map_err(unreadable)? {
-            let path = entry.map_err(unreadable)?.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "toml") {
-                found.push(path);
-            }
-        }
-    }
-    found.sort();
-    Ok(found)
+    let unreadable = |source| Failure::FolderUnreadable { path: folder.to_owned(), source };
+    user_files::below(folder, "toml").map_err(unreadable)
 }
 
 /// Reads one scenario, and the files that it names, seen from its folder.
@@ -213,23 +199,22 @@ fn load(
     path: &Path,
     fingerprint: &mut Fingerprint,
     inputs: &mut Vec<PathBuf>,
-) -> Result<Scenario, Vec<FileProblem>> {
+) -> Result<Scenario, FileProblems> {
     inputs.push(path.to_owned());
-    let text = fs::read_to_string(path).map_err(|error| vec![unreadable(path, &error)])?;
+    let text = user_files::text(path, Wanted::Scenario).map_err(|error| unreadable(path, &error))?;
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
     let folder = path.parent().unwrap_or(Path::new(""));
-    let parsed = Scenario::parse(&text, |unit_file| {
-        inputs.push(folder.join(unit_file));
-        let text = fs::read_to_string(folder.join(unit_file)).map_err(|error| error.to_string())?;
+    let mut named = Beside::new(folder, |name, text| {
+        inputs.push(folder.join(name));
         fingerprint.add(text.as_bytes());
-        Ok(text)
     });
-    let mut scenario = parsed.map_err(|errors| -> Vec<_> {
+    let parsed = Scenario::parse_with(&text, &mut named);
+    let mut scenario = parsed.map_err(|errors| {
         let problem = |error: &scenario::ScenarioError| {
             FileProblem::in_text(path, &text, error.span.clone(), &error.message, &error.help)
         };
-        errors.iter().map(problem).collect()
+        FileProblems::new(errors.iter().map(problem), errors.more())
     })?;
     if let Some(name) = scenario.capture.clone() {
         inputs.push(folder.join(&name));
@@ -237,12 +222,12 @@ fn load(
             let at = text.find(&name).unwrap_or_default();
             let help =
                 "a capture by `ectwin run --pcap` or `ectwin replay --pcap`, seen from this file's folder";
-            vec![FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)]
+            FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)
         })?;
     }
     // Beside the file, if at all.
     let golden = path.with_extension("trace");
-    if let Ok(trace) = fs::read_to_string(&golden) {
+    if let Ok(trace) = user_files::text(&golden, Wanted::Results) {
         inputs.push(golden);
         fingerprint.add(trace.as_bytes());
         scenario.golden_trace = Some(trace);
@@ -251,18 +236,14 @@ fn load(
 }
 
 fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerprint) -> Result<(), String> {
-    let bytes = fs::read(path).map_err(|error| format!("the capture cannot be read: {error}"))?;
+    let bytes = user_files::bytes(path, Wanted::Capture)
+        .map_err(|error| format!("the capture cannot be read: {error}"))?;
     fingerprint.add(&bytes);
     scenario.load_capture(&bytes).map_err(|error| format!("the capture cannot be read: {error}"))
 }
 
-fn unreadable(path: &Path, error: &io::Error) -> FileProblem {
-    let help = match error.kind() {
-        io::ErrorKind::NotFound => "give the path of a scenario file, or of a folder of them",
-        io::ErrorKind::InvalidData => "a scenario file is text in UTF-8",
-        _ => "check the path and its permissions",
-    };
-    FileProblem::of_file(format!("cannot read {}: {error}", path.display()), help)
+fn unreadable(path: &Path, error: &Unreadable) -> FileProblem {
+    FileProblem::of_file(&format!("cannot read {}: {error}", path.display()), &error.help())
 }
 
 /// Tells campaigns apart, so that results of two are not taken for one (FNV-1a, 64 bits).

@@ -41,7 +41,12 @@ fn at_ms(ms: u64) -> Instant {
 }
 
 fn stop() -> ProgramEvent {
-    ProgramEvent::Stopped(ProgramTrouble { what: "array index 15 of 15".into(), line: 3, column: 7 })
+    ProgramEvent::Stopped(ProgramTrouble {
+        what: "array index 15 of 15".into(),
+        line: 3,
+        column: 7,
+        file: None,
+    })
 }
 
 fn events(cpu: &mut CpuUnit) -> Vec<CpuEvent> {

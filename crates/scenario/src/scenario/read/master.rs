@@ -7,6 +7,7 @@ use serde::Deserialize;
 use time::Duration;
 use toml::Spanned;
 
+use super::units::Paths;
 use super::{Reader, StepEntry};
 use crate::master::{MasterProgram, MasterVariables, Node, changed_settings};
 use crate::orders::MasterOrder;
@@ -22,7 +23,7 @@ const NAME_MAX: usize = 127;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MasterEntry {
-    program: Spanned<String>,
+    program: Spanned<Paths>,
     device_names: Option<Spanned<Vec<String>>>,
     task_period: Option<Spanned<String>>,
 }
@@ -40,11 +41,12 @@ impl Reader<'_> {
             None => None,
         };
         let variables = variables(&nodes, steps);
-        let text = self.program_text(program.get_ref(), program.span())?;
-        match MasterProgram::compile(program.get_ref(), &text, &variables, nodes, task_period) {
+        let (span, paths) = (program.span(), program.into_inner().list());
+        let sources = self.program_sources(&paths, span.clone())?;
+        match MasterProgram::compile(&paths.join(", "), sources, &variables, nodes, task_period) {
             Ok(compiled) => Some(compiled),
             Err(problems) => {
-                self.refuse_program(program.get_ref(), program.span(), &problems);
+                self.refuse_program(span, &problems);
                 None
             }
         }

@@ -26,7 +26,7 @@ impl Reader<'_> {
 
     fn load(&mut self, unit: usize, name: &str, span: Range<usize>) -> Option<()> {
         let unit_file = self.units.get(unit)?.file.clone();
-        let file = self.program_file(name, span, &unit_file)?;
+        let file = self.program_file(&[name.to_owned()], span, &unit_file)?;
         self.programs.push(LoadedProgram { unit, file });
         Some(())
     }

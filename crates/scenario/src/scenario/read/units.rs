@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use nx_ect101::unit_file::UnitFile;
 use plc::{Builtin, DeviceVariables, StructuredText};
 use serde::Deserialize;
+use st::Sources;
 use toml::Spanned;
+use user_file::Wanted;
 
 use super::{Reader, UnitSource, UserProgram};
 use crate::programs::ProgramFile;
@@ -27,7 +29,24 @@ pub(super) enum UnitEntry {
 #[serde(deny_unknown_fields)]
 pub(super) struct FileEntry {
     file: String,
-    program: Option<String>,
+    program: Option<Paths>,
+}
+
+/// One path, or several that belong together.
+#[derive(Deserialize)]
+#[serde(untagged)]
+pub(super) enum Paths {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl Paths {
+    pub(super) fn list(self) -> Vec<String> {
+        match self {
+            Self::One(path) => vec![path],
+            Self::Several(paths) => paths,
+        }
+    }
 }
 
 /// Where a unit comes from.
@@ -35,7 +54,7 @@ struct Origin<'a> {
     /// The path of its file; none if it stands in the scenario.
     path: Option<&'a str>,
     /// What it runs instead of the program of its file, seen from the scenario.
-    program: Option<&'a str>,
+    program: Option<Vec<String>>,
 }
 
 impl Reader<'_> {
@@ -43,7 +62,9 @@ impl Reader<'_> {
         let span = entry.span();
         match entry.into_inner() {
             UnitEntry::Path(path) => self.unit_file(span, &path, None),
-            UnitEntry::File(FileEntry { file, program }) => self.unit_file(span, &file, program.as_deref()),
+            UnitEntry::File(FileEntry { file, program }) => {
+                self.unit_file(span, &file, program.map(Paths::list))
+            }
             UnitEntry::Table(table) => {
                 let text = toml::to_string(&table).unwrap_or_default();
                 self.unit_text(&text, span, Origin { path: None, program: None })
@@ -56,8 +77,13 @@ impl Reader<'_> {
         self.unit_text(text, 0..0, Origin { path: None, program: None })
     }
 
-    fn unit_file(&mut self, span: Range<usize>, path: &str, program: Option<&str>) -> Option<UnitSource> {
-        match (self.files)(path) {
+    fn unit_file(
+        &mut self,
+        span: Range<usize>,
+        path: &str,
+        program: Option<Vec<String>>,
+    ) -> Option<UnitSource> {
+        match self.files.text(path, Wanted::UnitFile) {
             Ok(text) => self.unit_text(&text, span, Origin { path: Some(path), program }),
             Err(reason) => {
                 self.refuse(span, format!("the unit file {path} cannot be read: {reason}"), "");
@@ -78,64 +104,99 @@ impl Reader<'_> {
                     };
                     self.refuse(span.clone(), message, "");
                 }
+                if let Some(more) = user_file::and_more(errors.more()) {
+                    self.refuse(span, more, "");
+                }
                 return None;
             }
         };
         let program = match (origin.program, &file.cpu.program) {
-            (Some(own), _) => self.user_program(PathBuf::from(own), span, &file)?,
+            (Some(own), _) => self.user_program(own, span, &file)?,
             (None, Some(named)) => {
-                self.user_program(seen_from_scenario(origin.path, &named.value), span, &file)?
+                let seen = |path: &PathBuf| seen_from_scenario(origin.path, path).display().to_string();
+                self.user_program(named.value.iter().map(seen).collect(), span, &file)?
             }
             (None, None) => UserProgram::None,
         };
         Some(UnitSource { file, program })
     }
 
-    fn user_program(&mut self, path: PathBuf, span: Range<usize>, file: &UnitFile) -> Option<UserProgram> {
-        let name = path.display().to_string();
-        if let Some(builtin) = Builtin::named(&name) {
+    fn user_program(
+        &mut self,
+        paths: Vec<String>,
+        span: Range<usize>,
+        file: &UnitFile,
+    ) -> Option<UserProgram> {
+        if let [only] = paths.as_slice()
+            && let Some(builtin) = Builtin::named(only)
+        {
             return Some(UserProgram::Builtin(builtin));
         }
-        let program = self.program_file(&name, span, file)?;
+        let program = self.program_file(&paths, span, file)?;
         Some(UserProgram::StructuredText(Box::new(program)))
     }
 
     /// A program in Structured Text for the CPU Unit of a unit.
     pub(super) fn program_file(
         &mut self,
-        name: &str,
+        paths: &[String],
         span: Range<usize>,
         file: &UnitFile,
     ) -> Option<ProgramFile> {
-        let text = self.program_text(name, span.clone())?;
-        match StructuredText::compile(&text, &DeviceVariables::of_unit_file(file)) {
+        let sources = self.program_sources(paths, span.clone())?;
+        match StructuredText::compile(sources, &DeviceVariables::of_unit_file(file)) {
             Ok(program) => {
                 let program = program.with_budget(file.cpu.statement_budget.value);
-                Some(ProgramFile { name: name.to_owned(), program })
+                Some(ProgramFile { name: paths.join(", "), program })
             }
             Err(problems) => {
-                self.refuse_program(name, span, &problems);
+                self.refuse_program(span, &problems);
                 None
             }
         }
     }
 
-    pub(super) fn program_text(&mut self, name: &str, span: Range<usize>) -> Option<String> {
-        let read = (self.files)(name);
-        if let Err(reason) = &read {
-            let builtins = Builtin::ALL.map(Builtin::name).join(", ");
-            let message = format!("the program {name} cannot be read: {reason}");
-            self.refuse(span, message, format!("without a file there are {builtins}, or none at all"));
+    /// The texts of a program: of each file, and of each program in a folder.
+    pub(super) fn program_sources(&mut self, paths: &[String], span: Range<usize>) -> Option<Sources> {
+        let mut texts = Vec::new();
+        for path in paths {
+            let files = match self.files.programs_in(path) {
+                None => Ok(vec![path.clone()]),
+                Some(listed) => listed.map_err(|reason| (path.clone(), reason)),
+            };
+            let read = files.and_then(|files| {
+                let text = |file: String| match self.files.text(&file, Wanted::Program) {
+                    Ok(text) => Ok((file, text)),
+                    Err(reason) => Err((file, reason)),
+                };
+                files.into_iter().map(text).collect::<Result<Vec<_>, _>>()
+            });
+            match read {
+                Ok(read) => texts.extend(read),
+                Err((name, reason)) => {
+                    self.refuse_unreadable(&name, &reason, span);
+                    return None;
+                }
+            }
         }
-        read.ok()
+        Some(Sources::files(texts))
     }
 
-    /// Tells all that is wrong with a program, each thing with its place in the program's file.
-    pub(super) fn refuse_program(&mut self, name: &str, span: Range<usize>, problems: &st::Problems) {
+    fn refuse_unreadable(&mut self, name: &str, reason: &str, span: Range<usize>) {
+        let builtins = Builtin::ALL.map(Builtin::name).join(", ");
+        let message = format!("the program {name} cannot be read: {reason}");
+        self.refuse(span, message, format!("without a file there are {builtins}, or none at all"));
+    }
+
+    /// Tells what is wrong with a program, each thing with its place in the program's file.
+    pub(super) fn refuse_program(&mut self, span: Range<usize>, problems: &st::Problems) {
         for problem in problems.list() {
-            let (line, column) = problem.span.line_and_column(problems.source());
-            let message = format!("{name}:{line}:{column}: {}", problem.message);
+            let st::Place { file, line, column, .. } = problems.place(problem);
+            let message = format!("{}:{line}:{column}: {}", file.unwrap_or_default(), problem.message);
             self.refuse(span.clone(), message, problem.help.clone().unwrap_or_default());
+        }
+        if problems.are_cut() {
+            self.refuse(span, st::stopped_words(), "");
         }
     }
 }

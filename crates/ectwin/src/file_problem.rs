@@ -1,0 +1,162 @@
+//! What is wrong with files that users wrote, with pictures of the places.
+
+mod excerpt;
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+use ectwin::st;
+use ectwin::unit_file::UnitFileError;
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use user_file::{MISTAKES_MAX, and_more, escaped};
+
+use crate::output::colour_on_stderr;
+use excerpt::Excerpt;
+
+/// What is wrong with the files of a command: the first things in full, and how many more there are.
+#[derive(Debug, Default)]
+pub(crate) struct FileProblems {
+    list: Vec<FileProblem>,
+    more: usize,
+    /// A reader has stopped, so that no one knows how many more there are.
+    have_stopped: bool,
+}
+
+impl FileProblems {
+    /// These, of which the reader of a file has left out `more`.
+    pub(crate) fn new(list: impl IntoIterator<Item = FileProblem>, more: usize) -> Self {
+        let mut problems = Self { more, ..Self::default() };
+        list.into_iter().for_each(|problem| problems.push(problem));
+        problems
+    }
+
+    /// What is wrong with a program in Structured Text.
+    pub(crate) fn of_program(problems: &st::Problems) -> Self {
+        let problem = |problem: &st::Problem| {
+            let st::Place { file, text, range, .. } = problems.place(problem);
+            let (file, help) = (Path::new(file.unwrap_or_default()), problem.help.as_deref());
+            FileProblem::in_text(file, text, range, &problem.message, help.unwrap_or_default())
+        };
+        let list = problems.list().iter().map(problem);
+        Self { have_stopped: problems.are_cut(), ..Self::new(list, 0) }
+    }
+
+    pub(crate) fn push(&mut self, problem: FileProblem) {
+        self.push_by(|| problem);
+    }
+
+    /// Adds a problem, which is put into words only if it is among the first.
+    pub(crate) fn push_by(&mut self, problem: impl FnOnce() -> FileProblem) {
+        if self.list.len() < MISTAKES_MAX {
+            self.list.push(problem());
+        } else {
+            self.more += 1;
+        }
+    }
+
+    /// Adds those of another file.
+    pub(crate) fn append(&mut self, other: Self) {
+        other.list.into_iter().for_each(|problem| self.push(problem));
+        self.more += other.more;
+        self.have_stopped |= other.have_stopped;
+    }
+
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// All of them for people, each with its place.
+    pub(crate) fn pictures(&self) -> String {
+        let mut text: String = self.list.iter().map(|problem| picture(problem)).collect();
+        let more = if self.have_stopped { Some(st::stopped_words()) } else { and_more(self.more) };
+        if let Some(more) = more {
+            text.push_str(&format!("{more}\n"));
+        }
+        text
+    }
+}
+
+impl From<FileProblem> for FileProblems {
+    fn from(problem: FileProblem) -> Self {
+        Self::new([problem], 0)
+    }
+}
+
+/// One place in a file where something is wrong.
+#[derive(Debug)]
+pub(crate) struct FileProblem {
+    message: String,
+    label: String,
+    help: Option<String>,
+    /// The place with the lines around it; none: the file as a whole.
+    excerpt: Option<Excerpt>,
+}
+
+impl FileProblem {
+    /// At a place in the text of a file; an empty help is none.
+    pub(crate) fn in_text(path: &Path, text: &str, span: Range<usize>, message: &str, help: &str) -> Self {
+        Self::at(path, text, span, message, "here").with_help(help)
+    }
+
+    /// Of a file as a whole.
+    pub(crate) fn of_file(message: &str, help: &str) -> Self {
+        let message = escaped(message);
+        Self { message, label: String::new(), help: None, excerpt: None }.with_help(help)
+    }
+
+    /// At a place that this label explains.
+    pub(crate) fn at(path: &Path, text: &str, span: Range<usize>, message: &str, label: &str) -> Self {
+        let excerpt = Some(Excerpt::of(&path.display().to_string(), text, span));
+        Self { message: escaped(message), label: escaped(label), help: None, excerpt }
+    }
+
+    /// Of a unit file.
+    pub(crate) fn of_unit_file(path: &Path, text: &str, error: &UnitFileError) -> Self {
+        let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
+        let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));
+        let label = nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned());
+        let help = nearest.and(expected).unwrap_or_default();
+        Self::at(path, text, error.span.clone(), &error.message, &label).with_help(&help)
+    }
+
+    fn with_help(mut self, help: &str) -> Self {
+        self.help = (!help.is_empty()).then(|| escaped(help));
+        self
+    }
+}
+
+/// The place in the file with what is wrong there, in plain letters unless someone looks at it in colour.
+fn picture(diagnostic: &dyn Diagnostic) -> String {
+    let theme = if colour_on_stderr() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
+    let mut text = String::new();
+    let drawn =
+        GraphicalReportHandler::new_themed(theme).with_links(false).render_report(&mut text, diagnostic);
+    if drawn.is_err() {
+        text = format!("{diagnostic}\n");
+    }
+    text
+}
+
+impl fmt::Display for FileProblem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for FileProblem {}
+
+impl Diagnostic for FileProblem {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.excerpt.as_ref().map(|excerpt| excerpt as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let span = self.excerpt.as_ref()?.marked();
+        Some(Box::new(std::iter::once(LabeledSpan::new_with_span(Some(self.label.clone()), span))))
+    }
+}

@@ -1,0 +1,42 @@
+//! Files that a scenario names, on the disk.
+
+use std::path::{Path, PathBuf};
+
+use scenario::Files;
+
+use super::{Wanted, program_files, text};
+
+/// Reads the files that a scenario in this folder names, and shows each of them to someone.
+pub struct Beside<'f, S: FnMut(&str, &str)> {
+    folder: &'f Path,
+    shown: S,
+}
+
+impl<'f, S: FnMut(&str, &str)> Beside<'f, S> {
+    /// The files are seen from `folder`; `shown` gets the path and the text of each.
+    pub const fn new(folder: &'f Path, shown: S) -> Self {
+        Self { folder, shown }
+    }
+
+    /// The path of a file as the scenario would name it.
+    fn seen(&self, path: PathBuf) -> String {
+        path.strip_prefix(self.folder).map_or(path.clone(), Path::to_owned).display().to_string()
+    }
+}
+
+impl<S: FnMut(&str, &str)> Files for Beside<'_, S> {
+    fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String> {
+        let text = text(&self.folder.join(path), wanted).map_err(|reason| reason.to_string())?;
+        (self.shown)(path, &text);
+        Ok(text)
+    }
+
+    fn programs_in(&mut self, path: &str) -> Option<Result<Vec<String>, String>> {
+        let folder = self.folder.join(path);
+        if !folder.is_dir() {
+            return None;
+        }
+        let files = program_files(&[folder]).map_err(|(_, reason)| reason.to_string());
+        Some(files.map(|files| files.into_iter().map(|file| self.seen(file)).collect()))
+    }
+}

@@ -1,0 +1,40 @@
+//! The files below a folder.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// How many files and folders are looked at: a folder such as `/` was hardly meant.
+const ENTRIES_MAX: usize = 100_000;
+
+/// All files below a folder whose names end so, in the order of their paths. A folder that lies in itself by a symbolic
+/// link is visited once.
+///
+/// # Errors
+/// A folder that cannot be read, or too many files.
+pub fn below(folder: &Path, ending: &str) -> io::Result<Vec<PathBuf>> {
+    let (mut found, mut visited, mut entries) = (Vec::new(), BTreeSet::new(), 0);
+    let mut folders = vec![folder.to_owned()];
+    while let Some(folder) = folders.pop() {
+        if !visited.insert(folder.canonicalize()?) {
+            continue;
+        }
+        for entry in fs::read_dir(&folder)? {
+            let path = entry?.path();
+            entries += 1;
+            if entries > ENTRIES_MAX {
+                return Err(io::Error::other(format!(
+                    "more than {ENTRIES_MAX} files and folders are below it"
+                )));
+            }
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|own| own.eq_ignore_ascii_case(ending)) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    Ok(found)
+}

@@ -1,0 +1,284 @@
+//! What a file is that is not what was asked for: a table of the kinds that users have at hand.
+
+use crc::{Algorithm, Crc};
+
+use crate::sample::Sample;
+
+/// What a command asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// A unit file.
+    UnitFile,
+    /// A scenario file.
+    Scenario,
+    /// A user program in Structured Text.
+    Program,
+    /// A capture of frames.
+    Capture,
+    /// Results of a campaign.
+    Results,
+}
+
+impl Wanted {
+    /// Where to find such a file.
+    pub(crate) const fn help(self) -> &'static str {
+        match self {
+            Self::UnitFile => "a unit file is TOML; units/nx-ect101.toml is one to begin with",
+            Self::Scenario => "a scenario is TOML; docs/user/write-a-scenario.md has one to begin with",
+            Self::Program => "a program is Structured Text in UTF-8, such as scenarios/programs/a-3-3.st",
+            Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
+            Self::Results => "give what the parts of a campaign wrote by `ectwin replay --json`",
+        }
+    }
+}
+
+/// Why a file is not used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// What the file is.
+    pub message: String,
+    /// What helps.
+    pub help: String,
+}
+
+impl Refusal {
+    pub(crate) fn new(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
+    }
+}
+
+/// What the file of this name is, if it is of a known kind and not of the one that is wanted. A file of an unknown kind
+/// is left to its reader.
+#[must_use]
+pub fn of_another_kind(bytes: &[u8], name: &str, wanted: Wanted) -> Option<Refusal> {
+    let sample = Sample::of(bytes, name);
+    let kind = KINDS.iter().find(|kind| (kind.is)(&sample))?;
+    if kind.wanted_as == Some(wanted) {
+        return None;
+    }
+    let help = [kind.help, wanted.help()].into_iter().filter(|help| !help.is_empty());
+    Some(Refusal::new(format!("this is {}", kind.name), help.collect::<Vec<_>>().join("; ")))
+}
+
+/// A kind of file.
+struct Kind {
+    /// With its article.
+    name: &'static str,
+    is: fn(&Sample<'_>) -> bool,
+    wanted_as: Option<Wanted>,
+    /// Who reads it or writes it; empty if the name says enough.
+    help: &'static str,
+}
+
+/// The first row that fits counts.
+const KINDS: &[Kind] = &[
+    Kind {
+        name: "an ESI file, the description of slaves for the configuration tool of a master",
+        is: |file| file.is_xml_of("EtherCATInfo"),
+        wanted_as: None,
+        help: "`ectwin esi FILE.toml` writes the ESI file of a unit, and no command reads one",
+    },
+    Kind {
+        name: "an ENI file, the configuration of a network for a master",
+        is: |file| file.is_xml_of("EtherCATConfig"),
+        wanted_as: None,
+        help: "masters read it, and no command does",
+    },
+    Kind {
+        name: "a file of TwinCAT (XML), not Structured Text alone",
+        is: |file| file.is_xml_of("TcPlcObject") || file.is_xml_of("TcSmProject"),
+        wanted_as: None,
+        help: "copy declaration and implementation into a file FILE.st: the VAR sections, then the statements",
+    },
+    Kind {
+        name: "a PLCopen XML file, not Structured Text",
+        is: |file| file.is_xml_of("project") && file.root().is_some_and(|root| root.contains("plcopen.org")),
+        wanted_as: None,
+        help: "export the program as text (ST), or copy its text into a file FILE.st",
+    },
+    Kind { name: "an XML file", is: |file| file.root().is_some(), wanted_as: None, help: "" },
+    Kind {
+        name: "a project of Sysmac Studio (.smc2)",
+        is: |file| file.ending == "smc2",
+        wanted_as: None,
+        help: "copy the text of its programs into files FILE.st",
+    },
+    Kind {
+        name: "an archive or a compressed file",
+        is: |file| {
+            [&b"PK\x03\x04"[..], b"\x1F\x8B", b"7z\xBC\xAF"].iter().any(|mark| file.bytes.starts_with(mark))
+        },
+        wanted_as: None,
+        help: "unpack it first",
+    },
+    Kind {
+        name: "a capture of frames",
+        is: |file| CAPTURES.iter().any(|mark| file.bytes.starts_with(mark)),
+        wanted_as: Some(Wanted::Capture),
+        help: "`ectwin import CAPTURE -o SCENARIO` makes a scenario of one",
+    },
+    Kind {
+        name: "the non-volatile memory of a unit",
+        is: |file| file.bytes.starts_with(b"ectwnvm\0"),
+        wanted_as: None,
+        help: "the key `storage` of a unit file names it",
+    },
+    Kind {
+        name: "a user program in WebAssembly",
+        is: |file| file.bytes.starts_with(b"\0asm"),
+        wanted_as: None,
+        help: "`ectwin run --program FILE.wasm` and the key `program` of a unit file take it",
+    },
+    Kind {
+        name: "an SII image (EEPROM)",
+        is: |file| is_sii(file.bytes),
+        wanted_as: None,
+        help: "`ectwin sii FILE.toml` writes the SII image of a unit, and no command reads one",
+    },
+    Kind {
+        name: "a file of results or another JSON file",
+        is: |file| file.start().starts_with("{\""),
+        wanted_as: Some(Wanted::Results),
+        help: "`ectwin merge` reads the results of `ectwin replay --json`",
+    },
+    Kind {
+        name: "a scenario",
+        is: |file| file.has_list("steps"),
+        wanted_as: Some(Wanted::Scenario),
+        help: "`ectwin replay FILE` and `ectwin search FILE` read it",
+    },
+    Kind {
+        name: "a unit file",
+        is: |file| file.has_top_key("model"),
+        wanted_as: Some(Wanted::UnitFile),
+        help: "`ectwin check FILE` and `ectwin run FILE` read it",
+    },
+    Kind {
+        name: "a program in Structured Text",
+        is: is_structured_text,
+        wanted_as: Some(Wanted::Program),
+        help: "`ectwin st check FILE` reads it",
+    },
+];
+
+/// pcapng; pcap in both byte orders, with microseconds and with nanoseconds.
+const CAPTURES: &[&[u8]] = &[
+    b"\x0A\x0D\x0D\x0A",
+    b"\xD4\xC3\xB2\xA1",
+    b"\xA1\xB2\xC3\xD4",
+    b"\x4D\x3C\xB2\xA1",
+    b"\xA1\xB2\x3C\x4D",
+];
+
+/// The checksum over the first seven words of an SII image, in the low byte of the eighth. ETG.1000.6, SII.
+const SII_CHECKSUM: Crc<u8> = Crc::<u8>::new(&Algorithm {
+    width: 8,
+    poly: 0x07,
+    init: 0xFF,
+    refin: false,
+    refout: false,
+    xorout: 0,
+    check: 0xFB,
+    residue: 0,
+});
+
+/// How many bytes an SII image has in front of its categories.
+const SII_HEADER_BYTES: usize = 128;
+
+fn is_sii(bytes: &[u8]) -> bool {
+    let checked = bytes.get(..14).map(|words| SII_CHECKSUM.checksum(words));
+    // A few zeros have a checksum too, but not one of zero.
+    bytes.len() >= SII_HEADER_BYTES
+        && bytes.len().is_multiple_of(2)
+        && checked == Some(bytes[14])
+        && bytes[15] == 0
+}
+
+/// The first word of a program with declarations; statements alone could be anything.
+fn is_structured_text(file: &Sample<'_>) -> bool {
+    const WORDS: [&str; 8] = [
+        "PROGRAM",
+        "FUNCTION_BLOCK",
+        "FUNCTION",
+        "TYPE",
+        "VAR",
+        "VAR_GLOBAL",
+        "VAR_EXTERNAL",
+        "CONFIGURATION",
+    ];
+    let word =
+        file.start().split(|character: char| !character.is_ascii_alphabetic() && character != '_').next();
+    word.is_some_and(|word| WORDS.iter().any(|known| known.eq_ignore_ascii_case(word)))
+        && !file.start().lines().next().unwrap_or_default().contains('=')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Wanted; 5] =
+        [Wanted::UnitFile, Wanted::Scenario, Wanted::Program, Wanted::Capture, Wanted::Results];
+
+    /// A small file of each row, in the order of the table.
+    fn samples() -> Vec<(&'static str, Vec<u8>)> {
+        let mut sii = vec![0x05; 128];
+        sii[14] = SII_CHECKSUM.checksum(&sii[..14]);
+        sii[15] = 0;
+        vec![
+            (
+                "a.xml",
+                b"\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<!-- > -->\n<EtherCATInfo Version=\"1.6\">".to_vec(),
+            ),
+            ("a.xml", b"<!DOCTYPE x>\n<EtherCATConfig>".to_vec()),
+            (
+                "a.TcPOU",
+                b"<?xml version=\"1.0\" encoding=\"utf-8\"?>\r\n<TcPlcObject Version=\"1.1\">".to_vec(),
+            ),
+            ("a.xml", b"<project xmlns=\"http://www.plcopen.org/xml/tc6_0201\">".to_vec()),
+            ("a.xml", b"<svg/>".to_vec()),
+            ("folder/A.SMC2", b"PK\x03\x04".to_vec()),
+            ("a.gz", b"\x1F\x8B\x08".to_vec()),
+            ("a.pcap", b"\xD4\xC3\xB2\xA1\x02".to_vec()),
+            ("a.nvm", b"ectwnvm\0\x01".to_vec()),
+            ("a", b"\0asm\x01\0\0\0".to_vec()),
+            ("a.bin", sii),
+            ("a.jsonl", b"{\"case\":1}\n".to_vec()),
+            ("a.toml", b"title = \"x\"\n[[units]]\nmodel = \"nx-ect101\"\n[[steps]]\n".to_vec()),
+            ("a.toml", b"# a unit\nmodel = \"nx-ect101\"\n".to_vec()),
+            ("a.st", b"function_block B\n".to_vec()),
+        ]
+    }
+
+    #[test]
+    fn each_kind_is_known_and_refused_where_another_is_wanted() {
+        assert_eq!(samples().len(), KINDS.len(), "a sample for each row");
+        for ((name, bytes), kind) in samples().iter().zip(KINDS) {
+            for wanted in ALL {
+                let refusal = of_another_kind(bytes, name, wanted);
+                if kind.wanted_as == Some(wanted) {
+                    assert_eq!(refusal, None, "{}", kind.name);
+                    continue;
+                }
+                let refusal = refusal.unwrap_or_else(|| panic!("{} is taken for {wanted:?}", kind.name));
+                assert_eq!(refusal.message, format!("this is {}", kind.name));
+                assert!(refusal.help.ends_with(wanted.help()), "{}", refusal.help);
+            }
+        }
+    }
+
+    #[test]
+    fn an_ordinary_file_is_left_to_its_reader() {
+        for (text, wanted) in [
+            ("", Wanted::UnitFile),
+            ("mode = \"nx-ect101\"", Wanted::UnitFile),
+            ("name = \"steps = 3\"\nmodel = \"nx-ect101\"", Wanted::UnitFile),
+            ("title = \"x\"\nsteps = []", Wanted::Scenario),
+            ("x < 3", Wanted::Program),
+            ("model := 1;", Wanted::Program),
+            ("type = 3", Wanted::UnitFile),
+        ] {
+            assert_eq!(of_another_kind(text.as_bytes(), "a", wanted), None, "{text}");
+        }
+        assert_eq!(of_another_kind(&[0; 256], "a", Wanted::UnitFile), None);
+    }
+}

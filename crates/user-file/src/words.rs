@@ -1,0 +1,53 @@
+//! Text of a file inside a message: on one line, without control characters, and not too long.
+
+/// How many characters of a text a message repeats.
+const SHOWN_CHARACTERS: usize = 40;
+
+/// The head of a text, on one line.
+#[must_use]
+pub fn shown(text: &str) -> String {
+    let mut characters = text.chars();
+    let head: String = characters.by_ref().take(SHOWN_CHARACTERS).flat_map(char::escape_debug).collect();
+    if characters.next().is_some() { format!("{head}...") } else { head }
+}
+
+/// The text with its control characters written out, so that a terminal does not obey them. Line ends stay.
+#[must_use]
+pub fn escaped(text: &str) -> String {
+    let obeyed = |character: char| character.is_control() && character != '\n';
+    if !text.contains(obeyed) {
+        return text.to_owned();
+    }
+    let write = |character: char| -> String {
+        if obeyed(character) { character.escape_debug().collect() } else { character.into() }
+    };
+    text.chars().map(write).collect()
+}
+
+/// Line and column of a byte, both from 1, columns in characters.
+#[must_use]
+pub fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
+    let before = text.get(..byte).unwrap_or(text);
+    let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    (line, column)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_terminal_obeys_nothing_of_what_is_shown() {
+        assert_eq!(shown("a\u{1b}[31mb"), "a\\u{1b}[31mb");
+        assert_eq!(shown(&"x".repeat(41)), format!("{}...", "x".repeat(40)));
+        assert_eq!(escaped("a\u{1b}[2J\r\nb\u{9b}"), "a\\u{1b}[2J\\r\nb\\u{9b}");
+        assert_eq!(escaped("plain ü"), "plain ü");
+    }
+
+    #[test]
+    fn columns_are_characters() {
+        assert_eq!(line_and_column("a\nüb", 4), (2, 2));
+        assert_eq!(line_and_column("ab", 100), (1, 3));
+    }
+}
