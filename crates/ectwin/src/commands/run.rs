@@ -85,7 +85,7 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
 
 /// What is read or written while the units run. Programs that unit files name are where these are.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
-    let read = args.units.iter().chain(&args.program).cloned();
+    let read = args.units.iter().chain(&args.programs).cloned();
     memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
 }
 
