@@ -37,5 +37,5 @@ fn parsed<T>(
     parse: fn(&str) -> Option<T>,
 ) -> Result<T, Problem> {
     let text = values::text(place, value, expected)?;
-    parse(text).ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", values::shown(text)), expected))
+    parse(text).ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", user_file::shown(text)), expected))
 }
