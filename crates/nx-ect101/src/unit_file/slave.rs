@@ -5,6 +5,7 @@ use core::ops::RangeInclusive;
 use device::{Conduct, Refusals, TRANSITIONS, TransitionTimes};
 use time::Duration;
 use toml::de::DeValue;
+use user_file::shown;
 use wire::{AlState, AlStatusCode};
 
 use super::error::Problem;
@@ -87,7 +88,7 @@ fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
     let expected = "a time, \"0ms\" to \"60s\"";
     let written = values::text(place, value, expected)?;
     let time = written.parse().ok().filter(|time| TIMES.contains(time));
-    time.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", values::shown(written)), expected))
+    time.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", shown(written)), expected))
 }
 
 /// A key that is `true` or `false`; left out it is false.
