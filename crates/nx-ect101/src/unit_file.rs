@@ -71,7 +71,7 @@ pub struct ChangedLevel {
 pub struct CpuSection {
     /// Period of the primary periodic task, one of those that CPU Units have; 1 ms when left out.
     pub task_period: Located<Duration>,
-    /// From power-on to the first task period, 0 s to 100 ms; when left out, a scenario's seed decides, else 0.
+    /// From power-on to the first task period, 0 s to 32 ms; when left out, a scenario's seed decides, else 0.
     pub task_phase: Option<Located<Duration>>,
     /// Mode at power-on; RUN when left out.
     pub mode: Located<CpuMode>,
