@@ -414,10 +414,10 @@ fn only_the_first_receive_time_latches() {
 }
 
 /// Looks at all registers without a frame, and reads them.
-fn looked_at_and_read(bench: &mut Bench) -> [Vec<u8>; 2] {
+fn looked_at_and_read(bench: &mut Bench) -> (Vec<u8>, Option<Vec<u8>>) {
     let mut seen = vec![0xEE; 0x1000];
     bench.esc.look(0, &mut seen, bench.now);
-    [seen, bench.read(0, 0x1000).expect("registers are there")]
+    (seen, bench.read(0, 0x1000))
 }
 
 #[test]
@@ -446,12 +446,12 @@ fn a_look_sees_what_a_read_would_give() {
     let mut bench = Bench::new();
     for (name, change) in changes {
         change(&mut bench);
-        let [seen, read] = looked_at_and_read(&mut bench);
-        assert_eq!(seen, read, "{name}");
+        let (seen, read) = looked_at_and_read(&mut bench);
+        assert_eq!(Some(seen), read, "{name}");
     }
     let mut bench = Bench::with(EscConfig { distributed_clocks: false, ..EscConfig::default() });
     bench.now += Duration::from_millis(3);
-    let [seen, _] = looked_at_and_read(&mut bench);
+    let (seen, _) = looked_at_and_read(&mut bench);
     assert_eq!(seen[0x0910..0x0918], [0; 8], "there is no clock");
 }
 
