@@ -87,8 +87,8 @@ impl Failure {
     /// What the system has refused.
     fn source(&self) -> Option<&io::Error> {
         match self {
-            Self::Unreadable { source, .. }
-            | Self::ProgramUnreadable { source, .. }
+            Self::Unreadable { source, .. } => source.refused_by_system(),
+            Self::FolderUnreadable { source, .. }
             | Self::Unwritable { source, .. }
             | Self::Modbus { source, .. }
             | Self::Link(OpenError::Failed { source, .. })

@@ -149,6 +149,15 @@ impl Unreadable {
         }
     }
 
+    /// What the system has refused; none if the file itself is refused.
+    #[must_use]
+    pub const fn refused_by_system(&self) -> Option<&io::Error> {
+        match &self.reason {
+            Reason::Io(error) => Some(error),
+            _ => None,
+        }
+    }
+
     /// Whether it can be a file that is being replaced, so that it may be read soon.
     pub(crate) fn may_pass(&self) -> bool {
         matches!(self.reason, Reason::Io(_))

@@ -73,7 +73,7 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
     empty.extend([28, 0, 0, 0]);
     std::fs::write(bench.folder.join("empty.pcapng"), empty).unwrap();
     for (arguments, fragment) in [
-        (&["gone.pcapng", "-o", "x.toml"][..], "gone.pcapng: the capture cannot be read"),
+        (&["gone.pcapng", "-o", "x.toml"][..], "cannot read gone.pcapng: No such file"),
         (&["text.pcapng", "-o", "x.toml"], "no pcapng capture"),
         (&["empty.pcapng", "-o", "x.toml"], "it holds no EtherCAT frame of a master"),
         (&["captures/live.pcapng", "-o", "old.toml"], "old.toml is there already"),
