@@ -30,7 +30,7 @@ fn at_any_number_of_descriptors_there_is_a_message_or_a_server_that_goes_on() {
     let arguments = ["run", UNIT, "--link", &link, "--modbus", &modbus];
     let first_ready = (FEWEST..MOST).find_map(|descriptors| {
         let started = Started::new(Path::new("."), &format!("ulimit -n {descriptors};"), &arguments);
-        let ended = match started.is_ready() {
+        let ended = match started.try_ready() {
             Ok(ready) => return Some(ready),
             Err(ended) => ended,
         };

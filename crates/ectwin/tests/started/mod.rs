@@ -57,14 +57,14 @@ impl Started {
     }
 
     /// Waits until it is ready; how it has ended if it never is.
-    pub(crate) fn is_ready(mut self) -> Result<Self, Ended> {
+    pub(crate) fn try_ready(mut self) -> Result<Self, Ended> {
         let mut line = String::new();
         self.stdout.read_line(&mut line).unwrap();
         if line.starts_with("ready ") { Ok(self) } else { Err(self.wait()) }
     }
 
     pub(crate) fn ready(self) -> Self {
-        self.is_ready().unwrap_or_else(|ended| panic!("it ended with {:?}: {}", ended.code, ended.stderr))
+        self.try_ready().unwrap_or_else(|ended| panic!("it ended with {:?}: {}", ended.code, ended.stderr))
     }
 
     /// Waits for a line with these words on stderr.
