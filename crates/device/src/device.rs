@@ -11,8 +11,8 @@ use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 use crate::conduct::Conduct;
 use crate::config::DeviceConfig;
 use crate::mailbox_service::MailboxService;
+use crate::power::Power;
 use crate::unit::{Exchange, PortLinks, RefreshCause, Start, Unit};
-use start_up::Power;
 
 /// What the stack listens to. Process data are not among it: the refresh runs freely.
 const EVENTS: AlEvents = AlEvents::AL_CONTROL

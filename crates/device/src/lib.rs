@@ -9,6 +9,7 @@ mod config;
 mod device;
 mod mailbox_service;
 mod network;
+mod power;
 mod state_machine;
 mod unit;
 

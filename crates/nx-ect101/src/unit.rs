@@ -4,6 +4,7 @@ mod checks;
 mod diagnosis;
 mod memory;
 mod nx_bus_side;
+mod task_watch;
 
 use device::{Check, Exchange, ProcessDataAreas, RefreshCause, Start, Unit};
 use objects::ObjectServer;
@@ -28,7 +29,7 @@ use crate::settings::UnitSettings;
 use crate::status::{NxUnitStatus, SlaveStatus};
 
 use memory::KeptMemory;
-use nx_bus_side::TaskWatch;
+use task_watch::TaskWatch;
 
 /// An NX-ECT101 in operation.
 #[derive(Debug)]

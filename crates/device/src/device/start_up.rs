@@ -5,30 +5,8 @@ use time::{Duration, Instant};
 use wire::AlState;
 
 use super::{Device, EVENTS};
+use crate::power::{Phase, Power};
 use crate::unit::Unit;
-
-/// Whether a slave has power, and how far it has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Power {
-    Off,
-    StartingUp {
-        phase: Phase,
-        /// When the phase is over.
-        next: Instant,
-        /// How long each phase takes.
-        phase_time: Duration,
-    },
-    On,
-}
-
-/// The two halves of the start-up time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Phase {
-    /// Nothing of the unit runs yet.
-    Waiting,
-    /// Its processor runs, the application does not.
-    Initializing,
-}
 
 impl<U: Unit> Device<U> {
     /// The slave has got power, or starts again. Without a start-up time it takes its first step at once.

@@ -2,8 +2,8 @@
 //! knows of NX, and it is small enough for every state to be tried.
 
 use device::{
-    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start, StartUp,
-    Unit, WatchdogCheck,
+    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start,
+    StartUp, Unit, WatchdogCheck,
 };
 use esc::EscConfig;
 use time::{Duration, Instant};

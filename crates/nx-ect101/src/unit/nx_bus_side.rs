@@ -1,39 +1,12 @@
 //! What goes between the unit and the NX bus besides the data: what the CPU Unit has decided, NX messages, statuses.
 
 use device::RefreshCause;
-use time::Duration;
 
 use crate::fault::Fault;
 use crate::nx_bus::{CpuHeader, UnitHeader};
 use crate::nx_server;
 use crate::status::{NxUnitStatus, SlaveStatus};
-use crate::timing::task_silence;
 use crate::unit::NxEct101;
-
-/// Watches the primary periodic task of the CPU Unit, by the task periods that it counts.
-#[derive(Debug, Default)]
-pub(super) struct TaskWatch {
-    /// The count that was seen last.
-    task_periods: u32,
-    /// How many periods of the unit have passed since it changed. Periods are counted, not time: a process that was
-    /// suspended has missed task periods and refreshes alike.
-    silent_periods: u64,
-}
-
-impl TaskWatch {
-    /// A period of the unit passes.
-    pub(super) const fn pass(&mut self, task_periods: u32) {
-        let is_silent = self.task_periods == task_periods;
-        self.silent_periods = if is_silent { self.silent_periods.saturating_add(1) } else { 0 };
-        self.task_periods = task_periods;
-    }
-
-    /// Whether the task counts as stopped.
-    pub(super) fn has_stopped(&self, refresh_period: Duration, task_period: Duration) -> bool {
-        let silence = refresh_period * self.silent_periods;
-        !task_period.is_zero() && silence > task_silence(task_period)
-    }
-}
 
 impl NxEct101 {
     /// A CPU Unit that stops I/O refreshing, or its task, is an NX bus without I/O communications.

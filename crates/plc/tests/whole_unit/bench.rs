@@ -117,6 +117,8 @@ impl Bench {
     pub(crate) fn into_op(mut self, outputs_bytes: u16, inputs_bytes: u16) -> Self {
         self.set_process_data(outputs_bytes, inputs_bytes);
         assert_eq!(self.request(SAFE_OP), (SAFE_OP, 0));
+        // OP waits for outputs.
+        self.write(layout::OUTPUTS_START, &vec![0; usize::from(outputs_bytes)]);
         assert_eq!(self.request(OP), (OP, 0));
         self
     }

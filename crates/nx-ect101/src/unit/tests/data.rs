@@ -308,6 +308,7 @@ fn an_entry_that_no_pdo_carries_comes_from_the_cpu_unit_by_sdo() {
     let image: Vec<u8> = (0..210).collect();
     bench.cpu.c_to_m.publish(REFRESHING, &image);
     bench.refresh(AlState::SafeOp, None);
+    bench.refresh(AlState::SafeOp, None);
     assert_eq!(bench.sdo_read(0x6000, 7), image[180..]);
     assert_eq!(bench.sdo_read(0x6000, 8), [0; 30]);
     bench.cpu.c_to_m.publish(CpuHeader { io_stopped: true, ..REFRESHING }, &image);
