@@ -3,6 +3,7 @@
 #![cfg(feature = "ethercrab")]
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
+#[expect(dead_code, reason = "no unit is taken to OP here")]
 mod patient_master;
 
 use std::sync::mpsc::{Receiver, channel};
