@@ -1,5 +1,7 @@
 //! The I/O response time in virtual time (manual, 7-9-1): for many seeds, none longer than the formula, some close to it.
 
+#![expect(clippy::expect_used, reason = "a scenario of these parts is right")]
+
 use nx_ect101::performance::IoResponse;
 use scenario::{Recording, ScenarioBuilder};
 use time::Duration;
