@@ -123,3 +123,41 @@ fn differences_are_counted_by_kind_in_text_and_json() {
     let merged = bench.ectwin(&["merge", "out.jsonl"]);
     assert_eq!(merged.code, Some(1), "{}", merged.stderr);
 }
+
+/// A block of a pcapng file.
+fn block(block_type: u32, body: &[u8]) -> Vec<u8> {
+    let length = (body.len() as u32 + 12).to_le_bytes();
+    [&block_type.to_le_bytes()[..], &length, body, &length].concat()
+}
+
+/// A frame with APRD of two bytes at this position: from the master, or as it comes back.
+fn by_position(position: u16, answered: bool) -> Vec<u8> {
+    let mut frame = vec![0; 60];
+    frame[..6].fill(0xFF);
+    frame[6] = if answered { 0x02 } else { 0 };
+    frame[12..16].copy_from_slice(&[0x88, 0xA4, 0x0E, 0x10]);
+    frame[16..18].copy_from_slice(&[1, 7]);
+    frame[18..20].copy_from_slice(&position.to_le_bytes());
+    frame[20..24].copy_from_slice(&[0x30, 0x01, 2, 0]);
+    frame
+}
+
+#[test]
+fn a_capture_of_more_units_than_there_can_be_makes_no_scenario_of_them() {
+    let bench = Bench::new("import-units");
+    let packet = |at: u8, frame: &[u8]| {
+        let head = [[0; 4], [0; 4], [at, 0, 0, 0], [60, 0, 0, 0], [60, 0, 0, 0]].concat();
+        block(6, &[&head[..], frame].concat())
+    };
+    for (units, code) in [(1_000, 0), (1_001, 2), (u16::MAX, 2)] {
+        let section =
+            block(0x0A0D_0D0A, &[[0x4D, 0x3C, 0x2B, 0x1A], [1, 0, 0, 0], [0xFF; 4], [0xFF; 4]].concat());
+        let ethernet = block(1, &[1, 0, 0, 0, 0, 0, 0, 0]);
+        let (sent, back) = (packet(1, &by_position(0, false)), packet(2, &by_position(units, true)));
+        std::fs::write(bench.folder.join("line.pcapng"), [section, ethernet, sent, back].concat()).unwrap();
+        let ended = bench.ectwin(&["import", "line.pcapng", "-o", &format!("of-{units}.toml")]);
+        assert_eq!(ended.code, Some(code), "{units}: {}{}", ended.stdout, ended.stderr);
+        let says = ended.stderr.contains(&format!("shows a line of {units} units; 1000 are the most"));
+        assert_eq!(says, code == 2, "{}", ended.stderr);
+    }
+}

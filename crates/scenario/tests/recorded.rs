@@ -135,9 +135,9 @@ fn a_clock_that_was_set_makes_no_replay_of_years() {
 
 #[test]
 fn times_that_run_back_do_not_make_the_master_run_back() {
-    let moments = [9, 10, 3, 11].map(|second| (second * SECOND, 1, Direction::Inbound));
+    let moments = [9, 10, 3].map(|second| (second * SECOND, 1, Direction::Inbound));
     let frames = RecordedFrames::read(&captured(moments)).expect("a capture");
-    assert_eq!((frames.len(), frames.duration()), (4, Duration::from_secs(2)));
+    assert_eq!((frames.len(), frames.duration()), (3, Duration::from_secs(1)));
 }
 
 #[test]
