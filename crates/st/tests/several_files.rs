@@ -1,7 +1,5 @@
 //! Programs in several files, and files that are only a part of a program.
 
-#![expect(clippy::expect_used, reason = "a panic here is a failed test")]
-
 use st::{NoHost, PROBLEMS_MAX, Sources, compile, judge};
 
 const BLOCK: &str = "FUNCTION_BLOCK Ramp\nVAR_INPUT target : INT; END_VAR\nVAR_OUTPUT now : INT; END_VAR\n\
@@ -23,7 +21,7 @@ fn blocks_functions_types_and_globals_alone_are_judged() {
         "TYPE Colour : (red, green); END_TYPE",
     ] {
         judge(part, &[]).unwrap_or_else(|problems| panic!("{part}: {problems}"));
-        let problems = compile(part, &[]).err().expect("nothing runs in it");
+        let problems = compile(part, &[]).expect_err("nothing runs in it");
         assert!(problems.to_string().contains("there is no PROGRAM in it"), "{problems}");
     }
     let wrong = BLOCK.replace("now + target", "now + goal");
@@ -99,7 +97,7 @@ fn reading_and_checking_stop_at_twenty_problems_and_say_so() {
         (unknown(PROBLEMS_MAX), false),
         (unknown(5_000), true),
     ] {
-        let problems = compile(&source, &[]).err().expect("it is wrong");
+        let problems = compile(&source, &[]).expect_err("it is wrong");
         assert_eq!((problems.list().len(), problems.are_cut()), (PROBLEMS_MAX, is_cut));
         let last = problems.to_string().lines().last().map(str::to_owned);
         let says = last.as_deref() == Some("stopped at 20 problems; there are more");
