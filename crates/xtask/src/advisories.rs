@@ -23,7 +23,7 @@ pub(crate) fn check() -> Ending {
         return skip("advisories", "cargo-deny is not installed").into();
     }
     match fetch() {
-        Ok(()) => cargo(&["deny", "--log-level", "error", "check", "--disable-fetch", "advisories"]).into(),
+        Ok(()) => cargo(&["deny", "--log-level", "error", "check", "advisories"]).into(),
         Err(reason) => Ending::NotHere(format!("the index of advisories cannot be had: {reason}")),
     }
 }
