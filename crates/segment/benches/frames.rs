@@ -109,5 +109,26 @@ fn untouched(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, full_unit, hundred_units, broadcast, untouched);
+/// What masters send in each cycle to keep the clocks together: the first unit is read, all others are written.
+fn system_time(criterion: &mut Criterion) {
+    let mut frmw = FrameBuilder::new().physical(Command::Frmw, 0, 0x0910, &[0; 8]).finish();
+    criterion.bench_function("100 units: FRMW 8 of the system time", |bencher| {
+        let mut segment = line(100, 6, 6);
+        bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut frmw)));
+    });
+}
+
+/// Registers that are worked out when they are read, of one unit.
+fn live_registers(criterion: &mut Criterion) {
+    let mut aprd = FrameBuilder::new().physical(Command::Aprd, 0, 0x080D, &[0]).finish();
+    criterion.bench_function("mailbox status: APRD 1", |bencher| {
+        let mut segment = line(1, 6, 6);
+        bencher.iter(|| {
+            aprd[18..20].fill(0);
+            segment.frame(Instant::ZERO, black_box(&mut aprd))
+        });
+    });
+}
+
+criterion_group!(benches, full_unit, hundred_units, broadcast, untouched, system_time, live_registers);
 criterion_main!(benches);
