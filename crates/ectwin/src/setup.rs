@@ -12,6 +12,7 @@ use time::Instant;
 
 use crate::memory_file::MemoryFile;
 use crate::program_file::{ProgramFileError, ProgramText};
+use crate::user_files;
 use crate::watched_program::{self, Stamps, WatchedProgram};
 
 pub use error::SetupError;
@@ -154,9 +155,11 @@ impl Setup {
         DeviceVariables::of_unit_file(&self.file)
     }
 
-    /// The files of the user program; none if it is not in files.
-    pub fn program_paths(&self) -> impl Iterator<Item = &Path> {
-        self.program_files.iter().flat_map(|files| &files.paths).map(PathBuf::as_path)
+    /// The files of the user program, those of its folders too; none if it is not in files.
+    #[must_use]
+    pub fn program_paths(&self) -> Vec<PathBuf> {
+        let paths = self.program_files.as_ref().map_or(&[][..], |files| &files.paths);
+        user_files::program_files(paths).unwrap_or_else(|_| paths.to_vec())
     }
 
     /// The files of the user program, if it is in files; they are handed over.

@@ -29,6 +29,7 @@ const CASES: &[(&[&str], &str)] = &[
     (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "N1.nvm"),
     (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "program.st"),
     (&["run", "unit.toml", "--link", "LINK", "--program", "other.st", "--pcap", "OUT"], "other.st"),
+    (&["run", "unit.toml", "--link", "LINK", "--program", "blocks", "--pcap", "OUT"], "blocks/a.st"),
     // These two write over nothing at all.
     (&["import", "live.pcapng", "--unit", "unit.toml", "-o", "OUT"], "unit.toml"),
     (&["search", "dice.toml", "-o", "OUT"], "dice.toml"),
@@ -46,6 +47,10 @@ fn inputs(name: &str) -> std::path::PathBuf {
     put("unit.toml", "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n[cpu]\nprogram = \"program.st\"\n");
     put("program.st", ";\n");
     put("other.st", ";\n");
+    fs::create_dir_all(folder.join("blocks")).unwrap();
+    put("blocks/a.st", ";\n");
+    // The lock of an editor is no part of the program.
+    symlink("nobody@nowhere", folder.join("blocks/.#a.st")).unwrap();
     put("scenario.toml", LIVE);
     put("named.trace", LIVE);
     put("dice.toml", &LIVE.replace("{ expect", "{ random = 3, within = \"1s\" },\n{ expect"));

@@ -72,7 +72,7 @@ fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failur
 
 fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
     let Some(path) = &args.pcap else { return Ok(()) };
-    let programs = setups.iter().flat_map(Setup::program_paths).map(Path::to_owned);
+    let programs = setups.iter().flat_map(Setup::program_paths);
     let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups));
     overwrite::refuse(&[Output { option: "--pcap", path }], files)
 }

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 /// How many files and folders are looked at: a folder such as `/` was hardly meant.
 const ENTRIES_MAX: usize = 100_000;
 
-/// All files below a folder whose names end so, in the order of their paths. A folder that lies in itself by a symbolic
-/// link is visited once.
+/// All files below a folder whose names end so, in the order of their paths. Names that begin with a dot are passed over:
+/// editors keep their locks and copies there. A folder that lies in itself by a symbolic link is visited once.
 ///
 /// # Errors
 /// A folder that cannot be read, or too many files.
@@ -23,6 +23,9 @@ pub fn below(folder: &Path, ending: &str) -> io::Result<Vec<PathBuf>> {
         for entry in fs::read_dir(&folder)? {
             let path = entry?.path();
             entries += 1;
+            if is_hidden(&path) {
+                continue;
+            }
             if entries > ENTRIES_MAX {
                 return Err(io::Error::other(format!(
                     "more than {ENTRIES_MAX} files and folders are below it"
@@ -37,4 +40,8 @@ pub fn below(folder: &Path, ending: &str) -> io::Result<Vec<PathBuf>> {
     }
     found.sort();
     Ok(found)
+}
+
+fn is_hidden(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"."))
 }
