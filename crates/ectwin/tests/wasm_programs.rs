@@ -1,5 +1,6 @@
 //! User programs in WebAssembly, in a build with the feature: from a file, behind a unit file, changed while they run.
 
+#[expect(dead_code, reason = "each test uses a part of the command")]
 mod running;
 
 use std::path::{Path, PathBuf};
