@@ -71,15 +71,7 @@ pub(crate) fn common(left: Elementary, right: Elementary) -> Option<Elementary> 
     }
 }
 
-/// The narrowest type that holds every value of an integer type, and a number besides; none if there is none.
-pub(crate) fn holding(elementary: Elementary, number: i128) -> Option<Elementary> {
-    let (least, greatest) = range(elementary);
-    let holds =
-        |candidate: &Elementary| [least, greatest, number].into_iter().all(|number| fits(*candidate, number));
-    [Sint, Int, Dint, Lint, Ulint].into_iter().find(holds)
-}
-
-/// The narrowest type of a number that is written without one.
+/// The narrowest type of a number that is written without one: a signed one, and ULINT beyond.
 pub(crate) fn natural(number: i128) -> Option<Elementary> {
     [Sint, Int, Dint, Lint, Ulint].into_iter().find(|candidate| fits(*candidate, number))
 }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::numbers::{converted, elementary_of};
+use super::numbers::{converted, elementary_of, operand_of};
 use super::operands::{
     classes, code_of, date_operation, is_comparison, operand_type, sign, suits, time_operator,
 };
@@ -322,7 +322,7 @@ impl<'c, 't> Body<'c, 't> {
             Kind::Type(Type::Elementary(from)) if operator == Binary::Power => {
                 Some(converted(value.code, from, elementary))
             }
-            _ => elementary_of(self.checker, value, elementary),
+            _ => operand_of(self.checker, value, elementary),
         }
     }
 

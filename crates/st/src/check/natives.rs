@@ -1,7 +1,7 @@
 //! Calls of functions of the library.
 
 use super::expressions::{Body, Kind, Value};
-use super::numbers::{coerce, elementary_of};
+use super::numbers::{coerce, elementary_of, operand_of};
 use super::operands::with_number;
 use super::scope::Located;
 use crate::code::{Code, Element, Extent, NativeArgument, NativeCall, Slot};
@@ -327,7 +327,7 @@ impl Body<'_, '_> {
                     }
                 }
             }
-            (_, Generic::Elementary(elementary)) => elementary_of(self.checker, value, elementary),
+            (_, Generic::Elementary(elementary)) => operand_of(self.checker, value, elementary),
             (_, Generic::Text) => {
                 let message = format!("`{}` is a STRING here, like the others", pin.name);
                 self.checker.refuse(Problem::new(value.span, message))

@@ -3,7 +3,7 @@
 use super::Checker;
 use super::expressions::{Kind, Value};
 use crate::code::{Code, Put};
-use crate::convert::{convert, fits, widens};
+use crate::convert::{convert, fits, natural, widens};
 use crate::elementary::{Class, Elementary};
 use crate::problem::Problem;
 use crate::types::Type;
@@ -74,6 +74,18 @@ pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Ele
         }
         Kind::Nothing => checker
             .refuse(Problem::new(value.span, "this function gives no result").help("call it as a statement")),
+    }
+}
+
+/// Makes an operand of the type in which the operands meet: beside an unsigned one, a negative number without a type
+/// keeps its bits, as a signed variable does.
+pub(super) fn operand_of(checker: &mut Checker<'_>, value: Value, target: Elementary) -> Option<Code> {
+    match value.kind {
+        Kind::Integer(number) if number < 0 && target.class() == Class::Unsigned => match natural(number) {
+            Some(own) if widens(own, target) => Some(converted(Code::Constant(number as u64), own, target)),
+            _ => integer_of(checker, number, target, &value),
+        },
+        _ => elementary_of(checker, value, target),
     }
 }
 

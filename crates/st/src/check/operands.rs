@@ -1,7 +1,7 @@
 //! Operators by the types of their operands: in which type two operands meet, and which operations there are.
 
 use super::expressions::Kind;
-use crate::convert::{common, fits, holding, widens};
+use crate::convert::{common, fits, natural, widens};
 use crate::elementary::{Class, Elementary};
 use crate::operators::Binary;
 use crate::syntax::ast::BinaryOperator;
@@ -24,7 +24,9 @@ pub(super) fn operand_type(operator: Binary, left: &Kind, right: &Kind) -> Optio
     }
 }
 
-/// A number without a type takes the type of the other operand if it fits there, and else a wider one.
+/// A number without a type takes the type of the other operand if it fits there. Otherwise its own is the narrowest
+/// signed one, and the two meet as operands with types do: a negative number becomes unsigned beside an unsigned
+/// operand that is as wide or wider (W501, 6-5-3).
 pub(super) fn with_number(elementary: Elementary, number: i128) -> Option<Elementary> {
     match elementary.class() {
         Class::Time | Class::Date => None,
@@ -35,7 +37,7 @@ pub(super) fn with_number(elementary: Elementary, number: i128) -> Option<Elemen
             let wider = [Elementary::Word, Elementary::Dword, Elementary::Lword];
             wider.into_iter().find(|wider| widens(elementary, *wider) && fits(*wider, number))
         }
-        Class::Signed | Class::Unsigned => holding(elementary, number),
+        Class::Signed | Class::Unsigned => common(elementary, natural(number)?),
     }
 }
 

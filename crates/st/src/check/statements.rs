@@ -1,7 +1,7 @@
 //! Statements.
 
 use super::expressions::{Body, Kind};
-use super::numbers::{coerce, elementary_of};
+use super::numbers::{coerce, elementary_of, operand_of};
 use super::scope::Located;
 use crate::code::{Assign, Case, CaseArm, Code, For, Statement, StatementKind};
 use crate::elementary::{Class, Elementary};
@@ -155,8 +155,12 @@ impl Body<'_, '_> {
         let elementary = selectable(type_)?;
         let value = self.expression(expression)?;
         let span = value.span;
-        let fitting = coerce(self.checker, value, type_)?;
-        match fitting.code {
+        let code = match type_ {
+            // A label is compared with the selector.
+            Type::Elementary(elementary) => operand_of(self.checker, value, *elementary)?,
+            _ => coerce(self.checker, value, type_)?.code,
+        };
+        match code {
             Code::Constant(bits) => Some(integer(elementary, bits)),
             _ => self.checker.refuse(
                 Problem::new(span, "a CASE label is known before the program runs")
