@@ -54,16 +54,23 @@ impl Esc {
     }
 
     fn commit_registers(&mut self, shadow: &Shadow, passage: &Passage) {
-        let (mut at, mut reset_step, mut al_control_written) = (0, None, false);
+        let (mut at, mut reset_step, mut al_control_written, mut sii_control) = (0, None, false, None);
         while let Some((offset, data)) = shadow.run(at) {
             at = usize::from(offset) + data.len();
             let effects = self.commit_write(offset, data, passage);
             al_control_written |= effects.contains(Effect::AlControl);
+            if effects.contains(Effect::SiiCommand) {
+                sii_control = sii_control.or(sii_control_in(offset, data));
+            }
             if effects.contains(Effect::Reset) {
                 reset_step = data.get(usize::from(at::ESC_RESET_ECAT.saturating_sub(offset))).copied();
             }
         }
         self.advance_reset(reset_step);
+        // Address and data of the same frame are in place by now, before or behind the command.
+        if let Some(control) = sii_control {
+            self.sii.run_command(control, &mut self.memory, passage.arrival);
+        }
         if al_control_written {
             self.al_control_pending = true;
             self.al_events |= AlEvents::AL_CONTROL;
@@ -81,14 +88,13 @@ impl Esc {
     fn commit_write(&mut self, offset: u16, data: &[u8], passage: &Passage) -> Effects {
         let mut effects = Effects(0);
         for (offset, byte) in (offset..USER_RAM_START).zip(data) {
-            if !self.accepts_write(offset) {
+            if !self.accepts_write(offset, passage.arrival) {
                 continue;
             }
             let effect = BYTES.effect(offset);
             effects.0 |= 1 << effect as u32;
-            // The SII is taken when it is not busy. SyncManagers decide about their bytes as a whole: a write that
-            // disables one may also set it.
-            if !matches!(effect, Effect::SiiCommand | Effect::SyncManager) {
+            // SyncManagers decide about their bytes as a whole: a write that disables one may also set it.
+            if effect != Effect::SyncManager {
                 self.memory.store(offset, *byte);
             }
         }
@@ -114,9 +120,6 @@ impl Esc {
         }
         if has(Effect::SiiOwner) {
             Sii::owner_written(&mut self.memory);
-        }
-        if has(Effect::SiiCommand) {
-            self.write_sii(offset, data, now);
         }
         if has(Effect::DcLatch) {
             self.dc.latch(&mut self.memory, passage);
@@ -153,24 +156,6 @@ impl Esc {
         self.hot.station_address = self.memory.u16(at::STATION_ADDRESS);
         let uses_alias = self.memory.u8(at::DL_CONTROL + 3) & USE_ALIAS != 0;
         self.hot.answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
-    }
-
-    /// Address and data may come with the command or before it; the command runs when its byte is written.
-    fn write_sii(&mut self, offset: u16, data: &[u8], now: Instant) {
-        if self.sii.is_busy(now) {
-            return;
-        }
-        let command_at = at::SII_CONTROL + 1;
-        let byte = |at: u16| offset.le(&at).then(|| data.get(usize::from(at - offset)).copied()).flatten();
-        for at in at::SII_ADDRESS..at::SII_DATA + 8 {
-            if let Some(byte) = byte(at) {
-                self.memory.store(at, byte);
-            }
-        }
-        if let Some(command) = byte(command_at) {
-            let low = byte(at::SII_CONTROL).unwrap_or(0);
-            self.sii.run_command(u16::from_le_bytes([low, command]), &mut self.memory, now);
-        }
     }
 
     fn write_sync_managers(&mut self, offset: u16, data: &[u8], first: u16) {
@@ -288,6 +273,13 @@ impl Effects {
     const fn contains(self, effect: Effect) -> bool {
         self.0 & 1 << effect as u32 != 0
     }
+}
+
+/// Control of the SII as a write has it: only with its upper byte, which is the command.
+fn sii_control_in(offset: u16, data: &[u8]) -> Option<u16> {
+    let byte = |at: u16| data.get(usize::from(at.checked_sub(offset)?)).copied();
+    let command = byte(at::SII_CONTROL + 1)?;
+    Some(u16::from_le_bytes([byte(at::SII_CONTROL).unwrap_or(0), command]))
 }
 
 fn cover(mappings: &[Mapping]) -> Span {

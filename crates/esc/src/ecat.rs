@@ -158,14 +158,14 @@ impl Esc {
 
     /// Writes memory. Tells whether at least one byte could be written.
     #[inline]
-    pub fn write(&mut self, offset: u16, data: &[u8]) -> bool {
+    pub fn write(&mut self, offset: u16, data: &[u8], now: Instant) -> bool {
         let ram_is_open = !self.hot.protected || self.protection.opens_ram();
         if offset >= PROCESS_RAM_START {
             return ram_is_open && self.write_ram(u32::from(offset), data);
         }
         let (user_ram_from, ram_from) = (usize::from(USER_RAM_START), usize::from(PROCESS_RAM_START));
         let split = |limit: usize| limit.saturating_sub(usize::from(offset)).min(data.len());
-        let registers = self.write_registers(offset, &data[..split(user_ram_from)]);
+        let registers = self.write_registers(offset, &data[..split(user_ram_from)], now);
         if !ram_is_open {
             return registers;
         }
@@ -178,9 +178,9 @@ impl Esc {
     }
 
     /// Register writes wait for the end of the frame.
-    fn write_registers(&mut self, offset: u16, data: &[u8]) -> bool {
+    fn write_registers(&mut self, offset: u16, data: &[u8], now: Instant) -> bool {
         let mut offsets = (offset..).take(data.len());
-        if !offsets.any(|offset| self.accepts_write(offset)) {
+        if !offsets.any(|offset| self.accepts_write(offset, now)) {
             return false;
         }
         // The enable registers count within the same frame.
@@ -196,8 +196,8 @@ impl Esc {
         true
     }
 
-    /// Whether the wire may write the byte at `offset` now.
-    pub(crate) fn accepts_write(&self, offset: u16) -> bool {
+    /// Whether the wire may write the byte at `offset` at the moment `now`.
+    pub(crate) fn accepts_write(&self, offset: u16, now: Instant) -> bool {
         let dc_missing = offset >> 8 == 0x09 && !self.config.distributed_clocks;
         let protected = self.hot.protected && !self.protection.opens_register(offset);
         BYTES.writable(offset)
@@ -205,7 +205,7 @@ impl Esc {
             && !protected
             && match BYTES.effect(offset) {
                 Effect::AlControl => !self.al_control_pending,
-                Effect::SiiCommand => Sii::ecat_owns(&self.memory),
+                Effect::SiiCommand => Sii::ecat_owns(&self.memory) && !self.sii.is_busy(now),
                 Effect::Fmmu => {
                     let (n, byte) = split_bank(offset - at::FMMU, FMMU_BYTES);
                     n < usize::from(self.config.fmmu_count) && byte < 13
@@ -245,24 +245,25 @@ impl Esc {
 
     /// Reads what was there before, and writes what came: APRW, FPRW.
     pub fn read_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
-        self.exchange(offset, data, |esc, data| esc.read(offset, data, now))
+        self.exchange(offset, data, now, Self::read)
     }
 
     /// ORs what was there before into the data, and writes what came: BRW.
     pub fn read_or_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
-        self.exchange(offset, data, |esc, data| esc.read_or(offset, data, now))
+        self.exchange(offset, data, now, Self::read_or)
     }
 
     fn exchange(
         &mut self,
         offset: u16,
         data: &mut [u8],
-        read: impl FnOnce(&mut Self, &mut [u8]) -> bool,
+        now: Instant,
+        read: impl FnOnce(&mut Self, u16, &mut [u8], Instant) -> bool,
     ) -> Access {
         let mut incoming = [0; DATA_BYTES_MAX];
         let Some(incoming) = incoming.get_mut(..data.len()) else { return Access::default() };
         incoming.copy_from_slice(data);
-        Access { read: read(self, data), written: self.write(offset, incoming) }
+        Access { read: read(self, offset, data, now), written: self.write(offset, incoming, now) }
     }
 
     /// The longest piece of RAM from `offset` on that one SyncManager holds, or none does.

@@ -228,8 +228,8 @@ impl Esc {
     }
 
     /// The SII interface is busy until then, whoever uses it.
-    pub const fn keep_sii_busy(&mut self, until: Instant) {
-        self.sii.keep_busy(until);
+    pub fn keep_sii_busy(&mut self, now: Instant, until: Instant) {
+        self.sii.keep_busy(now, until);
     }
 
     /// How many words the wire has written to the EEPROM since power-on, modulo 2^32: whoever keeps the image

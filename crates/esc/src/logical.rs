@@ -16,9 +16,9 @@ impl Esc {
 
     /// LWR: stores the bits of `data` that an FMMU maps for writing.
     #[inline]
-    pub fn logical_write(&mut self, address: u32, data: &[u8]) -> bool {
+    pub fn logical_write(&mut self, address: u32, data: &[u8], now: Instant) -> bool {
         let bytes = logical_bytes(address, data.len());
-        self.hot.write_span.overlaps(bytes) && self.write_mapped(bytes, data)
+        self.hot.write_span.overlaps(bytes) && self.write_mapped(bytes, data, now)
     }
 
     /// LRW: both, each from what was there before.
@@ -29,7 +29,7 @@ impl Esc {
         if reads && writes && self.mappings_alias {
             return self.exchange_mapped(bytes, data, now);
         }
-        let written = writes && self.write_mapped(bytes, data);
+        let written = writes && self.write_mapped(bytes, data, now);
         Access { written, read: reads && self.read_mapped(bytes, data, now) }
     }
 
@@ -40,7 +40,7 @@ impl Esc {
         let Some(incoming) = incoming.get_mut(..data.len()) else { return Access::default() };
         incoming.copy_from_slice(data);
         let read = self.read_mapped(datagram, data, now);
-        Access { read, written: self.write_mapped(datagram, incoming) }
+        Access { read, written: self.write_mapped(datagram, incoming, now) }
     }
 
     /// The lowest-numbered FMMU wins where several map the same bit, so it comes last.
@@ -100,14 +100,14 @@ impl Esc {
     }
 
     #[inline]
-    fn write_mapped(&mut self, datagram: Span, data: &[u8]) -> bool {
+    fn write_mapped(&mut self, datagram: Span, data: &[u8], now: Instant) -> bool {
         let mut any = false;
         for n in 0..self.write_mappings.len() {
             let mapping = self.write_mappings[n];
             any |= if mapping.is_whole_buffer_in(datagram) && !self.hot.protected {
                 self.write_whole_buffer(&mapping, datagram, data)
             } else {
-                self.write_mapping(&mapping, datagram, data)
+                self.write_mapping(&mapping, datagram, data, now)
             };
         }
         any
@@ -132,13 +132,13 @@ impl Esc {
 
     /// A bit-wise write touches whole bytes; the bits that are not mapped keep what the buffer holds.
     #[inline(never)]
-    fn write_mapping(&mut self, mapping: &Mapping, datagram: Span, data: &[u8]) -> bool {
+    fn write_mapping(&mut self, mapping: &Mapping, datagram: Span, data: &[u8], now: Instant) -> bool {
         if !mapping.logical_bytes().overlaps(datagram) {
             return false;
         }
         if mapping.bytewise {
             let Some((range, physical)) = byte_overlap(mapping, datagram) else { return false };
-            return self.write(physical, &data[range]);
+            return self.write(physical, &data[range], now);
         }
         let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
         let bits = bit_overlap(&fmmu, datagram);
@@ -150,7 +150,7 @@ impl Esc {
             let value = bit(data, (logical - datagram.start * 8) as usize);
             set_bit(bytes, range.first_bit + n, value);
         }
-        self.write(range.offset, bytes)
+        self.write(range.offset, bytes, now)
     }
 }
 

@@ -10,6 +10,7 @@ use crate::registers::at;
 const READ_BYTES: usize = 8;
 const READ_EIGHT_BYTES: u16 = 1 << 6;
 const TWO_ADDRESS_BYTES: u16 = 1 << 7;
+const COMMAND: u16 = 0x0700;
 const CHECKSUM_ERROR: u16 = 1 << 11;
 const NOT_LOADED: u16 = 1 << 12;
 const COMMAND_ERROR: u16 = 1 << 13;
@@ -28,6 +29,14 @@ enum Loading {
     Missing,
 }
 
+/// The interface takes no command until then.
+#[derive(Clone, Copy, Debug)]
+struct Busy {
+    /// Bits 8 to 10 of control/status: the command that runs; 0 if it is busy without one.
+    command: u16,
+    until: Instant,
+}
+
 /// The EEPROM and the state of its interface.
 #[derive(Clone, Debug)]
 pub(crate) struct Sii {
@@ -35,13 +44,13 @@ pub(crate) struct Sii {
     timing: SiiTiming,
     loading: Loading,
     errors: u16,
-    busy_until: Option<Instant>,
+    busy: Option<Busy>,
     words_written: u32,
 }
 
 impl Sii {
     pub(crate) fn new(image: Vec<u8>, timing: SiiTiming) -> Self {
-        Self { image, timing, loading: Loading::Missing, errors: 0, busy_until: None, words_written: 0 }
+        Self { image, timing, loading: Loading::Missing, errors: 0, busy: None, words_written: 0 }
     }
 
     pub(crate) fn image(&self) -> &[u8] {
@@ -60,8 +69,10 @@ impl Sii {
         self.timing = timing;
     }
 
-    pub(crate) const fn keep_busy(&mut self, until: Instant) {
-        self.busy_until = Some(until);
+    /// Busy until then, with the command that runs at `now`, if one does.
+    pub(crate) fn keep_busy(&mut self, now: Instant, until: Instant) {
+        let command = self.busy_at(now).map_or(0, |busy| busy.command);
+        self.busy = Some(Busy { command, until });
     }
 
     /// A reset is no power-on for who watches the EEPROM.
@@ -76,7 +87,7 @@ impl Sii {
     /// Loads the configuration area at power-on, the station alias included.
     pub(crate) fn power_on(&mut self, memory: &mut Memory) {
         self.errors = 0;
-        self.busy_until = None;
+        self.busy = None;
         self.load(memory);
         if self.is_loaded() {
             memory.set_u16(at::STATION_ALIAS, self.word(4));
@@ -117,7 +128,11 @@ impl Sii {
     }
 
     pub(crate) fn is_busy(&self, now: Instant) -> bool {
-        self.busy_until.is_some_and(|until| now < until)
+        self.busy_at(now).is_some()
+    }
+
+    fn busy_at(&self, now: Instant) -> Option<Busy> {
+        self.busy.filter(|busy| now < busy.until)
     }
 
     /// Whether the wire owns the interface: not offered to the PDI, not taken by it.
@@ -132,12 +147,12 @@ impl Sii {
         }
     }
 
-    /// Control has been written; address and data of the same write are already in place.
+    /// Control has been written, and the interface is not busy; address and data of the same frame are in place.
     pub(crate) fn run_command(&mut self, control: u16, memory: &mut Memory, now: Instant) {
         let write_enabled = control & 1 != 0;
         let address = memory.u32(at::SII_ADDRESS);
         self.errors = 0;
-        match control >> 8 & 7 {
+        match (control & COMMAND) >> 8 {
             0 => return,
             1 => self.read(address, memory),
             2 if write_enabled => self.write(address, memory.u16(at::SII_DATA)),
@@ -146,7 +161,7 @@ impl Sii {
             _ => self.errors = COMMAND_ERROR,
         }
         if let SiiTiming::Busy(duration) = self.timing {
-            self.busy_until = Some(now + duration);
+            self.busy = Some(Busy { command: control & COMMAND, until: now + duration });
         }
     }
 
@@ -174,7 +189,7 @@ impl Sii {
             Loading::Missing => NOT_LOADED,
         };
         let addressing = if self.image.len() > ONE_ADDRESS_BYTE_LIMIT { TWO_ADDRESS_BYTES } else { 0 };
-        let busy = if self.is_busy(now) { BUSY } else { 0 };
+        let busy = self.busy_at(now).map_or(0, |busy| BUSY | busy.command);
         READ_EIGHT_BYTES | addressing | loading | self.errors | busy
     }
 }

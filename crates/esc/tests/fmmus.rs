@@ -141,7 +141,7 @@ fn a_mapping_does_not_wrap() {
     bench.set_fmmu(0, &[0, 0, 0, 0, 0x40, 0, 0, 7, 0xFE, 0xFF, 0, 3, 1]);
     let now = bench.now;
     assert!(!bench.esc.logical_read(2, &mut [0; 8], now));
-    assert!(!bench.esc.logical_write(2, &[0xFF; 32]));
+    assert!(!bench.esc.logical_write(2, &[0xFF; 32], bench.now));
 }
 
 proptest! {
@@ -193,7 +193,7 @@ proptest! {
                 set(&mut expected, physical - 0x1000 * 8, get(sent, logical - window.start));
             }
         }
-        prop_assert_eq!(bench.esc.logical_write(start, sent), hit);
+        prop_assert_eq!(bench.esc.logical_write(start, sent, bench.now), hit);
         prop_assert_eq!(bench.read(0x1000, 64), Some(expected));
     }
 }

@@ -42,7 +42,7 @@ fn the_alias_answers_when_it_is_switched_on() {
 #[test]
 fn a_register_write_takes_effect_at_the_end_of_its_frame() {
     let mut bench = Bench::new();
-    assert!(bench.esc.write(0x0010, &[7, 0]));
+    assert!(bench.esc.write(0x0010, &[7, 0], bench.now));
     let mut within = [0; 2];
     bench.esc.read(0x0010, &mut within, bench.now);
     assert_eq!(within, [0, 0]);
@@ -109,14 +109,14 @@ fn write_protection_asks_for_the_enable_register_in_the_same_frame() {
     let mut bench = Bench::new();
     bench.write(0x0021, &[1]);
     assert!(!bench.write(0x0010, &[5, 0]));
-    assert!(bench.esc.write(0x0020, &[1]));
-    assert!(bench.esc.write(0x0010, &[5, 0]));
+    assert!(bench.esc.write(0x0020, &[1], bench.now));
+    assert!(bench.esc.write(0x0010, &[5, 0], bench.now));
     bench.end();
     assert_eq!(bench.word(0x0010), 5);
     assert!(!bench.write(0x0010, &[6, 0]));
     assert!(bench.write(0x1000, &[1]), "RAM is not protected by the register protection");
-    assert!(bench.esc.write(0x0030, &[1]));
-    assert!(!bench.esc.write(0x0021, &[0]));
+    assert!(bench.esc.write(0x0030, &[1], bench.now));
+    assert!(!bench.esc.write(0x0021, &[0], bench.now));
     bench.end();
 }
 
@@ -125,8 +125,8 @@ fn esc_write_protection_covers_ram_too() {
     let mut bench = Bench::new();
     bench.write(0x0031, &[1]);
     assert!(!bench.write(0x1000, &[1]));
-    assert!(bench.esc.write(0x0030, &[1]));
-    assert!(bench.esc.write(0x1000, &[9]));
+    assert!(bench.esc.write(0x0030, &[1], bench.now));
+    assert!(bench.esc.write(0x1000, &[9], bench.now));
     bench.end();
     assert_eq!(bench.byte(0x1000), 9);
 }
@@ -289,7 +289,7 @@ fn write_protection_looks_at_every_byte() {
 fn res_in_one_frame_or_interrupted_resets_nothing() {
     let mut bench = Bench::new();
     for byte in b"RES" {
-        bench.esc.write(0x0040, &[*byte]);
+        bench.esc.write(0x0040, &[*byte], bench.now);
     }
     bench.end();
     assert!(!bench.esc.pdi().take_reset_request());
@@ -311,7 +311,7 @@ fn a_frame_may_write_registers_many_times() {
         let [low, high] = physical.to_le_bytes();
         bench.set_fmmu(n, &[0, 0, 0, 0, 248, 0, 0, 7, low, high, 0, 2, 1]);
     }
-    assert!(bench.esc.logical_write(0, &[0x77; 248]));
+    assert!(bench.esc.logical_write(0, &[0x77; 248], bench.now));
     bench.end();
     assert_eq!(bench.word(0x0010), 0x7777);
 }
@@ -440,7 +440,7 @@ fn a_look_sees_what_a_read_would_give() {
             bench.esc.advance(bench.now);
         }),
         ("SII", |bench| {
-            bench.esc.keep_sii_busy(bench.now + Duration::from_millis(1));
+            bench.esc.keep_sii_busy(bench.now, bench.now + Duration::from_millis(1));
         }),
     ];
     let mut bench = Bench::new();

@@ -9,6 +9,7 @@ use time::Duration;
 const WRITE_ENABLE_ERROR: u16 = 1 << 14;
 const COMMAND_ERROR: u16 = 1 << 13;
 const BUSY: u16 = 1 << 15;
+const COMMAND: u16 = 0x0700;
 const CHECKSUM_ERROR: u16 = 1 << 11;
 
 fn words_8_to_11() -> Bench {
@@ -96,17 +97,71 @@ fn ownership_decides_who_may_command() {
     assert_eq!(bench.read(0x0508, 2), Some(vec![0xEF, 0xBE]));
 }
 
+const WAIT: Duration = Duration::from_micros(300);
+
+fn slow() -> Bench {
+    Bench::with(EscConfig { sii: SiiTiming::Busy(WAIT), ..EscConfig::default() })
+}
+
+/// C031: the read ends with busy 0; what is written in between does not count and changes nothing (reference 2.10,
+/// 2.16).
 #[test]
-fn a_slow_eeprom_is_busy_until_it_is_done() {
-    let wait = Duration::from_micros(300);
-    let slow = EscConfig { sii: SiiTiming::Busy(wait), ..EscConfig::default() };
-    let mut bench = Bench::with(slow);
+fn a_slow_eeprom_takes_nothing_until_it_is_done() {
+    let mut bench = slow();
     bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    for (offset, data) in
+        [(0x0502, &[0, 1, 8, 0, 0, 0][..]), (0x0502, &[0, 0]), (0x0504, &[8]), (0x0508, &[7; 8])]
+    {
+        assert!(!bench.write(offset, data), "0x{offset:04X} while busy");
+    }
     assert_eq!(bench.word(0x0502) & BUSY, BUSY);
-    bench.write(0x0502, &[0, 1, 8, 0, 0, 0]);
-    bench.now += wait;
-    assert_eq!(bench.word(0x0502) & BUSY, 0);
+    bench.now += WAIT;
+    assert_eq!(bench.word(0x0502) & (BUSY | COMMAND_ERROR), 0);
+    assert_eq!(bench.word(0x0504), 4, "an address in between is not taken");
     assert_eq!(bench.read(0x0508, 2), Some(vec![0x34, 0x12]), "a command in between is not taken");
+    assert!(bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
+}
+
+/// A write that covers the owner register too counts for that byte alone.
+#[test]
+fn a_busy_interface_does_not_keep_the_owner_from_being_set() {
+    let mut bench = slow();
+    bench.write(0x0502, &[0, 1, 4, 0, 0, 0]);
+    assert!(bench.write(0x0500, &[1, 0, 0, 1, 8, 0, 0, 0]));
+    assert_eq!((bench.byte(0x0500), bench.word(0x0504)), (1, 4));
+}
+
+/// Bits 8 to 10 are the running command, and 0 where the interface is busy without one (reference 2.10).
+#[test]
+fn the_running_command_shows_until_it_is_done() {
+    let mut bench = slow();
+    for control in [[0, 1], [1, 2], [0, 4]] {
+        bench.write(0x0502, &control);
+        let running = u16::from(control[1]) << 8;
+        assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), BUSY | running);
+        bench.now += WAIT;
+        assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), 0);
+    }
+    bench.write(0x0502, &[0, 0]);
+    assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), 0, "nothing runs");
+    bench.esc.keep_sii_busy(bench.now, bench.now + WAIT);
+    assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), BUSY);
+    bench.now += WAIT;
+    bench.write(0x0502, &[0, 1]);
+    bench.esc.keep_sii_busy(bench.now, bench.now + WAIT + WAIT);
+    bench.now += WAIT;
+    assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), BUSY | 0x0100, "kept busy while a command runs");
+}
+
+/// Three datagrams of one frame: data, address and command each come by themselves.
+#[test]
+fn data_of_the_same_frame_is_in_place_wherever_it_comes() {
+    let mut bench = slow();
+    for (offset, data) in [(0x0502, &[1, 2][..]), (0x0504, &[5, 0]), (0x0508, &[0xCD, 0xAB])] {
+        assert!(bench.esc.write(offset, data, bench.now));
+    }
+    bench.end();
+    assert_eq!(bench.esc.sii_image()[10..12], [0xCD, 0xAB]);
 }
 
 /// A wrong checksum: the configuration stays out, the controller still answers.

@@ -36,7 +36,7 @@ const CASES: &[Case] = &[
         sentence: "let each SII command of unit 1 take 5ms",
         behind: &[
             r#"{ master = "write register 0x0502 of unit 1 as 00 01 08 00 00 00" }"#,
-            r#"{ after = "3ms", expect = "register 0x0502 of unit 1 is 40 80" }"#,
+            r#"{ after = "3ms", expect = "register 0x0502 of unit 1 is 40 81" }"#,
         ],
     },
     Case {

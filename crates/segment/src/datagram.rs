@@ -46,7 +46,7 @@ fn pass_logical(escs: &mut [Esc], datagram: &mut Datagram<'_>, mut passed: Passe
     for esc in escs {
         let increment = match datagram.header.command {
             Command::Lrd => u16::from(esc.logical_read(address, data, passed.arrival)),
-            Command::Lwr => u16::from(esc.logical_write(address, data)),
+            Command::Lwr => u16::from(esc.logical_write(address, data, passed.arrival)),
             _ => read_write_increment(esc.logical_read_write(address, data, passed.arrival)),
         };
         passed.by(esc, increment);
@@ -72,19 +72,19 @@ fn pass_physical(
         let arrival = passed.arrival;
         let increment = match command {
             Command::Brd => u16::from(esc.read_or(offset, data, arrival)),
-            Command::Bwr => u16::from(esc.write(offset, data)),
+            Command::Bwr => u16::from(esc.write(offset, data, arrival)),
             Command::Brw => read_write_increment(esc.read_or_write(offset, data, arrival)),
             Command::Aprd if here => u16::from(esc.read(offset, data, arrival)),
-            Command::Apwr if here => u16::from(esc.write(offset, data)),
+            Command::Apwr if here => u16::from(esc.write(offset, data, arrival)),
             Command::Aprw if here => read_write_increment(esc.read_write(offset, data, arrival)),
             Command::Fprd if esc.answers_to(address) => u16::from(esc.read(offset, data, arrival)),
-            Command::Fpwr if esc.answers_to(address) => u16::from(esc.write(offset, data)),
+            Command::Fpwr if esc.answers_to(address) => u16::from(esc.write(offset, data, arrival)),
             Command::Fprw if esc.answers_to(address) => {
                 read_write_increment(esc.read_write(offset, data, arrival))
             }
             Command::Armw if here => u16::from(esc.read(offset, data, arrival)),
             Command::Frmw if esc.answers_to(address) => u16::from(esc.read(offset, data, arrival)),
-            Command::Armw | Command::Frmw => u16::from(esc.write(offset, data)),
+            Command::Armw | Command::Frmw => u16::from(esc.write(offset, data, arrival)),
             _ => 0,
         };
         passed.by(esc, increment);

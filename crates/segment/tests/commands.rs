@@ -3,7 +3,7 @@
 use esc::{Esc, EscConfig};
 use proptest::prelude::*;
 use segment::{FrameFate, Segment};
-use time::Instant;
+use time::{Duration, Instant};
 use wire::{Command, FrameBuilder, Returned, returned_datagrams};
 
 fn line(length: usize) -> Segment {
@@ -60,6 +60,21 @@ fn broadcast_writes_reach_all() {
     for station_address in 0x1001..=0x1003 {
         assert_eq!(send(&mut line, Command::Fprd, station_address, 0x1000, &[0]).data, [7]);
     }
+}
+
+/// Commands of every kind that reach a busy SII interface do not count as writes (reference 2.10, 2.16).
+#[test]
+fn a_busy_sii_counts_no_write() {
+    let mut line = line(2);
+    let second = &mut line.esc_mut(1).expect("two units");
+    second.keep_sii_busy(Instant::ZERO, Instant::ZERO + Duration::from_secs(1));
+    let write = |line: &mut Segment, command, address| {
+        send(line, command, address, 0x0504, &[8, 0, 0, 0]).working_counter
+    };
+    assert_eq!(write(&mut line, Command::Apwr, 0xFFFF), 0);
+    assert_eq!(write(&mut line, Command::Fpwr, 0x1002), 0);
+    assert_eq!(write(&mut line, Command::Bwr, 0), 1, "the first unit's interface is idle");
+    assert_eq!(write(&mut line, Command::Fprw, 0x1002), 1, "the read counts");
 }
 
 #[test]

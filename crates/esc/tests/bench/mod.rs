@@ -30,7 +30,7 @@ impl Bench {
 
     /// One frame with one write. Whether it counted.
     pub(crate) fn write(&mut self, offset: u16, data: &[u8]) -> bool {
-        let written = self.esc.write(offset, data);
+        let written = self.esc.write(offset, data, self.now);
         self.end();
         written
     }

@@ -162,7 +162,7 @@ fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: ConductOrder, no
         }
         ConductOrder::SiiTime(time) if time.is_zero() => esc.set_sii_timing(SiiTiming::Immediate),
         ConductOrder::SiiTime(time) => esc.set_sii_timing(SiiTiming::Busy(time)),
-        ConductOrder::SiiBusy(time) => esc.keep_sii_busy(now + time),
+        ConductOrder::SiiBusy(time) => esc.keep_sii_busy(now, now + time),
         ConductOrder::SdoTime(time) => device.set_response_time(time),
         ConductOrder::Refuse(state, code) => {
             device.conduct_mut().refusals.set(state, Some(AlStatusCode(code)));
