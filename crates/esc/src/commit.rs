@@ -3,9 +3,10 @@
 use time::Instant;
 
 use crate::ecat::split_bank;
-use crate::esc::{Esc, Mapping, Passage, Protection};
+use crate::esc::{Esc, Mapping, Protection};
 use crate::events::{AlEvents, EcatEvents};
 use crate::fmmu::{FMMU_BYTES, Fmmu, Span};
+use crate::passage::Passage;
 use crate::registers::{BYTES, Effect, USER_RAM_START, at};
 use crate::shadow::Shadow;
 use crate::sii::Sii;

@@ -5,8 +5,8 @@
 
 use time::{Duration, Instant};
 
-use crate::esc::Passage;
 use crate::memory::Memory;
+use crate::passage::Passage;
 use crate::registers::at;
 
 /// The local clock follows the reference clock by at most one part in this many, as a real one that

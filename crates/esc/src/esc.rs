@@ -8,7 +8,6 @@ use crate::dc::Dc;
 use crate::events::{AlEvents, EcatEvents};
 use crate::fmmu::{FMMUS_MAX, Fmmu, Span};
 use crate::memory::Memory;
-use crate::pdi::Pdi;
 use crate::ports::{self, Port, PortStatus, Ports};
 use crate::registers::at;
 use crate::shadow::Shadow;
@@ -22,15 +21,6 @@ const FEATURES_DC: u16 = 0x000C;
 const FEATURES_LINK: u16 = 0x00C0;
 /// Ports 0 and 1 are MII, 2 and 3 do not exist.
 const PORTS_MII: u8 = 0x0F;
-
-/// When a frame passed this ESC.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Passage {
-    /// Came in at port 0.
-    pub arrival: Instant,
-    /// Came back at port 1, or passed it inside where its loop is closed.
-    pub returned_out: Instant,
-}
 
 /// One EtherCAT slave controller.
 #[derive(Clone, Debug)]
@@ -204,11 +194,6 @@ impl Esc {
         self.ports.update(memory);
     }
 
-    /// The face of the application.
-    pub fn pdi(&mut self) -> Pdi<'_> {
-        Pdi::new(self)
-    }
-
     /// The EEPROM image.
     #[must_use]
     pub fn sii_image(&self) -> &[u8] {
@@ -216,7 +201,7 @@ impl Esc {
     }
 
     /// The EEPROM image for the start-up of the unit, before the controller loads it. In operation the PDI
-    /// takes the EEPROM first: [`Pdi::take_sii`].
+    /// takes the EEPROM first: [`crate::Pdi::take_sii`].
     pub fn sii_image_mut(&mut self) -> &mut [u8] {
         self.sii.image_mut()
     }

@@ -14,11 +14,14 @@ pub struct Pdi<'a> {
     esc: &'a mut Esc,
 }
 
-impl<'a> Pdi<'a> {
-    pub(crate) fn new(esc: &'a mut Esc) -> Self {
-        Self { esc }
+impl Esc {
+    /// The face of the application.
+    pub fn pdi(&mut self) -> Pdi<'_> {
+        Pdi { esc: self }
     }
+}
 
+impl Pdi<'_> {
     /// Takes the watchdog event, as reading 0x0440 does.
     pub fn take_watchdog_event(&mut self) -> bool {
         let expired = self.esc.al_events.contains(AlEvents::WATCHDOG);
