@@ -2,6 +2,7 @@
 
 mod contents;
 mod image;
+mod image_error;
 mod layout;
 mod lint;
 mod parse;
@@ -12,8 +13,9 @@ mod tests;
 pub use contents::{
     Category, General, Header, PdoContents, PdoEntryContents, SiiContents, SyncManagerContents,
 };
-pub use image::{ImageError, image, try_image};
 pub(crate) use image::{area_words, configuration};
+pub use image::{image, try_image};
+pub use image_error::ImageError;
 pub use layout::category;
 pub use lint::{Finding, compare, lint};
 pub use parse::{SiiError, parse};

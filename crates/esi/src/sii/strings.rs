@@ -1,6 +1,6 @@
 //! Category 10: every text once, referred to by its number from 1.
 
-use super::ImageError;
+use super::image_error::ImageError;
 
 /// Texts of the image in order of first use.
 #[derive(Default)]
