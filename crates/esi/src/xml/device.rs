@@ -2,8 +2,9 @@
 
 use objects::ObjectTable;
 
-use super::document::Document;
-use super::{ENGLISH, dictionary, hex_binary, hex8, hex16, hex32, types};
+use super::document::{Document, ENGLISH};
+use super::hex::{hex_binary, hex8, hex16, hex32};
+use super::{dictionary, types};
 use crate::sii;
 use crate::{
     CoeDetails, DeviceDescription, FmmuUsage, GeneralFlags, Mailbox, MailboxProtocols, Pdo, PortPhysics,

@@ -6,8 +6,8 @@ use objects::{AccessRights, Entry, Object, ObjectCode, ObjectTable};
 use wire::SubIndex;
 
 use super::document::Document;
+use super::hex::{hex_binary, hex16};
 use super::types::{self, Shape};
-use super::{hex_binary, hex16};
 
 /// Sub item 0 takes two bytes, as in a complete access (ETG.1000.6).
 const FIRST_ENTRY_BITS: u32 = 16;

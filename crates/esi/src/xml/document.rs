@@ -3,6 +3,9 @@
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
+/// Language of the texts: English.
+pub(super) const ENGLISH: &str = "1033";
+
 /// Attributes of an element: name, value.
 pub(super) type Attributes<'a> = [(&'a str, &'a str)];
 

@@ -3,6 +3,7 @@
 mod device;
 mod dictionary;
 mod document;
+mod hex;
 #[cfg(test)]
 mod tests;
 mod types;
@@ -10,10 +11,8 @@ mod types;
 use objects::ObjectTable;
 
 use crate::DeviceDescription;
-use document::Document;
-
-/// Language of the texts: English.
-const ENGLISH: &str = "1033";
+use document::{Document, ENGLISH};
+use hex::hex32;
 
 /// The ESI file of a device and its object dictionary. Numbers with a width stand as `#x…`.
 #[must_use]
@@ -37,21 +36,4 @@ fn group(document: &mut Document, description: &DeviceDescription) {
         document.text("Type", &description.group.group_type);
         document.text_with("Name", &[("LcId", ENGLISH)], &description.group.name);
     });
-}
-
-fn hex8(value: u8) -> String {
-    format!("#x{value:02X}")
-}
-
-fn hex16(value: u16) -> String {
-    format!("#x{value:04X}")
-}
-
-fn hex32(value: u32) -> String {
-    format!("#x{value:08X}")
-}
-
-/// Bytes in the order of memory, as `hexBinary` fields hold them.
-fn hex_binary(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02X}")).collect()
 }
