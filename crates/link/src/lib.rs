@@ -11,6 +11,7 @@ mod filter;
 mod losses;
 pub mod memory;
 mod open;
+mod open_error;
 mod port;
 mod raw;
 mod recorder;
@@ -20,7 +21,8 @@ mod tap;
 mod udp;
 
 pub use clock::Clock;
-pub use open::{OpenError, open};
+pub use open::open;
+pub use open_error::OpenError;
 pub use port::{FRAME_BUFFER_BYTES, FramePort};
 pub use recorder::{Medium, Recorder, Recording};
 pub use runner::{FrameFate, Observer, Responder, Seen, Statistics};
