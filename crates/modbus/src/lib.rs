@@ -7,6 +7,7 @@
 //! The frames are those of *MODBUS Messaging on TCP/IP Implementation Guide* V1.0b, function codes and exceptions those
 //! of *MODBUS Application Protocol Specification* V1.1b3.
 
+mod addresses;
 mod answer;
 mod connection;
 mod exception;

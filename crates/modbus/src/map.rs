@@ -3,66 +3,22 @@
 //! One element of an array is one register, a BYTE in the low octet; a UDINT is two, the low word first. Each data set
 //! has its place whatever is allocated, so that another entry moves nothing.
 
+mod bases;
 mod rows;
+mod table;
 
 use nx_ect101::{DataSetKind, Direction};
 use plc::{DeviceVariables, Target, VariableId, VariableSource};
 
+use crate::addresses::Addresses;
 use crate::exception::Exception;
-use crate::request::Addresses;
 
+pub use bases::{
+    BYTES_BASE, ERROR_TABLE_BASE, FORCED_C_TO_M_BASE, FORCED_M_TO_C_BASE, IO_DATA_ACTIVE, MESSAGE_TABLE_BASE,
+    SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
+};
 pub use rows::MapRow;
-
-/// First register of the entries UINTs: entry `n`, counted from 1, begins at `(n - 1) * 15`.
-pub const UINTS_BASE: u16 = 0;
-/// First register of the entries BYTES: entry `n` begins at `1000 + (n - 1) * 10`.
-pub const BYTES_BASE: u16 = 1000;
-/// First register of the entries UDINT: entry `n` begins at `2000 + (n - 1) * 2`.
-pub const UDINT_BASE: u16 = 2000;
-/// Input register of EtherCAT Slave Status.
-pub const SLAVE_STATUS: u16 = 3000;
-
-/// Added to a holding register: writing there forces the output.
-pub const FORCED_C_TO_M_BASE: u16 = 10_000;
-/// Added to an input register: the holding register there forces the input.
-pub const FORCED_M_TO_C_BASE: u16 = 20_000;
-
-/// Discrete input of bit 0 of EtherCAT Slave Status; bit 15 is the last.
-pub const SLAVE_STATUS_BITS_BASE: u16 = 0;
-/// Discrete input of NX Unit I/O Data Active Status.
-pub const IO_DATA_ACTIVE: u16 = 16;
-/// Discrete input of NX Unit Error Status.
-pub const UNIT_ERROR: u16 = 17;
-/// First discrete input of `_NXB_UnitMsgActiveTbl`.
-pub const MESSAGE_TABLE_BASE: u16 = 100;
-/// First discrete input of `_NXB_UnitErrFlagTbl`.
-pub const ERROR_TABLE_BASE: u16 = 200;
-
-/// One of the four tables of Modbus (application protocol, 4.3).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Table {
-    /// Bits that are read and written.
-    Coils,
-    /// Bits that are read.
-    DiscreteInputs,
-    /// Registers of 16 bits that are read.
-    InputRegisters,
-    /// Registers of 16 bits that are read and written.
-    HoldingRegisters,
-}
-
-impl Table {
-    /// Its name for programs.
-    #[must_use]
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::Coils => "coil",
-            Self::DiscreteInputs => "discrete_input",
-            Self::InputRegisters => "input_register",
-            Self::HoldingRegisters => "holding_register",
-        }
-    }
-}
+pub use table::Table;
 
 /// The addresses of the variables of one CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! Requests: function code and octets in, a request that is well formed out.
 
+use crate::addresses::Addresses;
 use crate::exception::Exception;
 use crate::map::Table;
 
@@ -13,13 +14,6 @@ const WRITE_COILS_MAX: u16 = 1968;
 const WRITE_REGISTERS_MAX: u16 = 123;
 /// Most registers of a request that reads too (6.17).
 const READ_WRITE_REGISTERS_MAX: u16 = 121;
-
-/// Addresses one after another, at least one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Addresses {
-    pub(crate) first: u16,
-    pub(crate) quantity: u16,
-}
 
 /// A request that is well formed. Its addresses may be anywhere.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,18 +55,6 @@ impl Request {
             0x17 => read_write(octets),
             _ => Err(Exception::IllegalFunction),
         }
-    }
-}
-
-impl Addresses {
-    const fn one(first: u16) -> Self {
-        Self { first, quantity: 1 }
-    }
-
-    /// Within the quantities that a request may ask for.
-    fn checked(first: u16, quantity: u16, most: u16) -> Result<Self, Exception> {
-        let is_possible = (1..=most).contains(&quantity);
-        is_possible.then_some(Self { first, quantity }).ok_or(Exception::IllegalDataValue)
     }
 }
 

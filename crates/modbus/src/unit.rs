@@ -6,9 +6,9 @@ use std::time::{Duration, Instant};
 use plc::outside::{Change, ChangeRefused, Operation, OutsideEnd, Snapshot, Ticket};
 use plc::{Target, VariableError, VariableValue};
 
+use crate::addresses::Addresses;
 use crate::exception::Exception;
 use crate::map::{Bit, BitTells, ModbusMap, Register, Table, Writing};
-use crate::request::Addresses;
 
 /// How long a request that writes waits for the task period that takes it.
 const PATIENCE: Duration = Duration::from_secs(1);

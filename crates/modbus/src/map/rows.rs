@@ -5,10 +5,11 @@ use core::ops::RangeInclusive;
 use nx_ect101::{DataSet, DataSetKind, Direction};
 use plc::{DeviceVariables, SYSTEM_TABLE_ELEMENTS, VariableId, VariableSource};
 
-use super::{
+use super::bases::{
     BYTES_BASE, ERROR_TABLE_BASE, FORCED_C_TO_M_BASE, FORCED_M_TO_C_BASE, IO_DATA_ACTIVE, MESSAGE_TABLE_BASE,
-    SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, Table, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
+    SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
 };
+use super::table::Table;
 
 /// The addresses of one variable, counted from 0 as in the protocol.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,0 +1,27 @@
+//! The tables in which addresses count.
+
+/// One of the four tables of Modbus (application protocol, 4.3).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Table {
+    /// Bits that are read and written.
+    Coils,
+    /// Bits that are read.
+    DiscreteInputs,
+    /// Registers of 16 bits that are read.
+    InputRegisters,
+    /// Registers of 16 bits that are read and written.
+    HoldingRegisters,
+}
+
+impl Table {
+    /// Its name for programs.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Coils => "coil",
+            Self::DiscreteInputs => "discrete_input",
+            Self::InputRegisters => "input_register",
+            Self::HoldingRegisters => "holding_register",
+        }
+    }
+}
