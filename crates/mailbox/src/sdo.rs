@@ -255,7 +255,7 @@ fn write(
     judge.check_values(objects, target, data)?;
     match target.access {
         SdoAccess::Entry => objects.write(target.index, target.sub, data),
-        SdoAccess::Complete => objects.write_complete(target.index, target.sub, data, undo),
+        SdoAccess::Complete => complete::write(objects, target.index, target.sub, data, undo),
     }
 }
 

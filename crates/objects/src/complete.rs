@@ -39,8 +39,9 @@ pub fn read<S: ObjectServer + ?Sized>(
     Ok(length_bytes)
 }
 
-/// Writes the entries that `octets` hold from subindex `first` on; entries that are never writable are
-/// passed over. If one is refused, those before it get their old values back.
+/// Writes the entries that `octets` hold from subindex `first` on (0 or 1), laid out as [`crate::Object::layout`] says;
+/// `octets` may end early, behind a whole entry. Entries that are never writable are passed over. If one is refused,
+/// those before it get their old values back; `undo` is room for them, as long as the object's whole layout.
 ///
 /// # Errors
 /// What an entry refuses with; 0x06020000 if there is no such object, 0x05040005 if `undo` is shorter than

@@ -126,9 +126,9 @@ fn complete_access_reads_what_the_state_lets_it() {
 #[test]
 fn complete_access_writes_only_with_room_to_undo_it() {
     let mut dictionary = Dictionary::new(table());
-    let refused = dictionary.write_complete(RECORD, SubIndex(1), &[1, 0], &mut [0; 6]);
+    let refused = complete::write(&mut dictionary, RECORD, SubIndex(1), &[1, 0], &mut [0; 6]);
     assert_eq!(refused, Err(SdoAbort::OUT_OF_MEMORY));
-    assert_eq!(dictionary.write_complete(RECORD, SubIndex(1), &[1, 0, 0b01], &mut [0; 7]), Ok(()));
+    assert_eq!(complete::write(&mut dictionary, RECORD, SubIndex(1), &[1, 0, 0b01], &mut [0; 7]), Ok(()));
     let values = [1, 2, 3].map(|sub| dictionary.unsigned(RECORD, SubIndex(sub)));
     assert_eq!(values, [Some(1), Some(1), Some(1)], "the read-only bit is passed over");
 }
