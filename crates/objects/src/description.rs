@@ -5,8 +5,6 @@ use core::ops::RangeInclusive;
 use bitflags::bitflags;
 use wire::{AlState, DataType, ObjectIndex, SubIndex};
 
-use crate::layout::Layout;
-
 bitflags! {
     /// Access word of an entry, as SDO information shows it.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -193,11 +191,5 @@ impl Object {
         let holds_pdos = matches!(self.index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);
         let count = self.entry(SubIndex::ZERO).map_or(AccessRights::empty(), |entry| entry.access);
         holds_pdos && self.code != ObjectCode::Variable && count.intersects(AccessRights::WRITE)
-    }
-
-    /// Where complete access from `first` on (0 or 1) puts each entry.
-    #[must_use]
-    pub fn layout(&self, first: SubIndex) -> Layout<'_> {
-        Layout::new(self, first)
     }
 }

@@ -98,11 +98,15 @@ pub struct Layout<'a> {
     cursor: Cursor,
 }
 
-impl<'a> Layout<'a> {
-    pub(crate) fn new(object: &'a Object, first: SubIndex) -> Self {
-        Self { object, cursor: Cursor::new(object, first) }
+impl Object {
+    /// Where complete access from `first` on (0 or 1) puts each entry.
+    #[must_use]
+    pub fn layout(&self, first: SubIndex) -> Layout<'_> {
+        Layout { object: self, cursor: Cursor::new(self, first) }
     }
+}
 
+impl Layout<'_> {
     /// Octets of the entries up to subindex `last`, the last bits rounded up.
     #[must_use]
     pub fn length_bytes_to(mut self, last: SubIndex) -> usize {
