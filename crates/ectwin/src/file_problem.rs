@@ -11,7 +11,7 @@ use ectwin::unit_file::UnitFileError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use user_file::{MISTAKES_MAX, and_more, escaped};
 
-use crate::output::colour_on_stderr;
+use crate::colour::colour_on_stderr;
 use excerpt::Excerpt;
 
 /// What is wrong with the files of a command: the first things in full, and how many more there are.

@@ -1,6 +1,7 @@
 //! The `ectwin` command.
 
 mod cli;
+mod colour;
 mod commands;
 mod descriptors;
 mod failure;

@@ -1,10 +1,11 @@
 //! Where results and logs go: results to stdout, logs to stderr.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tracing_subscriber::EnvFilter;
 
+use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
 
 /// Sends logs to stderr; `RUST_LOG` overrules the level that `-v` asks for.
@@ -21,16 +22,6 @@ pub(crate) fn start_logging(verbose: u8) {
         .with_writer(io::stderr)
         .with_ansi(colour_on_stderr())
         .init();
-}
-
-/// Whether messages may have colour: someone looks at them, and has not asked for none.
-pub(crate) fn colour_on_stderr() -> bool {
-    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
-}
-
-/// Whether results may have colour: someone looks at them, and has not asked for none.
-pub(crate) fn colour_on_stdout() -> bool {
-    io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
 /// A JSON document with its last line ended.

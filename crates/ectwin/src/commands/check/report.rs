@@ -9,7 +9,7 @@ use miette::{
 use nx_ect101::{EventLevel, Finding};
 
 use super::places::Place;
-use crate::output::colour_on_stdout;
+use crate::colour::colour_on_stdout;
 
 /// The finding with its places, its event and its correction.
 pub(super) fn picture(
