@@ -1,27 +1,26 @@
 //! `ectwin demo`: a unit and an ethercrab master in this process, and what happens between them.
 
 mod exchange;
+mod group;
+mod step;
 mod story;
 
 use std::time::Duration;
 
 use ectwin::{Live, Setup, Twin};
-use ethercrab::error::Error;
 use ethercrab::std::ethercat_now;
-use ethercrab::subdevice_group::{PreOp, SubDeviceGroup};
+use ethercrab::subdevice_group::PreOp;
 use ethercrab::{MainDevice, MainDeviceConfig, PduStorage, RetryBehaviour, Timeouts};
 use link::Statistics;
 
 use crate::failure::Failure;
 use exchange::Exchanged;
+use group::{Group, MAX_PROCESS_DATA_BYTES, MAX_UNITS};
+use step::{failed, master_failed};
 use story::Story;
 
-const MAX_UNITS: usize = 2;
-const MAX_PROCESS_DATA_BYTES: usize = 512;
 const MAX_FRAMES: usize = 16;
 const FRAME_BYTES: usize = PduStorage::element_size(1100);
-
-type Group<S> = SubDeviceGroup<MAX_UNITS, MAX_PROCESS_DATA_BYTES, ethercrab::DefaultLock, S>;
 
 static STORAGE: PduStorage<MAX_FRAMES, FRAME_BYTES> = PduStorage::new();
 
@@ -127,13 +126,4 @@ fn timeouts() -> Timeouts {
 fn master_config() -> MainDeviceConfig {
     // One unit has no clock to agree with: a short round of clock synchronization is enough.
     MainDeviceConfig { dc_static_sync_iterations: 100, retry_behaviour: RetryBehaviour::None }
-}
-
-fn failed(step: &str, reason: impl std::fmt::Display) -> Failure {
-    Failure::Demo(format!("{step}: {reason}"))
-}
-
-/// Names the step in which the master failed.
-fn master_failed(step: &str) -> impl Fn(Error) -> Failure + '_ {
-    move |error| failed(step, error)
 }

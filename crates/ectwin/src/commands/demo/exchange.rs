@@ -8,8 +8,9 @@ use ethercrab::MainDevice;
 use ethercrab::subdevice_group::{HasPdi, Op, PreOp, SafeOp};
 use tokio::time::MissedTickBehavior;
 
+use super::group::Group;
+use super::step::{failed, master_failed};
 use super::story::Story;
-use super::{Group, failed, master_failed};
 use crate::failure::Failure;
 
 const CYCLE: Duration = Duration::from_millis(1);
