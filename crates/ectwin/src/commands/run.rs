@@ -1,7 +1,8 @@
 //! `ectwin run FILE… --link LINK`.
 
+mod servers;
+
 use std::fs::File;
-use std::net::{SocketAddr, TcpListener};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -24,9 +25,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     // First whatever needs a privilege, then no privileges, then the threads, which inherit that.
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
     let link = port.link().unwrap_or_else(|| args.link.clone());
-    let listener = args.modbus.map(listen).transpose()?;
+    let listener = args.modbus.map(servers::listen_for_modbus).transpose()?;
     #[cfg(feature = "opcua")]
-    let opcua_listener = args.opcua.map(opcua::listen).transpose()?;
+    let opcua_listener = args.opcua.map(servers::listen_for_opcua).transpose()?;
     let capture = args.pcap.as_deref().map(create).transpose()?;
     privileges::give_up(&files(args, &setups));
 
@@ -37,9 +38,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
     twin.reset_errors_on(flag_of(&[SIGUSR1]).map_err(Failure::LinkLost)?);
-    let modbus = listener.map(|listener| serve_modbus(&mut twin, listener)).transpose()?;
+    let modbus = listener.map(|listener| servers::serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
-    let _opcua = opcua_listener.map(|listener| opcua::serve(&mut twin, listener)).transpose()?;
+    let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
     // The port is open: a frame that comes from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
@@ -87,38 +88,6 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
     let read = args.units.iter().chain(&args.programs).cloned();
     memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
-}
-
-/// A listener, and the address that was asked for.
-type Listener = (SocketAddr, TcpListener);
-
-fn listen(address: SocketAddr) -> Result<Listener, Failure> {
-    let listener = TcpListener::bind(address).map_err(|source| Failure::Modbus { address, source })?;
-    Ok((address, listener))
-}
-
-fn serve_modbus(twin: &mut Twin, (address, listener): Listener) -> Result<ModbusServer, Failure> {
-    let server = twin.serve_modbus(listener).map_err(|source| Failure::Modbus { address, source })?;
-    tracing::info!("Modbus TCP is served at {}", server.address());
-    Ok(server)
-}
-
-#[cfg(feature = "opcua")]
-mod opcua {
-    use ectwin::OpcUaServer;
-
-    use super::{Failure, Listener, SocketAddr, TcpListener, Twin};
-
-    pub(super) fn listen(address: SocketAddr) -> Result<Listener, Failure> {
-        let listener = TcpListener::bind(address).map_err(|source| Failure::OpcUa { address, source })?;
-        Ok((address, listener))
-    }
-
-    pub(super) fn serve(twin: &mut Twin, (address, listener): Listener) -> Result<OpcUaServer, Failure> {
-        let server = twin.serve_opcua(listener).map_err(|source| Failure::OpcUa { address, source })?;
-        tracing::info!("OPC UA is served at opc.tcp://{}", server.address());
-        Ok(server)
-    }
 }
 
 fn create(path: &Path) -> Result<File, Failure> {
