@@ -1,6 +1,9 @@
-//! The floors of the house: which crate may use which, what the core must never touch, and circles of files.
+//! The floors of the house: which crate may use which, what the core must never touch, circles of files, and who names
+//! a unit model.
 
 mod circles;
+mod list;
+mod models;
 mod modules;
 mod tokens;
 
@@ -48,13 +51,15 @@ const FLOORS: &[Row] = &[
     row("link", 8, Only(&["time", "capture", "segment"])),
     row("storage", 8, Only(&[])),
     row("ectwin", 9, AnyFloorBelow),
-    row("xtask", 10, AnyFloorBelow),
+    row("xtask", CHECKS_FLOOR, AnyFloorBelow),
     // Namespaces and child processes for tests: dev-dependencies may name it from any floor.
     row(FOR_TESTS, 0, Only(&[])),
 ];
 
 const FOR_TESTS: &str = "testbed";
 
+/// The floor of our own checks.
+const CHECKS_FLOOR: u8 = 10;
 /// The first floor that may do input and output.
 const SHELL_FLOOR: u8 = 8;
 
@@ -77,23 +82,33 @@ const SHELL_WORDS: &[&str] = &[
     "SystemTime::now",
 ];
 
-/// Checks all of it: crates, words, circles of files.
+/// Checks all of it: crates, words, circles of files, names of models.
 pub(crate) fn check() -> Outcome {
     let metadata = metadata::read()?;
     let sources = sources::read()?;
     let mut findings = wrong_arrows(&metadata);
     findings.extend(sources.iter().flat_map(shell_words));
     findings.extend(circles::findings(&crates(), &sources));
-    report("arrows", &findings)
+    findings.extend(models::findings(&of_the_product(), &sources));
+    report("arrows", &findings)?;
+    println!("{} circles of files, {} files that name a unit model", circles::count(), models::count());
+    Ok(())
 }
 
-/// Writes the list of circles of files, where it only shrinks.
+/// Writes the lists of what is wrong today, where they only shrink.
 pub(crate) fn bless() -> Outcome {
-    circles::bless(&crates(), &sources::read()?)
+    let sources = sources::read()?;
+    circles::bless(&crates(), &sources)?;
+    models::bless(&of_the_product(), &sources)
 }
 
 fn crates() -> Vec<&'static str> {
     FLOORS.iter().map(|row| row.name).collect()
+}
+
+/// The crates that users get: without our own checks and what is for tests.
+fn of_the_product() -> Vec<&'static str> {
+    FLOORS.iter().filter(|row| (1..CHECKS_FLOOR).contains(&row.floor)).map(|row| row.name).collect()
 }
 
 fn find(name: &str) -> Option<&'static Row> {

@@ -29,9 +29,9 @@ struct Arguments {
 enum Task {
     /// Everything that has to hold before a change lands
     Ci(ci::Options),
-    /// Which crate uses which, what the core must not touch, and circles between files
+    /// Which crate uses which, what the core must not touch, circles between files, and who names a unit model
     Arrows {
-        /// Write the list of circles of files, if it only shrinks
+        /// Write the lists of circles and of files that name a model, if they only shrink
         #[arg(long)]
         bless: bool,
     },

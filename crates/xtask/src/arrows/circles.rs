@@ -5,15 +5,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::list::{self, List};
 use super::modules::Modules;
 use crate::outcome::{Outcome, report};
 use crate::sources::Source;
-use crate::tools::root;
 
-/// The circles that there are, one a line: to take apart, never to add to.
-const KNOWN: &str = include_str!("circles.txt");
-/// Where the list is.
-const LIST: &str = "crates/xtask/src/arrows/circles.txt";
+/// The circles that there are: to take apart, never to add to.
+const KNOWN: List = List { file: "crates/xtask/src/arrows/circles.txt", text: include_str!("circles.txt") };
 
 /// Files from the top folder, in order.
 type Circle<'a> = BTreeSet<&'a str>;
@@ -21,18 +19,20 @@ type Circle<'a> = BTreeSet<&'a str>;
 /// Circles that are not in the list, and lines of the list that are no circle any more.
 pub(super) fn findings(crates: &[&str], sources: &[Source]) -> Vec<String> {
     let found: Vec<Circle<'_>> = crates.iter().flat_map(|name| circles(name, sources)).collect();
-    compare(&found, &known(KNOWN))
+    compare(&found, &known(KNOWN.text))
+}
+
+/// How many circles the list has.
+pub(super) fn count() -> usize {
+    KNOWN.items().count()
 }
 
 /// Writes the list, where no circle is new and none has grown.
 pub(super) fn bless(crates: &[&str], sources: &[Source]) -> Outcome {
     let found: Vec<Circle<'_>> = crates.iter().flat_map(|name| circles(name, sources)).collect();
-    let known = known(KNOWN);
+    let known = known(KNOWN.text);
     report("new circles", &new(&found, &known))?;
-    let lines: Vec<String> =
-        KNOWN.lines().take_while(|line| line.starts_with('#')).map(String::from).collect();
-    let text = lines.into_iter().chain(found.iter().map(line)).map(|line| line + "\n").collect::<String>();
-    std::fs::write(root().join(LIST), text).map_err(|error| format!("{LIST}: {error}"))
+    KNOWN.write(found.iter().map(line))
 }
 
 /// Circles that are in no known one.
@@ -57,8 +57,7 @@ fn compare(found: &[Circle<'_>], known: &[Circle<'_>]) -> Vec<String> {
 }
 
 fn known(text: &str) -> Vec<Circle<'_>> {
-    let lines = text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'));
-    lines.map(|line| line.split_whitespace().collect()).collect()
+    list::items(text).map(|line| line.split_whitespace().collect()).collect()
 }
 
 /// The circles of one crate.

@@ -26,6 +26,19 @@ pub(super) fn of(code: &str) -> Vec<&str> {
     tokens
 }
 
+/// The code with its texts and without its comments.
+pub(super) fn without_comments(code: &str) -> String {
+    let (mut kept, mut rest) = (String::new(), code);
+    while let Some(first) = rest.chars().next() {
+        let length = skipped(rest).unwrap_or(first.len_utf8());
+        if !rest.starts_with("//") {
+            kept.push_str(&rest[..length]);
+        }
+        rest = &rest[length..];
+    }
+    kept
+}
+
 /// The length of a comment, a text, a character or a lifetime at the beginning.
 fn skipped(rest: &str) -> Option<usize> {
     let until =
