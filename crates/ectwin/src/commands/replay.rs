@@ -5,6 +5,7 @@
 
 mod campaign;
 mod captures;
+mod case;
 mod junit;
 mod partition;
 mod result;
@@ -26,9 +27,10 @@ use partition::Shard;
 use results::Results;
 
 pub(crate) use campaign::read_scenario;
+pub(crate) use case::CASES_MAX;
 pub(crate) use junit::report as junit_report;
 pub(crate) use partition::{Partition, PartitionChoice};
-pub(crate) use result::{CASES_MAX, CaseResult, Verdict};
+pub(crate) use result::{CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 

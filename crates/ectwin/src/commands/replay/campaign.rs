@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Recording, Scenario};
 
+use super::case::{CASES_MAX, Case};
 use super::partition::Partition;
-use super::result::CASES_MAX;
 use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
@@ -46,22 +46,6 @@ impl Seeds {
             (None, None) => Self::Own,
         }
     }
-}
-
-/// One scenario with one seed.
-pub(super) struct Case<'a> {
-    /// Its number, from 1.
-    pub(super) number: u64,
-    /// How many there are in all parts.
-    pub(super) count: u64,
-    /// Of the campaign.
-    pub(super) fingerprint: u64,
-    /// The file.
-    pub(super) path: &'a Path,
-    /// What it says.
-    pub(super) scenario: &'a Scenario,
-    /// The seed of its dice.
-    pub(super) seed: u64,
 }
 
 impl Campaign {

@@ -2,11 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::campaign::Case;
+use super::case::Case;
 use super::partition::Partition;
-
-/// Most cases of one campaign: lists of them are kept in memory.
-pub(crate) const CASES_MAX: u64 = 10_000_000;
 
 /// What a case came to. Nothing of it depends on the machine, on threads or on the time of day.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -8,7 +8,7 @@ use std::thread;
 
 use scenario::Recording;
 
-use super::campaign::Case;
+use super::case::Case;
 use super::partition::Partition;
 use super::result::CaseResult;
 use crate::failure::Failure;
