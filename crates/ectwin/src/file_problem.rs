@@ -7,8 +7,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use ectwin::st;
-use ectwin::unit_file::UnitFileError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use user_file::FileError;
 use user_file::{MISTAKES_MAX, and_more, escaped};
 
 use crate::colour::colour_on_stderr;
@@ -112,7 +112,7 @@ impl FileProblem {
     }
 
     /// Of a unit file.
-    pub(crate) fn of_unit_file(path: &Path, text: &str, error: &UnitFileError) -> Self {
+    pub(crate) fn of_unit_file(path: &Path, text: &str, error: &FileError) -> Self {
         let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
         let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));
         let label = nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned());

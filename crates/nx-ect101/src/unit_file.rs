@@ -5,19 +5,17 @@
 //! spans, because the setting rules judge them and point into the file.
 
 mod entries;
-mod error;
 mod information;
-mod located;
-mod reader;
 mod sections;
 mod slave;
 #[cfg(test)]
 mod tests;
-mod values;
+mod times;
 
 use std::path::PathBuf;
 
 use time::Duration;
+use user_file::{Wanted, read_toml};
 
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
@@ -25,9 +23,9 @@ use crate::slave_settings::SlaveSettings;
 use crate::timing::Timing;
 use crate::unit_information::UnitInformation;
 
-pub use entries::{DataSetEntries, Entries, EntryAddress, IoAllocationSection, MappingEntries, PdoSection};
-pub use error::{UnitFileError, UnitFileErrors};
-pub use located::Located;
+pub use entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
+pub use user_file::{FileErrors, Located};
+pub use wire::EntryAddress;
 
 /// The unit models that a unit file can name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,8 +128,8 @@ impl UnitFile {
     /// # Errors
     /// Everything that is wrong, in the order of the file: text that is no TOML (then nothing else is
     /// judged), unknown keys, wrong types, bad values, `model` missing.
-    pub fn parse(text: &str) -> Result<Self, UnitFileErrors> {
-        reader::parse(text, sections::unit)
+    pub fn parse(text: &str) -> Result<Self, FileErrors> {
+        read_toml(text, Wanted::UnitFile, sections::unit)
     }
 
     /// The I/O allocation that the file asks for, right or wrong.

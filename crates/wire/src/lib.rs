@@ -33,7 +33,7 @@ pub use frame::{
     UDP_PORT_ETHERCAT, mark_source_address,
 };
 pub use mailbox::{MailboxErrorCode, MailboxErrorReply, MailboxHeader, MailboxType};
-pub use object::{DataType, ObjectIndex, SubIndex};
+pub use object::{DataType, EntryAddress, ObjectIndex, SubIndex};
 pub use sdo::{SdoAccess, SdoRequest, SdoSyntaxError, SdoTarget};
 pub use sdo_abort::{SdoAbort, SdoAbortRow};
 pub use sdo_info::{

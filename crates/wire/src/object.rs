@@ -27,6 +27,21 @@ impl fmt::Display for SubIndex {
     }
 }
 
+/// Index and subindex of an entry. Prints as `6000:01`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EntryAddress {
+    /// Index of the object.
+    pub index: ObjectIndex,
+    /// Subindex in it.
+    pub sub: SubIndex,
+}
+
+impl fmt::Display for EntryAddress {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{:04X}:{}", self.index.0, self.sub)
+    }
+}
+
 /// Data type of an entry: the index of its type object (ETG.1020, base data types; CiA 301).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct DataType(pub u16);

@@ -36,7 +36,7 @@ const FLOORS: &[Row] = &[
     row("capture", 1, Only(&[])),
     row("esc", 2, Only(&["time", "wire"])),
     row("objects", 2, Only(&["wire"])),
-    row("user-file", 2, Only(&[])),
+    row("user-file", 2, Only(&["time", "wire"])),
     row("segment", 3, Only(&["time", "wire", "esc"])),
     row("mailbox", 3, Only(&["wire", "objects"])),
     row("esi", 3, Only(&["wire", "objects"])),

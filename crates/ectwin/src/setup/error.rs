@@ -3,14 +3,14 @@
 use std::fmt;
 use std::ops::Range;
 
-use nx_ect101::unit_file::UnitFileErrors;
 use plc::Builtin;
+use user_file::FileErrors;
 
 /// Why a unit file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SetupError {
     /// It is no valid unit file.
-    UnitFile(UnitFileErrors),
+    UnitFile(FileErrors),
     /// Its user program cannot be read.
     ProgramUnreadable {
         /// The path.

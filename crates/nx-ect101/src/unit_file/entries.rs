@@ -1,19 +1,10 @@
 //! Entries of data sets and PDO mappings, as the user wrote them.
 
-use wire::{ObjectIndex, SubIndex};
+use user_file::Located;
+use wire::{EntryAddress, ObjectIndex, SubIndex};
 
-use super::located::Located;
 use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::{DataSet, DataSetKind, Direction};
-
-/// Index and subindex of an entry.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct EntryAddress {
-    /// Index of the object.
-    pub index: ObjectIndex,
-    /// Subindex in it.
-    pub sub: SubIndex,
-}
 
 /// The entries of a data set or PDO mapping.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,16 +1,13 @@
 //! The sections of a unit file, key by key.
 
 use time::Duration;
-use toml::de::DeValue;
+use user_file::{DeValue, Located, Problem, Reader, Section, Value, values, wrong_type};
 use wire::ObjectIndex;
 
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
-use super::error::Problem;
-use super::located::Located;
-use super::reader::{Reader, Section, Value, wrong_type};
 use super::{
     ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile,
-    information, slave, values,
+    information, slave, times,
 };
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventLevel};
@@ -67,8 +64,8 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     let timing = reader.value(file, "timing", |place, value| {
         values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
     });
-    let start_up = reader.value(file, "start_up", values::start_up);
-    let refresh_phase = reader.value(file, "refresh_phase", values::refresh_phase);
+    let start_up = reader.value(file, "start_up", times::start_up);
+    let refresh_phase = reader.value(file, "refresh_phase", times::refresh_phase);
     let slave = slave::slave(reader, file);
     let name = reader.value(file, "name", values::identifier);
     let storage = reader.value(file, "storage", values::path);
@@ -236,10 +233,10 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
     };
     let Some(section) = reader.section(file, "cpu") else { return cpu };
     reader.only(&section, &["task_period", "task_phase", "mode", "fail_soft", "program", "statement_budget"]);
-    if let Some(task_period) = reader.value(&section, "task_period", values::task_period) {
+    if let Some(task_period) = reader.value(&section, "task_period", times::task_period) {
         cpu.task_period = task_period;
     }
-    cpu.task_phase = reader.value(&section, "task_phase", values::task_phase);
+    cpu.task_phase = reader.value(&section, "task_phase", times::task_phase);
     let modes = [("run", CpuMode::Run), ("program", CpuMode::Program)];
     if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
         cpu.mode = mode;
@@ -258,9 +255,6 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
 }
 
 fn fail_soft(place: &str, value: &DeValue<'_>) -> Result<FailSoftOperation, Problem> {
-    match value.as_bool() {
-        Some(true) => Ok(FailSoftOperation::FailSoft),
-        Some(false) => Ok(FailSoftOperation::Stop),
-        None => Err(wrong_type(place, value, "true or false")),
-    }
+    let is_fail_soft = values::truth(place, value)?;
+    Ok(if is_fail_soft { FailSoftOperation::FailSoft } else { FailSoftOperation::Stop })
 }

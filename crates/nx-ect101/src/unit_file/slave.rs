@@ -4,13 +4,9 @@ use core::ops::RangeInclusive;
 
 use device::{Conduct, Refusals, TRANSITIONS, TransitionTimes};
 use time::Duration;
-use toml::de::DeValue;
-use user_file::shown;
+use user_file::{DeValue, Problem, Reader, Section, values, wrong_type};
 use wire::{AlState, AlStatusCode};
 
-use super::error::Problem;
-use super::reader::{Reader, Section, wrong_type};
-use super::values;
 use crate::slave_settings::{OutputsRule, SlaveSettings};
 
 /// The longest is more than any master waits.
@@ -85,16 +81,10 @@ fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, conduct: &mut Condu
 }
 
 fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    let expected = "a time, \"0ms\" to \"60s\"";
-    let written = values::text(place, value, expected)?;
-    let time = written.parse().ok().filter(|time| TIMES.contains(time));
-    time.ok_or_else(|| Problem::new(format!("`{place}` is \"{}\"", shown(written)), expected))
+    values::duration(place, value, |time| TIMES.contains(&time), "a time, \"0ms\" to \"60s\"")
 }
 
 /// A key that is `true` or `false`; left out it is false.
 fn truth(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> bool {
-    let truth = reader.value(section, key, |place, value| {
-        value.as_bool().ok_or_else(|| wrong_type(place, value, "true or false"))
-    });
-    truth.is_some_and(|truth| truth.value)
+    reader.value(section, key, values::truth).is_some_and(|truth| truth.value)
 }

@@ -1,11 +1,14 @@
-//! What is wrong with a unit file, and where.
+//! What is wrong with a file, and where.
 
 use core::fmt;
 use core::ops::Range;
 
+use crate::mistakes::and_more;
+use crate::words::line_and_column;
+
 /// One thing that is wrong. Prints as `line:column: message, expected …`, to follow a file name and a colon.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitFileError {
+pub struct FileError {
     /// The bytes of the file.
     pub span: Range<usize>,
     /// Line of the first byte, from 1.
@@ -20,14 +23,14 @@ pub struct UnitFileError {
     pub nearest: Option<String>,
 }
 
-impl UnitFileError {
-    pub(super) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
-        let (line, column) = user_file::line_and_column(text, span.start);
+impl FileError {
+    pub(crate) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
+        let (line, column) = line_and_column(text, span.start);
         let Problem { message, expected, nearest } = problem;
         Self { span, line, column, message, expected, nearest }
     }
 
-    /// What it prints without the place, for a unit file that stands in another file.
+    /// What it prints without the place, for a file whose text is a part of another file.
     #[must_use]
     pub fn words(&self) -> String {
         let expected = if self.expected.is_empty() { "" } else { ", expected " };
@@ -36,25 +39,25 @@ impl UnitFileError {
     }
 }
 
-impl fmt::Display for UnitFileError {
+impl fmt::Display for FileError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}:{}: {}", self.line, self.column, self.words())
     }
 }
 
-impl core::error::Error for UnitFileError {}
+impl core::error::Error for FileError {}
 
-/// What is wrong with a unit file, in the order of the file: at least one thing, and
-/// [`MISTAKES_MAX`](user_file::MISTAKES_MAX) things at most.
+/// What is wrong with a file, in the order of the file: at least one thing, and
+/// [`MISTAKES_MAX`](crate::MISTAKES_MAX) things at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnitFileErrors {
-    pub(super) list: Vec<UnitFileError>,
-    pub(super) more: usize,
+pub struct FileErrors {
+    pub(crate) list: Vec<FileError>,
+    pub(crate) more: usize,
 }
 
-impl UnitFileErrors {
+impl FileErrors {
     /// The errors in the order of the file.
-    pub fn iter(&self) -> impl Iterator<Item = &UnitFileError> {
+    pub fn iter(&self) -> impl Iterator<Item = &FileError> {
         self.list.iter()
     }
 
@@ -68,34 +71,40 @@ impl UnitFileErrors {
     #[must_use]
     pub fn in_file(&self, file: impl fmt::Display) -> String {
         let errors = self.list.iter().map(|error| format!("{file}:{error}"));
-        errors.chain(user_file::and_more(self.more)).collect::<Vec<_>>().join("\n")
+        errors.chain(and_more(self.more)).collect::<Vec<_>>().join("\n")
     }
 }
 
-impl fmt::Display for UnitFileErrors {
+impl fmt::Display for FileErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let errors = self.list.iter().map(ToString::to_string);
-        formatter.write_str(&errors.chain(user_file::and_more(self.more)).collect::<Vec<_>>().join("\n"))
+        formatter.write_str(&errors.chain(and_more(self.more)).collect::<Vec<_>>().join("\n"))
     }
 }
 
-impl core::error::Error for UnitFileErrors {}
+impl core::error::Error for FileErrors {}
 
 /// What is wrong, before it has a place.
 #[derive(Debug)]
-pub(super) struct Problem {
-    pub(super) message: String,
-    pub(super) expected: String,
-    pub(super) nearest: Option<String>,
+pub struct Problem {
+    /// What is wrong: place and value.
+    pub message: String,
+    /// What should stand there; empty when there is nothing to say.
+    pub expected: String,
+    /// The valid name nearest to what stands there, if one is near.
+    pub nearest: Option<String>,
 }
 
 impl Problem {
-    pub(super) fn new(message: impl Into<String>, expected: impl Into<String>) -> Self {
+    /// A problem without a nearest name.
+    #[must_use]
+    pub fn new(message: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { message: message.into(), expected: expected.into(), nearest: None }
     }
 
     /// `word` is none of `names`: says which there are, and which is nearest.
-    pub(super) fn unknown(message: impl Into<String>, word: &str, names: &[&str]) -> Self {
+    #[must_use]
+    pub fn unknown(message: impl Into<String>, word: &str, names: &[&str]) -> Self {
         Self { nearest: nearest(word, names), ..Self::new(message, one_of(names)) }
     }
 }

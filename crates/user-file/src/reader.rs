@@ -4,21 +4,29 @@ use core::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
-use user_file::{Mistakes, Wanted, of_another_kind};
 
-use super::error::{Problem, UnitFileError, UnitFileErrors};
-use super::located::Located;
+use crate::error::{FileError, FileErrors, Problem};
+use crate::kind::{Wanted, of_another_kind};
+use crate::located::Located;
+use crate::mistakes::Mistakes;
+use crate::words::shown;
 
 /// A value as the TOML parser hands it out.
-pub(super) type Value<'i> = Spanned<DeValue<'i>>;
+pub type Value<'i> = Spanned<DeValue<'i>>;
 
-/// Reads `text` by `read`, which returns something only when it can; what was refused on the way wins.
-pub(super) fn parse<T>(
+/// Reads a TOML text of the wanted kind by `read`, which returns something only when it can; what was refused on the way
+/// wins.
+///
+/// # Errors
+/// Everything that is wrong, in the order of the file. Of a text that is of another kind, or no TOML, nothing else is
+/// said.
+pub fn read_toml<T>(
     text: &str,
+    wanted: Wanted,
     read: impl FnOnce(&mut Reader<'_>, &Section<'_, '_>) -> Option<T>,
-) -> Result<T, UnitFileErrors> {
+) -> Result<T, FileErrors> {
     let mut reader = Reader { text, errors: Mistakes::default() };
-    if let Some(refusal) = of_another_kind(text.as_bytes(), "", Wanted::UnitFile) {
+    if let Some(refusal) = of_another_kind(text.as_bytes(), "", wanted) {
         reader.refuse(0..0, Problem::new(format!("{}; {}", refusal.message, refusal.help), ""));
         return Err(reader.into_errors());
     }
@@ -35,35 +43,35 @@ pub(super) fn parse<T>(
 }
 
 /// Collects errors.
-pub(super) struct Reader<'t> {
+pub struct Reader<'t> {
     text: &'t str,
-    errors: Mistakes<UnitFileError>,
+    errors: Mistakes<FileError>,
 }
 
 impl Reader<'_> {
     /// Notes what is wrong at `span`.
-    pub(super) fn refuse(&mut self, span: Range<usize>, problem: Problem) {
+    pub fn refuse(&mut self, span: Range<usize>, problem: Problem) {
         self.refuse_by(span, || problem);
     }
 
     /// Notes what is wrong at `span`, in words that are found only if it is told.
-    pub(super) fn refuse_by(&mut self, span: Range<usize>, problem: impl FnOnce() -> Problem) {
+    pub fn refuse_by(&mut self, span: Range<usize>, problem: impl FnOnce() -> Problem) {
         let text = self.text;
-        self.errors.note(span.start, || UnitFileError::new(text, span, problem()));
+        self.errors.note(span.start, || FileError::new(text, span, problem()));
     }
 
     /// Refuses every key of `section` that is none of `keys`.
-    pub(super) fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
+    pub fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
         for (key, _) in section.entries().into_iter().filter(|(key, _)| !keys.contains(&key.value)) {
             self.refuse_by(key.span.unwrap_or_default(), || {
-                let message = format!("unknown key `{}`", section.place_of(&user_file::shown(key.value)));
+                let message = format!("unknown key `{}`", section.place_of(&shown(key.value)));
                 Problem::unknown(message, key.value, keys)
             });
         }
     }
 
     /// The value of `key` by `read`; none when it is left out or refused.
-    pub(super) fn value<T>(
+    pub fn value<T>(
         &mut self,
         section: &Section<'_, '_>,
         key: &str,
@@ -73,7 +81,7 @@ impl Reader<'_> {
     }
 
     /// `value` by `read`; none when it is refused.
-    pub(super) fn read<T>(
+    pub fn read<T>(
         &mut self,
         place: &str,
         value: &Value<'_>,
@@ -89,7 +97,7 @@ impl Reader<'_> {
     }
 
     /// The table at `key`; none when it is left out, or no table.
-    pub(super) fn section<'d, 'i>(&mut self, parent: &Section<'d, 'i>, key: &str) -> Option<Section<'d, 'i>> {
+    pub fn section<'d, 'i>(&mut self, parent: &Section<'d, 'i>, key: &str) -> Option<Section<'d, 'i>> {
         let value = parent.get(key)?;
         let place = parent.place_of(key);
         match value.get_ref() {
@@ -102,7 +110,7 @@ impl Reader<'_> {
     }
 
     /// Every element of the array `value` by `read`; those that are refused are left out.
-    pub(super) fn array<T>(
+    pub fn array<T>(
         &mut self,
         place: &str,
         value: &Value<'_>,
@@ -120,19 +128,19 @@ impl Reader<'_> {
         let span = error.span().unwrap_or(0..0);
         let found = match self.text.get(span.clone()).unwrap_or("") {
             "" => String::new(),
-            found => format!(" at `{}`", user_file::shown(found)),
+            found => format!(" at `{}`", shown(found)),
         };
         self.refuse(span, Problem::new(format!("not TOML: {message}{found}"), expected));
     }
 
-    fn into_errors(self) -> UnitFileErrors {
+    fn into_errors(self) -> FileErrors {
         let (list, more) = self.errors.into_parts();
-        UnitFileErrors { list, more }
+        FileErrors { list, more }
     }
 }
 
 /// A table of the file.
-pub(super) struct Section<'d, 'i> {
+pub struct Section<'d, 'i> {
     place: String,
     span: Range<usize>,
     table: &'d DeTable<'i>,
@@ -140,12 +148,12 @@ pub(super) struct Section<'d, 'i> {
 
 impl<'d, 'i> Section<'d, 'i> {
     /// The value of `key`.
-    pub(super) fn get(&self, key: &str) -> Option<&'d Value<'i>> {
+    pub fn get(&self, key: &str) -> Option<&'d Value<'i>> {
         self.table.iter().find(|(known, _)| known.get_ref() == key).map(|(_, value)| value)
     }
 
     /// All keys with their spans, and their values, in the order of the file.
-    pub(super) fn entries(&self) -> Vec<(Located<&'d str>, &'d Value<'i>)> {
+    pub fn entries(&self) -> Vec<(Located<&'d str>, &'d Value<'i>)> {
         let mut entries: Vec<_> = self.table.iter().collect();
         entries.sort_unstable_by_key(|(key, _)| key.span().start);
         let located = |key: &'d Spanned<_>| Located::at(key.span(), AsRef::<str>::as_ref(key.get_ref()));
@@ -153,7 +161,7 @@ impl<'d, 'i> Section<'d, 'i> {
     }
 
     /// `key` with the tables that it stands in.
-    pub(super) fn place_of(&self, key: &str) -> String {
+    pub fn place_of(&self, key: &str) -> String {
         match self.place.as_str() {
             "" => key.to_owned(),
             place => format!("{place}.{key}"),
@@ -161,13 +169,13 @@ impl<'d, 'i> Section<'d, 'i> {
     }
 
     /// `value` at the place of this table.
-    pub(super) fn locate<T>(&self, value: T) -> Located<T> {
+    pub fn locate<T>(&self, value: T) -> Located<T> {
         Located::at(self.span.clone(), value)
     }
 }
 
 /// `value` has another type than `expected`.
-pub(super) fn wrong_type(place: &str, value: &DeValue<'_>, expected: &str) -> Problem {
+pub fn wrong_type(place: &str, value: &DeValue<'_>, expected: &str) -> Problem {
     let found = match value {
         DeValue::String(_) => "a string",
         DeValue::Integer(_) => "an integer",
