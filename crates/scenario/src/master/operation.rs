@@ -35,8 +35,8 @@ enum What {
     Write { offset: u16, data: Vec<u8> },
     /// Looks where the unit is, and goes on from there.
     Take(AlState),
-    /// Asks for a state and waits for it.
-    Reach { bits: u16, asked: bool },
+    /// Asks for a state and waits for it; meanwhile the unit is in no state below `lowest`.
+    Reach { bits: u16, lowest: AlState, asked: bool },
     /// Everything is set for the process data: they begin.
     Open,
     /// An SDO.
@@ -151,7 +151,9 @@ impl Operation {
         };
         match &mut self.what {
             What::Write { offset, data } => (write(*offset, data), FrameKind::Any),
-            What::Reach { bits, asked: false } => (write(AL_CONTROL, &bits.to_le_bytes()), FrameKind::Any),
+            What::Reach { bits, asked: false, .. } => {
+                (write(AL_CONTROL, &bits.to_le_bytes()), FrameKind::Any)
+            }
             What::Take(_) | What::Reach { .. } | What::Open => (read(AL_STATUS, 6), FrameKind::Any),
             What::Sdo { message, phase: phase @ (Phase::Ask | Phase::Asked | Phase::AskedAgain) } => {
                 *phase = if *phase == Phase::Ask { Phase::Asked } else { Phase::AskedAgain };
@@ -192,7 +194,7 @@ impl Operation {
                 *asked = true;
                 Outcome::Next
             }
-            What::Reach { bits, .. } => reached(unit, *bits, answer),
+            What::Reach { bits, lowest, .. } => reached(unit, *bits, *lowest, answer),
             What::Open => Outcome::Done(open(unit, slaves)),
             What::Sdo { phase, .. } => phase.answer(answer, number),
             What::Listen { full: false } if answer.data.first().is_some_and(|status| status & 0x08 == 0) => {
@@ -217,41 +219,51 @@ fn word(answer: &Returned, at: usize) -> u16 {
     answer.data.get(at..at + 2).map_or(0, |bytes| u16::from_le_bytes([bytes[0], bytes[1]]))
 }
 
-/// AL status while a state is waited for. An error indication is a refusal.
-fn reached(unit: usize, bits: u16, answer: &Returned) -> Outcome {
+/// AL status while a state is waited for. An error indication is a refusal; a state below `lowest` is that of a unit
+/// which has fallen back, such as one whose power was cycled, and no waiting brings it to the state.
+fn reached(unit: usize, bits: u16, lowest: AlState, answer: &Returned) -> Outcome {
     let (status, code) = (AlStatus::from_bits(word(answer, 0)), word(answer, 4));
     let wanted = AlState::from_bits(bits & 0x0F);
-    if status.error {
+    let fell_back = is_below(status.state, lowest);
+    if status.error || fell_back {
         let (shown, wanted) = (StateName(status.state), StateName(wanted));
-        return Outcome::Failed(format!(
-            "unit {} stays in {shown} with {code:#06X}, asked for {wanted}",
-            unit + 1
-        ));
+        let verb = if fell_back { "fell back to" } else { "stays in" };
+        let code = if status.error { format!(" with {code:#06X}") } else { String::new() };
+        return Outcome::Failed(format!("unit {} {verb} {shown}{code}, asked for {wanted}", unit + 1));
     }
     if status.state == wanted { Outcome::Done(Vec::new()) } else { Outcome::Again }
+}
+
+/// How far up a state is; none for BOOT and for what is no state.
+fn floor(state: AlState) -> Option<usize> {
+    WAY_UP.iter().position(|&step| step == state)
+}
+
+fn is_below(state: AlState, other: AlState) -> bool {
+    floor(state).zip(floor(other)).is_some_and(|(state, other)| state < other)
 }
 
 /// The way from where a unit is to where it is to be, as a real master goes it.
 fn way(unit: usize, status: AlStatus, target: AlState, slave: &mut Slave) -> Vec<Step> {
     let part = |what| Step::Do(Operation::new(unit, what).within_an_order());
-    let reach = |state: AlState| part(What::Reach { bits: state.bits(), asked: false });
-    let floor = |state: AlState| WAY_UP.iter().position(|&step| step == state);
+    let reach = |state: AlState, lowest| part(What::Reach { bits: state.bits(), lowest, asked: false });
+    let acknowledge =
+        |state: AlState| part(What::Reach { bits: state.bits() | 0x10, lowest: state, asked: false });
     if slave.take_reset() {
-        let init = part(What::Reach { bits: AlState::Init.bits() | 0x10, asked: false });
-        return vec![Step::Close(unit), init, part(What::Take(target))];
+        return vec![Step::Close(unit), acknowledge(AlState::Init), part(What::Take(target))];
     }
     let mut steps = Vec::new();
     let (Some(mut at), Some(goal)) = (floor(status.state), floor(target)) else {
-        return vec![reach(target)];
+        return vec![reach(target, AlState::Init)];
     };
     if status.error {
-        steps.push(part(What::Reach { bits: status.state.bits() | 0x10, asked: false }));
+        steps.push(acknowledge(status.state));
     }
     if goal < at {
         if goal < 2 {
             steps.push(Step::Close(unit));
         }
-        steps.push(reach(target));
+        steps.push(reach(target, target));
     }
     if at == 2 && goal == 3 {
         // A unit waits for outputs on its way to OP: a master that has stopped begins with them again.
@@ -267,7 +279,7 @@ fn way(unit: usize, status: AlStatus, target: AlState, slave: &mut Slave) -> Vec
             }
             _ => {}
         }
-        steps.push(reach(WAY_UP[at]));
+        steps.push(reach(WAY_UP[at], WAY_UP[at - 1]));
         if at == 2 {
             steps.push(part(What::Open));
         }
