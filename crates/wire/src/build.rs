@@ -1,8 +1,11 @@
 //! Building frames: what a master sends. For tests, scripted masters and benchmarks.
 
-use crate::datagram::DatagramHeader;
-use crate::frame::{ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT};
-use crate::{Command, FRAME_BYTES_MAX};
+use crate::datagram::{DATAGRAM_OVERHEAD_BYTES, DatagramHeader};
+use crate::frame::{ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT, datagrams};
+use crate::{Command, DatagramView, FRAME_BYTES_MAX};
+
+/// Longest frame that a master sends, without VLAN tag and FCS.
+const SENT_BYTES_MAX: usize = 1514;
 
 /// Builds one frame of datagrams, Ethernet II with EtherType 0x88A4, unpadded.
 ///
@@ -22,7 +25,13 @@ impl FrameBuilder {
     /// An empty frame: to everybody, from 10:10:10:10:10:10.
     #[must_use]
     pub fn new() -> Self {
-        let mut bytes = Vec::with_capacity(FRAME_BYTES_MAX);
+        Self::reusing(Vec::with_capacity(FRAME_BYTES_MAX))
+    }
+
+    /// An empty frame in the memory of an old one. Nothing is allocated if that has room for [`FRAME_BYTES_MAX`].
+    #[must_use]
+    pub fn reusing(mut bytes: Vec<u8>) -> Self {
+        bytes.clear();
         bytes.extend([0xFF; 6]);
         bytes.extend([0x10; 6]);
         bytes.extend(ETHERTYPE_ETHERCAT.to_be_bytes());
@@ -30,19 +39,49 @@ impl FrameBuilder {
         Self { bytes, last_at: None, index: 0 }
     }
 
+    /// The same with this index on the next datagram; those behind it count on. Without it the first is 0.
+    #[must_use]
+    pub const fn indexed_from(mut self, index: u8) -> Self {
+        self.index = index;
+        self
+    }
+
+    /// Most data bytes of one more datagram; none if the frame has no room for another one.
+    #[must_use]
+    pub fn room_bytes(&self) -> Option<usize> {
+        SENT_BYTES_MAX.checked_sub(self.bytes.len() + DATAGRAM_OVERHEAD_BYTES)
+    }
+
     /// Adds a datagram with a physical address: position or station address, and offset.
     #[must_use]
-    pub fn physical(self, command: Command, address: u16, offset: u16, data: &[u8]) -> Self {
-        self.datagram(command, address, offset, data)
+    pub fn physical(mut self, command: Command, address: u16, offset: u16, data: &[u8]) -> Self {
+        self.add(command, address, offset, data);
+        self
     }
 
     /// Adds a datagram with a logical address.
     #[must_use]
     pub fn logical(self, command: Command, address: u32, data: &[u8]) -> Self {
-        self.datagram(command, (address & 0xFFFF) as u16, (address >> 16) as u16, data)
+        let [low_0, low_1, high_0, high_1] = address.to_le_bytes();
+        self.physical(command, u16::from_le_bytes([low_0, low_1]), u16::from_le_bytes([high_0, high_1]), data)
     }
 
-    fn datagram(mut self, command: Command, address: u16, offset: u16, data: &[u8]) -> Self {
+    /// Adds a datagram: its two address fields and its data.
+    pub fn add(&mut self, command: Command, address: u16, offset: u16, data: &[u8]) {
+        self.add_header(command, address, offset, data.len());
+        self.bytes.extend_from_slice(data);
+        self.bytes.extend([0, 0]);
+    }
+
+    /// Adds a datagram whose data are zeros: a read.
+    pub fn add_read(&mut self, command: Command, address: u16, offset: u16, length_bytes: u16) {
+        let length_bytes = usize::from(length_bytes);
+        self.add_header(command, address, offset, length_bytes);
+        self.bytes.resize(self.bytes.len() + length_bytes, 0);
+        self.bytes.extend([0, 0]);
+    }
+
+    fn add_header(&mut self, command: Command, address: u16, offset: u16, length_bytes: usize) {
         if let Some(flags_high) = self.last_at.and_then(|at| self.bytes.get_mut(at + 7)) {
             *flags_high |= 0x80;
         }
@@ -52,7 +91,7 @@ impl FrameBuilder {
             index: self.index,
             address,
             offset,
-            length_bytes: (data.len() & 0x07FF) as u16,
+            length_bytes: (length_bytes & 0x07FF) as u16,
             reserved: 0,
             circulating: false,
             more_follow: false,
@@ -60,9 +99,6 @@ impl FrameBuilder {
         };
         self.index = self.index.wrapping_add(1);
         self.bytes.extend(header.pack());
-        self.bytes.extend(data);
-        self.bytes.extend([0, 0]);
-        self
     }
 
     /// The frame, its EtherCAT length filled in.
@@ -95,14 +131,10 @@ pub struct Returned {
 /// Reads all datagrams of a frame; empty if the frame holds none or is broken.
 #[must_use]
 pub fn returned_datagrams(frame: &[u8]) -> Vec<Returned> {
-    let mut copy = frame.to_vec();
-    let crate::FrameKind::Datagrams(layout) = crate::FrameKind::of(frame) else { return Vec::new() };
-    layout
-        .datagrams(&mut copy)
-        .map(|datagram| Returned {
-            header: datagram.header,
-            data: datagram.data.to_vec(),
-            working_counter: datagram.working_counter,
-        })
-        .collect()
+    let copy = |datagram: DatagramView<'_>| Returned {
+        header: datagram.header,
+        data: datagram.data.to_vec(),
+        working_counter: datagram.working_counter,
+    };
+    datagrams(frame).map(copy).collect()
 }

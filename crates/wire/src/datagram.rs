@@ -117,3 +117,25 @@ impl<'a> Datagram<'a> {
         *self.tail = self.working_counter.to_le_bytes();
     }
 }
+
+/// A datagram that is only looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DatagramView<'a> {
+    /// The header.
+    pub header: DatagramHeader,
+    /// The data.
+    pub data: &'a [u8],
+    /// The working counter.
+    pub working_counter: u16,
+}
+
+impl<'a> DatagramView<'a> {
+    /// The datagram at the start of `bytes`, and the bytes behind it. None if it does not fit.
+    pub(crate) fn of(bytes: &'a [u8]) -> Option<(Self, &'a [u8])> {
+        let (head, rest) = bytes.split_first_chunk::<DATAGRAM_HEADER_BYTES>()?;
+        let header = DatagramHeader::unpack(head);
+        let (data, rest) = rest.split_at_checked(usize::from(header.length_bytes))?;
+        let (tail, rest) = rest.split_first_chunk::<WORKING_COUNTER_BYTES>()?;
+        Some((Self { header, data, working_counter: u16::from_le_bytes(*tail) }, rest))
+    }
+}

@@ -1,6 +1,8 @@
 //! The way from an Ethernet frame to its datagrams.
 
-use crate::datagram::{DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader};
+use crate::datagram::{
+    DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader, DatagramView,
+};
 
 /// EtherType of EtherCAT in Ethernet II.
 pub const ETHERTYPE_ETHERCAT: u16 = 0x88A4;
@@ -114,6 +116,19 @@ impl<'a> Iterator for Datagrams<'a> {
         self.rest = datagram.header.more_follow.then_some(rest);
         Some(datagram)
     }
+}
+
+/// The datagrams of a frame in order, to look at; none if the frame holds none or is broken.
+pub fn datagrams(frame: &[u8]) -> impl Iterator<Item = DatagramView<'_>> {
+    let mut rest = match FrameKind::of(frame) {
+        FrameKind::Datagrams(layout) => frame.get(layout.start..layout.end),
+        FrameKind::OtherType | FrameKind::NotEtherCat | FrameKind::Defective(_) => None,
+    };
+    core::iter::from_fn(move || {
+        let (datagram, behind) = DatagramView::of(rest.take()?)?;
+        rest = datagram.header.more_follow.then_some(behind);
+        Some(datagram)
+    })
 }
 
 /// Where the EtherCAT header stands, before its length is believed.

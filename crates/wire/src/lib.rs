@@ -25,12 +25,13 @@ pub use build::{FrameBuilder, Returned, returned_datagrams};
 pub use coe::{CoeHeader, CoeService};
 pub use command::Command;
 pub use datagram::{
-    DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader, WORKING_COUNTER_BYTES,
+    DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader, DatagramView,
+    WORKING_COUNTER_BYTES,
 };
 pub use emergency::Emergency;
 pub use frame::{
     Datagrams, Defect, ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT, FRAME_BYTES_MAX, FrameKind, Layout,
-    UDP_PORT_ETHERCAT, mark_source_address,
+    UDP_PORT_ETHERCAT, datagrams, mark_source_address,
 };
 pub use mailbox::{MailboxErrorCode, MailboxErrorReply, MailboxHeader, MailboxType};
 pub use object::{DataType, EntryAddress, ObjectIndex, SubIndex};
