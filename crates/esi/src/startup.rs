@@ -81,17 +81,21 @@ pub struct Timeouts {
     pub mailbox_response_ms: u32,
 }
 
-impl Default for Timeouts {
+impl Timeouts {
     /// The values that ESI files in the field carry.
+    pub const USUAL: Self = Self {
+        pre_op_ms: 3_000,
+        safe_op_op_ms: 9_000,
+        back_to_init_ms: 5_000,
+        back_to_safe_op_ms: 200,
+        mailbox_request_ms: 100,
+        mailbox_response_ms: 2_000,
+    };
+}
+
+impl Default for Timeouts {
     fn default() -> Self {
-        Self {
-            pre_op_ms: 3_000,
-            safe_op_op_ms: 9_000,
-            back_to_init_ms: 5_000,
-            back_to_safe_op_ms: 200,
-            mailbox_request_ms: 100,
-            mailbox_response_ms: 2_000,
-        }
+        Self::USUAL
     }
 }
 

@@ -43,6 +43,7 @@ const FLOORS: &[Row] = &[
     row("device", 4, AnyFloorBelow),
     row("nx-ect101", 5, Only(&["time", "wire", "objects", "user-file", "esi", "device"])),
     row("st", 5, Only(&[])),
+    row(MASTER, 5, Only(&["time", "wire", "objects", "esi"])),
     row("plc", 6, Only(&["time", "st", "nx-ect101"])),
     row("scenario", 7, AnyFloorBelow),
     row("wasm", 7, Only(&["time", "plc"])),
@@ -52,11 +53,15 @@ const FLOORS: &[Row] = &[
     row("storage", 8, Only(&[])),
     row("ectwin", 9, AnyFloorBelow),
     row("xtask", CHECKS_FLOOR, AnyFloorBelow),
-    // Namespaces and child processes for tests: dev-dependencies may name it from any floor.
-    row(FOR_TESTS, 0, Only(&[])),
+    row(TESTBED, 0, Only(&[])),
 ];
 
-const FOR_TESTS: &str = "testbed";
+const TESTBED: &str = "testbed";
+const MASTER: &str = "master";
+
+/// Dev-dependencies may name these from any floor: namespaces and child processes, and the master that slaves are tested
+/// with.
+const FOR_TESTS: &[&str] = &[TESTBED, MASTER];
 
 /// The floor of our own checks.
 const CHECKS_FLOOR: u8 = 10;
@@ -144,12 +149,14 @@ fn wrong_arrows_of(row: &Row, package: &Package) -> Vec<String> {
     package.dependencies.iter().filter(wrong).map(line).collect()
 }
 
-/// Tests may look at any floor below their own, the code only at those in its row.
+/// Tests may look at any floor below their own, the code only at those in its row. The tests of the master may look at
+/// slaves of all kinds, which live above it.
 fn may_use(row: &Row, used: &str, for_tests: bool) -> bool {
-    if used == FOR_TESTS {
-        return for_tests;
+    if for_tests && FOR_TESTS.contains(&used) {
+        return true;
     }
-    let below = find(used).is_some_and(|used| used.floor < row.floor);
+    let limit = if for_tests && row.name == MASTER { SHELL_FLOOR } else { row.floor };
+    let below = find(used).is_some_and(|used| used.floor < limit);
     match row.may_use {
         Only(names) if !for_tests => names.contains(&used),
         Only(_) | AnyFloorBelow => below,
@@ -196,8 +203,14 @@ mod tests {
         assert!(!may_use(link, "device", false));
         assert!(may_use(link, "device", true));
         assert!(!may_use(link, "ectwin", true));
-        assert!(may_use(link, FOR_TESTS, true));
-        assert!(!may_use(link, FOR_TESTS, false));
+        for name in FOR_TESTS {
+            assert!(may_use(link, name, true));
+            assert!(!may_use(link, name, false));
+        }
+        let master = find(MASTER).expect("has a row");
+        assert!(may_use(master, "nx-ect101", true) && !may_use(master, "nx-ect101", false));
+        assert!(!may_use(master, "link", true));
+        assert!(may_use(find("esc").expect("has a row"), MASTER, true));
     }
 
     #[test]

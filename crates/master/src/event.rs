@@ -1,0 +1,92 @@
+//! What a master has to report, and how orders end.
+
+use core::fmt;
+
+use esi::sii::SiiContents;
+
+use crate::{AlReport, SiiFailure};
+
+/// An order of the owner. Its parts report under it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct RequestId(pub(crate) u64);
+
+/// Something that has happened.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Event {
+    /// The part of an order that is about one slave, or about all of them together, is over.
+    Finished {
+        /// The order.
+        request: RequestId,
+        /// The slave's position; none for all.
+        slave: Option<usize>,
+        /// How it ended.
+        result: Result<Outcome, Failure>,
+    },
+}
+
+/// How an order ended well.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// It is done, and there is nothing to tell.
+    Done,
+    /// This many slaves were found.
+    Found(u16),
+    /// What was read.
+    Data(Vec<u8>),
+    /// What a datagram came back with.
+    Datagram {
+        /// Its working counter.
+        working_counter: u16,
+        /// Its data.
+        data: Vec<u8>,
+    },
+    /// AL status after the request.
+    State(AlReport),
+    /// The Explicit Device ID.
+    DeviceId(u16),
+    /// The contents of the SII.
+    Sii(Box<SiiContents>),
+}
+
+/// Why an order failed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// There is no such slave.
+    NoSlave,
+    /// More bytes than one datagram holds, which are 1,486.
+    TooLong {
+        /// How many.
+        length_bytes: usize,
+    },
+    /// The frame did not come back.
+    Lost,
+    /// The slave takes no access.
+    NoAnswer,
+    /// The SII is busy for too long.
+    SiiBusy,
+    /// The SII cannot be read.
+    Sii(SiiFailure),
+    /// The slave refuses the state, or has left it; what it shows.
+    Refused(AlReport),
+    /// The state was not reached in time; what the slave shows.
+    NotReached(AlReport),
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSlave => formatter.write_str("there is no such slave"),
+            Self::TooLong { length_bytes } => {
+                write!(formatter, "{length_bytes} bytes in one datagram, 1486 at most")
+            }
+            Self::Lost => formatter.write_str("the frame did not come back"),
+            Self::NoAnswer => formatter.write_str("the slave takes no access"),
+            Self::SiiBusy => formatter.write_str("the SII is busy for too long"),
+            Self::Sii(failure) => failure.fmt(formatter),
+            Self::Refused(report) => write!(formatter, "the slave refuses the state: {report}"),
+            Self::NotReached(report) => write!(formatter, "the state is not reached in time: {report}"),
+        }
+    }
+}
+
+impl core::error::Error for Failure {}

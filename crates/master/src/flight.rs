@@ -1,0 +1,126 @@
+//! Frames on their way: tickets, what each datagram was for, what counts as lost.
+
+use time::Instant;
+use wire::{Command, DatagramView, datagrams};
+
+use crate::event::RequestId;
+
+/// A frame that was sent. Its owner hands it back with the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Ticket(u64);
+
+/// What a datagram was sent for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sender {
+    /// A dialogue with all slaves; the number of the datagram in its queue.
+    Everybody(u32),
+    /// A dialogue with the slave at this position; the number of the datagram in its queue.
+    Slave(usize, u32),
+    /// A datagram that the owner has ordered.
+    Owner(RequestId),
+}
+
+/// A datagram on its way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Part {
+    pub(crate) sender: Sender,
+    pub(crate) command: Command,
+    pub(crate) length_bytes: usize,
+}
+
+impl Part {
+    /// Whether this is its answer. Address and offset change on the way of some commands.
+    fn is_answered_by(&self, datagram: &DatagramView<'_>, index: u8) -> bool {
+        datagram.header.command == self.command
+            && datagram.header.index == index
+            && datagram.data.len() == self.length_bytes
+    }
+}
+
+/// A frame on its way.
+#[derive(Debug)]
+pub(crate) struct Flight {
+    ticket: Ticket,
+    first_index: u8,
+    /// From then on it counts as lost.
+    due: Instant,
+    parts: Vec<Part>,
+}
+
+impl Flight {
+    /// Whether a frame is the answer to this one, datagram by datagram.
+    fn is_answered_by(&self, frame: &[u8]) -> bool {
+        let mut answers = datagrams(frame);
+        let mut index = self.first_index;
+        let all = self.parts.iter().all(|part| {
+            let is_answered = answers.next().is_some_and(|answer| part.is_answered_by(&answer, index));
+            index = index.wrapping_add(1);
+            is_answered
+        });
+        all && answers.next().is_none()
+    }
+}
+
+/// All frames on their way.
+#[derive(Debug, Default)]
+pub(crate) struct Flights {
+    last: u64,
+    next_index: u8,
+    flying: Vec<Flight>,
+    /// Parts of flights that are over, for later ones.
+    spare: Vec<Vec<Part>>,
+}
+
+impl Flights {
+    /// The index of the first datagram of the next frame, where indexes are running.
+    pub(crate) const fn next_index(&self) -> u8 {
+        self.next_index
+    }
+
+    /// An empty list of parts.
+    pub(crate) fn parts(&mut self) -> Vec<Part> {
+        self.spare.pop().unwrap_or_default()
+    }
+
+    /// A frame with these datagrams leaves.
+    pub(crate) fn depart(&mut self, first_index: u8, parts: Vec<Part>, due: Instant) -> Ticket {
+        self.last += 1;
+        let ticket = Ticket(self.last);
+        self.next_index = self.next_index.wrapping_add(parts.len() as u8);
+        self.flying.push(Flight { ticket, first_index, due, parts });
+        ticket
+    }
+
+    /// The datagrams of the frame that this one answers; none if it is late, comes twice or is damaged.
+    pub(crate) fn arrive(&mut self, ticket: Ticket, frame: &[u8]) -> Option<Vec<Part>> {
+        let at = self.flying.iter().position(|flight| flight.ticket == ticket)?;
+        self.flying[at].is_answered_by(frame).then(|| self.flying.remove(at).parts)
+    }
+
+    /// The ticket of a frame that nobody has kept it for.
+    pub(crate) fn recognize(&self, frame: &[u8]) -> Option<Ticket> {
+        self.flying.iter().find(|flight| flight.is_answered_by(frame)).map(|flight| flight.ticket)
+    }
+
+    /// The datagrams of the next frame that is lost by now.
+    pub(crate) fn lose(&mut self, now: Instant) -> Option<Vec<Part>> {
+        let at = self.flying.iter().position(|flight| flight.due <= now)?;
+        Some(self.flying.remove(at).parts)
+    }
+
+    /// The memory of a list serves the next frame.
+    pub(crate) fn recycle(&mut self, mut parts: Vec<Part>) {
+        parts.clear();
+        self.spare.push(parts);
+    }
+
+    /// Whether a datagram of this sender is on its way.
+    pub(crate) fn carries(&self, sender: Sender) -> bool {
+        self.flying.iter().any(|flight| flight.parts.iter().any(|part| part.sender == sender))
+    }
+
+    /// When the next frame counts as lost.
+    pub(crate) fn deadline(&self) -> Instant {
+        self.flying.iter().map(|flight| flight.due).min().unwrap_or(Instant::NEVER)
+    }
+}

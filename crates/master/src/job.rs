@@ -1,0 +1,80 @@
+//! Jobs: the dialogues that a slave's queue holds, and how each one ends.
+
+use crate::access::Dialogue;
+use crate::event::{Failure, Outcome};
+use crate::register::{RegisterRead, RegisterWrite};
+use crate::search::Search;
+use crate::sii::SiiReader;
+use crate::state::{DeviceIdRequest, StateRequest};
+
+/// A dialogue in a queue.
+#[derive(Clone, Debug)]
+pub(crate) enum Job {
+    Read(RegisterRead),
+    Write(RegisterWrite),
+    State(StateRequest),
+    DeviceId(DeviceIdRequest),
+    Sii(Box<SiiReader>),
+    Search(Search),
+}
+
+impl Job {
+    pub(crate) const fn read(offset: u16, length_bytes: u16) -> Self {
+        Self::Read(RegisterRead::new(offset, length_bytes))
+    }
+
+    pub(crate) fn write(offset: u16, data: &[u8]) -> Self {
+        Self::Write(RegisterWrite::new(offset, data.to_vec()))
+    }
+
+    pub(crate) fn dialogue(&self) -> &dyn Dialogue {
+        match self {
+            Self::Read(read) => read,
+            Self::Write(write) => write,
+            Self::State(request) => request,
+            Self::DeviceId(request) => request,
+            Self::Sii(reader) => &**reader,
+            Self::Search(search) => search,
+        }
+    }
+
+    pub(crate) fn dialogue_mut(&mut self) -> &mut dyn Dialogue {
+        match self {
+            Self::Read(read) => read,
+            Self::Write(write) => write,
+            Self::State(request) => request,
+            Self::DeviceId(request) => request,
+            Self::Sii(reader) => &mut **reader,
+            Self::Search(search) => search,
+        }
+    }
+
+    /// How it ended, when it is done.
+    pub(crate) fn result(self) -> Result<Outcome, Failure> {
+        match self {
+            Self::Read(read) => Ok(Outcome::Data(read.into_data())),
+            Self::Write(_) => Ok(Outcome::Done),
+            Self::State(request) if request.is_reached() => Ok(Outcome::State(request.report())),
+            Self::State(request) => Err(Failure::Refused(request.report())),
+            Self::DeviceId(request) => {
+                request.id().map(Outcome::DeviceId).ok_or(Failure::Refused(request.report()))
+            }
+            Self::Sii(reader) => match reader.into_result() {
+                Some(Ok(contents)) => Ok(Outcome::Sii(Box::new(contents))),
+                Some(Err(failure)) => Err(Failure::Sii(failure)),
+                None => Err(Failure::NoAnswer),
+            },
+            Self::Search(search) => Ok(Outcome::Found(search.found())),
+        }
+    }
+
+    /// How it ended, when it has waited for too long.
+    pub(crate) fn failure(&self) -> Failure {
+        match self {
+            Self::Read(_) | Self::Write(_) | Self::Search(_) => Failure::NoAnswer,
+            Self::State(request) => Failure::NotReached(request.report()),
+            Self::DeviceId(request) => Failure::NotReached(request.report()),
+            Self::Sii(_) => Failure::SiiBusy,
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! An EtherCAT master without I/O: time and frames are arguments.
+//!
+//! A [`Master`] finds the slaves of a line, sets them up by their SII or ESI, transfers SDOs and exchanges process
+//! data. Its owner asks [`Master::transmit`] for frames, brings the answers to [`Master::receive`], and comes again at
+//! [`Master::deadline`].
+//!
+//! Everything that a master says to a slave is a [`Dialogue`]: one access at a time, without a clock. Each of them can
+//! be used alone, also for what a right master never does.
+
+mod access;
+mod connected;
+mod event;
+mod flight;
+mod habits;
+mod information;
+mod job;
+mod load;
+mod master;
+mod queue;
+mod register;
+pub mod registers;
+mod search;
+mod sii;
+mod slave;
+mod state;
+
+pub use access::{Access, Address, Answer, Dialogue, Patience, Progress, Wait};
+pub use connected::{Connected, Line};
+pub use event::{Event, Failure, Outcome, RequestId};
+pub use flight::Ticket;
+pub use habits::{Addressing, Habits, Indexes};
+pub use information::{DlStatus, EscFeatures, EscInformation};
+pub use master::Master;
+pub use register::{RegisterRead, RegisterWrite};
+pub use search::Search;
+pub use sii::{SiiFailure, SiiReader};
+pub use slave::Slave;
+pub use state::{AlReport, DeviceIdRequest, StateRequest};

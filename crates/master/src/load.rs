@@ -1,0 +1,51 @@
+//! A frame that is being loaded: its bytes, and whose its datagrams are.
+
+use wire::{Command, FrameBuilder};
+
+use crate::access::{Access, Address};
+use crate::flight::{Part, Sender};
+
+/// The next frame.
+pub(crate) struct Load {
+    builder: FrameBuilder,
+    parts: Vec<Part>,
+    datagrams_max: usize,
+}
+
+impl Load {
+    /// An empty frame of at most so many datagrams.
+    pub(crate) const fn new(builder: FrameBuilder, parts: Vec<Part>, datagrams_max: usize) -> Self {
+        Self { builder, parts, datagrams_max }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.parts.is_empty()
+    }
+
+    /// Whether one more datagram with as many data bytes goes in.
+    pub(crate) fn has_room(&self, length_bytes: usize) -> bool {
+        self.parts.len() < self.datagrams_max
+            && self.builder.room_bytes().is_some_and(|room| length_bytes <= room)
+    }
+
+    pub(crate) fn access(&mut self, sender: Sender, address: Address, access: &Access<'_>) {
+        let (command, field) = address.command(access);
+        match *access {
+            Access::Read { offset, length_bytes } => {
+                self.builder.add_read(command, field, offset, length_bytes)
+            }
+            Access::Write { offset, data } => self.builder.add(command, field, offset, data),
+        }
+        self.parts.push(Part { sender, command, length_bytes: access.length_bytes() });
+    }
+
+    pub(crate) fn datagram(&mut self, sender: Sender, command: Command, fields: (u16, u16), data: &[u8]) {
+        self.builder.add(command, fields.0, fields.1, data);
+        self.parts.push(Part { sender, command, length_bytes: data.len() });
+    }
+
+    /// The bytes of the frame, and whose its datagrams are.
+    pub(crate) fn finish(self) -> (Vec<u8>, Vec<Part>) {
+        (self.builder.finish(), self.parts)
+    }
+}

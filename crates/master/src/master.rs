@@ -1,0 +1,203 @@
+//! The master: orders in, frames out and in, events out.
+
+mod answers;
+mod orders;
+
+use std::collections::VecDeque;
+
+use esi::Timeouts;
+use time::Instant;
+use wire::{Command, FrameBuilder, datagrams};
+
+use crate::access::Address;
+use crate::event::{Event, RequestId};
+use crate::flight::{Flights, Sender, Ticket};
+use crate::habits::{Habits, Indexes};
+use crate::load::Load;
+use crate::queue::Queue;
+use crate::slave::Slave;
+
+/// A master of one line. It has no clock and no socket: its owner asks it for frames, brings it the answers, and
+/// comes again when its deadline is due.
+///
+/// ```
+/// use master::Master;
+/// use time::Instant;
+///
+/// let (mut master, mut now) = (Master::default(), Instant::ZERO);
+/// let search = master.search(now);
+/// let mut frame = Vec::new();
+/// // The line has no slave: no frame comes back.
+/// while master.is_open(search) {
+///     while let Some(_ticket) = master.transmit(now, &mut frame) {}
+///     now = master.deadline();
+/// }
+/// assert!(master.slaves().is_empty());
+/// ```
+#[derive(Debug)]
+pub struct Master {
+    habits: Habits,
+    everybody: Queue,
+    slaves: Vec<Slave>,
+    datagrams: VecDeque<OwnDatagram>,
+    flights: Flights,
+    events: VecDeque<Event>,
+    requests: u64,
+    /// The slave that comes first when not all find room in a frame.
+    turn: usize,
+}
+
+/// A datagram that the owner has ordered.
+#[derive(Debug)]
+struct OwnDatagram {
+    request: RequestId,
+    command: Command,
+    address: u16,
+    offset: u16,
+    data: Vec<u8>,
+}
+
+/// Time-outs of dialogues with all slaves.
+const EVERYBODYS: Timeouts = Timeouts::USUAL;
+
+impl Master {
+    /// A master with these habits that knows of no slave yet.
+    #[must_use]
+    pub fn new(habits: Habits) -> Self {
+        Self {
+            habits,
+            everybody: Queue::new(),
+            slaves: Vec::new(),
+            datagrams: VecDeque::new(),
+            flights: Flights::default(),
+            events: VecDeque::new(),
+            requests: 0,
+            turn: 0,
+        }
+    }
+
+    /// The slaves, the one next to the master first.
+    #[must_use]
+    pub fn slaves(&self) -> &[Slave] {
+        &self.slaves
+    }
+
+    /// Whether something of an order is still to be done.
+    #[must_use]
+    pub fn is_open(&self, request: RequestId) -> bool {
+        self.queues().any(|queue| queue.holds(request))
+            || self.datagrams.iter().any(|datagram| datagram.request == request)
+            || self.flights.carries(Sender::Owner(request))
+    }
+
+    fn queues(&self) -> impl Iterator<Item = &Queue> {
+        core::iter::once(&self.everybody).chain(self.slaves.iter().map(|slave| &slave.queue))
+    }
+
+    /// Takes the oldest event.
+    pub fn take_event(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+
+    /// When [`Master::transmit`] has to be called next, whatever comes back.
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
+        let queues = self.queues().map(Queue::deadline).min().unwrap_or(Instant::NEVER);
+        let datagrams = if self.datagrams.is_empty() { Instant::NEVER } else { Instant::ZERO };
+        queues.min(datagrams).min(self.flights.deadline())
+    }
+
+    /// Writes the next frame that leaves now into `frame`, in place of what it holds; none if no further one leaves.
+    /// Nothing is allocated for a frame if `frame` has room for 1,518 bytes.
+    pub fn transmit(&mut self, now: Instant, frame: &mut Vec<u8>) -> Option<Ticket> {
+        self.lose_frames(now);
+        self.give_up(now);
+        let first_index = match self.habits.indexes {
+            Indexes::Running => self.flights.next_index(),
+            Indexes::FromZero => 0,
+        };
+        let builder = FrameBuilder::reusing(core::mem::take(frame)).indexed_from(first_index);
+        let mut load = Load::new(builder, self.flights.parts(), self.habits.datagrams_max.max(1));
+        self.load(now, &mut load);
+        let is_empty = load.is_empty();
+        let (bytes, parts) = load.finish();
+        *frame = bytes;
+        if is_empty {
+            self.flights.recycle(parts);
+            return None;
+        }
+        Some(self.flights.depart(first_index, parts, now + self.habits.answer_patience))
+    }
+
+    /// Accesses that are due, as many as find room. A dialogue with all slaves has its frame for itself.
+    fn load(&mut self, now: Instant, load: &mut Load) {
+        if self.everybody.is_empty() {
+            self.load_datagrams(load);
+            self.load_slaves(now, load);
+        } else if let Some(number) = self.everybody.due(now).then(|| self.everybody.depart()) {
+            self.everybody.load(Sender::Everybody(number), Address::All, load);
+        }
+    }
+
+    fn load_datagrams(&mut self, load: &mut Load) {
+        while let Some(datagram) =
+            self.datagrams.front().filter(|datagram| load.has_room(datagram.data.len()))
+        {
+            let sender = Sender::Owner(datagram.request);
+            load.datagram(sender, datagram.command, (datagram.address, datagram.offset), &datagram.data);
+            self.datagrams.pop_front();
+        }
+    }
+
+    fn load_slaves(&mut self, now: Instant, load: &mut Load) {
+        let count = self.slaves.len();
+        let turn = self.turn.min(count);
+        for position in (turn..count).chain(0..turn) {
+            let slave = &mut self.slaves[position];
+            if !slave.queue.due(now) {
+                continue;
+            }
+            if !load.has_room(slave.queue.access_bytes()) {
+                self.turn = position;
+                return;
+            }
+            let number = slave.queue.depart();
+            slave.queue.load(Sender::Slave(position, number), slave.address, load);
+        }
+    }
+
+    /// A frame comes back for a ticket. Late and doubled answers, and those that do not fit, are passed over.
+    pub fn receive(&mut self, now: Instant, ticket: Ticket, frame: &[u8]) {
+        if let Some(parts) = self.flights.arrive(ticket, frame) {
+            for (part, datagram) in parts.iter().zip(datagrams(frame)) {
+                self.answer(now, part.sender, Some(datagram));
+            }
+            self.flights.recycle(parts);
+        }
+    }
+
+    /// The same for an owner that keeps no tickets: a frame is known by the indexes of its datagrams, which have to be
+    /// [`Indexes::Running`]. A frame that has passed no slave, and what is no answer, is passed over.
+    pub fn receive_frame(&mut self, now: Instant, frame: &[u8]) {
+        let has_passed = frame.get(6).is_some_and(|first| first & 0x02 != 0);
+        if let Some(ticket) = self.flights.recognize(frame).filter(|_| has_passed) {
+            self.receive(now, ticket, frame);
+        }
+    }
+
+    /// Frames whose answers have not come are lost.
+    fn lose_frames(&mut self, now: Instant) {
+        while let Some(parts) = self.flights.lose(now) {
+            for part in &parts {
+                self.answer(now, part.sender, None);
+            }
+            self.flights.recycle(parts);
+        }
+    }
+}
+
+impl Default for Master {
+    fn default() -> Self {
+        Self::new(Habits::default())
+    }
+}
