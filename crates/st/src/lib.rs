@@ -1,10 +1,8 @@
 //! Structured Text (IEC 61131-3): read, checked, and run with a statement budget.
 
-mod calendar;
 mod check;
 mod code;
 mod convert;
-mod elementary;
 mod fault;
 mod host;
 mod inspect;
@@ -20,6 +18,8 @@ mod syntax;
 mod system;
 mod types;
 mod value;
+
+use iec_types::{calendar, elementary};
 
 pub use elementary::{Class, Elementary};
 pub use fault::Fault;

@@ -11,7 +11,6 @@ mod token;
 
 use crate::problem::Problem;
 use ast::File;
-pub(crate) use literal::date_prefix;
 
 /// Reads the file that begins at byte `start` of `source` and ends with it: the tree of what could be read, and what
 /// could not.

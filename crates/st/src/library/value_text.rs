@@ -83,7 +83,7 @@ pub(super) fn read(elementary: Elementary, text: &str) -> Option<u64> {
         Class::Signed | Class::Unsigned => number(elementary, text),
         Class::Real => real(elementary, text),
         Class::Time => duration(text),
-        Class::Date => date(elementary, text),
+        Class::Date => calendar::value_of(elementary, text),
     }
 }
 
@@ -117,12 +117,6 @@ fn real(elementary: Elementary, text: &str) -> Option<u64> {
     // A number in digits that is too large is beyond the limits; an infinity is written in letters.
     let is_in_digits = text.bytes().any(|octet| octet.is_ascii_digit());
     (!is_infinite || !is_in_digits).then_some(bits)
-}
-
-fn date(elementary: Elementary, text: &str) -> Option<u64> {
-    let (prefix, text) = text.split_once('#')?;
-    let is_own = crate::syntax::date_prefix(prefix) == Some(elementary);
-    is_own.then(|| calendar::read(elementary, text)).flatten()
 }
 
 /// Units from the longest to the shortest, each once, without fractions.

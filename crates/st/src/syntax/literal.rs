@@ -21,14 +21,6 @@ pub(crate) fn is_unsupported(prefix: &str) -> bool {
     UNSUPPORTED.iter().any(|known| known.eq_ignore_ascii_case(prefix))
 }
 
-/// The type of a date or time of day whose literals begin with `prefix`.
-pub(crate) fn date_prefix(prefix: &str) -> Option<Elementary> {
-    if prefix.eq_ignore_ascii_case("D") {
-        return Some(Elementary::Date);
-    }
-    Elementary::named(prefix).filter(|elementary| elementary.class() == Class::Date)
-}
-
 /// Whether `prefix` begins a literal, and no enumeration value.
 pub(crate) fn is_literal_prefix(prefix: &str) -> bool {
     is_duration(prefix) || Elementary::named(prefix).is_some()
@@ -43,7 +35,7 @@ pub(crate) fn typed(prefix: &str, text: &str, span: Span) -> Result<Literal, Pro
     if is_duration(prefix) {
         return time::duration(text, span).map(Literal::Time);
     }
-    if let Some(elementary) = date_prefix(prefix) {
+    if let Some(elementary) = calendar::type_of_prefix(prefix) {
         return date(elementary, text, span);
     }
     let Some(elementary) = Elementary::named(prefix) else {

@@ -3,9 +3,9 @@
 
 use core::fmt::{self, Write};
 
-use crate::elementary::Elementary;
+use crate::elementary::{Class, Elementary};
 
-pub(crate) const NS_PER_DAY: u64 = 86_400 * NS_PER_S;
+const NS_PER_DAY: u64 = 86_400 * NS_PER_S;
 const NS_PER_S: u64 = 1_000_000_000;
 
 const FIRST_YEAR: u64 = 1970;
@@ -14,7 +14,8 @@ const LAST_YEAR: u64 = 2106;
 const LAST_DAY: u64 = 49_709;
 
 /// The greatest value of a DATE, a TIME_OF_DAY or a DATE_AND_TIME.
-pub(crate) const fn last(elementary: Elementary) -> u64 {
+#[must_use]
+pub const fn last(elementary: Elementary) -> u64 {
     match elementary {
         Elementary::Date => LAST_DAY * NS_PER_DAY,
         Elementary::TimeOfDay => NS_PER_DAY - 1,
@@ -23,13 +24,15 @@ pub(crate) const fn last(elementary: Elementary) -> u64 {
 }
 
 /// A duration later, or earlier with a negative one. Behind the last value comes the first.
-pub(crate) fn later(elementary: Elementary, moment: u64, duration_ns: i128) -> u64 {
+#[must_use]
+pub fn later(elementary: Elementary, moment: u64, duration_ns: i128) -> u64 {
     let count = i128::from(last(elementary)) + 1;
     (i128::from(moment) + duration_ns).rem_euclid(count) as u64
 }
 
 /// The part of a DATE_AND_TIME that a type holds.
-pub(crate) const fn part(of: Elementary, moment: u64) -> u64 {
+#[must_use]
+pub const fn part(of: Elementary, moment: u64) -> u64 {
     match of {
         Elementary::Date => moment - moment % NS_PER_DAY,
         Elementary::TimeOfDay => moment % NS_PER_DAY,
@@ -37,8 +40,25 @@ pub(crate) const fn part(of: Elementary, moment: u64) -> u64 {
     }
 }
 
+/// The type whose literals begin with `prefix`, such as `D`, `DATE` or `tod`; none if it is none of a date or time of day.
+#[must_use]
+pub fn type_of_prefix(prefix: &str) -> Option<Elementary> {
+    if prefix.eq_ignore_ascii_case("D") {
+        return Some(Elementary::Date);
+    }
+    Elementary::named(prefix).filter(|elementary| elementary.class() == Class::Date)
+}
+
+/// The value of a literal such as `D#2024-02-29`; none if it is none of this type.
+#[must_use]
+pub fn value_of(elementary: Elementary, literal: &str) -> Option<u64> {
+    let (prefix, text) = literal.split_once('#')?;
+    if type_of_prefix(prefix) == Some(elementary) { read(elementary, text) } else { None }
+}
+
 /// The value that stands behind `D#`, `TOD#` or `DT#`; none if there is no such day, or no such time.
-pub(crate) fn read(elementary: Elementary, text: &str) -> Option<u64> {
+#[must_use]
+pub fn read(elementary: Elementary, text: &str) -> Option<u64> {
     match elementary {
         Elementary::Date => date(text),
         Elementary::TimeOfDay => time_of_day(text),
@@ -50,7 +70,10 @@ pub(crate) fn read(elementary: Elementary, text: &str) -> Option<u64> {
 }
 
 /// Writes a value as its literal.
-pub(crate) fn write(text: &mut impl Write, elementary: Elementary, moment: u64) -> fmt::Result {
+///
+/// # Errors
+/// `text` takes no more.
+pub fn write(text: &mut impl Write, elementary: Elementary, moment: u64) -> fmt::Result {
     match elementary {
         Elementary::Date => {
             text.write_str("D#")?;
@@ -203,6 +226,28 @@ mod tests {
         }
         for text in ["24:00:00", "23:60:00", "23:59:60", "12:00", "12:00:00:00", "1:2:3.x", "1:2:-3", ""] {
             assert_eq!(read(TimeOfDay, text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_literal_is_a_value_of_its_own_type_only() {
+        for (literal, own) in [
+            ("D#1970-01-02", Date),
+            ("date#1970-01-02", Date),
+            ("TOD#00:00:01", TimeOfDay),
+            ("TIME_OF_DAY#00:00:01", TimeOfDay),
+            ("dt#1970-01-01-00:00:01", DateAndTime),
+        ] {
+            for elementary in Elementary::ALL {
+                assert_eq!(
+                    value_of(elementary, literal).is_some(),
+                    elementary == own,
+                    "{literal} {elementary}"
+                );
+            }
+        }
+        for text in ["1970-01-02", "T#1s", "UINT#5", "#", "D#", ""] {
+            assert_eq!(value_of(Date, text), None, "{text}");
         }
     }
 
