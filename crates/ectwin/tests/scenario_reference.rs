@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nx_ect101::{Event, Fault, Pattern};
-use scenario::sentence::{Place, Sentence};
-use scenario::sentences::{CONDITIONS, CPU, LINE, MASTER, UNIT};
+use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
 
 /// Set to anything, it makes the test write the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";

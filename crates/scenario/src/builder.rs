@@ -2,7 +2,8 @@
 
 use time::Duration;
 
-use crate::scenario::{Scenario, ScenarioErrors};
+use crate::file::ScenarioErrors;
+use crate::run::Scenario;
 
 /// Writes a scenario step by step. Each method adds one step, or says when the next one is due.
 ///

@@ -4,39 +4,25 @@
 //! clock or a file: who does gives texts in and takes bytes out.
 
 mod builder;
-mod dice;
-mod expectation;
-mod files;
-mod hex;
-mod line;
-mod master;
-mod orders;
-mod programs;
+mod file;
+pub mod model;
 mod random;
-mod recorded;
-mod recording;
+mod ready;
 mod replay;
-mod scenario;
+mod run;
 mod search;
-pub mod sentence;
-pub mod sentences;
-mod story;
-mod world;
+pub mod words;
 
 pub use builder::ScenarioBuilder;
-pub use expectation::Condition;
-pub use files::Files;
-pub use master::MasterProgram;
-pub use orders::{
-    Choice, ConductOrder, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind, LineOrder, MasterOrder,
-    Mode, Order, UnitOrder, UnitSet,
+pub use file::{ScenarioError, ScenarioErrors};
+pub use model::{
+    Choice, Condition, ConductOrder, Controller, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind,
+    LineOrder, MasterOrder, Mode, Order, Trigger, UnitOrder, UnitSet,
 };
-pub use programs::{Controller, ProgramFile};
-pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
-pub use recording::Recording;
-pub use replay::{Failure, Report};
-pub use scenario::{
-    RandomPart, Scenario, ScenarioError, ScenarioErrors, Step, Trigger, UnitSource, UserProgram,
+pub use ready::Files;
+pub use run::{
+    Aspect, DifferenceKind, Failure, MasterProgram, NotReplayable, ProgramFile, RandomPart, RecordedFrames,
+    Recording, Report, Scenario, Step, UnitSource, UserProgram,
 };
 pub use search::Found;
 pub use user_file::Wanted;

@@ -2,11 +2,9 @@
 
 use time::Duration;
 
-use crate::dice::{DICE_OF_STEPS, Dice};
-use crate::orders::Order;
-use crate::scenario::{Scenario, Step, Trigger};
-use crate::sentence;
-use crate::sentences::{CPU, LINE, MASTER, UNIT};
+use crate::model::{Order, Trigger};
+use crate::run::{DICE_OF_STEPS, Dice, Scenario, Step};
+use crate::words::{self, CPU, LINE, MASTER, UNIT};
 
 /// Who is told, by the key of the file.
 type Teller = &'static str;
@@ -79,10 +77,10 @@ impl RandomStep {
 
     fn step(&self, line: usize) -> Step {
         let order = match self.teller {
-            "line" => sentence::read(LINE, &self.text).map(Order::Line),
-            "unit" => sentence::read(UNIT, &self.text).map(Order::Unit),
-            "cpu" => sentence::read(CPU, &self.text).map(Order::Cpu),
-            _ => sentence::read(MASTER, &self.text).map(Order::Master),
+            "line" => words::read(LINE, &self.text).map(Order::Line),
+            "unit" => words::read(UNIT, &self.text).map(Order::Unit),
+            "cpu" => words::read(CPU, &self.text).map(Order::Cpu),
+            _ => words::read(MASTER, &self.text).map(Order::Master),
         };
         match order {
             Ok(order) => Step { trigger: Trigger::After(self.after), order, line, text: self.text.clone() },

@@ -1,9 +1,7 @@
 //! Search: many seeds, until a replay fails; then the failing steps are cut down to the few that it takes.
 
 use crate::random::RandomStep;
-use crate::recording::Recording;
-use crate::replay::Failure;
-use crate::scenario::Scenario;
+use crate::run::{Failure, Recording, Scenario, play};
 
 /// What a search has found.
 #[derive(Clone, Debug)]
@@ -33,7 +31,7 @@ impl Scenario {
     }
 
     fn fails(&self, random: &[RandomStep], seed: u64) -> Option<Failure> {
-        self.replay_steps(&self.steps_with(random), seed, Recording::new(false, false)).failure
+        play(self, &self.steps_with(random), seed, Recording::new(false, false)).failure
     }
 
     /// Leaves out what the failure does not need: halves first, then single steps, as long as anything goes; then

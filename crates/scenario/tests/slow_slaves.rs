@@ -129,11 +129,11 @@ fn each_sentence_does_what_it_says() {
 /// The sentences that are tried are those of the table.
 #[test]
 fn every_sentence_of_conduct_is_tried() {
-    let read = |text: &str| scenario::sentence::read(scenario::sentences::UNIT, text);
+    let read = |text: &str| scenario::words::read(scenario::words::UNIT, text);
     let is_conduct = |order: &scenario::UnitOrder| {
         matches!(order, scenario::UnitOrder::Conduct(..) | scenario::UnitOrder::EraseSii(_))
     };
-    for sentence in scenario::sentences::UNIT {
+    for sentence in scenario::words::UNIT {
         let is_tried = CASES.iter().any(|case| case.sentence == sentence.example);
         let order = read(sentence.example).expect("an example is a sentence");
         assert!(is_tried || !is_conduct(&order), "{}", sentence.example);

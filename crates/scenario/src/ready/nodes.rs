@@ -1,0 +1,45 @@
+//! Node addresses of the units: a master with a program of its own knows each unit by its ID (manual, 3-3).
+
+use nx_ect101::UnitSettings;
+
+use crate::file::Reader;
+use crate::run::NODE_ADDRESS_MAX;
+
+impl Reader<'_> {
+    /// The node address of each unit, in the order of the line. Refuses IDs that are missing, equal, or no node
+    /// address, each with its unit.
+    pub(super) fn node_addresses(&mut self) -> Option<Vec<u16>> {
+        let ids = self.units.iter().map(|unit| UnitSettings::from_unit_file(&unit.file).explicit_device_id());
+        let ids: Vec<u16> = ids.collect();
+        let problems = (0..ids.len()).filter_map(|at| Some((at, problem(&ids, at)?)));
+        let problems: Vec<_> = problems.collect();
+        let are_right = problems.is_empty();
+        for (at, message) in problems {
+            let span = self.unit_spans.get(at).cloned().unwrap_or_default();
+            self.refuse(span, message, way_out(&ids));
+        }
+        are_right.then_some(ids)
+    }
+}
+
+/// What keeps the ID of the unit at this place from being its node address.
+fn problem(ids: &[u16], at: usize) -> Option<String> {
+    let (id, unit) = (*ids.get(at)?, at + 1);
+    if id == 0 {
+        return Some(format!("unit {unit} has no ID: the master's program needs it as the node address"));
+    }
+    if id > NODE_ADDRESS_MAX {
+        return Some(format!("unit {unit} has the ID {id}: a node address is 1 to {NODE_ADDRESS_MAX}"));
+    }
+    let first = ids.iter().position(|other| *other == id).filter(|first| *first < at)?;
+    Some(format!("units {} and {unit} both have the ID {id}: it is the node address", first + 1))
+}
+
+/// Names a free ID; a line with more units than node addresses has none.
+fn way_out(ids: &[u16]) -> String {
+    let free = (1..=NODE_ADDRESS_MAX).find(|id| !ids.contains(id));
+    let keys = free.map_or_else(String::new, |id| {
+        format!("`id_switch = {id}`, or `id_switch = 0` and `alias = {id}`: ")
+    });
+    format!("{keys}each unit needs an ID of its own when the master has a program")
+}

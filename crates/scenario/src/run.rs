@@ -1,0 +1,26 @@
+//! Running a scenario: units, CPU Units, line and masters in virtual time, and whether what is expected holds.
+
+mod calendar;
+mod check;
+mod dice;
+mod line;
+mod master;
+mod player;
+mod programs;
+mod recorded;
+mod recording;
+mod report;
+mod scenario;
+mod story;
+mod world;
+
+pub(crate) use dice::{DICE_OF_STEPS, Dice};
+pub use master::MasterProgram;
+pub(crate) use master::{MasterVariables, NODE_ADDRESS_MAX, Node, changed_settings};
+pub(crate) use player::play;
+pub(crate) use programs::LoadedProgram;
+pub use programs::ProgramFile;
+pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
+pub use recording::Recording;
+pub use report::{Failure, Report};
+pub use scenario::{RandomPart, Scenario, Step, UnitSource, UserProgram};

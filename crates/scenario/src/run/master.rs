@@ -1,0 +1,306 @@
+//! The scripted master: works off its orders in virtual time, one acyclic frame at a time, and exchanges process
+//! data beside.
+
+mod answer;
+mod habits;
+mod last_sdo;
+mod operation;
+mod orders;
+mod process_data;
+mod program;
+mod sdo;
+mod sent;
+mod slave;
+mod states;
+mod variables;
+
+use std::collections::VecDeque;
+
+use time::{Duration, Instant};
+use wire::{Returned, returned_datagrams};
+
+use super::story::Story;
+
+use answer::{Outcome, Step};
+use habits::MailboxHabits;
+use last_sdo::LastSdo;
+use operation::Operation;
+use process_data::ProcessData;
+use program::Task;
+use slave::Slave;
+use states::States;
+
+pub use program::MasterProgram;
+pub(crate) use sent::{Sent, Ticket};
+pub(crate) use slave::changed_settings;
+pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
+
+/// How long an answer may take before the frame counts as lost.
+const ANSWER_PATIENCE: Duration = Duration::from_millis(2);
+/// From one look at a status to the next.
+const POLL_PERIOD: Duration = Duration::from_micros(500);
+/// From one look into the mailboxes to the next.
+const LISTEN_PERIOD: Duration = Duration::from_millis(10);
+/// How long one operation may take in all.
+const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
+/// How long a state may take. The ESI gives a unit 9 s at most, in which it tells why it does not come.
+const STATE_PATIENCE: Duration = Duration::from_secs(10);
+
+/// The scripted master.
+#[derive(Debug)]
+pub(crate) struct Master {
+    slaves: Vec<Slave>,
+    operations: VecDeque<Operation>,
+    /// What the first operation waits for.
+    waiting: Waiting,
+    process_data: ProcessData,
+    /// Its own user program, if it has one.
+    task: Option<Task>,
+    /// What the user program knows of the slaves; without one nobody looks.
+    states: States,
+    /// What the user program has told.
+    told: Story,
+    /// It looks into the mailboxes then, if it has nothing else to do.
+    next_listen: Instant,
+    /// Units whose mailboxes it looks into.
+    listens: Vec<bool>,
+    ticket: u64,
+    mailbox: MailboxHabits,
+    gave_up: Option<String>,
+    last_sdo: LastSdo,
+    emergencies: Vec<u16>,
+    story: Vec<String>,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    /// Sends its next frame then.
+    at: Instant,
+    /// The frame that is on its way.
+    ticket: Option<u64>,
+    /// Gives up then.
+    until: Instant,
+}
+
+impl Master {
+    pub(crate) fn new(units: usize, cycle: Duration, phase: Duration) -> Self {
+        Self {
+            slaves: (0..units).map(Slave::new).collect(),
+            operations: VecDeque::new(),
+            waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
+            process_data: ProcessData::new(units, cycle, phase),
+            task: None,
+            states: States::new(units),
+            told: Story::default(),
+            next_listen: Instant::NEVER,
+            listens: vec![false; units],
+            ticket: 0,
+            mailbox: MailboxHabits::default(),
+            gave_up: None,
+            last_sdo: LastSdo::default(),
+            emergencies: Vec::new(),
+            story: Vec::new(),
+        }
+    }
+
+    /// Gives it a user program of its own, which begins now.
+    pub(crate) fn with_program(mut self, program: MasterProgram, now: Instant) -> Self {
+        self.task = Some(Task::new(program, now));
+        self
+    }
+
+    /// The first operation starts.
+    fn begin(&mut self, now: Instant) {
+        let at = if self.operations.is_empty() { Instant::NEVER } else { now };
+        self.waiting = Waiting { at, ticket: None, until: now + self.patience() };
+    }
+
+    fn patience(&self) -> Duration {
+        let waits_for_state = self.operations.front().is_some_and(Operation::waits_for_state);
+        if waits_for_state { STATE_PATIENCE } else { OPERATION_PATIENCE }
+    }
+
+    /// When it sends next, or loses patience.
+    pub(crate) fn deadline(&self) -> Instant {
+        let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
+        let task = self.task.as_ref().map_or(Instant::NEVER, Task::deadline);
+        self.waiting.at.min(self.process_data.deadline()).min(listen).min(task)
+    }
+
+    /// What it sends now.
+    pub(crate) fn send(&mut self, now: Instant) -> Vec<Sent> {
+        let mut frames = Vec::new();
+        let is_cycle = self.process_data.deadline() <= now;
+        if is_cycle {
+            frames.extend(self.process_data.send(now, &mut self.ticket));
+        }
+        frames.extend(self.begin_task(now, is_cycle));
+        if self.operations.is_empty() && self.next_listen <= now {
+            self.listen(now);
+        }
+        if self.waiting.at <= now {
+            frames.extend(self.send_operation(now));
+        }
+        frames
+    }
+
+    /// A period of the user program begins: it wants to know the states of the slaves.
+    fn begin_task(&mut self, now: Instant, is_cycle: bool) -> Vec<Sent> {
+        let Some(task) = &mut self.task else { return Vec::new() };
+        if is_cycle {
+            task.in_step(now);
+        }
+        let begins = task.begin(now, self.process_data.cycle());
+        if begins { self.states.send(&mut self.ticket) } else { Vec::new() }
+    }
+
+    /// Runs the user program, if its period has begun and the frames of this moment are back.
+    pub(crate) fn scan(&mut self, now: Instant) {
+        let scan = |task: &mut Task| task.scan(now, &mut self.process_data, &self.states);
+        if let Some(events) = self.task.as_mut().and_then(scan) {
+            self.story.extend(self.told.period(events.into_iter()));
+        }
+    }
+
+    /// Looks into the mailboxes, for emergencies.
+    fn listen(&mut self, now: Instant) {
+        self.next_listen = now + LISTEN_PERIOD;
+        let units = self.listens.iter().enumerate().filter(|(_, listens)| **listens);
+        self.operations.extend(units.map(|(unit, _)| Operation::listen(unit)));
+        self.begin(now);
+    }
+
+    fn send_operation(&mut self, now: Instant) -> Option<Sent> {
+        let operation = self.operations.front_mut()?;
+        if now >= self.waiting.until {
+            let words = operation.words();
+            let reason = format!("{words}: no success within {}", self.patience());
+            self.give_up(reason, now);
+            return None;
+        }
+        let (frame, kind) = operation.frame(&mut self.mailbox);
+        self.ticket += 1;
+        self.waiting.ticket = Some(self.ticket);
+        // Without an answer by then the frame is sent once more.
+        self.waiting.at = now + ANSWER_PATIENCE;
+        Some(Sent { ticket: Ticket::Scripted(self.ticket), kind, frame })
+    }
+
+    /// A frame comes back. What nobody waits for any more is passed over, as a master does.
+    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8], now: Instant) {
+        let datagrams = returned_datagrams(frame);
+        let is_cyclic =
+            self.process_data.receive(ticket, &datagrams) || self.states.receive(ticket, &datagrams);
+        if is_cyclic || self.waiting.ticket != Some(ticket) {
+            return;
+        }
+        self.waiting.ticket = None;
+        let Some(answer) = datagrams.first() else { return };
+        self.answer(answer, now);
+    }
+
+    fn answer(&mut self, answer: &Returned, now: Instant) {
+        let Some(operation) = self.operations.front_mut() else { return };
+        match operation.answer(answer, &mut self.slaves) {
+            Outcome::Again => self.waiting.at = now + POLL_PERIOD,
+            Outcome::Next => self.waiting.at = now,
+            Outcome::Received(code) => {
+                self.emergencies.push(code);
+                self.story.push(format!("receives emergency {code:04X}"));
+                self.waiting.at = now;
+            }
+            Outcome::Done(steps) => {
+                self.operations.pop_front();
+                self.take_steps(steps, now);
+                self.begin(now);
+            }
+            Outcome::Failed(reason) => self.give_up(reason, now),
+        }
+    }
+
+    /// What an operation leads to goes before everything else.
+    fn take_steps(&mut self, steps: Vec<Step>, now: Instant) {
+        for step in steps.into_iter().rev() {
+            match step {
+                Step::Do(operation) => self.operations.push_front(operation),
+                Step::Exchange { unit, outputs_bytes, inputs_bytes } => {
+                    self.process_data.open(unit, outputs_bytes, inputs_bytes, now);
+                    if let (Some(task), Some(slave)) = (&mut self.task, self.slaves.get(unit)) {
+                        task.open(unit, slave.settings());
+                    }
+                }
+                Step::Close(unit) => self.process_data.close(unit),
+                Step::Listen { unit, listens } => {
+                    self.listens[unit] = listens;
+                    let any = self.listens.contains(&true);
+                    self.next_listen = if any { now + LISTEN_PERIOD } else { Instant::NEVER };
+                }
+                Step::SdoResult { number, result } => {
+                    self.story.push(last_sdo::words(&result));
+                    self.last_sdo.answer(number, result);
+                }
+                Step::Tell(words) => self.story.push(words),
+            }
+        }
+    }
+
+    /// An order that cannot be done takes what belongs to it with it; the next order goes on.
+    fn give_up(&mut self, reason: String, now: Instant) {
+        if !self.operations.front().is_some_and(Operation::is_listening) {
+            self.story.push(format!("gives up: {reason}"));
+            self.gave_up = Some(reason);
+        }
+        let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
+        for operation in self.operations.drain(..parts.max(1)) {
+            self.last_sdo.give_up(operation.ordered_sdo());
+        }
+        self.begin(now);
+    }
+
+    pub(crate) fn cycles(&self) -> u64 {
+        self.process_data.cycles()
+    }
+
+    pub(crate) fn is_idle(&self) -> bool {
+        self.operations.iter().all(Operation::is_listening)
+    }
+
+    pub(crate) fn activity(&self) -> String {
+        self.operations.front().map_or("nothing".to_owned(), Operation::words)
+    }
+
+    pub(crate) fn gave_up(&self) -> Option<&str> {
+        self.gave_up.as_deref()
+    }
+
+    pub(crate) const fn last_sdo(&self) -> &LastSdo {
+        &self.last_sdo
+    }
+
+    pub(crate) fn emergencies(&self) -> &[u16] {
+        &self.emergencies
+    }
+
+    pub(crate) fn inputs(&self, unit: usize) -> &[u8] {
+        self.process_data.inputs(unit)
+    }
+
+    pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
+        self.process_data.working_counter(unit)
+    }
+
+    /// What its user program has told.
+    pub(crate) const fn told(&self) -> &Story {
+        &self.told
+    }
+
+    /// The value of a variable of its user program as text.
+    pub(crate) fn program_variable(&self, name: &str) -> Option<String> {
+        self.task.as_ref()?.value(name)
+    }
+
+    /// What it has to tell since the last call.
+    pub(crate) fn take_story(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.story)
+    }
+}

@@ -1,0 +1,90 @@
+//! What the scripted master makes of an order.
+
+use time::Instant;
+
+use super::Master;
+use super::habits::MailboxHabits;
+use super::operation::Operation;
+use super::slave::Slave;
+use crate::model::{MasterOrder, UnitSet};
+
+impl Master {
+    /// Takes an order.
+    pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
+        match order {
+            MasterOrder::Take(units, state) => {
+                self.process_data.allow();
+                self.queue_for(units, now, |unit| Operation::take(unit, state))
+            }
+            MasterOrder::Request { units, state, acknowledge } => {
+                let bits = state.bits() | if acknowledge { 0x10 } else { 0 };
+                self.queue_for(units, now, |unit| {
+                    Operation::write(unit, 0x0120, bits.to_le_bytes().to_vec())
+                });
+            }
+            MasterOrder::WriteRegister(unit, offset, bytes) => {
+                self.queue_for(UnitSet::One(unit), now, |unit| Operation::write(unit, offset, bytes.clone()));
+            }
+            MasterOrder::WriteInHalves(unit, offset, bytes) => {
+                let (first, second) = bytes.split_at(bytes.len().div_ceil(2));
+                let behind = offset.wrapping_add(first.len() as u16);
+                for (offset, half) in [(offset, first), (behind, second)] {
+                    let half = half.to_vec();
+                    self.queue_for(UnitSet::One(unit), now, |unit| {
+                        Operation::write(unit, offset, half.clone())
+                    });
+                }
+            }
+            MasterOrder::WriteSdo(unit, entry, bytes) => {
+                let number = self.last_sdo.order();
+                let order = |unit| Operation::download(unit, entry, &bytes).ordered_as(number);
+                self.queue_for(UnitSet::One(unit), now, order);
+            }
+            MasterOrder::ReadSdo(unit, entry) => {
+                let number = self.last_sdo.order();
+                let order = |unit| Operation::upload(unit, entry).ordered_as(number);
+                self.queue_for(UnitSet::One(unit), now, order);
+            }
+            MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
+            MasterOrder::StopExchange => self.process_data.stop(),
+            MasterOrder::SetOutputs(unit, at, bytes) => self.process_data.set_outputs(unit, at, &bytes),
+            MasterOrder::Map(unit, pdo, entries) => self.with_slave(unit, |slave| slave.map(pdo, &entries)),
+            MasterOrder::Assign(unit, index, pdos) => {
+                self.with_slave(unit, |slave| slave.assign(index, &pdos))
+            }
+            MasterOrder::SyncManagerLength { unit, number, length_bytes } => {
+                self.with_slave(unit, |slave| slave.wrong_length(number, length_bytes));
+            }
+            MasterOrder::SyncManagerControl { unit, number, control } => {
+                self.with_slave(unit, |slave| slave.wrong_control(number, control));
+            }
+            MasterOrder::MailboxCounter(counter) => self.mailbox.stuck_counter = Some(counter),
+            MasterOrder::ReadNoMailbox => self.mailbox.reads_nothing = true,
+            MasterOrder::Behave => {
+                self.mailbox = MailboxHabits { counter: self.mailbox.counter, ..MailboxHabits::default() };
+                self.slaves.iter_mut().for_each(Slave::behave);
+            }
+            MasterOrder::Restart => {
+                let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
+                let phase = self.process_data.phase();
+                let ticket = self.ticket + 1;
+                let task = self.task.take().map(|task| task.restart(now));
+                *self = Self { ticket, task, ..Self::new(units, cycle, phase) };
+            }
+        }
+    }
+
+    fn with_slave(&mut self, unit: usize, change: impl FnOnce(&mut Slave)) {
+        if let Some(slave) = self.slaves.get_mut(unit) {
+            change(slave);
+        }
+    }
+
+    fn queue_for(&mut self, units: UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
+        let was_idle = self.operations.is_empty();
+        self.operations.extend(units.positions(self.slaves.len()).map(operation));
+        if was_idle {
+            self.begin(now);
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! A frame of a master on its way.
+
+use crate::model::FrameKind;
+
+/// Whose frame it is, and which one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ticket {
+    /// The scripted master's.
+    Scripted(u64),
+    /// The recorded master's.
+    Recorded(usize),
+}
+
+/// A frame that a master sends.
+pub(crate) struct Sent {
+    pub(crate) ticket: Ticket,
+    pub(crate) kind: FrameKind,
+    pub(crate) frame: Vec<u8>,
+}

@@ -1,0 +1,215 @@
+//! Playing steps: in their order, with expectations as they become due, to a verdict.
+
+use time::{Duration, Instant};
+
+use super::dice::{DICE_OF_STEPS, Dice};
+use super::recording::Recording;
+use super::report::{Failure, Report};
+use super::scenario::{Scenario, Step};
+use super::world::{QUIET_STEP, World};
+use crate::model::{Condition, Expectation, Mode, Order, Trigger};
+
+/// Replays these steps with the units of a scenario.
+pub(crate) fn play(scenario: &Scenario, steps: &[Step], seed: u64, recording: Recording) -> Report {
+    let world = World::power_on(scenario, seed, recording);
+    let (dice, limit) = (Dice::new(seed ^ DICE_OF_STEPS), Instant::ZERO + scenario.limit);
+    let mut replay = Replay { world, dice, watches: Vec::new(), current: None, limit };
+    let failure = steps.iter().try_for_each(|step| replay.step(step)).and_then(|()| replay.end()).err();
+    let Replay { mut world, .. } = replay;
+    let lasted = world.now().saturating_since(Instant::ZERO);
+    if let Some(failure) = &failure {
+        let now = world.now();
+        world.recording().tell(now, "verdict", &failure.to_string());
+    }
+    let cycles = world.master().cycles();
+    let differences = world.recorded_master().difference_kinds();
+    Report { seed, failure, lasted, cycles, differences, recording: world.into_recording() }
+}
+
+struct Replay<'a> {
+    world: World,
+    /// For the moments of steps; the line has its own.
+    dice: Dice,
+    /// Expectations that last.
+    watches: Vec<Watch<'a>>,
+    /// The step that is being done.
+    current: Option<&'a Step>,
+    limit: Instant,
+}
+
+/// An expectation that is looked at after everything that happens.
+struct Watch<'a> {
+    step: &'a Step,
+    expectation: &'a Expectation,
+    /// The moment at which it is decided.
+    until: Instant,
+}
+
+/// Whether a watch goes on.
+enum Watched {
+    Open,
+    Satisfied,
+}
+
+type Verdict<T = ()> = Result<T, Failure>;
+
+impl<'a> Replay<'a> {
+    fn step(&mut self, step: &'a Step) -> Verdict {
+        self.current = Some(step);
+        self.wait(step)?;
+        if !matches!(step.order, Order::Expect(_)) {
+            let now = self.world.now();
+            self.world.recording().tell(now, "step", &step.text);
+        }
+        match &step.order {
+            Order::Master(order) => {
+                let now = self.world.now();
+                self.world.master_mut().order(order.clone(), now);
+                self.run_until(now)
+            }
+            Order::Unit(order) => self.then(|world| world.unit_order(order)),
+            Order::Cpu(order) => self.then(|world| world.cpu_order(order)),
+            Order::Line(order) => self.then(|world| world.line_order(order)),
+            Order::Expect(expectation) => self.expect(step, expectation),
+        }
+    }
+
+    fn then(&mut self, act: impl FnOnce(&mut World)) -> Verdict {
+        act(&mut self.world);
+        self.look()
+    }
+
+    /// Until the step is due.
+    fn wait(&mut self, step: &'a Step) -> Verdict {
+        let now = self.world.now();
+        match &step.trigger {
+            Trigger::AtOnce => Ok(()),
+            Trigger::At(at) => self.run_until(Instant::ZERO + *at),
+            Trigger::After(after) => self.run_until(now + *after),
+            Trigger::About(after, jitter) => {
+                let early = Duration::from_nanos(after.as_nanos().saturating_sub(jitter.as_nanos()));
+                let more = self.dice.below(jitter.as_nanos() * 2 + 1);
+                self.run_until(now + early + Duration::from_nanos(more))
+            }
+            Trigger::When(condition) => loop {
+                let seen = match condition.check(&mut self.world) {
+                    Ok(()) => return Ok(()),
+                    Err(seen) => seen,
+                };
+                if self.world.now() >= self.limit {
+                    let seen = format!("`when` waits in vain until the limit: {seen}");
+                    return Err(failure(step, self.world.now(), seen));
+                }
+                self.advance(self.limit)?;
+            },
+        }
+    }
+
+    fn expect(&mut self, step: &'a Step, expectation: &'a Expectation) -> Verdict {
+        let now = self.world.now();
+        let until = match &expectation.mode {
+            Mode::Now => {
+                let checked = expectation.condition.check(&mut self.world);
+                return checked.map_err(|seen| failure(step, now, seen));
+            }
+            Mode::Within(limit) => return self.expect_within(step, expectation, now + *limit),
+            Mode::For(span) => now + *span,
+            Mode::Never => Instant::NEVER,
+            Mode::Until(until) => return self.expect_until(step, &expectation.condition, until, true),
+            Mode::NeverUntil(until) => return self.expect_until(step, &expectation.condition, until, false),
+        };
+        self.watches.push(Watch { step, expectation, until });
+        if expectation.mode == Mode::Never { self.look() } else { self.run_until(until) }
+    }
+
+    /// Time passes until it holds.
+    fn expect_within(&mut self, step: &'a Step, expectation: &'a Expectation, until: Instant) -> Verdict {
+        loop {
+            let Err(seen) = expectation.condition.check(&mut self.world) else { return Ok(()) };
+            if self.world.now() >= until {
+                return Err(failure(step, self.world.now(), seen));
+            }
+            self.advance(until)?;
+        }
+    }
+
+    /// Time passes until `until` holds; so long the condition has to hold, or must not.
+    fn expect_until(
+        &mut self,
+        step: &'a Step,
+        condition: &Condition,
+        until: &Condition,
+        wanted: bool,
+    ) -> Verdict {
+        loop {
+            let Err(waiting) = until.check(&mut self.world) else { return Ok(()) };
+            let now = self.world.now();
+            match (condition.check(&mut self.world), wanted) {
+                (Err(seen), true) => return Err(failure(step, now, seen)),
+                (Ok(()), false) => return Err(failure(step, now, "it does hold".to_owned())),
+                _ => {}
+            }
+            if now >= self.limit {
+                return Err(failure(step, now, format!("`until` waits in vain until the limit: {waiting}")));
+            }
+            self.advance(self.limit)?;
+        }
+    }
+
+    /// The scenario is over: what had to hold to the end has.
+    fn end(&mut self) -> Verdict {
+        self.look()
+    }
+
+    fn run_until(&mut self, end: Instant) -> Verdict {
+        loop {
+            if self.world.deadline() > end && self.world.now() >= end {
+                return Ok(());
+            }
+            self.advance(end)?;
+        }
+    }
+
+    /// To the next thing that happens, at most to `end`.
+    fn advance(&mut self, end: Instant) -> Verdict {
+        if let Some(step) = self.current.filter(|_| self.world.now() > self.limit) {
+            let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
+            return Err(failure(step, self.world.now(), words));
+        }
+        let quiet = self.world.now() + QUIET_STEP;
+        let next = self.world.deadline().min(end).min(quiet);
+        self.world.advance(next);
+        self.look()
+    }
+
+    /// Looks at the expectations that last.
+    fn look(&mut self) -> Verdict {
+        let mut place = 0;
+        while let Some(watch) = self.watches.get(place) {
+            match watch.look(&mut self.world)? {
+                Watched::Open => place += 1,
+                Watched::Satisfied => drop(self.watches.remove(place)),
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Watch<'_> {
+    fn look(&self, world: &mut World) -> Verdict<Watched> {
+        let now = world.now();
+        if now >= self.until {
+            return Ok(Watched::Satisfied);
+        }
+        let holds = self.expectation.condition.check(world);
+        match (&self.expectation.mode, holds) {
+            (Mode::Never, Ok(())) => Err(failure(self.step, now, "it does hold".to_owned())),
+            (Mode::For(_), Err(seen)) => Err(failure(self.step, now, seen)),
+            _ => Ok(Watched::Open),
+        }
+    }
+}
+
+fn failure(step: &Step, at: Instant, seen: String) -> Failure {
+    Failure { line: step.line, text: step.text.clone(), at: at.saturating_since(Instant::ZERO), seen }
+}

@@ -1,0 +1,19 @@
+//! User programs in Structured Text: of CPU Units, and of the master.
+
+use plc::StructuredText;
+
+/// A user program in Structured Text, read and checked against the device variables of its CPU Unit.
+#[derive(Clone, Debug)]
+pub struct ProgramFile {
+    /// Its files, as they are named.
+    pub name: String,
+    /// The program, at its beginning.
+    pub program: StructuredText,
+}
+
+/// A program that a step loads into a CPU Unit.
+#[derive(Clone, Debug)]
+pub(crate) struct LoadedProgram {
+    pub(crate) unit: usize,
+    pub(crate) file: ProgramFile,
+}

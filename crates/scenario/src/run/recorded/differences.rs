@@ -1,0 +1,153 @@
+//! In what the answers of a replayed capture differ: every difference has a kind, and each kind is counted.
+
+use wire::{Command, Returned};
+
+use super::areas;
+use crate::model::hex;
+
+/// Differences that are described one by one.
+const DESCRIBED: usize = 3;
+
+/// What is not as it was captured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aspect {
+    /// Other units, or other ones of their SyncManagers and FMMUs, have taken the datagram.
+    WorkingCounter,
+    /// The data of the datagram.
+    Data,
+    /// The answer has other datagrams.
+    Datagrams,
+    /// The answer that was captured does not come back.
+    MissingAnswer,
+}
+
+/// Differences of one kind: the same aspect of the same command in the same place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DifferenceKind {
+    /// What differs.
+    pub aspect: Aspect,
+    /// The command of the datagram; none for what concerns a whole frame.
+    pub command: Option<Command>,
+    /// What the datagram asks for, such as `mailbox to the master`; none for what concerns a whole frame.
+    pub place: Option<&'static str>,
+    /// How many there are.
+    pub count: u64,
+    /// The first of them.
+    pub first: String,
+}
+
+impl Aspect {
+    /// The name in files of results.
+    #[must_use]
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::WorkingCounter => "working_counter",
+            Self::Data => "data",
+            Self::Datagrams => "datagrams",
+            Self::MissingAnswer => "missing_answer",
+        }
+    }
+}
+
+impl DifferenceKind {
+    /// The command by its mnemonic, such as `FPRD`.
+    #[must_use]
+    pub fn mnemonic(&self) -> Option<String> {
+        self.command.map(|command| format!("{command:?}").to_uppercase())
+    }
+}
+
+/// Everything that differs so far.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Differences {
+    kinds: Vec<DifferenceKind>,
+    described: Vec<String>,
+}
+
+impl Differences {
+    pub(super) fn count(&self) -> u64 {
+        self.kinds.iter().map(|kind| kind.count).sum()
+    }
+
+    /// The first ones, in words.
+    pub(super) fn described(&self) -> &[String] {
+        &self.described
+    }
+
+    /// The most frequent kind first.
+    pub(super) fn kinds(&self) -> Vec<DifferenceKind> {
+        let mut kinds = self.kinds.clone();
+        kinds.sort_by_key(|kind| core::cmp::Reverse(kind.count));
+        kinds
+    }
+
+    /// Compares the datagrams of an answer, the one to frame `number`, with those that were captured.
+    pub(super) fn compare(&mut self, number: usize, seen: &[Returned], captured: &[Returned]) {
+        let frame = format!("frame {}", number + 1);
+        let commands = |datagrams: &[Returned]| -> Vec<Command> {
+            datagrams.iter().map(|datagram| datagram.header.command).collect()
+        };
+        if commands(seen) != commands(captured) {
+            let (now, then) = (seen.len(), captured.len());
+            let words = format!("{frame}: {now} datagrams, captured {then}, or other commands");
+            self.add(Aspect::Datagrams, None, words);
+            return;
+        }
+        for (place, (seen, captured)) in seen.iter().zip(captured).enumerate() {
+            if let Some((aspect, words)) = difference(seen, captured) {
+                self.add(aspect, Some(captured), format!("{frame}, datagram {}: {words}", place + 1));
+            }
+        }
+    }
+
+    /// These frames were answered in the capture, and are not now.
+    pub(super) fn with_missing(mut self, numbers: impl Iterator<Item = usize>) -> Self {
+        for number in numbers {
+            self.add(Aspect::MissingAnswer, None, format!("frame {}: no answer comes back", number + 1));
+        }
+        self
+    }
+
+    fn add(&mut self, aspect: Aspect, datagram: Option<&Returned>, words: String) {
+        if self.described.len() < DESCRIBED {
+            self.described.push(words.clone());
+        }
+        let command = datagram.map(|datagram| datagram.header.command);
+        let place = datagram.map(place);
+        let same =
+            |kind: &&mut DifferenceKind| (kind.aspect, kind.command, kind.place) == (aspect, command, place);
+        match self.kinds.iter_mut().find(same) {
+            Some(kind) => kind.count += 1,
+            None => self.kinds.push(DifferenceKind { aspect, command, place, count: 1, first: words }),
+        }
+    }
+}
+
+/// What a datagram asks for.
+fn place(datagram: &Returned) -> &'static str {
+    if is_logical(datagram) { "process data" } else { areas::name(datagram.header.offset) }
+}
+
+fn is_logical(datagram: &Returned) -> bool {
+    matches!(datagram.header.command, Command::Lrd | Command::Lwr | Command::Lrw)
+}
+
+/// What is not as it was; none if nothing is. A datagram that other units have taken has other data too.
+fn difference(seen: &Returned, captured: &Returned) -> Option<(Aspect, String)> {
+    let header = &captured.header;
+    let name = format!("{:?} of {:#06X}", header.command, header.offset);
+    if seen.working_counter != captured.working_counter {
+        let (now, then) = (seen.working_counter, captured.working_counter);
+        return Some((Aspect::WorkingCounter, format!("{name}: working counter {now}, captured {then}")));
+    }
+    // Process data depend on the phase of the CPU Unit.
+    let is_compared = !is_logical(captured) && areas::are_compared(header.offset, header.length_bytes);
+    if !is_compared || seen.data == captured.data {
+        return None;
+    }
+    let place = seen.data.iter().zip(&captured.data).position(|(now, then)| now != then).unwrap_or(0);
+    let part = |data: &[u8]| hex(data.get(place..data.len().min(place + 8)).unwrap_or_default());
+    let words =
+        format!("{name}: from byte {place} on {}, captured {}", part(&seen.data), part(&captured.data));
+    Some((Aspect::Data, words))
+}

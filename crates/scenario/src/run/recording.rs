@@ -1,0 +1,79 @@
+//! What a replay leaves behind: the trace, which tells the story, and the capture, which holds the frames.
+
+use capture::{Direction, PcapngWriter};
+use time::Instant;
+
+use super::calendar::SYSTEM_TIME_NS;
+
+/// The trace of a replay, and its capture where one is wanted.
+pub struct Recording {
+    trace: Option<String>,
+    capture: Option<PcapngWriter<Vec<u8>>>,
+}
+
+impl Recording {
+    /// Records these.
+    #[must_use]
+    pub fn new(trace: bool, capture: bool) -> Self {
+        let capture = capture.then(|| PcapngWriter::new(Vec::new(), "scenario").ok()).flatten();
+        Self { trace: trace.then(String::new), capture }
+    }
+
+    /// Records the trace too.
+    pub(crate) fn with_trace(mut self) -> Self {
+        self.trace.get_or_insert_default();
+        self
+    }
+
+    /// The trace, line by line; none if none was wanted.
+    #[must_use]
+    pub fn trace(&self) -> Option<&str> {
+        self.trace.as_deref()
+    }
+
+    /// The capture in the pcapng format; none if none was wanted.
+    #[must_use]
+    pub fn into_capture(self) -> Option<Vec<u8>> {
+        self.capture.and_then(|capture| capture.finish().ok())
+    }
+
+    /// Somebody does something.
+    pub(crate) fn tell(&mut self, now: Instant, who: &str, what: &str) {
+        if let Some(trace) = &mut self.trace {
+            let (ms, ns) = (now.as_nanos() / 1_000_000, now.as_nanos() % 1_000_000);
+            trace.push_str(&format!("{ms:>8}.{ns:06} ms  {who:<8}  {what}\n"));
+        }
+    }
+
+    pub(crate) fn note(&mut self, now: Instant, what: &str) {
+        self.tell(now, "line", what);
+    }
+
+    /// A frame goes to the units.
+    pub(crate) fn sent(&mut self, now: Instant, frame: &[u8], comment: Option<&str>) {
+        if let Some(comment) = comment {
+            self.note(now, comment);
+        }
+        self.packet(now, Direction::Inbound, frame, comment);
+    }
+
+    /// It comes back.
+    pub(crate) fn returned(&mut self, now: Instant, frame: &[u8], comment: Option<&str>) {
+        self.packet(now, Direction::Outbound, frame, comment);
+    }
+
+    /// A frame gets lost on its way.
+    pub(crate) fn lost(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: &str) {
+        self.note(now, comment);
+        self.packet(now, direction, frame, Some(comment));
+    }
+
+    fn packet(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: Option<&str>) {
+        if let Some(capture) = &mut self.capture {
+            let comment = comment.map(|comment| format!("fault: {comment}"));
+            let comment = comment.as_deref();
+            // A vector takes every byte.
+            let _ = capture.packet(SYSTEM_TIME_NS + now.as_nanos(), direction, frame, comment);
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The world of a scenario: units, CPU Units, line and master in virtual time, and who watches them.
+
+mod frames;
+mod looks;
+mod orders;
+mod variables;
+
+use device::Network;
+use nx_ect101::{EventCode, NxEct101, UnitSettings, device_config_with};
+use plc::{CpuSettings, CpuUnit};
+use time::{Duration, Instant};
+use wire::{AlStatus, AlStatusCode};
+
+use super::calendar::SYSTEM_TIME_NS;
+use super::dice::{Dice, dice_of_phases};
+use super::line::Line;
+use super::master::{Master, Sent, Ticket};
+use super::programs::LoadedProgram;
+use super::recorded::Recorded;
+use super::recording::Recording;
+use super::scenario::{Scenario, UnitSource};
+use super::story::Story;
+use crate::model::{FrameKind, StateName};
+
+/// Everything that a scenario moves.
+pub(crate) struct World {
+    network: Network<NxEct101>,
+    cpus: Vec<Cpu>,
+    line: Line,
+    master: Master,
+    recorded: Recorded,
+    now: Instant,
+    watched: Vec<Watched>,
+    /// What steps load into CPU Units.
+    programs: Vec<LoadedProgram>,
+    recording: Recording,
+}
+
+struct Cpu {
+    unit: CpuUnit,
+    is_running: bool,
+    told: Story,
+}
+
+/// What the watcher has seen of a unit last.
+#[derive(Default)]
+struct Watched {
+    status: AlStatus,
+    code: AlStatusCode,
+    recorded: Vec<EventCode>,
+}
+
+impl World {
+    /// Gives power to the units of a scenario.
+    pub(crate) fn power_on(scenario: &Scenario, seed: u64, recording: Recording) -> Self {
+        let now = Instant::ZERO;
+        let mut cpus = Vec::new();
+        let units = (1..).zip(&scenario.units).map(|(participant, source)| {
+            let (config, unit, cpu) = powered(source, dice_of_phases(seed, participant), now);
+            cpus.push(Cpu { unit: cpu, is_running: true, told: Story::default() });
+            (config, unit)
+        });
+        let network = Network::power_on(units.collect::<Vec<_>>(), now);
+        let count = network.len();
+        let watched = (0..count).map(|_| Watched::default()).collect();
+        let phase = scenario.cycle_phase.unwrap_or_else(|| dice_of_phases(seed, 0).phase(scenario.cycle));
+        let master = Master::new(count, scenario.cycle, phase);
+        let master = match &scenario.master {
+            Some(program) => master.with_program(program.clone(), now),
+            None => master,
+        };
+        let mut world = Self {
+            network,
+            cpus,
+            line: Line::new(seed),
+            master,
+            recorded: Recorded::new(scenario.recorded.clone()),
+            now,
+            watched,
+            programs: scenario.programs.clone(),
+            recording,
+        };
+        world.happen();
+        world
+    }
+
+    pub(crate) fn now(&self) -> Instant {
+        self.now
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.network.len()
+    }
+
+    pub(crate) const fn master(&self) -> &Master {
+        &self.master
+    }
+
+    pub(crate) const fn recorded_master(&self) -> &Recorded {
+        &self.recorded
+    }
+
+    pub(crate) fn recording(&mut self) -> &mut Recording {
+        &mut self.recording
+    }
+
+    pub(crate) fn into_recording(self) -> Recording {
+        self.recording
+    }
+
+    /// When something happens next.
+    pub(crate) fn deadline(&self) -> Instant {
+        let cpus = self.cpus.iter().filter(|cpu| cpu.is_running).map(|cpu| cpu.unit.deadline());
+        let cpus = cpus.min().unwrap_or(Instant::NEVER);
+        let masters = self.master.deadline().min(self.recorded.deadline());
+        self.network.deadline().min(cpus).min(self.line.deadline()).min(masters)
+    }
+
+    /// Lets time pass to `to`, at which something happens or not.
+    pub(crate) fn advance(&mut self, to: Instant) {
+        self.now = self.now.max(to);
+        self.happen();
+    }
+
+    /// Everything that is due now, in the one order: CPU Units, units, late frames, master and its user program.
+    fn happen(&mut self) {
+        let now = self.now;
+        for (at, cpu) in self.cpus.iter_mut().enumerate() {
+            if cpu.is_running && cpu.unit.deadline() <= now {
+                cpu.unit.cycle(now);
+                let events = cpu.unit.take_events().map(|record| record.event);
+                for words in cpu.told.period(events) {
+                    self.recording.tell(now, &format!("cpu {}", at + 1), &words);
+                }
+            }
+        }
+        self.network.poll(now);
+        while let Some(delayed) = self.line.due(now) {
+            self.pass(delayed.ticket, delayed.frame, &delayed.faults);
+        }
+        for sent in self.master.send(now) {
+            self.transmit(sent);
+        }
+        self.master.scan(now);
+        while let Some((number, frame)) = self.recorded.send(now) {
+            self.transmit(Sent { ticket: Ticket::Recorded(number), kind: FrameKind::Any, frame });
+        }
+        self.watch();
+    }
+
+    /// Writes down what has changed.
+    fn watch(&mut self) {
+        for at in 0..self.network.len() {
+            let Some(device) = self.network.device_mut(at) else { continue };
+            let (status, code) = (device.al_status(), device.al_status_code());
+            let occurred = device.unit_mut().take_occurred();
+            let watched = &mut self.watched[at];
+            for &event in &occurred {
+                let name = nx_ect101::Event::find(event).map_or("", |event| event.name.as_str());
+                self.recording.tell(
+                    self.now,
+                    &format!("unit {}", at + 1),
+                    &format!("records {event} {name}"),
+                );
+            }
+            watched.recorded.extend(occurred);
+            if (status, code) != (watched.status, watched.code) {
+                (watched.status, watched.code) = (status, code);
+                let words = state_words(status, code);
+                self.recording.tell(self.now, &format!("unit {}", at + 1), &format!("is in {words}"));
+            }
+        }
+        for words in self.master.take_story() {
+            self.recording.tell(self.now, "master", &words);
+        }
+    }
+}
+
+/// A unit with its CPU Unit, as its file says. Phases that it leaves out are the dice's.
+fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
+    let mut settings = UnitSettings::from_unit_file(&source.file);
+    let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
+    let (refresh_phase, task_phase) = (dice.phase(period), dice.phase(source.file.cpu.task_period.value));
+    settings.refresh_phase = source.file.refresh_phase.as_ref().map_or(refresh_phase, |named| named.value);
+    let (unit, bus) = NxEct101::power_on(&settings);
+    let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
+    let cpu = CpuSettings {
+        system_time_ns: Some(SYSTEM_TIME_NS),
+        task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
+        ..CpuSettings::from_unit_file(&source.file)
+    };
+    let program = source.program.start();
+    (config, unit, CpuUnit::power_on(now, cpu, bus, program))
+}
+
+pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {
+    let state = StateName(status.state);
+    if status.error { format!("{state} with AL status code {:#06X}", code.0) } else { state.to_string() }
+}
+
+/// Longest pause in which nothing at all happens.
+pub(crate) const QUIET_STEP: Duration = Duration::from_secs(1);

@@ -1,0 +1,124 @@
+//! What conditions look at.
+
+use device::{Device, Unit};
+use esc::Port;
+use nx_ect101::{EventCode, EventLevel, Indicators, NxEct101, Pattern, PortCondition};
+use plc::Io;
+use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
+
+use super::{World, state_words};
+use crate::model::IndicatorName;
+
+/// The two levels of current errors, the more severe first.
+const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observation];
+
+impl World {
+    /// The unit at a position that the scenario has been checked for.
+    pub(crate) fn unit(&self, at: usize) -> &NxEct101 {
+        self.device(at).unit()
+    }
+
+    fn device(&self, at: usize) -> &Device<NxEct101> {
+        match self.network.device(at) {
+            Some(device) => device,
+            None => panic!("the scenario names unit {}, and was checked", at + 1),
+        }
+    }
+
+    pub(crate) fn io(&self, at: usize) -> &Io {
+        self.cpus[at].unit.io()
+    }
+
+    pub(crate) fn al_status(&self, at: usize) -> (AlStatus, AlStatusCode) {
+        (self.device(at).al_status(), self.device(at).al_status_code())
+    }
+
+    pub(crate) fn state_words(&self, at: usize) -> String {
+        let (status, code) = self.al_status(at);
+        state_words(status, code)
+    }
+
+    pub(crate) fn recorded(&self, at: usize) -> &[EventCode] {
+        &self.watched[at].recorded
+    }
+
+    pub(crate) fn recorded_words(&self, at: usize) -> String {
+        let recorded = self.recorded(at);
+        if recorded.is_empty() {
+            "nothing is recorded".to_owned()
+        } else {
+            format!("recorded: {}", codes(recorded))
+        }
+    }
+
+    pub(crate) fn current_errors(&self, at: usize) -> Vec<EventCode> {
+        let unit = self.unit(at);
+        CURRENT.iter().flat_map(|&level| unit.current_errors(level)).map(|error| error.event).collect()
+    }
+
+    pub(crate) fn current_error_words(&self, at: usize) -> String {
+        let errors = self.current_errors(at);
+        if errors.is_empty() { "no error".to_owned() } else { codes(&errors) }
+    }
+
+    pub(crate) fn object(
+        &mut self,
+        at: usize,
+        index: ObjectIndex,
+        sub: SubIndex,
+    ) -> Result<Vec<u8>, SdoAbort> {
+        let missing = SdoAbort::OBJECT_DOES_NOT_EXIST;
+        let objects =
+            self.network.device_mut(at).and_then(|device| device.unit_mut().objects()).ok_or(missing)?;
+        let entry = objects.table().entry(index, sub).ok_or(missing)?;
+        let mut value = vec![0; entry.size_bytes()];
+        objects.read(index, sub, &mut value).map(|()| value)
+    }
+
+    pub(crate) fn registers(&self, at: usize, offset: u16, length_bytes: usize) -> Vec<u8> {
+        let mut bytes = vec![0; length_bytes];
+        if let Some(esc) = self.network.esc(at) {
+            esc.look(offset, &mut bytes, self.now);
+        }
+        bytes
+    }
+
+    pub(crate) fn inputs(&self, at: usize) -> &[u8] {
+        self.master.inputs(at)
+    }
+
+    pub(crate) fn working_counter(&self, at: usize) -> Option<u16> {
+        self.master.working_counter(at)
+    }
+
+    pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Pattern {
+        let indicators = self.indicators(at);
+        match name {
+            IndicatorName::Run => indicators.run,
+            IndicatorName::Err => indicators.err,
+            IndicatorName::LinkIn => indicators.la_in,
+            IndicatorName::LinkOut => indicators.la_out,
+            IndicatorName::TsGreen => indicators.ts_green,
+            IndicatorName::TsRed => indicators.ts_red,
+        }
+    }
+
+    fn indicators(&self, at: usize) -> Indicators {
+        if self.device(at).is_off() {
+            return Indicators::DARK;
+        }
+        let (status, code) = self.al_status(at);
+        self.unit(at).indicators(status, code, [Port::In, Port::Out].map(|port| self.port(at, port)))
+    }
+
+    fn port(&self, at: usize, port: Port) -> PortCondition {
+        let activity = self.network.segment().port_activity(at, port);
+        activity.map_or(PortCondition::NoLink, |activity| {
+            PortCondition::new(activity.link, activity.is_active(self.now))
+        })
+    }
+}
+
+fn codes(codes: &[EventCode]) -> String {
+    codes.iter().map(EventCode::to_string).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,172 @@
+//! What steps do to units, CPU Units and the line.
+
+use device::{Device, SiiTiming, Start, TransitionTimes};
+use esc::Esc;
+use nx_ect101::NxEct101;
+use plc::Io;
+use time::Instant;
+use wire::AlStatusCode;
+
+use super::{Cpu, World};
+use crate::model::{ConductOrder, CpuOrder, LineOrder, UnitOrder, UnitSet};
+use crate::run::master::Master;
+
+/// A byte of an EEPROM that nobody has written.
+const ERASED: u8 = 0xFF;
+
+impl World {
+    pub(crate) fn master_mut(&mut self) -> &mut Master {
+        &mut self.master
+    }
+
+    pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
+        match *order {
+            UnitOrder::Restart(units) => self.each(units, |world, at| world.start(at, Start::Restart)),
+            UnitOrder::CyclePower(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::PowerOff(units) => self.each(units, Self::power_off),
+            UnitOrder::PowerOn(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::ResetErrors(units) => self.each_unit(units, NxEct101::reset_errors),
+            UnitOrder::ClearLog(units, log) => self.each_unit(units, |unit| unit.clear_event_log(log)),
+            UnitOrder::SetIdSwitch(at, id) => {
+                self.each_unit(UnitSet::One(at), |unit| unit.set_id_switch(id));
+            }
+            UnitOrder::SpoilSii(at, word) => self.spoil_sii(at, word),
+            UnitOrder::EraseSii(units) => self.each_slave(units, |_, esc| esc.sii_image_mut().fill(ERASED)),
+            UnitOrder::Conduct(units, order) => {
+                let now = self.now;
+                self.each_slave(units, |device, esc| conduct(device, esc, order, now));
+            }
+            UnitOrder::Inject(units, fault) => self.each_unit(units, |unit| unit.inject(fault)),
+            UnitOrder::Remove(units, fault) => self.each_unit(units, |unit| unit.remove(fault)),
+        }
+        self.happen();
+    }
+
+    pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
+        let now = self.now;
+        match order {
+            CpuOrder::SetMode(units, mode) => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_mode(*mode));
+                self.tell_of_cpus();
+            }
+            CpuOrder::SetIoRefreshing(units, on) => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
+            }
+            CpuOrder::SetTaskRunning(units, on) => self.each_cpu(*units, |cpu| cpu.is_running = *on),
+            CpuOrder::ResetNxBus(units) => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
+            CpuOrder::CycleRackPower(units) => self.each(*units, Self::cycle_rack_power),
+            CpuOrder::JumpTime(units, ahead) => {
+                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*ahead))
+            }
+            CpuOrder::SetInputs(at, bytes) => self.each_cpu(UnitSet::One(*at), |cpu| {
+                for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
+                    *input = *byte;
+                }
+            }),
+            CpuOrder::Force { variable, value } => self.set_variable(variable, value, Io::force),
+            CpuOrder::Write { variable, value } => self.set_variable(variable, value, Io::write),
+            CpuOrder::Release(variable) => self.release(variable),
+            CpuOrder::ReleaseAll(units) => self.each_cpu(*units, |cpu| cpu.unit.io_mut().release_all()),
+            CpuOrder::Load { unit, file } => self.load(*unit, file),
+        }
+        self.advance(now);
+    }
+
+    /// Loads a program, which its CPU Unit refuses in RUN mode.
+    fn load(&mut self, at: usize, file: &str) {
+        let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
+        let (Some(program), Some(cpu)) = (program, self.cpus.get_mut(at)) else { return };
+        if let Err(refusal) = cpu.unit.load(Box::new(program.file.program.clone())) {
+            self.recording.tell(self.now, &format!("cpu {}", at + 1), &refusal.to_string());
+        }
+        self.tell_of_cpus();
+    }
+
+    /// What CPU Units have told since their last task periods.
+    fn tell_of_cpus(&mut self) {
+        for (at, cpu) in self.cpus.iter_mut().enumerate() {
+            let events = cpu.unit.take_events().map(|record| record.event);
+            for words in cpu.told.between(events) {
+                self.recording.tell(self.now, &format!("cpu {}", at + 1), &words);
+            }
+        }
+    }
+
+    pub(crate) fn line_order(&mut self, order: &LineOrder) {
+        match *order {
+            LineOrder::Disturb(disturbance) => self.line.disturb(disturbance),
+            LineOrder::Quiet => self.line.quiet(),
+            LineOrder::Cable { number, plugged } => self.network.set_cable(number, plugged),
+        }
+    }
+
+    fn each(&mut self, units: UnitSet, order: impl Fn(&mut Self, usize)) {
+        units.positions(self.count()).for_each(|at| order(self, at));
+    }
+
+    fn each_unit(&mut self, units: UnitSet, mut order: impl FnMut(&mut NxEct101)) {
+        for at in units.positions(self.count()) {
+            if let Some(device) = self.network.device_mut(at) {
+                order(device.unit_mut());
+            }
+        }
+    }
+
+    fn each_slave(&mut self, units: UnitSet, order: impl Fn(&mut Device<NxEct101>, &mut Esc)) {
+        for at in units.positions(self.count()) {
+            if let Some((device, esc)) = self.network.slave_mut(at) {
+                order(device, esc);
+            }
+        }
+    }
+
+    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
+        let positions = units.positions(self.cpus.len());
+        self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
+    }
+
+    fn spoil_sii(&mut self, at: usize, word: u16) {
+        let Some((_, esc)) = self.network.slave_mut(at) else { return };
+        let first = usize::from(word) * 2;
+        if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
+            bytes.iter_mut().for_each(|byte| *byte = !*byte);
+        }
+    }
+
+    fn power_off(&mut self, at: usize) {
+        self.network.power_off(at, self.now);
+        self.recording.tell(self.now, &format!("unit {}", at + 1), "is switched off");
+    }
+
+    fn cycle_rack_power(&mut self, at: usize) {
+        self.start(at, Start::PowerOn);
+        if let Some(cpu) = self.cpus.get_mut(at) {
+            cpu.unit.cycle_power(self.now);
+            cpu.is_running = true;
+        }
+    }
+
+    fn start(&mut self, at: usize, start: Start) {
+        self.network.restart(at, self.now, start);
+    }
+}
+
+fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: ConductOrder, now: Instant) {
+    match order {
+        ConductOrder::EveryTransition(time) => {
+            device.conduct_mut().transition_times = TransitionTimes::every(time);
+        }
+        ConductOrder::Transition(letters, time) => {
+            device.conduct_mut().transition_times.set(letters, time);
+        }
+        ConductOrder::SiiTime(time) if time.is_zero() => esc.set_sii_timing(SiiTiming::Immediate),
+        ConductOrder::SiiTime(time) => esc.set_sii_timing(SiiTiming::Busy(time)),
+        ConductOrder::SiiBusy(time) => esc.keep_sii_busy(now, now + time),
+        ConductOrder::SdoTime(time) => device.set_response_time(time),
+        ConductOrder::Refuse(state, code) => {
+            device.conduct_mut().refusals.set(state, Some(AlStatusCode(code)));
+        }
+        ConductOrder::IgnoreAcknowledge => device.conduct_mut().ignores_acknowledge = true,
+        ConductOrder::Behave => device.behave(esc),
+    }
+}

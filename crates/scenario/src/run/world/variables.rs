@@ -1,0 +1,74 @@
+//! Device variables of the CPU Units, by the names that the manual gives them (A-3-2), and variables of programs.
+
+use plc::{Io, Target, VariableError};
+
+use super::World;
+use crate::model::Controller;
+use crate::run::story::Story;
+
+impl World {
+    /// The bytes of a variable or of an element such as `N1_UINTs_01_M_to_C[3]`, little endian; none if no CPU Unit
+    /// has it.
+    pub(crate) fn variable(&self, name: &str) -> Option<Vec<u8>> {
+        let (io, target) = self.find(name)?;
+        io.read(target).ok().map(|value| value.to_vec())
+    }
+
+    /// The value of a variable as text, such as `5` or `[1, 2]`; none if no CPU Unit has it.
+    pub(crate) fn variable_text(&self, name: &str) -> Option<String> {
+        let (io, target) = self.find(name)?;
+        let (variable_type, value) = (io.type_of(target).ok()?, io.read(target).ok()?);
+        Some(variable_type.show(&value).to_string())
+    }
+
+    /// The value of a variable of a user program as text; none if there is none.
+    pub(crate) fn program_variable(&self, of: Controller, name: &str) -> Option<String> {
+        match of {
+            Controller::Master => self.master.program_variable(name),
+            Controller::Unit(at) => self.cpus.get(at)?.unit.program_variable(name),
+        }
+    }
+
+    /// What a controller has told; none if it is not there.
+    pub(crate) fn told(&self, by: Controller) -> Option<&Story> {
+        match by {
+            Controller::Master => Some(self.master.told()),
+            Controller::Unit(at) => self.cpus.get(at).map(|cpu| &cpu.told),
+        }
+    }
+
+    /// Forces or writes a variable. Name and value were checked when the scenario was read.
+    pub(super) fn set_variable(
+        &mut self,
+        name: &str,
+        text: &str,
+        set: impl Fn(&mut Io, Target, &[u8]) -> Result<(), VariableError>,
+    ) {
+        for cpu in &mut self.cpus {
+            let io = cpu.unit.io_mut();
+            let Ok(target) = io.variables().find_target(name) else { continue };
+            let value = io.type_of(target).map(|variable_type| variable_type.parse(text));
+            if let Ok(Ok(value)) = value {
+                let _ = set(io, target, &value);
+            }
+            return;
+        }
+    }
+
+    pub(super) fn release(&mut self, name: &str) {
+        for cpu in &mut self.cpus {
+            let io = cpu.unit.io_mut();
+            if let Ok(target) = io.variables().find_target(name) {
+                let _ = io.release(target);
+                return;
+            }
+        }
+    }
+
+    fn find(&self, name: &str) -> Option<(&Io, Target)> {
+        self.cpus.iter().find_map(|cpu| {
+            let io = cpu.unit.io();
+            io.variables().find_target(name).ok().map(|target| (io, target))
+        })
+    }
+}

@@ -1,0 +1,129 @@
+//! The places of a sentence: what a word means where a pattern has `{…}`.
+
+mod read;
+
+use time::Duration;
+
+use super::value::Value;
+use read::{
+    bytes, choice, controller, entries, entry, event, fault, frames, indicator, limited, number, numbers,
+    one, pattern, percent, position, state, transition, unit, units,
+};
+
+/// A kind of place.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its name in patterns.
+    pub name: &'static str,
+    /// What can stand there, for the reference.
+    pub meaning: &'static str,
+    read: fn(&[&str]) -> Option<(Value, usize)>,
+    /// How many words of one that cannot be read would fit.
+    fitting: fn(&[&str]) -> usize,
+}
+
+impl Place {
+    /// The place of this name.
+    ///
+    /// # Panics
+    /// If a pattern names one that does not exist: the patterns are ours.
+    #[must_use]
+    pub fn named(name: &str) -> &'static Self {
+        match PLACES.iter().find(|place| place.name == name) {
+            Some(place) => place,
+            None => panic!("a pattern names the place {{{name}}}, which does not exist"),
+        }
+    }
+
+    /// All kinds of places.
+    #[must_use]
+    pub const fn all() -> &'static [Self] {
+        PLACES
+    }
+
+    /// What the words mean, and how many they are; else how many of them fit, and what is expected.
+    pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), (usize, String)> {
+        (self.read)(words).ok_or_else(|| {
+            let fitting = (self.fitting)(words);
+            let found = words.get(fitting).map_or("the end".to_owned(), |word| format!("`{word}`"));
+            (fitting, format!("expected {}, found {found}", self.meaning))
+        })
+    }
+}
+
+const fn place(
+    name: &'static str,
+    meaning: &'static str,
+    read: fn(&[&str]) -> Option<(Value, usize)>,
+) -> Place {
+    Place { name, meaning, read, fitting: |_| 0 }
+}
+
+const PLACES: &[Place] = &[
+    place("units", "`all units`, or `unit` and its number", units),
+    place("unit", "`unit` and its number, 1 for the one next to the master", |words| {
+        unit(words).map(|at| (Value::Unit(at), 2))
+    }),
+    place("state", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| one(words, state)),
+    place("transition", "a transition by its letters, such as IP, PS or SO", |words| one(words, transition)),
+    place("number", "a number such as 12 or 0x0C", |words| {
+        one(words, |word| number(word).map(Value::Number))
+    }),
+    place("byte", "a number from 0 to 255 such as 0x2A", |words| limited(words, 0, 0xFF)),
+    place("word", "a number from 0 to 65535 such as 0x0120", |words| limited(words, 0, 0xFFFF)),
+    place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),
+    place("counter", "a mailbox counter from 0 to 7", |words| limited(words, 0, 7)),
+    place("channel", "a SyncManager from 0 to 7", |words| limited(words, 0, 7)),
+    place("cable", "a cable, 1 for the one to the master", |words| limited(words, 1, 0xFFFF)),
+    place("period", "a time above 0 such as 1ms", |words| {
+        one(words, |word| {
+            word.parse().ok().filter(|period: &Duration| !period.is_zero()).map(Value::Duration)
+        })
+    }),
+    place("duration", "a time such as 1.5ms, 20us or 2s", |words| {
+        one(words, |word| word.parse().ok().map(Value::Duration))
+    }),
+    place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
+    place("entry", "an entry of an object such as 10F3:05", |words| {
+        one(words, |word| entry(word).map(Value::Entry))
+    }),
+    place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
+    place("numbers", "PDO numbers such as 1601 1602, hexadecimal", numbers),
+    place("event", "an event code of eight hexadecimal digits such as 85000000", |words| one(words, event)),
+    place("fault", "a fault of a unit such as Processing (the reference lists them)", |words| {
+        one(words, fault)
+    }),
+    place("pattern", "a pattern such as lit, not_lit, blinking", |words| one(words, pattern)),
+    place("indicator", "RUN, ERR, L/A IN, L/A OUT, TS green or TS red", indicator),
+    place("percent", "a number from 1 to 100 and %", percent),
+    Place {
+        name: "frames",
+        meaning: "`the next 3`, `all`, `5 % of the`, `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
+                  `process data frames` or `mailbox frames`",
+        read: frames,
+        fitting: |words| choice(words).map_or(0, |(_, length)| length),
+    },
+    place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
+        one(words, |word| word.contains('_').then(|| Value::Variable(word.to_owned())))
+    }),
+    place(
+        "controller",
+        "`the master`, or `unit` and the number of the unit whose CPU Unit is meant",
+        controller,
+    ),
+    place("name", "the name of a variable of a program, such as counter, Main.counter or timer.Q", |words| {
+        one(words, |word| Some(Value::Name(word.to_owned())))
+    }),
+    place("program", "the path of a program, without spaces, such as programs/a-3-3.st", |words| {
+        one(words, |word| Some(Value::Name(word.to_owned())))
+    }),
+    place(
+        "value",
+        "a value as Structured Text writes it, such as 5, 16#1F, TRUE, T#20ms or [1, 2, 13(0)]",
+        |words| (!words.is_empty()).then(|| (Value::Text(words.join(" ")), words.len())),
+    ),
+    place("error", "the code of a user-defined error from 1 to 40000, such as 16#101", |words| {
+        limited(words, 1, 40_000)
+    }),
+    place("position", "line and column, both from 1, such as 5:9", |words| one(words, position)),
+];

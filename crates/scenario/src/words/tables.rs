@@ -1,0 +1,13 @@
+//! The language of steps: who may be told what. Each table is also the reference of its sentences.
+
+mod condition;
+mod cpu;
+mod line;
+mod master;
+mod unit;
+
+pub use condition::CONDITIONS;
+pub use cpu::CPU;
+pub use line::LINE;
+pub use master::MASTER;
+pub use unit::UNIT;
