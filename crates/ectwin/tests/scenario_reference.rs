@@ -38,7 +38,7 @@ The scripted master can run a program in Structured Text of its own, as an NJ/NX
 |---|---|---|
 | `program` | path of a program in Structured Text, or a list of paths | refused |
 | `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E005"` for the node address 5 |
-| `task_period` | 125us to 1s | the cycle of the process data, in step with them |
+| `task_period` | 125us, or 250us to 32ms in steps of 250us | the cycle of the process data, in step with them |
 
 The node address of a unit is the ID that its file gives it: the ID switch, or `alias` with the switch at 0 (manual, 3-3). With a
 program, each unit needs an ID of its own, 1 to 192. A unit that gets another ID in a step keeps its node address: a master learns

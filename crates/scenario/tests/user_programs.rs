@@ -77,7 +77,9 @@ fn what_is_wrong_with_the_master_is_told() {
         ("program = \"no.st\"", "the program no.st cannot be read: no such file"),
         ("program = \"m.st\", device_names = [\"E 1\"]", "`E 1` is no device name"),
         ("program = \"m.st\", device_names = [\"A\", \"B\"]", "2 device names for 1 units"),
-        ("program = \"m.st\", task_period = \"0ms\"", "a task period of 0s is not between 125us and 1s"),
+        ("program = \"m.st\", task_period = \"0ms\"", "no CPU Unit has a task period of 0s"),
+        ("program = \"m.st\", task_period = \"1.3ms\"", "no CPU Unit has a task period of 1.3ms"),
+        ("program = \"m.st\", task_period = \"33ms\"", "no CPU Unit has a task period of 33ms"),
         ("device_names = []", "missing field `program`"),
         ("program = \"m.st\", period = \"1ms\"", "unknown field `period`"),
     ] {

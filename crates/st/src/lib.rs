@@ -16,6 +16,7 @@ mod retain;
 mod sources;
 mod syntax;
 mod system;
+mod task_period;
 mod types;
 mod value;
 
@@ -28,6 +29,7 @@ pub use library::{Entry, reference, text_of, value_of};
 pub use problem::{PROBLEMS_MAX, Problem, Problems, Span, stopped_words};
 pub use program::{External, Global, Instance, Program, Stopped, compile, judge};
 pub use sources::{Place, Sources};
+pub use task_period::{TASK_PERIODS, is_task_period};
 
 /// The longest source in bytes, all files of a program together.
 pub const SOURCE_BYTES_MAX: usize = 1 << 20;

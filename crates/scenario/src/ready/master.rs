@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use nx_ect101::PdoSettings;
+use st::{TASK_PERIODS, is_task_period};
 use time::Duration;
 use toml::Spanned;
 
@@ -11,8 +12,6 @@ use crate::model::MasterOrder;
 use crate::run::{MasterProgram, MasterVariables, Node, changed_settings};
 use crate::words::{self, MASTER};
 
-/// Shortest and longest period of the master's task.
-const TASK_PERIODS: [Duration; 2] = [Duration::from_micros(125), Duration::from_secs(1)];
 /// Most characters of a device name.
 const NAME_MAX: usize = 127;
 
@@ -89,10 +88,9 @@ impl Reader<'_> {
 
     fn task_period(&mut self, text: &Spanned<String>) -> Option<Duration> {
         let period = self.duration(text)?;
-        let [shortest, longest] = TASK_PERIODS;
-        if !(shortest..=longest).contains(&period) {
-            let message = format!("a task period of {period} is not between {shortest} and {longest}");
-            self.refuse(text.span(), message, "");
+        if !is_task_period(period.as_nanos()) {
+            let message = format!("no CPU Unit has a task period of {period}");
+            self.refuse(text.span(), message, TASK_PERIODS);
             return None;
         }
         Some(period)

@@ -7,6 +7,7 @@ use super::{Checker, Origin, Pending};
 use crate::problem::{Problem, Span};
 use crate::program::Task;
 use crate::syntax::ast::{Configuration, File, Name, Pou, PouKind, ProgramInstance, TaskDeclaration};
+use crate::task_period::{TASK_PERIODS, is_task_period};
 
 /// A PRIORITY that is left out comes behind all others.
 const PRIORITY_LAST: i128 = i128::MAX;
@@ -132,7 +133,14 @@ impl<'t> Checker<'t> {
         tasks.retain(|task| !task.programs.is_empty());
         tasks.sort_by_key(|task| task.priority);
         let shortest =
-            tasks.iter().filter_map(|task| task.interval.map(|(interval_ns, _)| interval_ns)).min();
+            tasks.iter().filter_map(|task| task.interval).min_by_key(|(interval_ns, _)| *interval_ns);
+        if let Some((interval_ns, span)) = shortest
+            && !is_task_period(interval_ns)
+        {
+            let problem = Problem::new(span, "no CPU Unit has this task period");
+            self.refuse::<()>(problem.help(format!("the shortest INTERVAL is {TASK_PERIODS}")));
+        }
+        let shortest = shortest.map(|(interval_ns, _)| interval_ns);
         for Planned { interval, programs, .. } in tasks {
             let (interval_ns, span) = interval.unwrap_or_default();
             let every = interval_ns.checked_div(shortest.unwrap_or(0)).unwrap_or(1).max(1);
