@@ -18,8 +18,9 @@ use crate::unit_side::UnitSide;
 const STOP_CHECK: Duration = Duration::from_millis(100);
 
 /// Answers `port` in real time until `stop` is set or the link is closed, and then sets `stop`. The units
-/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only. A user
-/// program whose file changes is loaded anew, and what the CPU Units tell is logged.
+/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only. `stop` ends a
+/// scan that is under way too. A user program is reloaded when its file changes, and events of the CPU Units are
+/// logged.
 ///
 /// # Errors
 /// The medium is gone, or there is no thread to be had.
@@ -28,9 +29,10 @@ pub fn run<'o, P: FramePort>(
     port: &mut P,
     observer: Option<&'o mut (dyn Observer + 'o)>,
     clock: &Clock,
-    stop: &AtomicBool,
+    stop: &Arc<AtomicBool>,
 ) -> io::Result<Statistics> {
     let mut parts = twin.into_parts();
+    parts.cpus.iter_mut().for_each(|cpu| cpu.switch_off_on(Arc::clone(stop)));
     let (line, cpus, error_reset) = (&mut parts.line, &mut parts.cpus, &parts.error_reset);
     let mut changes = ProgramChanges::watch(parts.programs)?;
     let mut reports = Reports::default();

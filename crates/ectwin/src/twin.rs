@@ -54,6 +54,15 @@ impl Twin {
     /// Gives power to a line of units, the one next to the master first.
     #[must_use]
     pub fn power_on(setups: impl IntoIterator<Item = Setup>) -> Self {
+        let mut twin = Self::power_on_for_run(setups);
+        twin.poll(twin.now);
+        twin
+    }
+
+    /// Gives power to a line of units for [`crate::run`]: whatever is due at once, such as the first scan of each
+    /// program, waits for it.
+    #[must_use]
+    pub fn power_on_for_run(setups: impl IntoIterator<Item = Setup>) -> Self {
         let now = Instant::ZERO;
         let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
         let mut programs = Vec::new();
@@ -65,9 +74,7 @@ impl Twin {
             keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
         }
         let line = Line { network: Network::power_on(units, now), keepers };
-        let mut twin = Self { line, cpus, programs, error_reset: ErrorReset::default(), now };
-        twin.poll(now);
-        twin
+        Self { line, cpus, programs, error_reset: ErrorReset::default(), now }
     }
 
     /// Sends one Ethernet frame, without FCS, into the line at the present moment; the answer is in its place.

@@ -3,6 +3,8 @@
 mod settings;
 
 use core::fmt;
+use core::sync::atomic::AtomicBool;
+use std::sync::Arc;
 
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
 use time::{Duration, Instant};
@@ -73,6 +75,12 @@ impl CpuUnit {
             task_periods: 0,
             deadline: now + settings.task_phase,
         }
+    }
+
+    /// Ends a scan that is under way when this flag is set, so that a CPU Unit can be switched off in the middle of a
+    /// long one.
+    pub fn switch_off_on(&mut self, flag: Arc<AtomicBool>) {
+        self.io.switch_off = flag;
     }
 
     /// When the next task period begins.

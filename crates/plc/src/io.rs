@@ -1,6 +1,8 @@
 //! What a program sees of one unit: its entries by data set, its status, the raw images, and the time.
 
 use core::ops::Range;
+use core::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
 
 use nx_ect101::nx_bus::UnitHeader;
 use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
@@ -31,6 +33,8 @@ pub struct Io {
     pub(crate) nx_bus_reset: NxBusReset,
     /// The program that runs now has reported that it stops.
     has_stopped: bool,
+    /// The owner of the CPU Unit sets it to end a scan before its end.
+    pub(crate) switch_off: Arc<AtomicBool>,
 }
 
 impl Io {
@@ -53,6 +57,7 @@ impl Io {
             system_time_ns: None,
             nx_bus_reset: NxBusReset::None,
             has_stopped: false,
+            switch_off: Arc::default(),
         };
         io.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
         io
@@ -180,6 +185,13 @@ impl Io {
     #[must_use]
     pub fn unit_error(&self) -> bool {
         self.memory.unit_error()
+    }
+
+    /// Whether the scan is to end where it is, because the CPU Unit is switched off. A program whose scan can be long
+    /// asks about once a millisecond.
+    #[must_use]
+    pub fn ends_scan(&self) -> bool {
+        self.switch_off.load(Ordering::Relaxed)
     }
 
     /// Takes in what the unit tells, data and statuses; what is forced stays.

@@ -97,16 +97,19 @@ pub struct ProgramTrouble {
 }
 
 impl ProgramEvent {
-    /// What it is that a scan of a program in Structured Text ended before its end.
+    /// What a scan of a program in Structured Text reports that ended before its end; nothing if its CPU Unit was
+    /// switched off.
     #[must_use]
-    pub fn of_stopped(stopped: &st::Stopped, program: &st::Program, budget_statements: u64) -> Self {
-        if stopped.fault == st::Fault::BudgetUsedUp {
-            return Self::TaskOverrun { budget_statements };
+    pub fn of_stopped(stopped: &st::Stopped, program: &st::Program, budget_statements: u64) -> Option<Self> {
+        match stopped.fault {
+            st::Fault::SwitchedOff => return None,
+            st::Fault::BudgetUsedUp => return Some(Self::TaskOverrun { budget_statements }),
+            _ => {}
         }
         let sources = program.sources();
         let st::Place { file, line, column, .. } = sources.place(stopped.span);
         let file = file.filter(|_| sources.are_several()).map(Arc::from);
-        Self::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column, file })
+        Some(Self::Error(ProgramTrouble { what: stopped.fault.to_string().into(), line, column, file }))
     }
 }
 

@@ -121,8 +121,12 @@ impl Program for StructuredText {
         let mut host = IoHost { io, unit_number: self.unit_number, calls: &mut self.calls };
         let result = self.instance.scan(now_ns, self.budget_statements, &mut host);
         self.give_out(io);
-        if let Err(stopped) = result {
-            io.report(ProgramEvent::of_stopped(&stopped, self.instance.program(), self.budget_statements));
+        let program = self.instance.program();
+        let ended = result.err();
+        let event =
+            ended.and_then(|stopped| ProgramEvent::of_stopped(&stopped, program, self.budget_statements));
+        if let Some(event) = event {
+            io.report(event);
         }
     }
 

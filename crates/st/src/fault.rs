@@ -45,6 +45,15 @@ pub enum Fault {
     StepOfZero,
     /// The statement budget of the task is used up: a loop that does not end, or too much work for one task period.
     BudgetUsedUp,
+    /// The CPU Unit is switched off ([`crate::Host::ends_scan`]).
+    SwitchedOff,
+}
+
+impl Fault {
+    /// Whether an instruction of the program went wrong: then P_Error, if it is named so, is set.
+    pub(crate) const fn is_instruction_error(self) -> bool {
+        !matches!(self, Self::BudgetUsedUp | Self::SwitchedOff)
+    }
 }
 
 impl fmt::Display for Fault {
@@ -70,6 +79,7 @@ impl fmt::Display for Fault {
             }
             Self::StepOfZero => formatter.write_str("the step of FOR is zero"),
             Self::BudgetUsedUp => formatter.write_str("the statement budget of the task is used up"),
+            Self::SwitchedOff => formatter.write_str("the CPU Unit was switched off"),
         }
     }
 }

@@ -48,6 +48,12 @@ pub trait Host {
 
     /// ResetAlarm: the user-defined error of this code is reset; of code 0, all of them.
     fn reset_alarm(&mut self, code: u16);
+
+    /// Whether the scan is to end where it is, because its CPU Unit is switched off. A long scan asks about once a
+    /// millisecond.
+    fn ends_scan(&self) -> bool {
+        false
+    }
 }
 
 /// Why an NX object was not read or written, by the numbers that the instruction's pins tell.

@@ -1,5 +1,6 @@
 //! Runs the code of a program on its memory.
 
+mod budget;
 mod places;
 
 use arrayvec::ArrayVec;
@@ -14,6 +15,8 @@ use crate::memory::Memory;
 use crate::operators::{Binary, binary, compare, unary};
 use crate::problem::Span;
 use crate::value::{integer, wrap};
+
+pub(crate) use budget::Budget;
 
 /// Most arguments of a call in slots.
 pub(crate) const ARGUMENTS_MAX: usize = 64;
@@ -34,7 +37,7 @@ pub(crate) struct Machine<'m> {
     /// The present moment in nanoseconds, the same in the whole scan.
     pub(crate) now_ns: u64,
     /// How many statements may still run.
-    pub(crate) budget: u64,
+    pub(crate) budget: Budget,
     /// Steps that have not been taken from the budget yet.
     pub(crate) steps: u64,
     /// Where the function block instance begins whose body runs.
@@ -80,16 +83,16 @@ impl Machine<'_> {
 
     /// Uses up some of the budget.
     pub(crate) fn spend(&mut self, statements: u64) -> Result<(), Fault> {
-        match self.budget.checked_sub(statements) {
-            Some(left) => {
-                self.budget = left;
-                Ok(())
-            }
-            None => {
-                self.budget = 0;
-                Err(Fault::BudgetUsedUp)
-            }
+        if self.budget.take(statements) { Ok(()) } else { self.refill(statements) }
+    }
+
+    /// The present share of the budget is too small. The scan continues with another one, unless it is to end.
+    #[cold]
+    fn refill(&mut self, statements: u64) -> Result<(), Fault> {
+        if self.host.ends_scan() {
+            return Err(Fault::SwitchedOff);
         }
+        if self.budget.refill(statements) { Ok(()) } else { Err(Fault::BudgetUsedUp) }
     }
 
     /// Uses up a statement, or a turn of a loop: its first steps cost no more.

@@ -10,7 +10,7 @@ use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::host::Host;
 use crate::library::PRELUDE;
-use crate::machine::{Layout, Machine};
+use crate::machine::{Budget, Layout, Machine};
 use crate::memory::Memory;
 use crate::problem::{Problem, Problems, Span};
 use crate::retain::{self, Retained};
@@ -230,7 +230,7 @@ impl Instance {
             layouts: &checked.layouts,
             host,
             now_ns,
-            budget,
+            budget: Budget::new(budget),
             steps: 0,
             instance: 0,
             at: Span::default(),
@@ -238,8 +238,8 @@ impl Instance {
         let due = checked.tasks.iter().filter(|task| scans.is_multiple_of(task.every));
         let result = due.flat_map(|task| &task.programs).try_for_each(|unit| machine.run(*unit));
         let result = result.map_err(|fault| Stopped { fault, span: machine.at });
-        self.used = budget - machine.budget;
-        if result.as_ref().is_err_and(|stopped| stopped.fault != Fault::BudgetUsedUp) {
+        self.used = budget - machine.budget.left();
+        if result.as_ref().is_err_and(|stopped| stopped.fault.is_instruction_error()) {
             self.set_system(System::InstructionError, true);
         }
         result

@@ -66,6 +66,8 @@ pub(crate) struct Host {
     bindings: Vec<Binding>,
     reports: ArrayVec<String, REPORTS_MAX>,
     now_ns: u64,
+    /// Fuel of this scan that is not handed out yet.
+    pub(crate) fuel_reserve: u64,
 }
 
 /// A variable that the program has asked for. Its number is the place in the list.
@@ -84,7 +86,8 @@ impl Host {
         // Each variable is asked for once at most, so that a scan allocates nothing here.
         let bindings = Vec::with_capacity(variables.iter().len());
         let phase = Phase::Start;
-        Self { limits, memory: None, phase, variables, bindings, reports: ArrayVec::new(), now_ns: 0 }
+        let reports = ArrayVec::new();
+        Self { limits, memory: None, phase, variables, bindings, reports, now_ns: 0, fuel_reserve: 0 }
     }
 
     /// The number of a variable, by name or AT specification.

@@ -137,7 +137,11 @@ fn memory<'a>(
 
 /// Takes fuel for what the host does.
 fn charge(caller: &mut Caller<'_, Host>, fuel: u64) -> Result<(), Error> {
-    let left = caller.get_fuel()?;
+    let share = caller.get_fuel()?;
+    // What the present share lacks is taken from the reserve.
+    let borrowed = fuel.saturating_sub(share).min(caller.data().fuel_reserve);
+    caller.data_mut().fuel_reserve -= borrowed;
+    let left = share + borrowed;
     caller.set_fuel(left.saturating_sub(fuel))?;
     if left < fuel { Err(TrapCode::OutOfFuel.into()) } else { Ok(()) }
 }

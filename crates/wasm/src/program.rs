@@ -72,7 +72,9 @@ impl Program for WasmProgram {
     fn scan(&mut self, io: &mut Io) {
         let fuel = fuel(self.budget_statements);
         let Some(running) = &mut self.running else { return };
-        if let Err(error) = running.scan(io, fuel) {
+        if let Err(error) = running.scan(io, fuel)
+            && !io.ends_scan()
+        {
             io.report(self.event(&error));
         }
     }

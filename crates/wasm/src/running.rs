@@ -1,7 +1,7 @@
 //! An instance of a module: its memory, its globals, its functions.
 
 use plc::{DeviceVariables, Io};
-use wasmi::{Error, Global, Instance, Store, TypedFunc, Val};
+use wasmi::{Error, Global, Instance, Store, TrapCode, TypedFunc, TypedResumableCall, Val};
 
 use crate::error::WasmError;
 use crate::host::{Host, Phase};
@@ -9,6 +9,8 @@ use crate::image::Image;
 
 /// Where compilers keep the end of the stack that they lay out in memory.
 const STACK_POINTER: &str = "__stack_pointer";
+/// How much fuel is used up before the CPU Unit is asked whether the scan is to end: some milliseconds.
+const SHARE_OF_FUEL: u64 = 1 << 20;
 
 /// A program in operation.
 pub(crate) struct Running {
@@ -67,13 +69,39 @@ impl Running {
 
     fn step(&mut self, function: Option<TypedFunc<(), ()>>, io: &mut Io, fuel: u64) -> Result<(), Error> {
         self.store.data_mut().take_in(io);
-        self.store.set_fuel(fuel)?;
-        let result = function.map_or(Ok(()), |function| function.call(&mut self.store, ()));
+        let result = function.map_or(Ok(()), |function| self.call(function, io, fuel));
         self.store.data_mut().give_out(io);
         if result.is_err() {
             self.give_back_stack();
         }
         result
+    }
+
+    /// Calls a function with so much fuel, in shares. A scan that is to end ends where a share does.
+    fn call(&mut self, function: TypedFunc<(), ()>, io: &Io, fuel: u64) -> Result<(), Error> {
+        self.fill_up(fuel, 0)?;
+        let mut call = function.call_resumable(&mut self.store, ())?;
+        loop {
+            call = match call {
+                TypedResumableCall::Finished(()) => return Ok(()),
+                TypedResumableCall::HostTrap(trap) => return Err(again(trap.host_error())),
+                TypedResumableCall::OutOfFuel(waiting) => {
+                    let left = self.store.data().fuel_reserve + self.store.get_fuel()?;
+                    if io.ends_scan() || left < waiting.required_fuel() {
+                        return Err(TrapCode::OutOfFuel.into());
+                    }
+                    self.fill_up(left, waiting.required_fuel())?;
+                    waiting.resume(&mut self.store)?
+                }
+            }
+        }
+    }
+
+    /// Hands out the next share of `fuel`, at least `required`; the rest is kept for later shares.
+    fn fill_up(&mut self, fuel: u64, required: u64) -> Result<(), Error> {
+        let share = SHARE_OF_FUEL.max(required).min(fuel);
+        self.store.data_mut().fuel_reserve = fuel - share;
+        self.store.set_fuel(share)
     }
 
     /// A scan that is broken off leaves its stack in use: scan after scan there would be less of it.
@@ -83,4 +111,9 @@ impl Running {
             let _ = global.set(&mut self.store, value.clone());
         }
     }
+}
+
+/// An error of the host as one of our own: a suspended call only lends it.
+fn again(error: &Error) -> Error {
+    error.as_trap_code().map_or_else(|| Error::new(error.to_string()), Error::from)
 }

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let mut recorder = capture.map(|capture| record(capture, args, &link, &clock)).transpose()?;
     let stop = flag_of(&[SIGINT, SIGTERM]).map_err(Failure::LinkLost)?;
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
-    let mut twin = Twin::power_on(setups.into_iter().map(with_system_time));
+    let mut twin = Twin::power_on_for_run(setups.into_iter().map(with_system_time));
     twin.reset_errors_on(flag_of(&[SIGUSR1]).map_err(Failure::LinkLost)?);
     let modbus = listener.map(|listener| servers::serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]

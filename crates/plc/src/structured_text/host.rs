@@ -107,6 +107,10 @@ impl Host for IoHost<'_> {
     fn reset_alarm(&mut self, code: u16) {
         self.io.report(ProgramEvent::UserDefinedErrorsReset { code });
     }
+
+    fn ends_scan(&self) -> bool {
+        self.io.ends_scan()
+    }
 }
 
 /// What the instruction's pins tell of a refusal. The manual of the unit gives no numbers for ErrorIDEx: they are the

@@ -3,7 +3,7 @@
 use plc::ProgramEvent;
 use wasm::MEMORY_BYTES_MAX;
 
-use crate::bench::{Bench, FIND, IMPORTS, scanning};
+use crate::bench::{Bench, FIND, IMPORTS, load, scanning};
 
 /// Counts in element 0, then does this.
 fn counts_and(then: &str) -> String {
@@ -40,6 +40,31 @@ fn an_endless_loop_is_a_task_overrun() {
     ] {
         let told = told_of(endless);
         assert_eq!(told.last(), Some(&(overrun.clone(), 3)), "{endless}");
+    }
+}
+
+/// More fuel than is handed out at once, used up by instructions and by calls of the host.
+#[test]
+fn a_large_budget_is_used_up_whole() {
+    let call = "(drop (call $read (i32.const 0) (i32.const 0)))";
+    let store = "(i32.store (i32.const 0) (local.get $turns))".repeat(30);
+    for turn in [call.to_owned(), call.repeat(7), store] {
+        let module = scanning(&format!(
+            "(local $turns i32)
+            (local.set $turns (i32.const 40000))
+            (loop $next {turn}
+                (br_if $next (local.tee $turns (i32.sub (local.get $turns) (i32.const 1)))))
+            (drop (call $write (i32.const 1) (i32.const 0) (i64.const 7)))"
+        ));
+        let scan = |budget_statements| {
+            let program = load(&module).expect("a program").with_budget(budget_statements);
+            let mut bench = Bench::running(program);
+            bench.cycles(1);
+            (bench.outputs()[0], bench.told())
+        };
+        assert_eq!(scan(4_000_000), (7, Vec::new()), "{turn}");
+        let overrun = ProgramEvent::TaskOverrun { budget_statements: 30_000 };
+        assert_eq!(scan(30_000), (0, vec![(overrun, 1)]), "{turn}");
     }
 }
 

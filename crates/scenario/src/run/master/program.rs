@@ -144,8 +144,9 @@ impl Task {
         let result = self.program.instance.scan(now_ns, STATEMENT_BUDGET_DEFAULT, &mut host);
         self.give_out(data);
         let program = self.program.instance.program();
-        let failed =
-            result.err().map(|stopped| ProgramEvent::of_stopped(&stopped, program, STATEMENT_BUDGET_DEFAULT));
+        let failed = result
+            .err()
+            .and_then(|stopped| ProgramEvent::of_stopped(&stopped, program, STATEMENT_BUDGET_DEFAULT));
         Some(host.told.into_iter().chain(failed).map(CpuEvent::Program).collect())
     }
 

@@ -7,7 +7,7 @@ use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::host::{Alarm, Host, NX_OBJECT_BYTES_MAX, NoHost, NxCallNumber, NxFault};
 use crate::library::{Call, function};
-use crate::machine::Machine;
+use crate::machine::{Budget, Machine};
 use crate::memory::Memory;
 use crate::problem::Span;
 use crate::types::STRING_CHARACTERS_MAX;
@@ -49,7 +49,7 @@ impl Bench {
             layouts: &[],
             host,
             now_ns: 77,
-            budget: self.budget,
+            budget: Budget::new(self.budget),
             steps: 0,
             instance: 0,
             at: Span::default(),

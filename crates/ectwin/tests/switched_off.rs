@@ -1,0 +1,26 @@
+//! A running command that ends in the middle of a scan.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+#[expect(dead_code, reason = "each test uses a part of it")]
+mod started;
+
+use std::fs;
+
+use started::{Started, folder_of, free_link};
+
+/// One scan of it takes half a minute and longer.
+const UNIT: &str = "model = \"nx-ect101\"\ncpu = { program = \"p.st\", statement_budget = 1_000_000_000 }\n";
+
+/// `ready` comes before the first scan ends, and the command ends before that too: the scan never uses up its
+/// statements, which would be reported.
+#[test]
+fn an_endless_scan_delays_neither_the_start_nor_the_end() {
+    let folder = folder_of("endless");
+    fs::write(folder.join("unit.toml"), UNIT).unwrap();
+    fs::write(folder.join("p.st"), "WHILE TRUE DO ; END_WHILE;\n").unwrap();
+    let started = Started::new(&folder, "", &["run", "unit.toml", "--link", &free_link()]).ready();
+    let ended = started.interrupt();
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("overrun"), "{}", ended.stderr);
+}
