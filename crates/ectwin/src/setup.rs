@@ -116,6 +116,7 @@ impl Setup {
             let memory = MemoryFile::open(&path).map_err(|error| SetupError::Storage {
                 path: path.display().to_string(),
                 reason: error.to_string(),
+                os_error: error.raw_os_error(),
                 span: storage.span.clone().unwrap_or_default(),
             })?;
             self.memory = Some(memory);

@@ -1,5 +1,6 @@
 //! Reading unit files for the command line, with a picture of what is wrong in them.
 
+use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -8,6 +9,7 @@ use ectwin::user_files::{self, Wanted};
 use ectwin::{Setup, SetupError};
 use nx_ect101::UnitSettings;
 
+use crate::descriptors;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
 
@@ -26,10 +28,21 @@ pub(crate) fn read(path: &Path, programs: &[PathBuf]) -> Result<Setup, Failure> 
 /// Gives the unit of this file the non-volatile memory that it names, and the thread that keeps it.
 pub(crate) fn with_storage(path: &Path, setup: Setup) -> Result<Setup, Failure> {
     let opened = setup.with_storage(folder_of(path));
-    opened.map_err(|error| match text_of(path) {
-        Ok(text) => Failure::BadFile(problems(path, &text, &error)),
-        Err(unreadable) => unreadable,
+    opened.map_err(|error| match lack_of_descriptors(&error) {
+        Some(lacking) => lacking,
+        None => match text_of(path) {
+            Ok(text) => Failure::BadFile(problems(path, &text, &error)),
+            Err(unreadable) => unreadable,
+        },
     })
+}
+
+/// The failure of a memory file that is not at fault itself: this process has too many open files.
+fn lack_of_descriptors(error: &SetupError) -> Option<Failure> {
+    let SetupError::Storage { path, os_error: Some(os_error), .. } = error else { return None };
+    let source = io::Error::from_raw_os_error(*os_error);
+    let unwritable = |source| Failure::Unwritable { path: PathBuf::from(path), source };
+    descriptors::are_exhausted(&source).then_some(source).map(unwritable)
 }
 
 /// The file of the non-volatile memory that this unit file names, behind symbolic links.

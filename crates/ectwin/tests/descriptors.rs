@@ -6,11 +6,12 @@
 #[expect(dead_code, reason = "each test uses a part of it")]
 mod started;
 
+use std::fs;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::Path;
 
-use started::{Started, free_link};
+use started::{Started, folder_of, free_link};
 
 const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
 /// With fewer not even the program's libraries are found.
@@ -21,6 +22,26 @@ const MOST: u32 = 64;
 fn is_served(client: &mut TcpStream) -> bool {
     let request = [0, 1, 0, 0, 0, 6, 1, 0x03, 0, 0, 0, 1];
     client.write_all(&request).is_ok() && client.read_exact(&mut [0; 11]).is_ok()
+}
+
+/// The memory files of units are claimed last: whatever the number, it is not the unit file that is at fault.
+#[test]
+fn at_any_number_of_descriptors_a_unit_with_a_memory_file_starts_or_says_why_not() {
+    let folder = folder_of("memory");
+    fs::write(folder.join("unit.toml"), "model = \"nx-ect101\"\nstorage = \"unit.nvm\"\n").unwrap();
+    let link = free_link();
+    let arguments = ["run", "unit.toml", "--link", &link, "--modbus", "127.0.0.1:0"];
+    let first_ready = (FEWEST..MOST).find_map(|descriptors| {
+        let started = Started::new(&folder, &format!("ulimit -n {descriptors};"), &arguments);
+        let ended = match started.try_ready() {
+            Ok(ready) => return Some(ready),
+            Err(ended) => ended,
+        };
+        assert_eq!(ended.code, Some(3), "{descriptors}: {}", ended.stderr);
+        assert!(ended.stderr.contains("help: allow this process more open files"), "{}", ended.stderr);
+        None
+    });
+    assert_eq!(first_ready.unwrap().interrupt().code, Some(0));
 }
 
 #[test]

@@ -40,6 +40,8 @@ pub enum SetupError {
         path: String,
         /// Why.
         reason: String,
+        /// The error number of the system, if the system refused it.
+        os_error: Option<i32>,
         /// Its bytes in the unit file.
         span: Range<usize>,
     },
