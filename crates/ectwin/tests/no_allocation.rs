@@ -1,4 +1,4 @@
-//! After power-on nothing is allocated: not for frames, not for refresh and CPU Unit, not for SDOs.
+//! After power-on nothing is allocated: not for frames, not for refresh and CPU Unit, not for SDOs, not for an ESC reset.
 
 use allocation_counter::measure;
 use ectwin::{AlState, Duration, EventLog, Fault, FrameFate, Setup, Twin};
@@ -109,6 +109,25 @@ fn sdos_allocate_nothing() {
     });
     assert_eq!(replies, 1_000);
     assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+}
+
+/// "RES" in three frames: the controller and its unit begin again, and come to OP again.
+#[test]
+fn an_esc_reset_allocates_nothing() {
+    let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
+    to_op(&mut twin);
+    let letters = [*b"R", *b"E", *b"S"].map(|letter| apwr(0x0040, &letter));
+    let mut buffer = [0; 1518];
+    let counted = measure(|| {
+        for letter in &letters {
+            send(&mut twin, letter, &mut buffer);
+            twin.run_for(Duration::from_millis(1));
+        }
+    });
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+    assert_eq!(twin.unit(0).state(), AlState::Init);
+    twin.run_for(Duration::from_secs(1));
+    to_op(&mut twin);
 }
 
 /// Events on every channel, and their storing. Nothing has occurred in this process before.

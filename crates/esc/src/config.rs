@@ -3,7 +3,7 @@
 use time::Duration;
 
 /// Build of one ESC. The default is the ESC of the ET1100 class with two MII ports.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EscConfig {
     /// FMMUs, 0 to 16.
     pub fmmu_count: u8,

@@ -139,10 +139,30 @@ impl Protection {
 }
 
 impl Esc {
-    /// An ESC that gets power at `now`, with this EEPROM image.
+    /// An ESC that gets power at `now`, with this EEPROM image. All memory that it ever uses is allocated here.
     #[must_use]
     pub fn power_on(config: EscConfig, sii_image: Vec<u8>, now: Instant) -> Self {
-        let memory = Memory::at_power_on(config.ram_kib);
+        let (memory, sii) = (Memory::new(config.ram_kib), Sii::new(sii_image, config.sii));
+        Self::start(config, memory, sii, Box::default(), now)
+    }
+
+    /// Back to the state after power-on; cables and EEPROM stay as they are.
+    pub fn reset(&mut self, now: Instant) {
+        let ports = self.ports;
+        let memory = core::mem::take(&mut self.memory).cleared();
+        let no_sii = Sii::new(Vec::new(), self.config.sii);
+        let sii = core::mem::replace(&mut self.sii, no_sii).restarted(self.config.sii);
+        let mut shadow = self.shadow.take().unwrap_or_default();
+        shadow.clear();
+        *self = Self::start(self.config, memory, sii, shadow, now);
+        for port in [Port::In, Port::Out] {
+            self.ports.set_link(port, ports.status(port).link, &mut self.memory);
+        }
+        self.ecat_events = EcatEvents::default();
+    }
+
+    /// Begins with memory and EEPROM as they are at power-on.
+    fn start(config: EscConfig, memory: Memory, sii: Sii, shadow: Box<Shadow>, now: Instant) -> Self {
         let mut esc = Self {
             hot: Hot::AT_POWER_ON,
             ports_changed: true,
@@ -152,9 +172,9 @@ impl Esc {
             read_mappings: ArrayVec::new(),
             write_mappings: ArrayVec::new(),
             mappings_alias: false,
-            shadow: Some(Box::default()),
+            shadow: Some(shadow),
             ports: Ports::new(),
-            sii: Sii::new(sii_image, config.sii),
+            sii,
             dc: Dc::new(now),
             watchdog: Watchdog::at_power_on(&memory),
             memory,
@@ -167,18 +187,6 @@ impl Esc {
         };
         esc.load_constants();
         esc
-    }
-
-    /// Back to the state after power-on; cables and EEPROM stay as they are.
-    pub fn reset(&mut self, now: Instant) {
-        let ports = self.ports;
-        let (image, words_written) = (core::mem::take(self.sii.image_mut()), self.sii.words_written());
-        *self = Self::power_on(self.config.clone(), image, now);
-        self.sii.go_on_counting(words_written);
-        for port in [Port::In, Port::Out] {
-            self.ports.set_link(port, ports.status(port).link, &mut self.memory);
-        }
-        self.ecat_events = EcatEvents::default();
     }
 
     fn load_constants(&mut self) {

@@ -3,27 +3,27 @@
 use crate::registers::{BYTES, REGISTER_BYTES, REGISTERS};
 
 /// Registers 0x0000 to 0x0FFF and the process data RAM behind them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
     bytes: Box<[u8]>,
 }
 
 impl Memory {
     /// Memory at power-on: registers at their reset values, RAM at zero.
-    pub(crate) fn at_power_on(ram_kib: u8) -> Self {
-        let mut memory =
-            Self { bytes: vec![0; REGISTER_BYTES + usize::from(ram_kib) * 1024].into_boxed_slice() };
-        memory.reset_registers();
-        memory
+    pub(crate) fn new(ram_kib: u8) -> Self {
+        let bytes = vec![0; REGISTER_BYTES + usize::from(ram_kib) * 1024].into_boxed_slice();
+        Self { bytes }.cleared()
     }
 
-    pub(crate) fn reset_registers(&mut self) {
-        self.bytes[..REGISTER_BYTES].fill(0);
+    /// The same memory as it is at power-on.
+    pub(crate) fn cleared(mut self) -> Self {
+        self.bytes.fill(0);
         for register in REGISTERS {
             let reset = register.reset.to_le_bytes();
             let width = usize::from(register.size_bytes).min(reset.len());
             self.slice_mut(register.offset, width).copy_from_slice(&reset[..width]);
         }
+        self
     }
 
     /// First offset behind the memory.

@@ -57,7 +57,7 @@ impl Sii {
         &self.image
     }
 
-    pub(crate) fn image_mut(&mut self) -> &mut Vec<u8> {
+    pub(crate) fn image_mut(&mut self) -> &mut [u8] {
         &mut self.image
     }
 
@@ -75,9 +75,9 @@ impl Sii {
         self.busy = Some(Busy { command, until });
     }
 
-    /// A reset is no power-on for who watches the EEPROM.
-    pub(crate) const fn go_on_counting(&mut self, words_written: u32) {
-        self.words_written = words_written;
+    /// The same EEPROM at a reset, which is no power-on for code that watches it: the count of written words goes up.
+    pub(crate) fn restarted(self, timing: SiiTiming) -> Self {
+        Self { words_written: self.words_written, ..Self::new(self.image, timing) }
     }
 
     pub(crate) const fn is_loaded(&self) -> bool {

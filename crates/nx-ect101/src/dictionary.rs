@@ -50,11 +50,8 @@ impl UnitObjects {
     ) -> Self {
         let table = object_table();
         let mapping = Mapping::factory(&table);
-        let mut values = Dictionary::new(table);
-        let known = values.set_unsigned(ObjectIndex(0x1018), SubIndex(4), u64::from(serial));
-        assert!(known, "tables/coe_objects.toml: 1018:04 holds a serial number");
-        Self {
-            values,
+        let mut objects = Self {
+            values: Dictionary::new(table),
             mapping,
             unmapped: UnmappedEntries::none(),
             identification,
@@ -63,13 +60,26 @@ impl UnitObjects {
             status_changed: false,
             state: AlState::Init,
             period,
-        }
+        };
+        objects.set_serial(serial);
+        objects
     }
 
-    /// The unit starts again: everything but the diagnosis begins anew.
+    /// The unit starts again: everything but the diagnosis has its defaults. Memory is used again, none is allocated.
     pub(crate) fn restart(&mut self, serial: u32, identification: Identification) {
-        let diagnosis = core::mem::take(&mut self.diagnosis);
-        *self = Self::start(serial, identification, self.period, diagnosis);
+        self.values.restore_defaults();
+        self.set_serial(serial);
+        self.mapping.restore_defaults(self.values.table());
+        self.unmapped.clear();
+        self.identification = identification;
+        self.messages = Messages::default();
+        self.status_changed = false;
+        self.state = AlState::Init;
+    }
+
+    fn set_serial(&mut self, serial: u32) {
+        let known = self.values.set_unsigned(ObjectIndex(0x1018), SubIndex(4), u64::from(serial));
+        assert!(known, "tables/coe_objects.toml: 1018:04 holds a serial number");
     }
 
     /// Shows versions of this unit in place of those of the model.

@@ -59,6 +59,15 @@ impl Mapping {
         Self { lists: table.iter().filter_map(List::of_object).collect() }
     }
 
+    /// Gives every object its default again.
+    pub(crate) fn restore_defaults(&mut self, table: &ObjectTable) {
+        for list in &mut self.lists {
+            if let Some(object) = table.object(list.index) {
+                list.restore_defaults(object);
+            }
+        }
+    }
+
     /// Whether `index` is a mapping or assignment object.
     pub(crate) fn has(&self, index: ObjectIndex) -> bool {
         self.list(index).is_some()
@@ -139,9 +148,18 @@ impl List {
             false if is_pdo(object) => Content::Entries,
             false => return None,
         };
+        let elements = vec![0; object.entries.len().saturating_sub(1)];
+        let mut list = Self { index: object.index, content, count: 0, elements };
+        list.restore_defaults(object);
+        Some(list)
+    }
+
+    fn restore_defaults(&mut self, object: &Object) {
         let mut numbers = object.entries.iter().map(|entry| little_endian(&entry.default));
-        let count = numbers.next().map_or(0, |count| count as u8);
-        Some(Self { index: object.index, content, count, elements: numbers.collect() })
+        self.count = numbers.next().map_or(0, |count| count as u8);
+        for (element, number) in self.elements.iter_mut().zip(numbers) {
+            *element = number;
+        }
     }
 
     fn counted(&self) -> impl Iterator<Item = u32> + '_ {

@@ -103,15 +103,20 @@ impl NonVolatileMemory {
     }
 
     /// Gets the memory ready for a start with these settings: a unit file with a new serial number gives it to
-    /// the SII, and the ID in force goes to the station alias, SII word 4.
-    pub(crate) fn start(&mut self, settings: &UnitSettings, explicit_device_id: u16) {
-        if self.file_serial != settings.serial {
+    /// the SII, and the ID in force goes to the station alias, SII word 4. Returns whether anything has changed.
+    pub(crate) fn start(&mut self, settings: &UnitSettings, explicit_device_id: u16) -> bool {
+        let has_new_serial = self.file_serial != settings.serial;
+        if has_new_serial {
             self.file_serial = settings.serial;
             if let Some(bytes) = self.sii_image.get_mut(SERIAL) {
                 bytes.copy_from_slice(&settings.serial.to_le_bytes());
             }
         }
-        self.set_alias(explicit_device_id);
+        let has_new_alias = alias(&self.sii_image).is_some_and(|alias| alias != explicit_device_id);
+        if has_new_alias {
+            self.set_alias(explicit_device_id);
+        }
+        has_new_serial || has_new_alias
     }
 
     /// Takes over the EEPROM as the wire has left it. Tells whether a master has set another station alias:
@@ -127,11 +132,8 @@ impl NonVolatileMemory {
         self.software_id = id;
     }
 
-    /// An image whose checksum is wrong is the master's doing: it stays so, and the controller finds it.
+    /// Only where the checksum is right: a wrong one is the master's doing, and the controller is to find it.
     fn set_alias(&mut self, id: u16) {
-        if alias(&self.sii_image).is_none() {
-            return;
-        }
         if let Some(bytes) = self.sii_image.get_mut(ALIAS) {
             bytes.copy_from_slice(&id.to_le_bytes());
         }

@@ -37,10 +37,14 @@ impl UnmappedEntries {
         Self { m_to_c: Vec::with_capacity(MAX_ENTRIES), c_to_m: Vec::with_capacity(MAX_ENTRIES) }
     }
 
-    /// Follows this mapping. Every I/O entry has its default again, as in the process images.
-    pub(super) fn rebuild(&mut self, values: &mut Dictionary, mapping: &Mapping, layouts: [&ImageLayout; 2]) {
+    pub(super) fn clear(&mut self) {
         self.m_to_c.clear();
         self.c_to_m.clear();
+    }
+
+    /// Follows this mapping. Every I/O entry has its default again, as in the process images.
+    pub(super) fn rebuild(&mut self, values: &mut Dictionary, mapping: &Mapping, layouts: [&ImageLayout; 2]) {
+        self.clear();
         for set in DataSet::all() {
             let [m_to_c, c_to_m] = layouts;
             let (entries, layout) = match set.direction {

@@ -52,10 +52,7 @@ impl KeptMemory {
 
     fn start(&mut self, settings: &UnitSettings) -> Identification {
         let identification = Identification::at_power_on(settings.id_switch, self.contents.software_id());
-        // Comparing is for the start only: it costs an image.
-        let before = self.contents.clone();
-        self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
-        self.is_unsaved |= before != self.contents;
+        self.is_unsaved |= self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
         self.sii_is_own = self.contents.identity() == self.identity;
         identification
     }
