@@ -44,21 +44,19 @@ impl TransitionTimes {
 
 /// The AL status code with which each state is refused.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Refusals([Option<AlStatusCode>; STATES.len()]);
-
-const STATES: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];
+pub struct Refusals([Option<AlStatusCode>; AlState::ALL.len()]);
 
 impl Refusals {
-    /// Refuses `state` with this code, or no longer; false for a state that no slave of ours reaches.
+    /// Refuses `state` with this code, or no longer; false for a value that names no state.
     pub fn set(&mut self, state: AlState, code: Option<AlStatusCode>) -> bool {
-        let place = STATES.iter().position(|&known| known == state).and_then(|at| self.0.get_mut(at));
+        let place = AlState::ALL.iter().position(|&known| known == state).and_then(|at| self.0.get_mut(at));
         place.map(|place| *place = code).is_some()
     }
 
     /// The code with which `state` is refused, if it is.
     #[must_use]
     pub fn of(&self, state: AlState) -> Option<AlStatusCode> {
-        let at = STATES.iter().position(|&known| known == state)?;
+        let at = AlState::ALL.iter().position(|&known| known == state)?;
         *self.0.get(at)?
     }
 }
@@ -71,7 +69,7 @@ mod tests {
     fn each_transition_has_its_own_time() {
         let mut times = TransitionTimes::every(Duration::from_millis(1));
         assert!(times.set("PS", Duration::from_millis(7)));
-        assert!(!times.set("PB", Duration::from_millis(7)), "there is no BOOT");
+        assert!(!times.set("PB", Duration::from_millis(7)), "no transition");
         for row in TRANSITIONS {
             let expected = if row.letters == "PS" { 7 } else { 1 };
             assert_eq!(times.of(row.from, row.to), Duration::from_millis(expected), "{}", row.letters);
@@ -82,11 +80,14 @@ mod tests {
     #[test]
     fn each_state_has_its_own_refusal() {
         let mut refusals = Refusals::default();
-        for (code, state) in (1..).map(AlStatusCode).zip(STATES) {
+        for (code, state) in (1..).map(AlStatusCode).zip(AlState::ALL) {
             assert!(refusals.set(state, Some(code)));
         }
-        assert_eq!(STATES.map(|state| refusals.of(state).map(|code| code.0)), [1, 2, 3, 4].map(Some));
-        assert!(!refusals.set(AlState::Boot, Some(AlStatusCode(1))));
+        assert_eq!(
+            AlState::ALL.map(|state| refusals.of(state).map(|code| code.0)),
+            [1, 2, 3, 4, 5].map(Some)
+        );
+        assert!(!refusals.set(AlState::Other(5), Some(AlStatusCode(1))));
         assert!(refusals.set(AlState::Op, None) && refusals.of(AlState::Op).is_none());
     }
 }

@@ -1,38 +1,15 @@
-//! What the slave stack is told about its unit: memory layout, time-outs, the choices where slaves differ.
+//! The description of a slave that the stack works by: memory layout, time-outs, checks, the choices where slaves
+//! differ.
 
-use esc::EscConfig;
-use mailbox::{AbortProfile, MailboxSizes};
+use core::fmt;
+
+use esc::{EscConfig, SmIndex};
 use time::Duration;
 
+use crate::conditions::{self, Condition};
 use crate::conduct::Conduct;
-
-/// A part of the ESC memory.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Area {
-    /// Offset of its first byte.
-    pub start: u16,
-    /// Length in bytes.
-    pub length_bytes: u16,
-}
-
-/// The two mailboxes, at the places that SII and ESI tell the master.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct MailboxConfig {
-    /// SyncManager 0, master to slave.
-    pub receive: Area,
-    /// SyncManager 1, slave to master.
-    pub send: Area,
-    /// From the receipt of a request to its response.
-    pub response_time: Duration,
-    /// Abort codes where manuals differ.
-    pub aborts: AbortProfile,
-}
-
-impl MailboxConfig {
-    pub(crate) const fn sizes(&self) -> MailboxSizes {
-        MailboxSizes { receive_bytes: self.receive.length_bytes, send_bytes: self.send.length_bytes }
-    }
-}
+use crate::sync_managers::{MailboxConfig, ProcessDataConfig, ProcessDataList};
+use crate::sync_mode::SyncMode;
 
 /// Whether SAFE-OP to OP waits for outputs (reference 5.4, C056).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,15 +30,6 @@ pub enum RefusedInOp {
     StayInOp,
 }
 
-/// What PRE-OP to SAFE-OP says to a watchdog time that no SyncManager triggers (AL status code 0x001F).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum WatchdogCheck {
-    /// Nothing.
-    Off,
-    /// With outputs and a watchdog time, the outputs' SyncManager has to trigger the watchdog.
-    TriggerRequired,
-}
-
 /// How long the unit takes from power to its first step. Until then the controller answers alone: AL status is INIT, the
 /// PDI is not operational, and a request waits in AL control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -72,29 +40,118 @@ pub struct StartUp {
     pub again: Duration,
 }
 
-/// Everything about the stack of one unit.
+/// Everything about the stack of one unit. The default is a slave with neither mailbox nor process data, which runs
+/// freely, follows the standard and is quick.
 #[derive(Clone, Debug)]
 pub struct DeviceConfig {
     /// The controller.
     pub esc: EscConfig,
     /// EEPROM image at power-on.
     pub sii_image: Vec<u8>,
-    /// The mailboxes; none for a unit without.
+    /// The mailbox; none for a unit without.
     pub mailbox: Option<MailboxConfig>,
+    /// The SyncManagers with process data.
+    pub process_data: ProcessDataList,
+    /// How the unit may be synchronised, the mode that needs no setting first.
+    pub sync_modes: &'static [SyncMode],
+    /// What is checked from PRE-OP to SAFE-OP, in the order in which the first finding counts.
+    pub checks: &'static [Condition],
+    /// What has to stay so in SAFE-OP and OP, else the slave drops to PRE-OP.
+    pub watched: &'static [Condition],
     /// From power to the first step of the unit.
     pub start_up: StartUp,
     /// From the first step of the unit to its first refresh; less than a refresh period.
     pub refresh_phase: Duration,
-    /// Where the outputs' SyncManager 2 starts.
-    pub outputs_start: u16,
-    /// Where the inputs' SyncManager 3 starts. (A unit without mailbox uses the same numbers.)
-    pub inputs_start: u16,
     /// SAFE-OP to OP.
     pub outputs_before_op: OutputsBeforeOp,
-    /// PRE-OP to SAFE-OP.
-    pub watchdog_check: WatchdogCheck,
     /// Requests in OP that are no transition.
     pub refused_in_op: RefusedInOp,
     /// Slow transitions, refusals: how the slave behaves until somebody changes it.
     pub conduct: Conduct,
 }
+
+impl Default for DeviceConfig {
+    fn default() -> Self {
+        Self {
+            esc: EscConfig::default(),
+            sii_image: Vec::new(),
+            mailbox: None,
+            process_data: ProcessDataList::new(),
+            sync_modes: &[SyncMode::FreeRun],
+            checks: conditions::PROCESS_DATA,
+            watched: conditions::WATCHED_PROCESS_DATA,
+            start_up: StartUp::default(),
+            refresh_phase: Duration::ZERO,
+            outputs_before_op: OutputsBeforeOp::NotRequired,
+            refused_in_op: RefusedInOp::DropToSafeOp,
+            conduct: Conduct::default(),
+        }
+    }
+}
+
+/// What of a description does not fit together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConfigError {
+    /// The controller has no such SyncManager.
+    NoSuchSyncManager {
+        /// The one that is described.
+        sync_manager: SmIndex,
+        /// How many there are.
+        count: u8,
+    },
+    /// It is the mailbox, or it comes twice, or the list is not ascending.
+    SyncManagerOutOfOrder(SmIndex),
+    /// The list of synchronisation modes is empty.
+    NoSyncMode,
+    /// The stack cannot follow this mode.
+    SyncModeNotImplemented(SyncMode),
+}
+
+impl DeviceConfig {
+    /// Whether the parts fit together.
+    ///
+    /// # Errors
+    /// [`ConfigError`], the first one.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        let mut free_from = if self.mailbox.is_some() { 2 } else { 0 };
+        for ProcessDataConfig { sync_manager, .. } in &self.process_data {
+            let count = self.esc.sync_manager_count;
+            if sync_manager.0 >= count {
+                return Err(ConfigError::NoSuchSyncManager { sync_manager: *sync_manager, count });
+            }
+            if sync_manager.0 < free_from {
+                return Err(ConfigError::SyncManagerOutOfOrder(*sync_manager));
+            }
+            free_from = sync_manager.0 + 1;
+        }
+        if self.sync_modes.contains(&SyncMode::Dc) {
+            return Err(ConfigError::SyncModeNotImplemented(SyncMode::Dc));
+        }
+        self.sync_modes.first().map(|_| ()).ok_or(ConfigError::NoSyncMode)
+    }
+
+    /// Whether the slave has the state BOOT.
+    #[must_use]
+    pub fn has_boot(&self) -> bool {
+        self.mailbox.is_some_and(|mailbox| mailbox.bootstrap.is_some())
+    }
+}
+
+impl fmt::Display for ConfigError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchSyncManager { sync_manager, count } => {
+                write!(formatter, "SyncManager {}: the controller has {count}", sync_manager.0)
+            }
+            Self::SyncManagerOutOfOrder(sync_manager) => {
+                write!(formatter, "SyncManager {}: taken already, or not in ascending order", sync_manager.0)
+            }
+            Self::NoSyncMode => formatter.write_str("no synchronisation mode"),
+            Self::SyncModeNotImplemented(mode) => {
+                write!(formatter, "synchronisation mode {mode}: not implemented")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ConfigError {}

@@ -1,24 +1,26 @@
 //! One slave: the stack around a unit, on one ESC.
 
+mod actions;
+mod process_data;
 mod requests;
 mod start_up;
 mod watch;
 
-use esc::{AlEvents, Esc, Pdi, Port, SmIndex};
+use esc::{AlEvents, Esc, Pdi, SmIndex};
 use time::{Duration, Instant};
-use wire::{AlControl, AlState, AlStatus, AlStatusCode};
+use wire::{AlState, AlStatus, AlStatusCode};
 
 use crate::conduct::Conduct;
 use crate::config::DeviceConfig;
+use crate::machine::{Indication, Machine, ProcessData, State};
 use crate::mailbox_service::MailboxService;
 use crate::power::Power;
-use crate::unit::{Exchange, PortLinks, RefreshCause, Start, Unit};
+use crate::process_image::ProcessImage;
+use crate::unit::{RefreshCause, Start, Unit};
 
-/// What the stack listens to. Process data are not among it: the refresh runs freely.
-const EVENTS: AlEvents = AlEvents::AL_CONTROL
-    .union(AlEvents::SYNC_MANAGER_ACTIVATION)
-    .union(AlEvents::WATCHDOG)
-    .union(AlEvents::from_bits_truncate(0x0300));
+/// What the stack always listens to.
+const EVENTS: AlEvents =
+    AlEvents::AL_CONTROL.union(AlEvents::SYNC_MANAGER_ACTIVATION).union(AlEvents::WATCHDOG);
 
 /// A slave under power.
 #[derive(Debug)]
@@ -26,49 +28,42 @@ pub struct Device<U> {
     unit: U,
     config: DeviceConfig,
     mailbox: Option<MailboxService>,
-    status: AlStatus,
-    code: AlStatusCode,
-    /// The AL status code that the master finds after a restart.
-    code_at_start: Option<AlStatusCode>,
+    process_image: ProcessImage,
     conduct: Conduct,
-    /// When the state request that waits in AL control is taken.
-    request_due: Option<Instant>,
-    /// The master has asked for OP, and outputs have not come yet.
-    op_request: Option<OpRequest>,
-    /// Outputs have come since the slave left PRE-OP; OP watches over them from its beginning on.
-    outputs_came: bool,
+    power: Power,
+    /// As it was last, while the slave has no power.
+    machine: Machine,
     /// Emergencies that found no mailbox, or no room in it.
     emergencies_lost: u64,
-    next_refresh: Instant,
-    power: Power,
 }
 
 impl<U: Unit> Device<U> {
-    /// A slave that gets power at `now`, and the ESC that belongs to it.
+    /// A slave that gets power at `now`, and the ESC that belongs to it. All memory that they ever use is allocated
+    /// here.
+    ///
+    /// # Panics
+    /// If the description is wrong in itself, see [`DeviceConfig::validate`].
     #[must_use]
-    pub fn power_on(config: DeviceConfig, unit: U, now: Instant) -> (Self, Esc) {
-        let esc = Esc::power_on(config.esc.clone(), config.sii_image.clone(), now);
+    pub fn power_on(mut config: DeviceConfig, mut unit: U, now: Instant) -> (Self, Esc) {
+        if let Err(error) = config.validate() {
+            panic!("{error}");
+        }
+        let sii_image = core::mem::take(&mut config.sii_image);
+        let mut esc = Esc::power_on(config.esc, sii_image, now);
+        let mailbox = config
+            .mailbox
+            .and_then(|mailbox| unit.objects().map(|objects| MailboxService::new(mailbox, objects.table())));
         let mut device = Self {
             unit,
+            mailbox,
+            process_image: ProcessImage::new(&config.process_data),
             conduct: config.conduct.clone(),
             config,
-            mailbox: None,
-            status: AlStatus::default(),
-            code: AlStatusCode::NO_ERROR,
-            code_at_start: None,
-            request_due: None,
-            op_request: None,
-            outputs_came: false,
-            emergencies_lost: 0,
-            next_refresh: now,
             power: Power::Off,
+            machine: Machine::START,
+            emergencies_lost: 0,
         };
-        let mailbox = device.config.mailbox;
-        device.mailbox = mailbox.and_then(|mailbox| {
-            device.unit.objects().map(|objects| MailboxService::new(mailbox, objects.table()))
-        });
-        let mut esc = esc;
-        device.begin_start_up(device.config.start_up.first, &mut esc, now);
+        device.begin_start_up(device.config.start_up.first, None, &mut esc, now);
         (device, esc)
     }
 
@@ -76,16 +71,11 @@ impl<U: Unit> Device<U> {
     pub fn restart(&mut self, esc: &mut Esc, now: Instant, start: Start) {
         let code = self.unit.restart(now, start, esc.sii_image_mut());
         esc.reset(now);
-        self.status = AlStatus::default();
-        self.code = AlStatusCode::NO_ERROR;
-        self.request_due = None;
-        self.op_request = None;
-        self.outputs_came = false;
-        self.code_at_start = code;
+        self.machine = Machine::START;
         if let Some(mailbox) = &mut self.mailbox {
             mailbox.reset();
         }
-        self.begin_start_up(self.config.start_up.again, esc, now);
+        self.begin_start_up(self.config.start_up.again, code, esc, now);
     }
 
     /// Whether the slave has no power.
@@ -114,13 +104,13 @@ impl<U: Unit> Device<U> {
     /// State and error indication, as AL status shows them.
     #[must_use]
     pub const fn al_status(&self) -> AlStatus {
-        self.status
+        self.machine.status()
     }
 
     /// AL status code as register 0x0134 shows it.
     #[must_use]
     pub const fn al_status_code(&self) -> AlStatusCode {
-        self.code
+        self.machine.code()
     }
 
     /// Times and refusals of the state machine, to be changed; [`Device::behave`] takes the change back.
@@ -147,19 +137,20 @@ impl<U: Unit> Device<U> {
     /// When the device has to be polled next, whatever the wire does.
     #[must_use]
     pub fn deadline(&self) -> Instant {
-        match self.power {
+        let next_refresh = match self.power {
             Power::Off => return Instant::NEVER,
             Power::StartingUp { next, .. } => return next,
-            Power::On => {}
-        }
+            Power::On { next_refresh } => next_refresh,
+        };
         let mailbox = self.mailbox.as_ref().map_or(Instant::NEVER, MailboxService::deadline);
-        let outputs = self.op_request.map_or(Instant::NEVER, |request| request.deadline);
-        self.next_refresh.min(mailbox).min(outputs).min(self.request_due.unwrap_or(Instant::NEVER))
+        let outputs = self.machine.state.op_request().map_or(Instant::NEVER, |request| request.deadline);
+        let request = self.machine.request_due.unwrap_or(Instant::NEVER);
+        next_refresh.min(mailbox).min(outputs).min(request)
     }
 
     /// Whether the next outputs take the slave to OP.
     pub(crate) const fn awaits_outputs(&self) -> bool {
-        self.op_request.is_some()
+        self.machine.state.op_request().is_some()
     }
 
     /// Does what is due at `now`: requests of the master, expired times, the refresh.
@@ -172,110 +163,51 @@ impl<U: Unit> Device<U> {
             return;
         }
         let mut pdi = esc.pdi();
+        self.take_actions(&mut pdi, now);
         if pdi.take_activation_event() {
             self.watch_sync_managers(&mut pdi, now);
         }
         self.watch_al_control(&mut pdi, now);
-        if pdi.take_watchdog_event() && self.status.state == AlState::Op {
+        if pdi.take_watchdog_event() && self.al_state() == AlState::Op {
             self.drop_to(AlState::SafeOp, &[AlStatusCode::SYNC_MANAGER_WATCHDOG], &mut pdi, now);
         }
         self.watch_op_request(&mut pdi, now);
-        if now >= self.next_refresh {
-            self.refresh(&mut pdi, now);
-        }
-        self.watch_fault(&mut pdi, now);
-        self.queue_emergencies();
-        self.poll_mailbox(&mut pdi, now);
-        self.queue_emergencies();
-    }
-
-    fn queue_emergencies(&mut self) {
-        while let Some(emergency) = self.unit.take_emergency() {
-            // Lost ones are counted.
-            let _ = self.queue_emergency(emergency);
+        self.refresh(&mut pdi, now);
+        self.take_actions(&mut pdi, now);
+        if self.poll_mailbox(&mut pdi, now) {
+            self.take_actions(&mut pdi, now);
         }
     }
 
-    /// Runs the unit's refresh and sets the time of the next one; what was missed is not made up for.
-    fn refresh(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        self.exchange(RefreshCause::Period, pdi, now);
-        let period = self.unit.refresh_period();
-        self.next_refresh += period;
-        if self.next_refresh <= now && period > Duration::ZERO {
-            let missed = now.saturating_since(self.next_refresh).as_nanos() / period.as_nanos() + 1;
-            self.next_refresh += period * missed;
-        }
+    const fn al_state(&self) -> AlState {
+        self.machine.state.al_state()
     }
 
-    fn exchange(&mut self, cause: RefreshCause, pdi: &mut Pdi<'_>, now: Instant) {
-        let state = self.status.state;
-        self.outputs_came |= pdi.outputs_received(SmIndex::OUTPUTS);
-        let valid = state == AlState::Op && pdi.outputs_received(SmIndex::OUTPUTS) && !pdi.watchdog_expired();
-        let links = PortLinks { in_port: pdi.link(Port::In), out_port: pdi.link(Port::Out) };
-        let unit = &mut self.unit;
-        if matches!(state, AlState::SafeOp | AlState::Op) {
-            pdi.exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
-                let outputs = valid.then_some(outputs);
-                unit.refresh(now, Exchange { cause, state, links, outputs, inputs });
-            });
-        } else {
-            unit.refresh(now, Exchange { cause, state, links, outputs: None, inputs: &mut [] });
+    /// Whether a mailbox request was served, which may have changed the unit.
+    fn poll_mailbox(&mut self, pdi: &mut Pdi<'_>, now: Instant) -> bool {
+        let state = self.al_state();
+        if state == AlState::Init {
+            return false;
         }
-    }
-
-    fn poll_mailbox(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let state = self.status.state;
-        if !matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op) {
-            return;
-        }
-        let (Some(mailbox), Some(objects)) = (&mut self.mailbox, self.unit.objects()) else { return };
-        if mailbox.poll(now, state, pdi, objects) {
-            self.follow_alias(pdi);
-            if self.unit.take_status_change() {
-                self.exchange(RefreshCause::Change, pdi, now);
-            }
-        }
-    }
-
-    /// The unit may have been given another station alias.
-    fn follow_alias(&self, pdi: &mut Pdi<'_>) {
-        if let Some(alias) = self.unit.station_alias() {
-            pdi.set_station_alias(alias);
-        }
-    }
-
-    /// Queues an emergency message, if the state has a mailbox; false if it is lost, which is counted.
-    pub fn queue_emergency(&mut self, emergency: wire::Emergency) -> bool {
-        let has_mailbox = self.status.state != AlState::Init;
-        let mailbox = self.mailbox.as_mut().filter(|_| has_mailbox);
-        let is_queued = mailbox.is_some_and(|mailbox| mailbox.mailbox().queue_emergency(emergency).is_ok());
-        self.emergencies_lost += u64::from(!is_queued);
-        is_queued
-    }
-
-    /// How many emergencies have found no room in the unit, no mailbox in their state, or no room in it, since
-    /// power-on. Those that waited when the slave went to INIT are not among them.
-    #[must_use]
-    pub fn emergencies_lost(&self) -> u64 {
-        self.emergencies_lost + self.unit.emergencies_lost()
+        let (Some(mailbox), Some(objects)) = (&mut self.mailbox, self.unit.objects()) else { return false };
+        mailbox.poll(now, state, pdi, objects)
     }
 
     /// Changes the state inside; what the wire sees follows by [`Device::show`], so that the inputs of
     /// SAFE-OP are there before AL status says so.
     fn enter(&mut self, state: AlState, pdi: &mut Pdi<'_>, now: Instant) {
-        let before = self.status.state;
-        self.status.state = state;
-        if state == before {
+        let before = self.machine.state;
+        let next = self.state_to_enter(state, pdi);
+        self.machine.state = next;
+        if next.al_state() == before.al_state() {
             return;
         }
-        // Here, because a fall-back closes the outputs and forgets that some have come.
-        let had_process_data = matches!(before, AlState::SafeOp | AlState::Op);
-        self.outputs_came = had_process_data && (self.outputs_came || pdi.outputs_received(SmIndex::OUTPUTS));
         self.open_sync_managers(pdi);
-        if state == AlState::Op && self.outputs_came {
-            pdi.start_watchdog(SmIndex::OUTPUTS, now);
+        pdi.set_event_mask(self.events());
+        if let State::Op { process_data: ProcessData { outputs_came: true, .. } } = next {
+            self.start_watchdog(pdi, now);
         }
-        if (before == AlState::Init || state == AlState::Init)
+        if (matches!(before, State::Init { .. }) || matches!(next, State::Init { .. }))
             && let Some(mailbox) = &mut self.mailbox
         {
             mailbox.reset();
@@ -284,13 +216,34 @@ impl<U: Unit> Device<U> {
         self.exchange(RefreshCause::Change, pdi, now);
     }
 
+    /// The state with what it takes over from the one before.
+    fn state_to_enter(&self, state: AlState, pdi: &Pdi<'_>) -> State {
+        // Here, because a fall-back closes the outputs and forgets that some have come.
+        let process_data = match self.machine.state.process_data() {
+            Some(before) => ProcessData {
+                outputs_came: before.outputs_came || self.outputs_received(pdi),
+                sync_mode: before.sync_mode,
+            },
+            None => ProcessData { outputs_came: false, sync_mode: self.sync_mode(pdi) },
+        };
+        match state {
+            AlState::Init => State::Init { fault: None },
+            AlState::PreOp => State::PreOp,
+            AlState::Boot => State::Boot,
+            AlState::SafeOp => State::SafeOp { process_data, op_request: None },
+            AlState::Op => State::Op { process_data },
+            // No row of the transitions leads there.
+            AlState::Other(_) => self.machine.state,
+        }
+    }
+
     /// INIT has no mailbox, and process data begin with SAFE-OP (reference 5.1): what the state does not have
     /// is closed for the wire, and begins empty when it opens.
     fn open_sync_managers(&self, pdi: &mut Pdi<'_>) {
-        let state = self.status.state;
-        let process_data = matches!(state, AlState::SafeOp | AlState::Op);
-        for index in [SmIndex::OUTPUTS, SmIndex::INPUTS] {
-            pdi.set_deactivated(index, !process_data);
+        let state = self.al_state();
+        let has_process_data = self.machine.state.process_data().is_some();
+        for described in &self.config.process_data {
+            pdi.set_deactivated(described.sync_manager, !has_process_data);
         }
         if self.config.mailbox.is_some() {
             for index in [SmIndex::MAILBOX_RECEIVE, SmIndex::MAILBOX_SEND] {
@@ -299,26 +252,17 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    fn show_error(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>) {
-        self.show(error_status(state, code), code, pdi);
+    /// What interrupts the stack in the present state.
+    fn events(&self) -> AlEvents {
+        let mailbox = [SmIndex::MAILBOX_RECEIVE, SmIndex::MAILBOX_SEND];
+        let mailbox = mailbox.into_iter().filter(|_| self.config.mailbox.is_some());
+        mailbox
+            .chain(self.sync_events())
+            .fold(EVENTS, |events, index| events | AlEvents::from_bits_retain(0x100 << index.0))
     }
 
-    fn show(&mut self, status: AlStatus, code: AlStatusCode, pdi: &mut Pdi<'_>) {
-        self.status = status;
-        self.code = code;
-        pdi.set_al_status(status, code);
+    fn show(&mut self, indication: Indication, pdi: &mut Pdi<'_>) {
+        self.machine.indication = indication;
+        pdi.set_al_status(self.machine.status(), self.machine.code());
     }
-}
-
-/// A request for OP that waits for outputs.
-#[derive(Clone, Copy, Debug)]
-struct OpRequest {
-    control: AlControl,
-    /// Without outputs it is refused then.
-    deadline: Instant,
-}
-
-/// AL status with an error in `state`; without a code there is no error indication.
-fn error_status(state: AlState, code: AlStatusCode) -> AlStatus {
-    AlStatus { state, error: code != AlStatusCode::NO_ERROR, device_id_loaded: false }
 }

@@ -3,22 +3,34 @@
 //! Nothing here knows which unit it carries. A [`Unit`] gives the objects and the process data, a
 //! [`DeviceConfig`] the layout; a [`Network`] is a line of such slaves that frames pass.
 
-mod checks;
+mod action;
+mod conditions;
 mod conduct;
 mod config;
 mod device;
+mod machine;
 mod mailbox_service;
 mod network;
 mod power;
+mod process_image;
+mod settings;
 mod state_machine;
+mod sync_managers;
+mod sync_mode;
 mod unit;
 
+pub use action::Action;
+pub use conditions::{Condition, PROCESS_DATA, Requirement, WATCHED_PROCESS_DATA, condition};
 pub use conduct::{Conduct, Refusals, TransitionTimes};
-pub use config::{Area, DeviceConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp, StartUp, WatchdogCheck};
+pub use config::{ConfigError, DeviceConfig, OutputsBeforeOp, RefusedInOp, StartUp};
 pub use device::Device;
-pub use esc::{EscConfig, SiiTiming, SyncManagerWrites};
+pub use esc::{EscConfig, SiiTiming, SmIndex, SyncManagerWrites};
 pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;
 pub use state_machine::{Check, TRANSITIONS, Transition, refusal, transition};
-pub use unit::{Exchange, PortLinks, ProcessDataAreas, RefreshCause, Start, Unit};
+pub use sync_managers::{
+    Area, Buffers, DataDirection, DataLength, MailboxAreas, MailboxConfig, ProcessDataConfig, ProcessDataList,
+};
+pub use sync_mode::SyncMode;
+pub use unit::{Exchange, PortLinks, RefreshCause, Start, Unit};

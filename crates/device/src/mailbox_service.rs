@@ -1,12 +1,12 @@
 //! SyncManagers 0 and 1 around the mailbox: when a request is served, when a message may go, repeats.
 
 use esc::{Pdi, SmIndex};
-use mailbox::Mailbox;
+use mailbox::{Mailbox, MailboxSizes};
 use objects::{ObjectServer, ObjectTable};
 use time::{Duration, Instant};
 use wire::AlState;
 
-use crate::config::MailboxConfig;
+use crate::sync_managers::{MailboxAreas, MailboxConfig};
 
 /// The mailbox of a running device.
 #[derive(Debug)]
@@ -24,10 +24,13 @@ pub(crate) struct MailboxService {
 impl MailboxService {
     pub(crate) fn new(config: MailboxConfig, table: &ObjectTable) -> Self {
         let buffer = |length_bytes: u16| vec![0; usize::from(length_bytes)].into_boxed_slice();
+        let MailboxAreas { receive, send } = config.standard;
+        let in_boot = config.bootstrap.unwrap_or(config.standard);
+        let sizes = MailboxSizes { receive_bytes: receive.length_bytes, send_bytes: send.length_bytes };
         Self {
-            mailbox: Mailbox::new(config.sizes(), config.aborts, table),
-            request: buffer(config.receive.length_bytes),
-            reply: buffer(config.send.length_bytes),
+            mailbox: Mailbox::new(sizes, config.aborts, table),
+            request: buffer(receive.length_bytes.max(in_boot.receive.length_bytes)),
+            reply: buffer(send.length_bytes.max(in_boot.send.length_bytes)),
             due: None,
             sent: false,
             config,

@@ -7,9 +7,11 @@ use wire::{AlState, AlStatusCode};
 pub enum Check {
     /// Nothing.
     Nothing,
-    /// SII loaded, SyncManagers 0 and 1 as the SII tells.
+    /// SII loaded, SyncManagers 0 and 1 as the SII gives them.
     Mailbox,
-    /// Mapping, SyncManagers 2 and 3, DC, watchdog.
+    /// The same for the mailbox of BOOT.
+    Bootstrap,
+    /// Mapping, SyncManagers with process data, synchronisation, watchdog.
     ProcessData,
     /// Outputs have come, where the unit waits for them.
     Outputs,
@@ -34,10 +36,21 @@ const fn row(letters: &'static str, from: AlState, to: AlState, check: Check) ->
 
 use AlState::{Boot, Init, Op, PreOp, SafeOp};
 
-/// Every transition of a slave without BOOT; what stands in no row is refused by [`refusal`].
+impl Transition {
+    /// Whether only slaves with BOOT have it.
+    #[must_use]
+    pub const fn needs_boot(&self) -> bool {
+        matches!(self.from, Boot) || matches!(self.to, Boot)
+    }
+}
+
+/// Every transition. A request without a row, or with one of BOOT at a slave without BOOT, is refused by [`refusal`].
 pub const TRANSITIONS: &[Transition] = &[
     row("II", Init, Init, Check::Nothing),
     row("IP", Init, PreOp, Check::Mailbox),
+    row("IB", Init, Boot, Check::Bootstrap),
+    row("BB", Boot, Boot, Check::Nothing),
+    row("BI", Boot, Init, Check::Nothing),
     row("PP", PreOp, PreOp, Check::Nothing),
     row("PI", PreOp, Init, Check::Nothing),
     row("PS", PreOp, SafeOp, Check::ProcessData),
@@ -57,7 +70,7 @@ pub fn transition(from: AlState, to: AlState) -> Option<&'static Transition> {
     TRANSITIONS.iter().find(|row| row.from == from && row.to == to)
 }
 
-/// Why a request that stands in no row is refused (reference 5.2).
+/// Why a request that is no transition of the slave is refused (reference 5.2).
 #[must_use]
 pub fn refusal(from: AlState, to: AlState) -> AlStatusCode {
     match (from, to) {

@@ -152,9 +152,21 @@ impl Pdi<'_> {
         self.esc.update_masked_events();
     }
 
+    /// Whether the wire has read or written this SyncManager, and the PDI has not looked yet.
+    #[must_use]
+    pub fn has_event(&self, index: SmIndex) -> bool {
+        self.sm(index).pdi_event
+    }
+
     /// Takes the event that the wire has read or written this SyncManager.
     pub fn take_event(&mut self, index: SmIndex) {
         self.sm_mut(index).pdi_event = false;
+    }
+
+    /// Whether the master has enabled this SyncManager, and with a length.
+    #[must_use]
+    pub fn carries_data(&self, index: SmIndex) -> bool {
+        self.sm(index).rules
     }
 
     /// The newest whole outputs, and whether they are new since the last call.
@@ -165,6 +177,20 @@ impl Pdi<'_> {
         (self.esc.memory.get(at, length).unwrap_or_default(), fresh)
     }
 
+    /// Publishes inputs, as many as the buffer holds. False if the SyncManager is closed, or holds another number.
+    pub fn write_buffer(&mut self, index: SmIndex, inputs: &[u8]) -> bool {
+        let sm = self.sm(index);
+        let (at, length) = (sm.pdi_write_buffer(), usize::from(sm.settings.length_bytes));
+        if !sm.active || inputs.len() != length {
+            return false;
+        }
+        let Some(buffer) = self.esc.memory.get_mut(at, length) else { return false };
+        buffer.copy_from_slice(inputs);
+        self.sm_mut(index).pdi_publish();
+        self.esc.update_masked_events();
+        true
+    }
+
     /// Whether the wire has written whole outputs since the SyncManager was enabled.
     #[must_use]
     pub fn outputs_received(&self, index: SmIndex) -> bool {
@@ -172,15 +198,25 @@ impl Pdi<'_> {
     }
 
     /// Outputs to take and inputs to fill, both in place: `exchange(outputs, inputs)`. The inputs are
-    /// published whole afterwards. A SyncManager that is not active shows as empty.
-    pub fn exchange(&mut self, outputs: SmIndex, inputs: SmIndex, exchange: impl FnOnce(&[u8], &mut [u8])) {
+    /// published whole afterwards. A SyncManager that is not there, or is not active, shows as empty.
+    pub fn exchange(
+        &mut self,
+        outputs: Option<SmIndex>,
+        inputs: Option<SmIndex>,
+        exchange: impl FnOnce(&[u8], &mut [u8]),
+    ) {
         let length = |sm: &SyncManager| if sm.active { usize::from(sm.settings.length_bytes) } else { 0 };
-        let (out_bytes, in_bytes) = (length(self.sm(outputs)), length(self.sm(inputs)));
-        let (out_at, _) = self.sm_mut(outputs).pdi_read_buffer();
-        let in_at = self.sm(inputs).pdi_write_buffer();
+        let (out_at, out_bytes) = outputs.map_or((0, 0), |index| {
+            let sm = self.sm_mut(index);
+            (sm.pdi_read_buffer().0, length(sm))
+        });
+        let (in_at, in_bytes) = inputs.map_or((0, 0), |index| {
+            let sm = self.sm(index);
+            (sm.pdi_write_buffer(), length(sm))
+        });
         let (out, into) = self.esc.memory.two(out_at, out_bytes, in_at, in_bytes);
         exchange(out, into);
-        if in_bytes > 0 {
+        if let Some(inputs) = inputs.filter(|_| in_bytes > 0) {
             self.sm_mut(inputs).pdi_publish();
         }
         self.esc.update_masked_events();

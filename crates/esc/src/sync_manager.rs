@@ -320,6 +320,7 @@ impl SyncManager {
         self.pdi_event = true;
         match (self.settings.mode, self.settings.direction) {
             (SmMode::Mailbox, SmDirection::EcatWrites) => {
+                self.buffers.last_written = Some(self.buffers.ecat);
                 self.full = true;
                 self.interrupt_write = true;
             }

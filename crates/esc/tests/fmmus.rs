@@ -110,7 +110,10 @@ fn lrw_reads_inputs_and_writes_outputs_in_the_same_place() {
     bench.set_fmmu(0, &[0, 0, 0, 0, 2, 0, 0, 7, 0x00, 0x11, 0, 2, 1]);
     bench.set_fmmu(1, &[0, 0, 0, 0, 2, 0, 0, 7, 0x00, 0x12, 0, 1, 1]);
     let now = bench.now;
-    bench.esc.pdi().exchange(esc::SmIndex(2), esc::SmIndex(3), |_, inputs| inputs.copy_from_slice(&[7, 8]));
+    bench
+        .esc
+        .pdi()
+        .exchange(Some(esc::SmIndex(2)), Some(esc::SmIndex(3)), |_, inputs| inputs.copy_from_slice(&[7, 8]));
     let mut data = [1, 2];
     let access = bench.esc.logical_read_write(0, &mut data, now);
     bench.end();

@@ -235,7 +235,7 @@ proptest! {
             match step {
                 InputStep::PdiPublishes => {
                     image = image.wrapping_add(1);
-                    bench.esc.pdi().exchange(SmIndex(2), SmIndex(3), |_, inputs| inputs.fill(image));
+                    bench.esc.pdi().exchange(Some(SmIndex(2)), Some(SmIndex(3)), |_, inputs| inputs.fill(image));
                 }
                 InputStep::WireReadsFirstHalf => {
                     reading = image;

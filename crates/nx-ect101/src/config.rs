@@ -1,10 +1,12 @@
 //! What the slave stack is told about the unit.
 
 use device::{
-    AbortProfile, Area, Conduct, DeviceConfig, EscConfig, MailboxConfig, OutputsBeforeOp, RefusedInOp,
-    SiiTiming, SyncManagerWrites, TransitionTimes, WatchdogCheck,
+    AbortProfile, Area, Buffers, Condition, Conduct, DataDirection, DataLength, DeviceConfig, EscConfig,
+    MailboxAreas, MailboxConfig, OutputsBeforeOp, ProcessDataConfig, RefusedInOp, Requirement, SiiTiming,
+    SmIndex, SyncManagerWrites, SyncMode, TransitionTimes, condition,
 };
 use time::Duration;
+use wire::AlStatusCode;
 
 use crate::description::{description, timeouts};
 use crate::layout;
@@ -14,6 +16,16 @@ use crate::timing::Timing;
 
 /// A byte of an EEPROM that nobody has written.
 const ERASED: u8 = 0xFF;
+
+/// What the stack checks from PRE-OP to SAFE-OP (manual, 8-3-4); the unit adds mapping and synchronization between them.
+const CHECKS: &[Condition] = &[
+    condition(Requirement::Areas(DataDirection::Outputs), AlStatusCode::INVALID_OUTPUT_CONFIGURATION),
+    condition(Requirement::Areas(DataDirection::Inputs), AlStatusCode::INVALID_INPUT_CONFIGURATION),
+    condition(Requirement::Offered(SyncMode::Dc), AlStatusCode::INVALID_DC_SYNC_CONFIGURATION),
+    condition(Requirement::Buffers(DataDirection::Outputs), AlStatusCode::FREE_RUN_NEEDS_THREE_BUFFERS),
+    condition(Requirement::Buffers(DataDirection::Inputs), AlStatusCode::FREE_RUN_NEEDS_THREE_BUFFERS),
+    condition(Requirement::WatchdogTrigger, AlStatusCode::INVALID_WATCHDOG_CONFIGURATION),
+];
 
 /// The stack of a unit with these settings: an ESC with 8 FMMUs, 8 SyncManagers, 8 KiB and 64-bit distributed
 /// clocks, its EEPROM, its mailboxes, and the abort codes of the manual (7-6-2).
@@ -39,21 +51,36 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
         },
         sii_image,
         mailbox: Some(MailboxConfig {
-            receive: area(layout::MAILBOX_RECEIVE_START),
-            send: area(layout::MAILBOX_SEND_START),
+            standard: MailboxAreas {
+                receive: area(layout::MAILBOX_RECEIVE_START),
+                send: area(layout::MAILBOX_SEND_START),
+            },
+            bootstrap: None,
             response_time: mailbox_time(slave, timing),
             aborts: AbortProfile::COARSE,
         }),
+        process_data: process_data().into_iter().collect(),
+        checks: CHECKS,
         start_up: settings.start_up,
         refresh_phase: settings.refresh_phase,
-        outputs_start: layout::OUTPUTS_START,
-        inputs_start: layout::INPUTS_START,
         outputs_before_op: outputs_before_op(slave.outputs_before_op),
-        watchdog_check: WatchdogCheck::TriggerRequired,
         // Manual, 8-3-4: the state is kept when the error occurs.
         refused_in_op: RefusedInOp::StayInOp,
         conduct: conduct(slave, timing),
+        ..DeviceConfig::default()
     }
+}
+
+/// SyncManagers 2 and 3, as long as the mapping makes them.
+fn process_data() -> [ProcessDataConfig; 2] {
+    let described = |sync_manager, direction, start, max_bytes| {
+        let length = DataLength::Mapped { max_bytes };
+        ProcessDataConfig { sync_manager, direction, start, length, buffers: Buffers::Three }
+    };
+    [
+        described(SmIndex::OUTPUTS, DataDirection::Outputs, layout::OUTPUTS_START, layout::OUTPUTS_MAX_BYTES),
+        described(SmIndex::INPUTS, DataDirection::Inputs, layout::INPUTS_START, layout::INPUTS_MAX_BYTES),
+    ]
 }
 
 fn outputs_before_op(rule: OutputsRule) -> OutputsBeforeOp {
@@ -105,7 +132,8 @@ mod tests {
         let (mut device, mut esc) = Device::power_on(device_config(&settings), unit, Instant::ZERO);
         device.poll(&mut esc, Instant::ZERO);
         assert_eq!(device.al_status().state, AlState::Init);
-        assert_eq!(device.deadline(), Instant::ZERO + device.unit().refresh_period());
+        let period = device.unit().refresh_period().expect("a period");
+        assert_eq!(device.deadline(), Instant::ZERO + period);
     }
 
     /// C056: the time is the one that the ESI gives a master.

@@ -22,8 +22,12 @@ pub const MAILBOX_SEND_START: u16 = 0x1200;
 pub const MAILBOX_BYTES: u16 = 400;
 /// SyncManager 2, outputs: start.
 pub const OUTPUTS_START: u16 = 0x13A0;
+/// SyncManager 2: most bytes (manual, 1-4-1).
+pub const OUTPUTS_MAX_BYTES: u16 = 1_200;
 /// SyncManager 3, inputs: start.
 pub const INPUTS_START: u16 = 0x21B0;
+/// SyncManager 3: most bytes (manual, 1-4-1).
+pub const INPUTS_MAX_BYTES: u16 = 1_204;
 /// First byte behind the process RAM.
 pub const PROCESS_RAM_END: u16 = 0x3000;
 
@@ -41,5 +45,5 @@ pub const EEPROM_BYTES: u32 = 2048;
 
 const _: () = assert!(MAILBOX_RECEIVE_START + MAILBOX_BYTES <= MAILBOX_SEND_START);
 const _: () = assert!(MAILBOX_SEND_START + MAILBOX_BYTES <= OUTPUTS_START);
-const _: () = assert!(OUTPUTS_START + 3 * 1_200 <= INPUTS_START);
-const _: () = assert!(INPUTS_START + 3 * 1_204 <= PROCESS_RAM_END);
+const _: () = assert!(OUTPUTS_START + 3 * OUTPUTS_MAX_BYTES <= INPUTS_START);
+const _: () = assert!(INPUTS_START + 3 * INPUTS_MAX_BYTES <= PROCESS_RAM_END);

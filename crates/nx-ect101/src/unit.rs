@@ -4,12 +4,13 @@ mod checks;
 mod diagnosis;
 mod memory;
 mod nx_bus_side;
+mod reported;
 mod task_watch;
 
-use device::{Check, Exchange, ProcessDataAreas, RefreshCause, Start, Unit};
+use device::{Action, Check, Exchange, RefreshCause, SmIndex, Start, Unit};
 use objects::ObjectServer;
 use time::{Duration, Instant};
-use wire::{AlState, AlStatusCode, Emergency};
+use wire::{AlState, AlStatusCode};
 
 use crate::allocation::ImageLayout;
 use crate::data_sets::Direction;
@@ -29,6 +30,7 @@ use crate::settings::UnitSettings;
 use crate::status::{NxUnitStatus, SlaveStatus};
 
 use memory::KeptMemory;
+use reported::Reported;
 use task_watch::TaskWatch;
 
 /// An NX-ECT101 in operation.
@@ -71,6 +73,7 @@ pub struct NxEct101 {
     io_stopped: bool,
     /// How many error resets of the NX Bus Function Module the unit has followed.
     error_resets: u32,
+    reported: Reported,
 }
 
 impl NxEct101 {
@@ -124,6 +127,7 @@ impl NxEct101 {
             io_communications_lost: false,
             io_stopped: false,
             error_resets: 0,
+            reported: Reported::default(),
             settings: settings.clone(),
         };
         (unit, cpu_end)
@@ -222,12 +226,10 @@ impl Unit for NxEct101 {
         Some(&mut self.objects)
     }
 
-    fn process_data(&self) -> ProcessDataAreas {
-        let length = |direction| {
-            // Three or six PDOs of at most 1,275 bytes each.
-            u16::try_from(self.objects.mapping.size_bytes(direction)).unwrap_or(u16::MAX)
-        };
-        ProcessDataAreas { outputs_bytes: length(Direction::MToC), inputs_bytes: length(Direction::CToM) }
+    fn mapped_bytes(&self, sync_manager: SmIndex) -> u16 {
+        let direction = if sync_manager == SmIndex::OUTPUTS { Direction::MToC } else { Direction::CToM };
+        // Three or six PDOs of at most 1,275 bytes each.
+        u16::try_from(self.objects.mapping.size_bytes(direction)).unwrap_or(u16::MAX)
     }
 
     fn check_transition(
@@ -239,16 +241,12 @@ impl Unit for NxEct101 {
         match check {
             Check::Mailbox => self.check_mailbox(found),
             Check::ProcessData => self.check_process_data(found),
-            Check::Nothing | Check::Outputs => Ok(()),
+            Check::Nothing | Check::Bootstrap | Check::Outputs => Ok(()),
         }
     }
 
     fn al_error(&mut self, _now: Instant, code: AlStatusCode) -> AlStatusCode {
         self.raise_al_error(code)
-    }
-
-    fn fault(&self) -> Option<AlStatusCode> {
-        self.stop_in_init()
     }
 
     fn restart(&mut self, _now: Instant, start: Start, sii_image: &mut [u8]) -> Option<AlStatusCode> {
@@ -259,6 +257,7 @@ impl Unit for NxEct101 {
         self.m_to_c.fill(0);
         self.c_to_m.fill(0);
         self.is_initializing = false;
+        self.reported = Reported::default();
         let code = self.restart_diagnosis(start);
         self.leave_nx_bus(false);
         code
@@ -273,8 +272,14 @@ impl Unit for NxEct101 {
         self.leave_nx_bus(true);
     }
 
-    fn take_emergency(&mut self) -> Option<Emergency> {
-        self.objects.diagnosis.take_emergency()
+    /// A fault that keeps the slave in INIT goes first. The alias is the ID at power-on, then what object 10E0 has set.
+    fn take_action(&mut self) -> Option<Action> {
+        let objects = &mut self.objects;
+        self.reported
+            .fault(objects.diagnosis.stop_in_init())
+            .or_else(|| self.reported.station_alias(objects.identification.station_alias()))
+            .or_else(|| objects.take_status_change().then_some(Action::Refresh))
+            .or_else(|| objects.diagnosis.take_emergency().map(Action::Emergency))
     }
 
     fn emergencies_lost(&self) -> u64 {
@@ -288,8 +293,8 @@ impl Unit for NxEct101 {
         }
     }
 
-    fn refresh_period(&self) -> Duration {
-        self.period
+    fn refresh_period(&self) -> Option<Duration> {
+        Some(self.period)
     }
 
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
@@ -306,17 +311,8 @@ impl Unit for NxEct101 {
         self.bus.messages.send();
     }
 
-    fn take_status_change(&mut self) -> bool {
-        self.objects.take_status_change()
-    }
-
     fn explicit_device_id(&self) -> Option<u16> {
         self.objects.identification.explicit_device_id()
-    }
-
-    /// The ID at power-on, then what object 10E0 has set.
-    fn station_alias(&self) -> Option<u16> {
-        self.objects.identification.station_alias()
     }
 }
 

@@ -1,13 +1,15 @@
 //! Requests of the master: what is checked, when the state is reached, what a refusal shows.
 
-use esc::{Pdi, SmIndex};
+use esc::Pdi;
 use time::{Duration, Instant};
-use wire::{AlControl, AlState, AlStatus, AlStatusCode};
+use wire::{AlControl, AlState, AlStatusCode};
 
-use super::{Device, OpRequest};
-use crate::checks;
+use super::Device;
+use crate::conditions;
 use crate::config::{OutputsBeforeOp, RefusedInOp};
-use crate::state_machine::{Check, refusal, transition};
+use crate::machine::{Indication, OpRequest, State};
+use crate::state_machine::{Check, Transition, refusal, transition};
+use crate::sync_managers::DataDirection;
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
@@ -15,9 +17,11 @@ impl<U: Unit> Device<U> {
     /// further write does not count.
     pub(super) fn watch_al_control(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         let Some(control) = pdi.al_control() else { return };
-        let time = self.conduct.transition_times.of(self.status.state, control.state);
-        if now >= *self.request_due.get_or_insert(now + time) {
-            self.request_due = None;
+        let time = self
+            .transition(control.state)
+            .map_or(Duration::ZERO, |row| self.conduct.transition_times.of(row.from, row.to));
+        if now >= *self.machine.request_due.get_or_insert(now + time) {
+            self.machine.request_due = None;
             pdi.take_al_control();
             self.on_al_control(control, pdi, now);
         }
@@ -25,29 +29,36 @@ impl<U: Unit> Device<U> {
 
     /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
     fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
-        if let Some(code) = self.unit.fault() {
+        if let State::Init { fault: Some(code) } = self.machine.state {
             return self.refuse(AlState::Init, code, pdi, now);
         }
-        if self.status.error && !self.is_acknowledged_by(control) {
+        if matches!(self.machine.indication, Indication::Error(_)) && !self.is_acknowledged_by(control) {
             return;
         }
-        let waiting = self.op_request.take();
+        let waiting = self.machine.state.take_op_request();
         self.open_sync_managers(pdi);
-        let from = self.status.state;
-        match self.judge(control.state, pdi, now) {
+        let from = self.al_state();
+        match self.check_request(control.state, pdi, now) {
             Err(code) => {
-                let is_transition = transition(from, control.state).is_some();
+                let is_transition = self.transition(control.state).is_some();
                 let drops = from == AlState::Op && self.config.refused_in_op == RefusedInOp::DropToSafeOp;
                 self.refuse(if drops && !is_transition { AlState::SafeOp } else { from }, code, pdi, now);
             }
             Ok(Answer::WithOutputs(limit)) => {
                 // A master that repeats its request does not get more time.
                 let deadline = waiting.map_or(now + limit, |request| request.deadline);
-                self.op_request = Some(OpRequest { control, deadline });
-                self.show(AlStatus { state: from, ..AlStatus::default() }, AlStatusCode::NO_ERROR, pdi);
+                if let State::SafeOp { op_request, .. } = &mut self.machine.state {
+                    *op_request = Some(OpRequest { control, deadline });
+                }
+                self.show(Indication::Nothing, pdi);
             }
             Ok(Answer::Now) => self.reach(control, pdi, now),
         }
+    }
+
+    /// The row for a request, of those that the slave has.
+    fn transition(&self, to: AlState) -> Option<&'static Transition> {
+        transition(self.al_state(), to).filter(|row| !row.needs_boot() || self.config.has_boot())
     }
 
     const fn is_acknowledged_by(&self, control: AlControl) -> bool {
@@ -59,10 +70,9 @@ impl<U: Unit> Device<U> {
     }
 
     /// Whether `state` can be reached from the present one, and when.
-    fn judge(&mut self, state: AlState, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
-        let from = self.status.state;
-        let Some(row) = transition(from, state) else {
-            return Err(self.unit.al_error(now, refusal(from, state)));
+    fn check_request(&mut self, state: AlState, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
+        let Some(row) = self.transition(state) else {
+            return Err(self.unit.al_error(now, refusal(self.al_state(), state)));
         };
         match self.conduct.refusals.of(state) {
             Some(code) => Err(code),
@@ -71,41 +81,40 @@ impl<U: Unit> Device<U> {
     }
 
     fn check(&mut self, check: Check, pdi: &Pdi<'_>, now: Instant) -> Result<Answer, AlStatusCode> {
-        match check {
-            Check::Nothing => {}
-            Check::Mailbox => {
-                let found = checks::mailbox(&self.config, pdi);
-                self.unit.check_transition(now, check, &found)?;
-            }
-            Check::ProcessData => {
-                let found = checks::process_data(&self.config, self.unit.process_data(), pdi);
-                self.unit.check_transition(now, check, &found)?;
-            }
-            Check::Outputs => {
-                let has_outputs = self.unit.process_data().outputs_bytes > 0;
-                let waits = has_outputs
-                    && pdi.is_watched(SmIndex::OUTPUTS)
-                    && !pdi.outputs_received(SmIndex::OUTPUTS);
-                if let (OutputsBeforeOp::Within(limit), true) = (self.config.outputs_before_op, waits) {
-                    return Ok(Answer::WithOutputs(limit));
-                }
-            }
-        }
+        let conditions = match check {
+            Check::Nothing => return Ok(Answer::Now),
+            Check::Outputs => return Ok(self.when_outputs_come(pdi)),
+            Check::Mailbox => conditions::MAILBOX,
+            Check::Bootstrap => conditions::BOOTSTRAP,
+            Check::ProcessData => self.config.checks,
+        };
+        let found = self.with_settings(pdi, |settings| settings.findings(conditions));
+        self.unit.check_transition(now, check, &found)?;
         Ok(Answer::Now)
+    }
+
+    /// OP waits for outputs that are watched and have not come yet.
+    fn when_outputs_come(&self, pdi: &Pdi<'_>) -> Answer {
+        let mut outputs = self.sync_managers_of(DataDirection::Outputs);
+        let waits =
+            self.has_outputs() && outputs.any(|index| pdi.is_watched(index)) && !self.outputs_received(pdi);
+        match self.config.outputs_before_op {
+            OutputsBeforeOp::Within(limit) if waits => Answer::WithOutputs(limit),
+            OutputsBeforeOp::Within(_) | OutputsBeforeOp::NotRequired => Answer::Now,
+        }
     }
 
     /// The state is reached: no error, and the Explicit Device ID where it is asked for.
     pub(super) fn reach(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
         self.enter(control.state, pdi, now);
         let device_id = self.unit.explicit_device_id().filter(|_| control.device_id_request);
-        let status = AlStatus { state: control.state, error: false, device_id_loaded: device_id.is_some() };
-        self.show(status, AlStatusCode(device_id.unwrap_or(0)), pdi);
+        self.show(device_id.map_or(Indication::Nothing, Indication::DeviceId), pdi);
     }
 
     /// A refused request: the error is shown in `state`, which differs from the current one where OP drops.
     pub(super) fn refuse(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        if state == self.status.state {
-            self.show_error(state, code, pdi);
+        if state == self.al_state() {
+            self.show(Indication::error(code), pdi);
         } else {
             self.fall_back(state, code, pdi, now);
         }

@@ -2,24 +2,32 @@
 
 use esc::Esc;
 use time::{Duration, Instant};
-use wire::AlState;
+use wire::{AlState, AlStatusCode};
 
-use super::{Device, EVENTS};
+use super::Device;
+use crate::machine::State;
 use crate::power::{Phase, Power};
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
-    /// The slave has got power, or starts again. Without a start-up time it takes its first step at once.
-    pub(super) fn begin_start_up(&mut self, start_up: Duration, esc: &mut Esc, now: Instant) {
+    /// The slave has got power, or starts again; `code` is what the master finds. Without a start-up time it takes its
+    /// first step at once.
+    pub(super) fn begin_start_up(
+        &mut self,
+        start_up: Duration,
+        code: Option<AlStatusCode>,
+        esc: &mut Esc,
+        now: Instant,
+    ) {
         let phase_time = Duration::from_nanos(start_up.as_nanos() / 2);
-        self.power = Power::StartingUp { phase: Phase::Waiting, next: now + phase_time, phase_time };
+        self.power = Power::StartingUp { phase: Phase::Waiting, next: now + phase_time, phase_time, code };
         esc.pdi().set_operational(false);
         self.has_started(esc, now);
     }
 
     /// Whether the unit runs at `now`; what is due of its start-up happens first.
     pub(super) fn has_started(&mut self, esc: &mut Esc, now: Instant) -> bool {
-        while let Power::StartingUp { phase, next, phase_time } = self.power {
+        while let Power::StartingUp { phase, next, phase_time, code } = self.power {
             if now < next {
                 return false;
             }
@@ -27,27 +35,25 @@ impl<U: Unit> Device<U> {
                 Phase::Waiting => {
                     self.unit.initializing(now);
                     let next = next + phase_time;
-                    self.power = Power::StartingUp { phase: Phase::Initializing, next, phase_time };
+                    self.power = Power::StartingUp { phase: Phase::Initializing, next, phase_time, code };
                 }
-                Phase::Initializing => {
-                    self.power = Power::On;
-                    self.start(esc, now);
-                }
+                Phase::Initializing => self.start(code, esc, now),
             }
         }
         !self.is_off()
     }
 
-    fn start(&mut self, esc: &mut Esc, now: Instant) {
+    fn start(&mut self, code: Option<AlStatusCode>, esc: &mut Esc, now: Instant) {
+        let has_period = self.unit.refresh_period().is_some();
+        let next_refresh = if has_period { now + self.config.refresh_phase } else { Instant::NEVER };
+        self.power = Power::On { next_refresh };
         let mut pdi = esc.pdi();
         pdi.set_operational(true);
-        pdi.set_event_mask(EVENTS);
+        pdi.set_event_mask(self.events());
         self.open_sync_managers(&mut pdi);
-        self.next_refresh = now + self.config.refresh_phase;
-        self.follow_alias(&mut pdi);
         self.unit.entered(now, AlState::Init);
-        self.watch_fault(&mut pdi, now);
-        if let (Some(code), None) = (self.code_at_start.take(), self.unit.fault()) {
+        self.take_actions(&mut pdi, now);
+        if let (Some(code), State::Init { fault: None }) = (code, self.machine.state) {
             self.refuse(AlState::Init, code, &mut pdi, now);
         }
     }

@@ -1,47 +1,42 @@
-//! Why a slave leaves its state on its own: faults of its unit, SyncManagers that go, outputs that do not come.
+//! Why a slave leaves its state on its own: SyncManagers that change, outputs that do not come.
 
-use esc::{Pdi, SmIndex};
+use esc::Pdi;
 use time::Instant;
 use wire::{AlState, AlStatusCode};
 
-use super::{Device, error_status};
-use crate::checks;
+use super::Device;
+use crate::conditions;
+use crate::machine::{Indication, State};
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
-    /// A fault of the unit takes the slave to INIT, whenever it comes. An Explicit Device ID in place of the AL
-    /// status code can have the same number, so all that is shown counts.
-    pub(super) fn watch_fault(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        if let Some(code) = self.unit.fault()
-            && (self.status, self.code) != (error_status(AlState::Init, code), code)
-        {
-            self.refuse(AlState::Init, code, pdi, now);
-        }
-    }
-
     /// SyncManagers that become invalid take the slave down (reference 5.5).
     pub(super) fn watch_sync_managers(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let state = self.status.state;
-        if state == AlState::Init {
-            return;
+        let (mailbox, process_data) = match self.machine.state {
+            State::Init { .. } => return,
+            State::Boot => (conditions::WATCHED_BOOTSTRAP, None),
+            State::PreOp => (conditions::WATCHED_MAILBOX, None),
+            State::SafeOp { .. } | State::Op { .. } => {
+                (conditions::WATCHED_MAILBOX, Some(self.config.watched))
+            }
+        };
+        let found = self.with_settings(pdi, |settings| settings.findings(mailbox));
+        if !found.is_empty() {
+            return self.drop_to(AlState::Init, &found, pdi, now);
         }
-        let mailbox = self.config.mailbox.as_ref();
-        if let Some(Err(code)) = mailbox.map(|mailbox| checks::mailbox_sync_managers(mailbox, pdi)) {
-            return self.drop_to(AlState::Init, &[code], pdi, now);
-        }
-        if matches!(state, AlState::SafeOp | AlState::Op) {
-            let found = checks::watched_process_data(&self.config, self.unit.process_data(), pdi);
+        if let Some(watched) = process_data {
+            let found = self.with_settings(pdi, |settings| settings.findings(watched));
             self.drop_to(AlState::PreOp, &found, pdi, now);
         }
     }
 
     pub(super) fn watch_op_request(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
-        let Some(request) = self.op_request else { return };
-        if pdi.outputs_received(SmIndex::OUTPUTS) {
-            self.op_request = None;
+        let Some(request) = self.machine.state.op_request() else { return };
+        if self.outputs_received(pdi) {
+            self.machine.state.take_op_request();
             self.reach(request.control, pdi, now);
         } else if now >= request.deadline {
-            self.op_request = None;
+            self.machine.state.take_op_request();
             let code = self.unit.al_error(now, AlStatusCode::SYNC_MANAGER_WATCHDOG);
             self.refuse(AlState::SafeOp, code, pdi, now);
         }
@@ -68,12 +63,11 @@ impl<U: Unit> Device<U> {
     /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
     /// are closed until the master acknowledges, so that it sees the working counter drop (reference 5.5, C063).
     pub(super) fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
-        self.op_request = None;
+        self.machine.state.take_op_request();
         self.enter(state, pdi, now);
         if state == AlState::SafeOp {
-            let has_outputs = self.unit.process_data().outputs_bytes > 0;
-            pdi.set_deactivated(if has_outputs { SmIndex::OUTPUTS } else { SmIndex::INPUTS }, true);
+            self.close_process_data(pdi);
         }
-        self.show_error(state, code, pdi);
+        self.show(Indication::error(code), pdi);
     }
 }

@@ -113,8 +113,9 @@ impl NxEct101 {
         errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
     }
 
-    /// The AL status code of the fault that keeps the unit in INIT.
-    pub(super) fn stop_in_init(&self) -> Option<AlStatusCode> {
+    /// The AL status code of the fault that keeps the unit in INIT, if one does.
+    #[must_use]
+    pub fn stop_in_init(&self) -> Option<AlStatusCode> {
         self.objects.diagnosis.stop_in_init()
     }
 

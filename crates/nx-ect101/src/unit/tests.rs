@@ -45,13 +45,18 @@ impl Bench {
     fn enter_safe_op(&mut self) {
         self.unit.check_transition(NOW, Check::ProcessData, &[]).expect("the mapping is right");
         self.unit.entered(NOW, AlState::SafeOp);
-        self.inputs = vec![0xEE; usize::from(self.unit.process_data().inputs_bytes)];
+        self.inputs = vec![0xEE; usize::from(self.unit.mapped_bytes(SmIndex::INPUTS))];
     }
 
     fn refresh(&mut self, state: AlState, outputs: Option<&[u8]>) {
         let (cause, inputs) = (RefreshCause::Period, &mut self.inputs);
         self.unit.refresh(NOW, Exchange { cause, state, links: self.links, outputs, inputs });
     }
+}
+
+/// The station alias that the unit wants.
+fn alias(unit: &NxEct101) -> Option<u16> {
+    unit.objects.identification.station_alias()
 }
 
 #[test]
@@ -159,9 +164,9 @@ fn a_mapping_beyond_the_limits_is_refused() {
 #[test]
 fn a_unit_starts_with_180_and_183_bytes_every_millisecond() {
     let (unit, _cpu) = NxEct101::power_on(&UnitSettings::default());
-    assert_eq!(unit.process_data(), ProcessDataAreas { outputs_bytes: 180, inputs_bytes: 183 });
-    assert_eq!(unit.refresh_period(), Duration::from_millis(1));
-    assert_eq!((unit.explicit_device_id(), unit.station_alias()), (Some(1), Some(1)));
+    assert_eq!([SmIndex::OUTPUTS, SmIndex::INPUTS].map(|index| unit.mapped_bytes(index)), [180, 183]);
+    assert_eq!(unit.refresh_period(), Some(Duration::from_millis(1)));
+    assert_eq!((unit.explicit_device_id(), alias(&unit)), (Some(1), Some(1)));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use core::ops::RangeInclusive;
 
-use device::{Conduct, Refusals, TRANSITIONS, TransitionTimes};
+use device::{Conduct, Refusals, TRANSITIONS, Transition, TransitionTimes};
 use time::Duration;
 use user_file::{DeValue, Problem, Reader, Section, values, wrong_type};
 use wire::{AlState, AlStatusCode};
@@ -54,7 +54,8 @@ fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>) -> TransitionTi
     }
     let mut each = TransitionTimes::default();
     let Some(section) = reader.section(times, KEY) else { return each };
-    let letters: Vec<&str> = TRANSITIONS.iter().map(|row| row.letters).collect();
+    let has_it = |row: &&Transition| !row.needs_boot();
+    let letters: Vec<&str> = TRANSITIONS.iter().filter(has_it).map(|row| row.letters).collect();
     reader.only(&section, &letters);
     for letters in letters {
         if let Some(time) = reader.value(&section, letters, time) {

@@ -1,6 +1,6 @@
 //! The unit between a master, a CPU Unit and a memory, by its public faces.
 
-use device::{Check, Exchange, PortLinks, RefreshCause, Start, Unit};
+use device::{Action, Check, Exchange, PortLinks, RefreshCause, SmIndex, Start, Unit};
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
 use nx_ect101::{
     EventCode, EventLevel, MemoryAtPowerOn, NewestAcknowledged, NonVolatileMemory, NxEct101, UnitSettings,
@@ -25,6 +25,8 @@ pub(crate) struct Bench {
     pub(crate) inputs: Vec<u8>,
     /// The bytes of the memory as last stored.
     pub(crate) stored: Vec<u8>,
+    /// The fault that the unit has reported.
+    reported_fault: Option<AlStatusCode>,
 }
 
 impl Bench {
@@ -51,6 +53,7 @@ impl Bench {
             state: AlState::Init,
             inputs: Vec::new(),
             stored: Vec::new(),
+            reported_fault: None,
         };
         bench.store();
         bench
@@ -63,6 +66,7 @@ impl Bench {
             memory => MemoryAtPowerOn::Stored(Box::new(memory)),
         };
         (self.unit, self.cpu) = NxEct101::power_on_with(&self.settings, memory);
+        self.reported_fault = None;
         self.state = AlState::Init;
     }
 
@@ -75,12 +79,13 @@ impl Bench {
 
     pub(crate) fn restart(&mut self, start: Start) -> Option<u16> {
         let code = self.unit.restart(NOW, start, &mut self.sii_image);
+        self.reported_fault = None;
         self.enter(AlState::Init);
         code.map(|code| code.0)
     }
 
     pub(crate) fn fault(&self) -> Option<u16> {
-        self.unit.fault().map(|code| code.0)
+        self.unit.stop_in_init().map(|code| code.0)
     }
 
     pub(crate) fn emergencies_lost(&self) -> u64 {
@@ -106,7 +111,7 @@ impl Bench {
             CpuHeader { refreshing, messages_enabled: true, system_time_ns: time_ns, ..CpuHeader::default() };
         self.cpu.c_to_m.publish(header, &[]);
         let has_inputs = matches!(self.state, AlState::SafeOp | AlState::Op);
-        let inputs_bytes = if has_inputs { self.unit.process_data().inputs_bytes } else { 0 };
+        let inputs_bytes = if has_inputs { self.unit.mapped_bytes(SmIndex::INPUTS) } else { 0 };
         self.inputs.clear();
         self.inputs.resize(usize::from(inputs_bytes), 0xEE);
         let (cause, links, inputs) = (RefreshCause::Period, PortLinks::default(), &mut self.inputs);
@@ -115,7 +120,20 @@ impl Bench {
 
     /// The octets of all emergency messages that wait, `most` at most.
     pub(crate) fn take_emergencies(&mut self, most: usize) -> Vec<[u8; 8]> {
-        core::iter::from_fn(|| self.unit.take_emergency()).take(most).map(|message| message.pack()).collect()
+        let mut emergencies = Vec::new();
+        while emergencies.len() < most {
+            match self.unit.take_action() {
+                Some(Action::Emergency(emergency)) => emergencies.push(emergency.pack()),
+                Some(Action::Fault(code)) => self.reported_fault = Some(code),
+                Some(Action::FaultEnded) => self.reported_fault = None,
+                Some(Action::StationAlias(_) | Action::Refresh) => {}
+                None => {
+                    assert_eq!(self.reported_fault, self.unit.stop_in_init(), "the stack knows the fault");
+                    break;
+                }
+            }
+        }
+        emergencies
     }
 
     pub(crate) fn write(&mut self, index: u16, sub: u8, value: &[u8]) -> Result<(), u32> {

@@ -4,7 +4,7 @@ mod fail_soft;
 mod forced;
 mod programs;
 
-use device::{Check, Exchange, PortLinks, RefreshCause, Unit};
+use device::{Check, Exchange, PortLinks, RefreshCause, SmIndex, Unit};
 use nx_ect101::unit_file::{FailSoftOperation, UnitFile};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
@@ -29,15 +29,20 @@ impl Bench {
             NxEct101::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
         unit.check_transition(Instant::ZERO, Check::ProcessData, &[]).expect("the factory setting");
         unit.entered(Instant::ZERO, AlState::Op);
-        let areas = unit.process_data();
+        let bytes = |index| vec![0; usize::from(unit.mapped_bytes(index))];
+        let (outputs, inputs) = (bytes(SmIndex::OUTPUTS), bytes(SmIndex::INPUTS));
         Self {
             unit,
             cpu: CpuUnit::power_on(Instant::ZERO, cpu, cpu_end, Box::new(program)),
             refresh_at: Instant::ZERO,
-            outputs: Some(vec![0; usize::from(areas.outputs_bytes)]),
-            inputs: vec![0; usize::from(areas.inputs_bytes)],
+            outputs: Some(outputs),
+            inputs,
             state: AlState::Op,
         }
+    }
+
+    fn refresh_period(&self) -> Duration {
+        self.unit.refresh_period().expect("the unit runs freely")
     }
 
     fn echo() -> Self {
@@ -65,7 +70,7 @@ impl Bench {
                         inputs: &mut self.inputs,
                     },
                 );
-                self.refresh_at = now + self.unit.refresh_period();
+                self.refresh_at = now + self.refresh_period();
             }
         }
     }
@@ -174,7 +179,7 @@ proptest! {
         let sent = Instant::ZERO + Duration::from_millis(20);
         bench.run_to(sent);
         bench.outputs = Some(vec![9; 180]);
-        bench.run_to(sent + bench.unit.refresh_period() * 3 + task_period * 2);
+        bench.run_to(sent + bench.refresh_period() * 3 + task_period * 2);
         prop_assert_eq!(&bench.inputs[2..182], &[9; 180]);
     }
 }

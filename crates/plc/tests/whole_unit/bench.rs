@@ -60,7 +60,7 @@ impl Bench {
 
     /// T_slave of the unit.
     pub(crate) fn refresh_period(&self) -> Duration {
-        self.network.device(0).expect("a unit").unit().refresh_period()
+        self.network.device(0).expect("a unit").unit().refresh_period().expect("a period")
     }
 
     fn send(&mut self, command: Command, offset: u16, data: &[u8]) -> Returned {

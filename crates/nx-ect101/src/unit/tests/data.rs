@@ -41,6 +41,11 @@ impl Bench {
         response.result.map(|value| value.to_vec())
     }
 
+    /// Whether a status has changed that the master is to see at once.
+    fn wants_refresh(&mut self) -> bool {
+        core::iter::from_fn(|| self.unit.take_action()).any(|action| action == Action::Refresh)
+    }
+
     /// The message flags: NX 6003:01 bits 8 and 9, CoE 6003:04 and :05.
     fn message_flags(&mut self) -> [bool; 4] {
         self.refresh(AlState::SafeOp, None);
@@ -83,10 +88,10 @@ fn a_message_goes_from_master_to_cpu_unit_by_its_handshake() {
     bench.enter_safe_op();
     assert_eq!(bench.message_flags(), IDLE);
     assert_eq!(bench.sdo_write(0x3001, 1, &[1; 200]), Ok(()));
-    assert!(bench.unit.take_status_change() && !bench.unit.take_status_change());
+    assert!(bench.wants_refresh() && !bench.wants_refresh());
     assert_eq!(bench.message_flags(), [true, true, false, false]);
     assert_eq!(bench.sdo_write(0x3001, 1, &[2; 200]), Err(SdoAbort::LOCAL_CONTROL));
-    assert!(!bench.unit.take_status_change());
+    assert!(!bench.wants_refresh());
     assert_eq!(bench.sdo_read(0x3001, 1), [1; 200], "the master sees what it wrote");
     assert_eq!(bench.nx(0x5000, None), Ok(vec![1; 200]));
     assert_eq!(bench.message_flags(), IDLE);
@@ -101,10 +106,10 @@ fn a_message_goes_from_cpu_unit_to_master_by_its_handshake() {
     assert_eq!(bench.nx(0x5001, Some(&[4; 200])), Err(NxMessageError::NotReady));
     assert_eq!(bench.nx(0x5001, None), Ok(vec![3; 200]), "the CPU Unit sees what it wrote");
     assert_eq!(bench.sdo_read(0x3000, 1), [3; 200]);
-    assert!(bench.unit.take_status_change());
+    assert!(bench.wants_refresh());
     assert_eq!(bench.message_flags(), IDLE);
     assert_eq!(bench.sdo_read(0x3000, 1), [3; 200], "the last message stays to be read");
-    assert!(!bench.unit.take_status_change());
+    assert!(!bench.wants_refresh());
 }
 
 #[test]
@@ -159,12 +164,12 @@ fn without_switch() -> (Bench, Vec<u8>) {
 #[test]
 fn a_software_id_is_in_force_at_once_in_the_register_and_after_a_restart_as_the_id() {
     let (mut bench, mut image) = without_switch();
-    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (None, None));
+    assert_eq!((bench.unit.explicit_device_id(), alias(&bench.unit)), (None, None));
     bench.sdo_write(0x10E0, 1, &500_u16.to_le_bytes()).expect("the switch is at 0x00");
-    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (None, Some(500)));
+    assert_eq!((bench.unit.explicit_device_id(), alias(&bench.unit)), (None, Some(500)));
     assert_eq!(image[8..10], [0, 0]);
     bench.unit.restart(NOW, Start::Restart, &mut image);
-    assert_eq!((bench.unit.explicit_device_id(), bench.unit.station_alias()), (Some(500), Some(500)));
+    assert_eq!((bench.unit.explicit_device_id(), alias(&bench.unit)), (Some(500), Some(500)));
     assert_eq!(image[8..10], 500_u16.to_le_bytes());
     assert!(esi::sii::lint(&image).is_empty());
 }
@@ -197,7 +202,7 @@ fn a_restart_forgets_messages_and_the_mapping() {
     set(&mut bench.unit.objects.mapping, 0x1601, &[0x7000_01F0]).expect("mappable");
     let mut image = bench.unit.memory().sii_image().to_vec();
     bench.unit.restart(NOW, Start::Restart, &mut image);
-    assert_eq!(bench.unit.process_data().outputs_bytes, 180);
+    assert_eq!(bench.unit.mapped_bytes(SmIndex::OUTPUTS), 180);
     bench.enter_safe_op();
     assert_eq!(bench.message_flags(), IDLE);
 }
@@ -255,7 +260,7 @@ fn versions_lot_and_type_are_those_of_the_unit_file() {
 fn a_damaged_memory_is_a_fault_that_stores_nothing() {
     let (unit, cpu) = NxEct101::power_on_with(&UnitSettings::default(), MemoryAtPowerOn::Damaged);
     let mut bench = Bench { unit, cpu, inputs: Vec::new(), links: PortLinks::default() };
-    assert_eq!(bench.unit.fault().map(|code| code.0), Some(0x0002));
+    assert_eq!(bench.unit.stop_in_init().map(|code| code.0), Some(0x0002));
     assert_eq!(bench.unit.faults().collect::<Vec<_>>(), [Fault::NonVolatileMemory]);
     bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
     bench.refresh(AlState::Init, None);

@@ -50,7 +50,8 @@ pub(super) fn state(word: &str) -> Option<Value> {
 }
 
 pub(super) fn transition(word: &str) -> Option<Value> {
-    device::TRANSITIONS.iter().find(|row| row.letters == word).map(|row| Value::Transition(row.letters))
+    let mut rows = device::TRANSITIONS.iter().filter(|row| !row.needs_boot());
+    rows.find(|row| row.letters == word).map(|row| Value::Transition(row.letters))
 }
 
 pub(super) fn number(word: &str) -> Option<u64> {

@@ -1,8 +1,6 @@
 //! Slaves that have outputs or inputs only.
 
-mod bench;
-
-use bench::{Bench, Digital8};
+use crate::bench::{Bench, Digital8};
 use time::Duration;
 use wire::AlState::{Op, PreOp, SafeOp};
 

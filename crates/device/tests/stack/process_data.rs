@@ -1,23 +1,16 @@
 //! Process data between the wire and a unit that is not NX.
 
-mod bench;
-
-use bench::{Bench, Digital8};
+use crate::bench::Bench;
 use time::Duration;
 use wire::AlState::{Init, Op, PreOp, SafeOp};
-
-fn unit(bench: &mut Bench) -> &mut Digital8 {
-    let Some(device) = bench.network.device_mut(0) else { panic!("there is one unit") };
-    device.unit_mut()
-}
 
 #[test]
 fn outputs_and_inputs_pass_in_op() {
     let mut bench = Bench::in_state(Op);
-    unit(&mut bench).inputs = 0xA5;
+    bench.unit().inputs = 0xA5;
     bench.cycle(0x3C);
     bench.run_for(Duration::from_millis(1));
-    assert_eq!(unit(&mut bench).outputs, Some(0x3C));
+    assert_eq!(bench.unit().outputs, Some(0x3C));
     assert_eq!(bench.cycle(0x3C), (0xA5, 3));
 }
 
@@ -25,18 +18,18 @@ fn outputs_and_inputs_pass_in_op() {
 #[test]
 fn safe_op_has_inputs_only() {
     let mut bench = Bench::in_state(PreOp);
-    unit(&mut bench).inputs = 0x5A;
+    bench.unit().inputs = 0x5A;
     bench.bring_to(SafeOp);
     assert_eq!(bench.cycle(0xFF), (0x5A, 3), "inputs are there with the state");
     bench.run_for(Duration::from_millis(2));
-    assert_eq!(unit(&mut bench).outputs, None);
+    assert_eq!(bench.unit().outputs, None);
 }
 
 #[test]
 fn outputs_are_not_valid_before_the_first_came() {
     let mut bench = Bench::in_state(Op);
     bench.run_for(Duration::from_millis(2));
-    assert_eq!(unit(&mut bench).outputs, None);
+    assert_eq!(bench.unit().outputs, None);
 }
 
 #[test]
@@ -44,9 +37,9 @@ fn outputs_end_with_the_watchdog() {
     let mut bench = Bench::in_state(Op);
     bench.cycle(1);
     bench.run_for(Duration::from_millis(50));
-    assert_eq!(unit(&mut bench).outputs, Some(1));
+    assert_eq!(bench.unit().outputs, Some(1));
     bench.run_for(Duration::from_millis(60));
-    assert_eq!(unit(&mut bench).outputs, None);
+    assert_eq!(bench.unit().outputs, None);
 }
 
 /// Outputs have come since PRE-OP, so that OP watches over them from its beginning on.
@@ -59,7 +52,7 @@ fn op_without_new_outputs_ends_with_the_watchdog() {
         bench.request(request);
         assert_eq!(bench.status(), (0x08, 0));
         bench.run_for(Duration::from_millis(99));
-        assert_eq!((bench.status().0, unit(&mut bench).outputs), (0x08, None), "the old ones are not valid");
+        assert_eq!((bench.status().0, bench.unit().outputs), (0x08, None), "the old ones are not valid");
         bench.run_for(Duration::from_millis(2));
         assert_eq!(bench.status(), (0x14, 0x1B));
     }
@@ -97,7 +90,7 @@ fn op_without_a_trigger_has_no_watchdog() {
 fn the_unit_is_told_each_state_once() {
     let mut bench = Bench::in_state(Op);
     bench.request(Init.bits());
-    assert_eq!(unit(&mut bench).states, [Init, PreOp, SafeOp, Op, Init]);
+    assert_eq!(bench.unit().states, [Init, PreOp, SafeOp, Op, Init]);
 }
 
 #[test]
@@ -119,8 +112,8 @@ fn process_data_end_below_safe_op() {
     bench.request(SafeOp.bits());
     bench.request(Op.bits());
     bench.run_for(Duration::from_millis(2));
-    assert_eq!(unit(&mut bench).outputs, None, "outputs of an earlier OP are not valid");
+    assert_eq!(bench.unit().outputs, None, "outputs of an earlier OP are not valid");
     bench.cycle(0x66);
     bench.run_for(Duration::from_millis(1));
-    assert_eq!(unit(&mut bench).outputs, Some(0x66));
+    assert_eq!(bench.unit().outputs, Some(0x66));
 }

@@ -1,12 +1,11 @@
 //! The state machine of reference 5: every transition, every refusal, the error and its acknowledge.
 
-mod bench;
-
-use bench::{Bench, config};
-use device::{DeviceConfig, TRANSITIONS, WatchdogCheck};
+use crate::bench::{Bench, config};
+use device::{Condition, DeviceConfig, PROCESS_DATA, Requirement, TRANSITIONS, condition};
 use proptest::prelude::*;
 use time::Duration;
 use wire::AlState::{self, Boot, Init, Op, PreOp, SafeOp};
+use wire::AlStatusCode;
 
 /// C038, C042, C043, C044, C048, C049, C051, C057, C058, C059, C060, C061, C062: all states times all requests.
 ///
@@ -48,6 +47,7 @@ fn the_letters_of_a_row_are_those_of_its_states() {
         PreOp => 'P',
         SafeOp => 'S',
         Op => 'O',
+        Boot => 'B',
         other => panic!("{other} has no letter here"),
     };
     for row in TRANSITIONS {
@@ -89,12 +89,14 @@ fn dc_activation_is_refused() {
 
 #[test]
 fn a_watchdog_time_without_trigger_is_refused_where_the_unit_checks_it() {
-    for (check, time, expected) in [
-        (WatchdogCheck::TriggerRequired, [0xE8, 0x03], (0x12, 0x1F)),
-        (WatchdogCheck::TriggerRequired, [0, 0], (0x04, 0)),
-        (WatchdogCheck::Off, [0xE8, 0x03], (0x04, 0)),
+    const TRIGGER: &[Condition] =
+        &[condition(Requirement::WatchdogTrigger, AlStatusCode::INVALID_WATCHDOG_CONFIGURATION)];
+    for (checks, time, expected) in [
+        (TRIGGER, [0xE8, 0x03], (0x12, 0x1F)),
+        (TRIGGER, [0, 0], (0x04, 0)),
+        (PROCESS_DATA, [0xE8, 0x03], (0x04, 0)),
     ] {
-        let mut bench = Bench::with(DeviceConfig { watchdog_check: check, ..config() });
+        let mut bench = Bench::with(DeviceConfig { checks, ..config() });
         bench.bring_to(PreOp);
         bench.set_process_data();
         bench.write(0x0816, &[0]);

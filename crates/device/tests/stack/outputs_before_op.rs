@@ -1,8 +1,6 @@
 //! SAFE-OP to OP waits for outputs (reference 5.4, C055, C056).
 
-mod bench;
-
-use bench::{Bench, config};
+use crate::bench::{Bench, config};
 use device::{DeviceConfig, OutputsBeforeOp};
 use time::Duration;
 use wire::AlState::{Init, Op, PreOp, SafeOp};

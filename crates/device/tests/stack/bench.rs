@@ -2,10 +2,11 @@
 //! knows of NX, and it is small enough for every state to be tried.
 
 use device::{
-    Check, Conduct, DeviceConfig, Exchange, Network, OutputsBeforeOp, ProcessDataAreas, RefusedInOp, Start,
-    StartUp, Unit, WatchdogCheck,
+    Action, Buffers, Check, DataDirection, DataLength, DeviceConfig, Exchange, Network, ProcessDataConfig,
+    SmIndex, Start, Unit,
 };
-use esc::EscConfig;
+use std::collections::VecDeque;
+
 use time::{Duration, Instant};
 use wire::{AlState, AlStatusCode, Command, FrameBuilder, Returned, returned_datagrams};
 
@@ -20,7 +21,8 @@ pub(crate) struct Digital8 {
     pub(crate) without_outputs: bool,
     pub(crate) without_inputs: bool,
     pub(crate) states: Vec<AlState>,
-    pub(crate) fault: Option<AlStatusCode>,
+    /// What it wants of the stack, the first one first.
+    pub(crate) actions: VecDeque<Action>,
     /// What the master finds after a restart of the kind.
     pub(crate) restarted: Option<Start>,
     /// What the stack has told of itself.
@@ -28,11 +30,10 @@ pub(crate) struct Digital8 {
 }
 
 impl Unit for Digital8 {
-    fn process_data(&self) -> ProcessDataAreas {
-        ProcessDataAreas {
-            outputs_bytes: u16::from(!self.without_outputs),
-            inputs_bytes: u16::from(!self.without_inputs),
-        }
+    fn mapped_bytes(&self, sync_manager: SmIndex) -> u16 {
+        let is_left_out =
+            if sync_manager == SmIndex::OUTPUTS { self.without_outputs } else { self.without_inputs };
+        u16::from(!is_left_out)
     }
 
     fn entered(&mut self, _now: Instant, state: AlState) {
@@ -54,8 +55,8 @@ impl Unit for Digital8 {
         code
     }
 
-    fn fault(&self) -> Option<AlStatusCode> {
-        self.fault
+    fn take_action(&mut self) -> Option<Action> {
+        self.actions.pop_front()
     }
 
     fn restart(&mut self, _now: Instant, start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
@@ -63,8 +64,8 @@ impl Unit for Digital8 {
         (start == Start::Restart).then_some(AlStatusCode(0x0060))
     }
 
-    fn refresh_period(&self) -> Duration {
-        Duration::from_millis(1)
+    fn refresh_period(&self) -> Option<Duration> {
+        Some(Duration::from_millis(1))
     }
 
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
@@ -85,23 +86,32 @@ pub(crate) fn sii_image() -> Vec<u8> {
 }
 
 pub(crate) fn config() -> DeviceConfig {
+    let length = DataLength::Mapped { max_bytes: 1 };
     DeviceConfig {
-        esc: EscConfig::default(),
         sii_image: sii_image(),
-        mailbox: None,
-        outputs_start: OUTPUTS_START,
-        inputs_start: INPUTS_START,
-        start_up: StartUp::default(),
-        refresh_phase: Duration::ZERO,
-        outputs_before_op: OutputsBeforeOp::NotRequired,
-        watchdog_check: WatchdogCheck::Off,
-        refused_in_op: RefusedInOp::DropToSafeOp,
-        conduct: Conduct::default(),
+        process_data: [
+            process_data(2, DataDirection::Outputs, OUTPUTS_START, length),
+            process_data(3, DataDirection::Inputs, INPUTS_START, length),
+        ]
+        .into_iter()
+        .collect(),
+        ..DeviceConfig::default()
     }
 }
 
-pub(crate) struct Bench {
-    pub(crate) network: Network<Digital8>,
+/// A SyncManager with process data and three buffers.
+pub(crate) fn process_data(
+    sync_manager: u8,
+    direction: DataDirection,
+    start: u16,
+    length: DataLength,
+) -> ProcessDataConfig {
+    let sync_manager = SmIndex(sync_manager);
+    ProcessDataConfig { sync_manager, direction, start, length, buffers: Buffers::Three }
+}
+
+pub(crate) struct Bench<U = Digital8> {
+    pub(crate) network: Network<U>,
     pub(crate) now: Instant,
 }
 
@@ -111,8 +121,7 @@ impl Bench {
     }
 
     pub(crate) fn with(config: DeviceConfig) -> Self {
-        let now = Instant::ZERO;
-        Self { network: Network::power_on([(config, Digital8::default())], now), now }
+        Self::of([(config, Digital8::default())])
     }
 
     /// A bench whose unit has come to `state` the way a master takes it.
@@ -145,7 +154,25 @@ impl Bench {
         self.write(0x0610, &[0, 0, 0, 0, 1, 0, 0, 7, 0x00, 0x11, 0, 1, 1, 0, 0, 0]);
     }
 
-    fn exchange(&mut self, frame: FrameBuilder) -> Returned {
+    /// One LRW of a byte: what came back, and the working counter.
+    pub(crate) fn cycle(&mut self, outputs: u8) -> (u8, u16) {
+        let returned = self.exchange(FrameBuilder::new().logical(Command::Lrw, 0, &[outputs]));
+        (returned.data[0], returned.working_counter)
+    }
+}
+
+impl<U: Unit> Bench<U> {
+    pub(crate) fn of(line: impl IntoIterator<Item = (DeviceConfig, U)>) -> Self {
+        let now = Instant::ZERO;
+        Self { network: Network::power_on(line, now), now }
+    }
+
+    pub(crate) fn unit(&mut self) -> &mut U {
+        let Some(device) = self.network.device_mut(0) else { panic!("there is a unit") };
+        device.unit_mut()
+    }
+
+    pub(crate) fn exchange(&mut self, frame: FrameBuilder) -> Returned {
         let mut frame = frame.finish();
         self.network.frame(self.now, &mut frame);
         self.network.poll(self.now);
@@ -174,12 +201,6 @@ impl Bench {
     /// AL status and AL status code.
     pub(crate) fn status(&mut self) -> (u16, u16) {
         (self.word(0x0130), self.word(0x0134))
-    }
-
-    /// One LRW of a byte: what came back, and the working counter.
-    pub(crate) fn cycle(&mut self, outputs: u8) -> (u8, u16) {
-        let returned = self.exchange(FrameBuilder::new().logical(Command::Lrw, 0, &[outputs]));
-        (returned.data[0], returned.working_counter)
     }
 
     /// Lets time pass, stopping at every deadline.

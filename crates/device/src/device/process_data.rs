@@ -1,0 +1,127 @@
+//! The exchange of process data: when it happens, and which outputs are valid.
+
+use esc::{Pdi, Port, SmIndex};
+use time::{Duration, Instant};
+use wire::AlState;
+
+use super::Device;
+use crate::power::Power;
+use crate::settings::{Lengths, Settings};
+use crate::sync_managers::{DataDirection, DataLength, ProcessDataConfig};
+use crate::sync_mode::SyncMode;
+use crate::unit::{Exchange, PortLinks, RefreshCause, Unit};
+
+/// DC activation bit 0: the cyclic unit runs.
+const CYCLIC_OPERATION: u8 = 1;
+
+impl<U: Unit> Device<U> {
+    /// Refreshes the unit if its timer or the master wants it.
+    pub(super) fn refresh(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
+        if let Power::On { next_refresh } = self.power
+            && now >= next_refresh
+        {
+            self.exchange(RefreshCause::Period, pdi, now);
+            self.power = Power::On { next_refresh: self.refresh_after(next_refresh, now) };
+        } else if self.sync_events().any(|index| pdi.has_event(index)) {
+            self.exchange(RefreshCause::SyncManager, pdi, now);
+        }
+    }
+
+    /// What was missed is not made up for, and the phase stays.
+    fn refresh_after(&self, refreshed: Instant, now: Instant) -> Instant {
+        let Some(period) = self.unit.refresh_period() else { return Instant::NEVER };
+        let mut next = refreshed + period;
+        if next <= now && period > Duration::ZERO {
+            let missed = now.saturating_since(next).as_nanos() / period.as_nanos() + 1;
+            next += period * missed;
+        }
+        next
+    }
+
+    pub(super) fn exchange(&mut self, cause: RefreshCause, pdi: &mut Pdi<'_>, now: Instant) {
+        let state = self.al_state();
+        let received = self.outputs_received(pdi);
+        let has_process_data = match self.machine.state.process_data_mut() {
+            Some(process_data) => {
+                process_data.outputs_came |= received;
+                true
+            }
+            None => false,
+        };
+        let valid = state == AlState::Op && received && !pdi.watchdog_expired();
+        let links = PortLinks { in_port: pdi.link(Port::In), out_port: pdi.link(Port::Out) };
+        let unit = &mut self.unit;
+        if has_process_data {
+            self.process_image.exchange(pdi, |outputs, inputs| {
+                let outputs = valid.then_some(outputs);
+                unit.refresh(now, Exchange { cause, state, links, outputs, inputs });
+            });
+        } else {
+            unit.refresh(now, Exchange { cause, state, links, outputs: None, inputs: &mut [] });
+        }
+    }
+
+    /// Whether the wire has written all outputs since they were opened.
+    pub(super) fn outputs_received(&self, pdi: &Pdi<'_>) -> bool {
+        let mut with_data =
+            self.sync_managers_of(DataDirection::Outputs).filter(|&index| pdi.carries_data(index)).peekable();
+        with_data.peek().is_some() && with_data.all(|index| pdi.outputs_received(index))
+    }
+
+    pub(super) fn start_watchdog(&self, pdi: &mut Pdi<'_>, now: Instant) {
+        for index in self.sync_managers_of(DataDirection::Outputs) {
+            pdi.start_watchdog(index, now);
+        }
+    }
+
+    /// The process data that show a master that something is wrong: the outputs, or the inputs of a unit without.
+    pub(super) fn close_process_data(&self, pdi: &mut Pdi<'_>) {
+        let direction = if self.has_outputs() { DataDirection::Outputs } else { DataDirection::Inputs };
+        for index in self.sync_managers_of(direction) {
+            pdi.set_deactivated(index, true);
+        }
+    }
+
+    /// Whether the mapping has outputs.
+    pub(super) fn has_outputs(&self) -> bool {
+        let all = self.config.process_data.iter().zip(self.lengths());
+        all.into_iter().any(|(described, bytes)| described.direction == DataDirection::Outputs && bytes > 0)
+    }
+
+    pub(super) fn sync_managers_of(&self, direction: DataDirection) -> impl Iterator<Item = SmIndex> + '_ {
+        let all = self.config.process_data.iter();
+        all.filter(move |described| described.direction == direction).map(|described| described.sync_manager)
+    }
+
+    /// The SyncManagers whose events an SM-synchronous unit follows now.
+    pub(super) fn sync_events(&self) -> impl Iterator<Item = SmIndex> + '_ {
+        let process_data = self.machine.state.process_data();
+        let follows = process_data.is_some_and(|data| data.sync_mode == SyncMode::SmSynchronous);
+        let followed =
+            follows.then(|| if self.has_outputs() { DataDirection::Outputs } else { DataDirection::Inputs });
+        followed.into_iter().flat_map(|direction| self.sync_managers_of(direction))
+    }
+
+    /// The synchronisation mode that the master has set.
+    pub(super) fn sync_mode(&self, pdi: &Pdi<'_>) -> SyncMode {
+        if pdi.dc_activation() & CYCLIC_OPERATION != 0 {
+            return SyncMode::Dc;
+        }
+        let first = self.config.sync_modes.first().copied();
+        self.unit.sync_mode().or(first).unwrap_or(SyncMode::FreeRun)
+    }
+
+    /// The settings of the master beside what they should be: `look` gets them.
+    pub(super) fn with_settings<T>(&self, pdi: &Pdi<'_>, look: impl FnOnce(&Settings<'_, '_>) -> T) -> T {
+        let (config, lengths) = (&self.config, &self.lengths());
+        look(&Settings { config, lengths, sync_mode: self.sync_mode(pdi), pdi })
+    }
+
+    fn lengths(&self) -> Lengths {
+        let length = |described: &ProcessDataConfig| match described.length {
+            DataLength::Fixed(bytes) => bytes,
+            DataLength::Mapped { .. } => self.unit.mapped_bytes(described.sync_manager),
+        };
+        self.config.process_data.iter().map(length).collect()
+    }
+}

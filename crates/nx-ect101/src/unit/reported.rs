@@ -1,0 +1,24 @@
+//! What the slave stack knows of the unit, so that only changes are actions.
+
+use device::Action;
+use wire::AlStatusCode;
+
+/// Fault and station alias as they were reported.
+#[derive(Debug, Default)]
+pub(super) struct Reported {
+    fault: Option<AlStatusCode>,
+    station_alias: Option<u16>,
+}
+
+impl Reported {
+    pub(super) fn fault(&mut self, fault: Option<AlStatusCode>) -> Option<Action> {
+        let is_new = core::mem::replace(&mut self.fault, fault) != fault;
+        is_new.then(|| fault.map_or(Action::FaultEnded, Action::Fault))
+    }
+
+    /// An alias that nobody has set leaves what the SII has loaded.
+    pub(super) fn station_alias(&mut self, alias: Option<u16>) -> Option<Action> {
+        let is_new = core::mem::replace(&mut self.station_alias, alias) != alias;
+        alias.filter(|_| is_new).map(Action::StationAlias)
+    }
+}
