@@ -6,7 +6,7 @@ use crate::config::SyncManagerWrites;
 use crate::esc::Esc;
 use crate::events::EcatEvents;
 use crate::fmmu::FMMU_BYTES;
-use crate::registers::{BYTES, Effect, PROCESS_RAM_START, USER_RAM_START, at, is_live};
+use crate::registers::{BYTES, Effect, PROCESS_RAM_START, USER_RAM_START, are_digital_outputs, at, is_live};
 use crate::sii::Sii;
 use crate::sync_manager::{Reach, SYNC_MANAGER_BYTES};
 
@@ -71,7 +71,7 @@ impl Esc {
         now: Instant,
         mut sink: impl FnMut(usize, &[u8]),
     ) -> bool {
-        if offset >= PROCESS_RAM_START {
+        if offset >= PROCESS_RAM_START || are_digital_outputs(offset, length_bytes) {
             return self.read_ram(u32::from(offset), 0, length_bytes, &mut sink);
         }
         let registers_bytes = length_bytes.min(usize::from(PROCESS_RAM_START - offset));
@@ -163,6 +163,10 @@ impl Esc {
         if offset >= PROCESS_RAM_START {
             return ram_is_open && self.write_ram(u32::from(offset), data);
         }
+        if are_digital_outputs(offset, data.len()) {
+            let are_open = !self.hot.protected || self.protection.opens_register(offset);
+            return are_open && self.write_ram(u32::from(offset), data);
+        }
         let (user_ram_from, ram_from) = (usize::from(USER_RAM_START), usize::from(PROCESS_RAM_START));
         let split = |limit: usize| limit.saturating_sub(usize::from(offset)).min(data.len());
         let registers = self.write_registers(offset, &data[..split(user_ram_from)], now);
@@ -218,8 +222,14 @@ impl Esc {
                             _ => byte == 6,
                         }
                 }
-                _ => true,
+                _ => !self.is_held(offset),
             }
+    }
+
+    /// Whether a SyncManager holds this byte of the digital output data: a write that goes beyond them leaves it.
+    fn is_held(&self, offset: u16) -> bool {
+        let offset_is_held = || self.piece(u32::from(offset), 1).sync_manager.is_some();
+        are_digital_outputs(offset, 1) && offset_is_held()
     }
 
     pub(crate) fn takes_settings(&self, sync_manager: usize) -> bool {

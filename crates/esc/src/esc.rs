@@ -3,7 +3,7 @@
 use arrayvec::ArrayVec;
 use time::Instant;
 
-use crate::config::{EscConfig, SiiTiming};
+use crate::config::{EscConfig, PortKind, SiiTiming};
 use crate::dc::Dc;
 use crate::events::{AlEvents, EcatEvents};
 use crate::fmmu::{FMMUS_MAX, Fmmu, Span};
@@ -19,8 +19,6 @@ use crate::watchdog::Watchdog;
 const FEATURES_DC: u16 = 0x000C;
 /// Features: enhanced link detection MII, separate handling of FCS errors.
 const FEATURES_LINK: u16 = 0x00C0;
-/// Ports 0 and 1 are MII, 2 and 3 do not exist.
-const PORTS_MII: u8 = 0x0F;
 
 /// One EtherCAT slave controller.
 #[derive(Clone, Debug)]
@@ -194,7 +192,7 @@ impl Esc {
         memory.set_u8(at::FMMU_COUNT, self.config.fmmu_count);
         memory.set_u8(at::SM_COUNT, self.config.sync_manager_count);
         memory.set_u8(at::RAM_KIB, self.config.ram_kib);
-        memory.set_u8(at::PORT_DESCRIPTOR, PORTS_MII);
+        memory.set_u8(at::PORT_DESCRIPTOR, PortKind::descriptor(self.config.ports));
         let dc = if self.config.distributed_clocks { FEATURES_DC } else { 0 };
         memory.set_u16(at::FEATURES, FEATURES_LINK | dc);
         self.sii.power_on(memory);

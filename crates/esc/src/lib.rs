@@ -24,7 +24,7 @@ mod sii;
 mod sync_manager;
 mod watchdog;
 
-pub use config::{EscConfig, SiiTiming, SyncManagerWrites};
+pub use config::{EscConfig, PortKind, SiiTiming, SyncManagerWrites};
 pub use ecat::Access;
 pub use esc::Esc;
 pub use events::{AlEvents, EcatEvents};

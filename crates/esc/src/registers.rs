@@ -9,6 +9,14 @@ pub(crate) const REGISTER_BYTES: usize = 0x1000;
 pub(crate) const USER_RAM_START: u16 = 0x0F80;
 /// Where process data RAM begins.
 pub(crate) const PROCESS_RAM_START: u16 = 0x1000;
+/// Digital output data: registers that SyncManagers and FMMUs reach like RAM, written at once.
+pub(crate) const DIGITAL_OUTPUTS: core::ops::Range<u16> = 0x0F00..0x0F04;
+
+/// Whether an access stays within the digital output data.
+#[inline]
+pub(crate) const fn are_digital_outputs(offset: u16, length_bytes: usize) -> bool {
+    offset >= DIGITAL_OUTPUTS.start && offset as usize + length_bytes <= DIGITAL_OUTPUTS.end as usize
+}
 
 /// What the wire may do with a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -324,7 +332,7 @@ pub const REGISTERS: &[Register] = &[
     row("EtherCAT buffer change event time", 0x09F0, 4, R, R),
     row("PDI buffer start and change event time", 0x09F8, 4, R, R).times(2, 4),
     row("ESC specific", 0x0E00, 8, R, R).times(32, 8),
-    row("Digital output data", 0x0F00, 4, W, R),
+    row("Digital output data", DIGITAL_OUTPUTS.start, 4, W, R),
     row("General purpose outputs", 0x0F10, 8, W, W),
     row("General purpose inputs", 0x0F18, 8, R, R),
     row("User RAM", USER_RAM_START, 128, W, W),

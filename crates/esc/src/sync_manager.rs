@@ -1,6 +1,6 @@
 //! SyncManagers: settings, mailbox handshake, and the three buffers (reference 2.13, 3.1 to 3.4).
 
-use crate::registers::PROCESS_RAM_START;
+use crate::registers::{PROCESS_RAM_START, are_digital_outputs};
 
 /// Bytes of one SyncManager in the register map.
 pub(crate) const SYNC_MANAGER_BYTES: usize = 8;
@@ -149,7 +149,7 @@ pub struct SyncManager {
     pub(crate) interrupt_read: bool,
     /// The wire has handed over, and the PDI has not looked yet.
     pub(crate) pdi_event: bool,
-    /// Its area, with all its buffers, lies in the RAM.
+    /// Its area, with all its buffers, lies in the RAM or in the digital output data.
     fits: bool,
 }
 
@@ -199,8 +199,10 @@ impl SyncManager {
         let restart = repeat_only != self.settings;
         self.settings = settings;
         let buffers = if settings.mode == SmMode::Buffered && settings.length_bytes > 1 { 3 } else { 1 };
-        let area_end = usize::from(settings.start) + buffers * usize::from(settings.length_bytes);
-        self.fits = settings.start >= PROCESS_RAM_START && area_end <= memory_end;
+        let area_bytes = buffers * usize::from(settings.length_bytes);
+        let is_in_ram =
+            settings.start >= PROCESS_RAM_START && usize::from(settings.start) + area_bytes <= memory_end;
+        self.fits = is_in_ram || are_digital_outputs(settings.start, area_bytes);
         if restart {
             self.restart();
             self.repeat_acknowledge = false;

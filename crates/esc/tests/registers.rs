@@ -157,6 +157,21 @@ fn without_distributed_clocks_nothing_answers_there() {
     assert_eq!(bench.word(0x0008) & 0x000C, 0);
 }
 
+/// C029: two bits for each port. A port without a cable is closed, be it there or not.
+#[test]
+fn the_port_descriptor_says_what_is_behind_each_port() {
+    use esc::PortKind::{Ebus, Mii, Missing, NotConfigured};
+    for (ports, descriptor) in [
+        ([Mii, Mii, Missing, Missing], 0x0F),
+        ([Mii, Ebus, Mii, Missing], 0x3B),
+        ([Mii, Mii, Mii, Mii], 0xFF),
+        ([Ebus, Ebus, NotConfigured, Missing], 0x1A),
+    ] {
+        let mut bench = Bench::with(EscConfig { ports, ..EscConfig::default() });
+        assert_eq!((bench.byte(0x0007), bench.word(0x0110) >> 12), (descriptor, 0x5));
+    }
+}
+
 #[test]
 fn beyond_the_ram_nothing_answers() {
     let mut bench = Bench::new();

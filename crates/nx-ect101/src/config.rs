@@ -48,6 +48,7 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
             distributed_clocks: true,
             sii: sii_timing(slave, timing),
             sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
+            ..EscConfig::default()
         },
         sii_image,
         mailbox: Some(MailboxConfig {
