@@ -1,4 +1,4 @@
-//! docs/events: a page for each event and an index, from the facts that `ectwin explain` tells.
+//! docs/events: a page for each event and an index, from the facts that `ectwin explain` shows.
 
 use std::fmt::Write;
 
@@ -10,9 +10,9 @@ use super::{Advice, Explanation, Fact};
 /// Line 1 of each file.
 const GENERATED: &str = "<!-- Generated: cargo xtask bless -->";
 
-/// What the index says before its table.
+/// The text of the index before its table.
 const INDEX_HEAD: &str = "\
-All events of the NX-ECT101 by their codes; each has a page with causes and with what every side sees of it.
+All events of the NX-ECT101 by code; each has a page with its causes and with what every side sees.
 
 An emergency error code in brackets is in the diagnosis history, object 10F3, but in no emergency message. A fault that a page
 names is injected by `UnitSide::inject` of the library; `UnitSide` also resets errors, clears logs, and restarts the unit.";
@@ -56,7 +56,7 @@ fn page(row: &Event, explanation: &Explanation) -> String {
         let _ = writeln!(text, "\n## {}", section.heading);
         list(&section.facts, &mut text);
     }
-    let _ = writeln!(text, "\n[All events](README.md). `ectwin explain {}` tells the same.", row.code);
+    let _ = writeln!(text, "\n[All events](README.md). `ectwin explain {}` shows the same.", row.code);
     text
 }
 

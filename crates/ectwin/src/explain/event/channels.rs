@@ -1,4 +1,4 @@
-//! What master and CPU Unit are told of an event, channel by channel (manual, 8-1-1).
+//! What master and CPU Unit see of an event, channel by channel (manual, 8-1-1).
 
 use nx_ect101::{
     CurrentError, DIAGNOSIS_MESSAGE_BYTES, EcatEffect, Event, EventLevel, Fault, LogRecord, Notified,
@@ -7,7 +7,7 @@ use nx_ect101::{
 use super::words;
 use crate::explain::{Fact, al_status};
 
-/// When an emergency message is sent, if the event is one that is notified.
+/// When an emergency message is sent for an event that is notified.
 pub(in crate::explain) const fn when_emergencies_are_sent() -> &'static str {
     "if 10F3:05 is 1, in PRE-OP, SAFE-OP and OP"
 }
@@ -44,8 +44,11 @@ fn al_status(event: &Event) -> String {
     let Some(code) = event.al_status_code else { return "no AL status code".into() };
     let name = al_status::name(code).unwrap_or("vendor-specific");
     let is_one_of_several = event.ecat_effect == EcatEffect::StopPreop;
-    let first =
-        if is_one_of_several { "; of several errors found at once the first tells its code" } else { "" };
+    let first = if is_one_of_several {
+        "; of several errors detected together the first one sets the code"
+    } else {
+        ""
+    };
     format!("0x{:04X} ({name}) in register 0x0134, with the error bit in 0x0130{first}", code.0)
 }
 
@@ -105,7 +108,7 @@ fn word(bytes: &[u8], at: usize) -> u16 {
     bytes.get(at..at + 2).and_then(|bytes| bytes.try_into().ok()).map_or(0, u16::from_le_bytes)
 }
 
-/// Sysmac Error Status, which is in PDO 1BFF too.
+/// Sysmac Error Status, which is also in PDO 1BFF.
 fn error_status(event: &Event) -> String {
     if !event.reported_as_current_error {
         return "as without the event".into();
@@ -116,7 +119,7 @@ fn error_status(event: &Event) -> String {
         EventLevel::Information => "no bit",
     };
     let as_observation = if event.changeable_level { " or bit 4 (Observation)" } else { "" };
-    format!("{}{as_observation} is set, in PDO 1BFF too", bit(event.level))
+    format!("{}{as_observation} is set, also in PDO 1BFF", bit(event.level))
 }
 
 /// The twelve bytes of the entry of 2003 or 2004 (manual, A-6-7).

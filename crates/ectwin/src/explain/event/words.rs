@@ -13,7 +13,7 @@ pub(in crate::explain) const fn level(level: EventLevel) -> &'static str {
     }
 }
 
-/// How a unit gets rid of an error, once the cause is gone.
+/// How an error of a unit ends after the cause is gone.
 pub(in crate::explain) const fn recovery(recovery: Recovery) -> &'static str {
     match recovery {
         Recovery::ResetErrorInSlaveUnit => "reset the error in the unit: 2002:02 = 1, or from the CPU Unit",
@@ -45,19 +45,19 @@ pub(super) const fn detected(timing: DetectionTiming) -> &'static str {
         DetectionTiming::Continuous => "at any time",
         DetectionTiming::NxMessageCommunications => "during NX message communications",
         DetectionTiming::UserCommand => "when a user commands it",
-        DetectionTiming::Unspecified => "at any time (the manual does not say when)",
+        DetectionTiming::Unspecified => "at any time (the manual gives no time)",
     }
 }
 
 pub(super) const fn ecat(effect: EcatEffect) -> &'static str {
     match effect {
         EcatEffect::StopInit => {
-            "INIT; the unit stays there, or goes there, and refuses PRE-OP as long as the error lasts"
+            "INIT; the unit stays there or goes there, and refuses PRE-OP while the error lasts"
         }
         EcatEffect::StopPreop => {
             "PRE-OP; the unit stays there and refuses SAFE-OP as long as the cause lasts"
         }
-        EcatEffect::RetainState => "as it was",
+        EcatEffect::RetainState => "not changed",
         EcatEffect::EnterSafeop => "SAFE-OP",
         EcatEffect::NotAffected => "not affected",
         EcatEffect::Restart => "INIT, after the restart",
@@ -66,9 +66,9 @@ pub(super) const fn ecat(effect: EcatEffect) -> &'static str {
 
 pub(super) const fn io_refresh(effect: IoRefreshEffect) -> &'static str {
     match effect {
-        IoRefreshEffect::Continues | IoRefreshEffect::NotAffected => "goes on",
+        IoRefreshEffect::Continues | IoRefreshEffect::NotAffected => "continues",
         IoRefreshEffect::ContinuesPartialExchange => {
-            "goes on; only entries that both sides have are exchanged"
+            "continues; only entries that both sides have are exchanged"
         }
         IoRefreshEffect::NotPerformed => "does not start",
         IoRefreshEffect::Stops => "stops",
@@ -80,11 +80,11 @@ pub(super) const fn event_log(log: EventLog) -> &'static str {
     match log {
         EventLog::System => "system event log, 32 records",
         EventLog::Access => "access event log, 5 records",
-        EventLog::None => "no log keeps it",
+        EventLog::None => "no log",
     }
 }
 
-/// What an indicator does; nothing if the event does not touch it.
+/// The pattern of an indicator; nothing if the event does not change it.
 pub(super) const fn indicator(status: IndicatorStatus) -> Option<&'static str> {
     match status {
         IndicatorStatus::Lit => Some("lit"),
@@ -99,12 +99,12 @@ pub(super) const fn indicator(status: IndicatorStatus) -> Option<&'static str> {
     }
 }
 
-/// What a piece of attached information tells.
+/// The meaning of a piece of attached information.
 pub(super) fn attached(meaning: &str) -> &str {
     match meaning {
         "io_entry_mapping_index_hex" => "index of the I/O entry mapping, hexadecimal",
         "pdo_mapping_object_index_hex" => "index of the PDO mapping object, hexadecimal",
-        "system_information" => "system information of the maker; 0 in ectwin",
+        "system_information" => "system information of the manufacturer; 0 in ectwin",
         "communications_type" => "kind of communications",
         "cleared_log" => "which log was cleared",
         other => other,
