@@ -36,9 +36,10 @@ impl ProgramText {
     /// One of them cannot be read.
     pub(crate) fn read(paths: &[PathBuf]) -> Result<Self, ProgramFileError> {
         let unreadable = |(path, reason)| ProgramFileError::Unreadable { path, reason };
-        match paths.iter().find(|path| is_web_assembly(path)) {
-            None => user_files::program_sources(paths).map(Self::StructuredText).map_err(unreadable),
-            Some(path) if paths.len() == 1 => {
+        let files = user_files::program_files(paths).map_err(unreadable)?;
+        match files.iter().find(|path| is_web_assembly(path)) {
+            None => user_files::program_sources(&files).map(Self::StructuredText).map_err(unreadable),
+            Some(path) if files.len() == 1 => {
                 let bytes = user_files::bytes(path, Wanted::Program);
                 let bytes = bytes.map_err(|reason| unreadable((path.clone(), reason)))?;
                 Ok(Self::WebAssembly(path.clone(), bytes))

@@ -3,12 +3,14 @@
 mod beside;
 mod folders;
 
+use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use st::Sources;
+use storage::Identity;
 use user_file::{Refusal, escaped};
 
 pub use beside::Beside;
@@ -60,7 +62,8 @@ pub fn text(path: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     text.map_err(|refusal| Unreadable { reason: Reason::OfAnotherKind(refusal), wanted })
 }
 
-/// The files of a program: those that are named, and of a folder all that end with .st, in the order of their paths.
+/// The files of a program: those that are named, and of a folder all that end with .st, in the order of their paths. A
+/// file that comes twice, by whatever path, is one file, at its first place.
 ///
 /// # Errors
 /// The folder that cannot be read, or has none, and why.
@@ -79,6 +82,8 @@ pub fn program_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, (PathBuf, Unread
             files.push(path.clone());
         }
     }
+    let mut taken = BTreeSet::new();
+    files.retain(|path| Identity::of(path).is_none_or(|file| taken.insert(file)));
     Ok(files)
 }
 

@@ -8,7 +8,11 @@ mod bench;
 #[expect(dead_code, reason = "each test uses a part of the command")]
 mod running;
 
+use std::fs;
+use std::os::unix::fs::symlink;
+
 use bench::Bench;
+use ectwin::Setup;
 use running::Running;
 use serde_json::json;
 
@@ -41,6 +45,45 @@ fn files_and_folders_are_checked_as_one_program() {
     let ended = bench.ectwin(&["st", "check", "empty"]);
     assert_eq!(ended.code, Some(2));
     assert!(ended.stderr.contains("no file below it ends with .st"), "{}", ended.stderr);
+}
+
+#[test]
+fn a_file_that_is_given_twice_is_one_file() {
+    let bench = bench("twice");
+    symlink("main.st", bench.folder.join("soft.st")).unwrap();
+    fs::hard_link(bench.folder.join("main.st"), bench.folder.join("hard.st")).unwrap();
+    symlink("blocks", bench.folder.join("again")).unwrap();
+    for files in [
+        &["main.st", "main.st", "blocks"][..],
+        &["./main.st", "main.st", "blocks"],
+        &["main.st", "soft.st", "blocks"],
+        &["main.st", "hard.st", "blocks"],
+        &["main.st", "blocks", "blocks/share.st", "again"],
+        // The folder has all of it, main.st by three names.
+        &["."],
+    ] {
+        let ended = bench.ectwin(&[&["st", "check"], files].concat());
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{files:?}");
+        let program =
+            format!("[{}]", files.iter().map(|file| format!("\"{file}\"")).collect::<Vec<_>>().join(", "));
+        let unit = format!("model = \"nx-ect101\"\n[cpu]\nprogram = {program}\n");
+        assert!(Setup::from_toml_in(&unit, &bench.folder).is_ok(), "{files:?}");
+        bench.put("plain.toml", "model = \"nx-ect101\"\n");
+        let expect = "expect = \"program variable share.whole of the master is 25\", within = \"1s\"";
+        let scenario = format!(
+            "title = \"t\"\nunits = [{{ file = \"plain.toml\", program = {program} }}]\n\
+             master = {{ program = {program} }}\nsteps = [{{ {expect} }}, {{ {} }}]\n",
+            expect.replace("the master", "unit 1")
+        );
+        bench.put("scenario.toml", &scenario);
+        let ended = bench.ectwin(&["replay", "scenario.toml"]);
+        assert_eq!(ended.code, Some(0), "{files:?}: {}{}", ended.stdout, ended.stderr);
+    }
+    // A copy is another file.
+    bench.put("copy.st", MAIN);
+    let ended = bench.ectwin(&["st", "check", "main.st", "copy.st", "blocks"]);
+    assert!(ended.stderr.contains("copy.st"), "{}", ended.stderr);
+    assert_eq!(ended.code, Some(1));
 }
 
 #[test]

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::place;
 
 /// Equal for two paths that mean one file: by symbolic links, by hard links, or because both would make it.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Identity(Which);
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Which {
     There { device: u64, inode: u64 },
     Missing(PathBuf),

@@ -31,12 +31,11 @@ impl<S: FnMut(&str, &str)> Files for Beside<'_, S> {
         Ok(text)
     }
 
-    fn programs_in(&mut self, path: &str) -> Option<Result<Vec<String>, String>> {
-        let folder = self.folder.join(path);
-        if !folder.is_dir() {
-            return None;
+    fn program_files(&mut self, paths: &[String]) -> Result<Vec<String>, (String, String)> {
+        let paths: Vec<_> = paths.iter().map(|path| self.folder.join(path)).collect();
+        match program_files(&paths) {
+            Ok(files) => Ok(files.into_iter().map(|file| self.seen(file)).collect()),
+            Err((path, reason)) => Err((self.seen(path), reason.to_string())),
         }
-        let files = program_files(&[folder]).map_err(|(_, reason)| reason.to_string());
-        Some(files.map(|files| files.into_iter().map(|file| self.seen(file)).collect()))
     }
 }

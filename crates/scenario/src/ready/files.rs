@@ -10,13 +10,19 @@ pub trait Files {
     /// Why there is none.
     fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String>;
 
-    /// The paths of the programs in a folder, in their order; none if this is no folder.
+    /// The files of a program that is given by files and folders, in their order: a folder is all programs below it, and
+    /// a file that comes twice is one file.
     ///
     /// # Errors
-    /// Why the folder cannot be read.
-    fn programs_in(&mut self, path: &str) -> Option<Result<Vec<String>, String>> {
-        let _ = path;
-        None
+    /// The folder that cannot be read, and why.
+    fn program_files(&mut self, paths: &[String]) -> Result<Vec<String>, (String, String)> {
+        let mut files = Vec::new();
+        for path in paths {
+            if !files.contains(path) {
+                files.push(path.clone());
+            }
+        }
+        Ok(files)
     }
 }
 

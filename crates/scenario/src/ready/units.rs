@@ -121,28 +121,20 @@ impl Reader<'_> {
 
     /// The texts of a program: of each file, and of each program in a folder.
     pub(crate) fn program_sources(&mut self, paths: &[String], span: Range<usize>) -> Option<Sources> {
-        let mut texts = Vec::new();
-        for path in paths {
-            let files = match self.files.programs_in(path) {
-                None => Ok(vec![path.clone()]),
-                Some(listed) => listed.map_err(|reason| (path.clone(), reason)),
+        let read = self.files.program_files(paths).and_then(|files| {
+            let text = |file: String| match self.files.text(&file, Wanted::Program) {
+                Ok(text) => Ok((file, text)),
+                Err(reason) => Err((file, reason)),
             };
-            let read = files.and_then(|files| {
-                let text = |file: String| match self.files.text(&file, Wanted::Program) {
-                    Ok(text) => Ok((file, text)),
-                    Err(reason) => Err((file, reason)),
-                };
-                files.into_iter().map(text).collect::<Result<Vec<_>, _>>()
-            });
-            match read {
-                Ok(read) => texts.extend(read),
-                Err((name, reason)) => {
-                    self.refuse_unreadable(&name, &reason, span);
-                    return None;
-                }
+            files.into_iter().map(text).collect::<Result<Vec<_>, _>>()
+        });
+        match read {
+            Ok(texts) => Some(Sources::files(texts)),
+            Err((name, reason)) => {
+                self.refuse_unreadable(&name, &reason, span);
+                None
             }
         }
-        Some(Sources::files(texts))
     }
 
     fn refuse_unreadable(&mut self, name: &str, reason: &str, span: Range<usize>) {
