@@ -27,17 +27,18 @@ struct Frame {
     octets: Vec<u8>,
 }
 
-/// Answers one client until it closes the connection. Calls `heard` for each request.
+/// Answers one client until it closes the connection. Calls `requested` for each request that is a Modbus frame,
+/// whatever it asks for.
 ///
 /// # Errors
 /// What it sent is no Modbus frame, it was silent for too long, did not take its answers, or the connection broke.
 pub(crate) async fn serve(
     mut stream: impl AsyncRead + AsyncWrite + Unpin,
     units: &[Unit],
-    mut heard: impl FnMut(),
+    mut requested: impl FnMut(),
 ) -> io::Result<()> {
     while let Some(frame) = next_frame(&mut stream).await? {
-        heard();
+        requested();
         let response = answer(units, frame.unit_identifier, frame.function, &frame.octets).await;
         let packed = pack(&frame, &response);
         timeout(FRAME, stream.write_all(&packed)).await??;

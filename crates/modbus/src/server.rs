@@ -102,8 +102,8 @@ async fn accept(listener: &TcpListener, units: &Arc<[Unit]>) {
         };
         match accepted {
             Ok((stream, client)) => {
-                if let Some(closed) = clients.admit(stream, client) {
-                    notices.add(Notice::Closed { client: closed, for_client: client });
+                if let Some(closed) = clients.admit(stream, client).await {
+                    notices.add(Notice::Closed { closed, for_client: client });
                 }
             }
             Err(error) => {

@@ -125,7 +125,7 @@ fn is_served(client: &mut TcpStream) -> bool {
 }
 
 #[test]
-fn one_client_too_many_takes_the_place_of_the_one_that_is_silent_longest() {
+fn where_all_have_asked_one_client_more_takes_the_place_of_the_one_that_is_silent_longest() {
     let bench = Bench::with(nothing);
     let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| raw(&bench)).collect();
     assert!(clients.iter_mut().all(is_served));
@@ -138,6 +138,41 @@ fn one_client_too_many_takes_the_place_of_the_one_that_is_silent_longest() {
         assert_eq!(rest(closed), []);
         assert!(clients.iter_mut().all(is_served), "nobody else is closed");
     }
+}
+
+/// How many connections that never send anything come in one burst.
+const MUTE: usize = 40;
+
+#[test]
+fn mute_clients_take_the_places_of_mute_clients_the_oldest_first() {
+    let bench = Bench::with(nothing);
+    let mut asked: Vec<_> = (0..3).map(|_| raw(&bench)).collect();
+    assert!(asked.iter_mut().all(is_served));
+    // Its request comes with the burst, before the first that is mute.
+    let mut asks = raw(&bench);
+    asks.write_all(&frame(&[0x03, 0, 0, 0, 1])).unwrap();
+    let mut mute: Vec<_> = (0..MUTE).map(|_| raw(&bench)).collect();
+    assert_eq!(answer(&mut asks), [3, 2, 0, 0]);
+    asked.push(asks);
+    assert!(asked.iter_mut().all(is_served), "nobody who has asked is closed");
+    let kept = mute.split_off(MUTE - (CONNECTIONS_MAX - asked.len()));
+    for closed in mute {
+        assert_eq!(rest(closed), []);
+    }
+    asked.extend(kept);
+    assert!(asked.iter_mut().all(is_served), "the youngest are there, and may ask");
+}
+
+#[test]
+fn half_a_request_and_garbage_are_no_request() {
+    let bench = Bench::with(nothing);
+    let mut clients: Vec<_> = (0..CONNECTIONS_MAX - 1).map(|_| raw(&bench)).collect();
+    assert!(clients.iter_mut().all(is_served));
+    let mut half = raw(&bench);
+    half.write_all(&frame(&[0x03, 0, 0, 0, 1])[..8]).unwrap();
+    clients.push(raw(&bench));
+    assert_eq!(rest(half), []);
+    assert!(clients.iter_mut().all(is_served));
 }
 
 #[test]

@@ -5,69 +5,123 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use tokio::net::TcpStream;
-use tokio::task::JoinHandle;
+use tokio::task::{JoinHandle, yield_now};
 
 use crate::connection;
 use crate::unit::Unit;
 
-/// Most clients at a time. One more takes the place of the one that is silent longest.
+/// Most clients at a time. One more takes the place of one that has never sent a request, the oldest first; if there is
+/// none, of the one whose last request is longest ago.
 pub const CONNECTIONS_MAX: usize = 16;
 
 pub(super) struct Clients {
     units: Arc<[Unit]>,
     places: Vec<Place>,
-    /// Counts what is heard of clients: the greater the number, the shorter ago.
-    heard: Arc<AtomicU64>,
+    /// Counts connections and requests of all clients: the greater the number, the shorter ago.
+    count: Arc<AtomicU64>,
 }
 
 struct Place {
     client: SocketAddr,
-    /// The number of its last request, or of its connection.
-    heard: Arc<AtomicU64>,
+    /// The number of its connection.
+    connected: u64,
+    /// The number of its last request; [`NEVER`] before the first.
+    requested: Arc<AtomicU64>,
     task: JoinHandle<()>,
+}
+
+/// Numbers of connections and requests are greater.
+const NEVER: u64 = 0;
+
+/// A client that has lost its place to another one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Closed {
+    pub(super) client: SocketAddr,
+    /// Whether it has sent a request, at any time.
+    pub(super) has_requested: bool,
 }
 
 impl Clients {
     pub(super) fn new(units: Arc<[Unit]>) -> Self {
-        Self { units, places: Vec::with_capacity(CONNECTIONS_MAX), heard: Arc::default() }
+        Self { units, places: Vec::with_capacity(CONNECTIONS_MAX), count: Arc::default() }
     }
 
     /// Takes a client in. Returns the one that has lost its place to it, if there was no other place.
-    pub(super) fn admit(&mut self, stream: TcpStream, client: SocketAddr) -> Option<SocketAddr> {
-        self.places.retain(|place| !place.task.is_finished());
-        let closed = (self.places.len() >= CONNECTIONS_MAX).then(|| self.close_most_silent()).flatten();
-        let heard = Arc::new(AtomicU64::new(next(&self.heard)));
-        let (units, all, own) = (Arc::clone(&self.units), Arc::clone(&self.heard), Arc::clone(&heard));
+    pub(super) async fn admit(&mut self, stream: TcpStream, client: SocketAddr) -> Option<Closed> {
+        if self.is_full() {
+            // Requests that have arrived count, also those of clients that came a moment ago in one burst with this one.
+            yield_now().await;
+        }
+        let closed = self.is_full().then(|| self.close_one()).flatten();
+        let (connected, requested) = (next(&self.count), Arc::new(AtomicU64::new(NEVER)));
+        let (units, count, own) = (Arc::clone(&self.units), Arc::clone(&self.count), Arc::clone(&requested));
         let task = tokio::spawn(async move {
-            attend(stream, client, &units, || own.store(next(&all), Ordering::Relaxed)).await;
+            attend(stream, client, &units, || own.store(next(&count), Ordering::Relaxed)).await;
         });
-        self.places.push(Place { client, heard, task });
+        self.places.push(Place { client, connected, requested, task });
         closed
     }
 
-    fn close_most_silent(&mut self) -> Option<SocketAddr> {
-        let heard = |place: &Place| place.heard.load(Ordering::Relaxed);
-        let (at, _) = self.places.iter().enumerate().min_by_key(|(_, place)| heard(place))?;
+    fn is_full(&mut self) -> bool {
+        self.places.retain(|place| !place.task.is_finished());
+        self.places.len() >= CONNECTIONS_MAX
+    }
+
+    fn close_one(&mut self) -> Option<Closed> {
+        let requested = |place: &Place| place.requested.load(Ordering::Relaxed);
+        let rank = |place: &Place| (requested(place), place.connected);
+        let (at, _) = self.places.iter().enumerate().min_by_key(|(_, place)| rank(place))?;
         let place = self.places.swap_remove(at);
         // The connection is closed with the task that holds it.
         place.task.abort();
-        Some(place.client)
+        Some(Closed { client: place.client, has_requested: requested(&place) != NEVER })
     }
 }
 
 fn next(counter: &AtomicU64) -> u64 {
-    counter.fetch_add(1, Ordering::Relaxed)
+    counter.fetch_add(1, Ordering::Relaxed) + 1
 }
 
-async fn attend(stream: TcpStream, client: SocketAddr, units: &[Unit], heard: impl FnMut()) {
+async fn attend(stream: TcpStream, client: SocketAddr, units: &[Unit], requested: impl FnMut()) {
     tracing::debug!("Modbus client {client} connected");
     // Answers are small, and clients wait for them.
     let ended = match stream.set_nodelay(true) {
-        Ok(()) => connection::serve(stream, units, heard).await,
+        Ok(()) => connection::serve(stream, units, requested).await,
         Err(error) => Err(error),
     };
     match ended {
         Ok(()) => tracing::debug!("Modbus client {client} has gone"),
         Err(error) => tracing::info!("connection of Modbus client {client} closed: {error}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use tokio::net::TcpListener;
+    use tokio::runtime::Builder;
+
+    use super::*;
+
+    #[test]
+    fn a_request_that_has_arrived_counts_before_a_place_is_taken() {
+        let runtime = Builder::new_current_thread().enable_io().enable_time().build().unwrap();
+        runtime.block_on(async {
+            let listener = TcpListener::bind(("127.0.0.1", 0)).await.unwrap();
+            let address = listener.local_addr().unwrap();
+            // All of them wait to be accepted, one behind the other; no task runs between two of them.
+            let connect = |_| std::net::TcpStream::connect(address).unwrap();
+            let mut burst: Vec<_> = (0..=CONNECTIONS_MAX).map(connect).collect();
+            burst[0].write_all(&[0, 1, 0, 0, 0, 6, 1, 3, 0, 0, 0, 1]).unwrap();
+            let mut clients = Clients::new(Arc::new([]));
+            let mut closed = Vec::new();
+            for _ in &burst {
+                let (stream, client) = listener.accept().await.unwrap();
+                closed.extend(clients.admit(stream, client).await);
+            }
+            let second = burst[1].local_addr().unwrap();
+            assert_eq!(closed, [Closed { client: second, has_requested: false }]);
+        });
     }
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use tokio::time::{Instant, sleep_until};
 
-use super::clients::CONNECTIONS_MAX;
+use super::clients::{CONNECTIONS_MAX, Closed};
 
 /// From one line of a log to the next of its kind.
 const PERIOD: Duration = Duration::from_secs(1);
@@ -16,7 +16,7 @@ const PERIOD: Duration = Duration::from_secs(1);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Notice {
     /// A client was closed in favour of another one.
-    Closed { client: SocketAddr, for_client: SocketAddr },
+    Closed { closed: Closed, for_client: SocketAddr },
     /// No client could be accepted.
     NotAccepted(String),
 }
@@ -79,12 +79,15 @@ impl Kind {
 impl Notice {
     fn words(&self, count: u64) -> String {
         match (self, count) {
-            (Self::Closed { client, for_client }, 1) => format!(
-                "{CONNECTIONS_MAX} Modbus clients are connected: {client}, silent longest, was closed for {for_client}"
-            ),
+            (Self::Closed { closed: Closed { client, has_requested }, for_client }, 1) => {
+                let why = if *has_requested { "silent longest" } else { "without a request so far" };
+                format!(
+                    "{CONNECTIONS_MAX} Modbus clients are connected: {client}, {why}, was closed for {for_client}"
+                )
+            }
             (Self::Closed { for_client, .. }, _) => format!(
-                "{CONNECTIONS_MAX} Modbus clients are connected: {count} of them, silent longest, were closed for \
-                 others, the last one for {for_client}"
+                "{CONNECTIONS_MAX} Modbus clients are connected: {count} of them were closed for others, the last \
+                 one for {for_client}"
             ),
             (Self::NotAccepted(error), 1) => format!("no Modbus client can be accepted: {error}"),
             (Self::NotAccepted(error), _) => {
@@ -99,7 +102,8 @@ mod tests {
     use super::*;
 
     fn closed(port: u16) -> Notice {
-        Notice::Closed { client: ([127, 0, 0, 1], port).into(), for_client: ([127, 0, 0, 1], 9).into() }
+        let closed = Closed { client: ([127, 0, 0, 1], port).into(), has_requested: port == 1 };
+        Notice::Closed { closed, for_client: ([127, 0, 0, 1], 9).into() }
     }
 
     #[test]
@@ -120,8 +124,11 @@ mod tests {
             assert_eq!(happens(after_ms, Some(closed(2))), None);
         }
         let next = happens(1000, None).unwrap();
-        assert!(next.contains("3 of them, silent longest, were closed"), "{next}");
+        assert!(next.contains("3 of them were closed for others"), "{next}");
         assert_eq!(happens(3000, None), None, "nothing has happened");
-        assert!(happens(3001, Some(closed(3))).is_some_and(|line| line.contains("127.0.0.1:3")));
+        assert!(
+            happens(3001, Some(closed(3)))
+                .is_some_and(|line| line.contains("127.0.0.1:3, without a request"))
+        );
     }
 }
