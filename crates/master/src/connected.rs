@@ -1,9 +1,13 @@
 //! A master and a line in one process and in virtual time.
 
 use time::{Duration, Instant};
+use wire::{AlState, SdoInfoRequest, SdoTarget};
 
 use crate::event::{Event, Failure, Outcome, RequestId};
 use crate::master::Master;
+use crate::registers;
+use crate::service::Service;
+use crate::state::{AlReport, StateRequest};
 
 /// What is at the other end of the cable: slaves that answer a frame at once.
 pub trait Line {
@@ -82,7 +86,7 @@ impl<L: Line> Connected<L> {
                 results.push((*slave, result.clone()));
                 false
             }
-            Event::Finished { .. } => true,
+            Event::Finished { .. } | Event::Emergency { .. } => true,
         });
         results
     }
@@ -102,16 +106,113 @@ impl<L: Line> Connected<L> {
         failure.map_or(Ok(self.master.slaves().len()), Err)
     }
 
+    /// Takes a slave to a state by the way of a real master.
+    ///
+    /// # Errors
+    /// What did not work on the way.
+    pub fn take_to(&mut self, slave: usize, state: AlState) -> Result<(), Failure> {
+        let request = self.master.take_to(self.now, slave, state);
+        self.one(request).map(drop)
+    }
+
+    /// Takes all slaves to a state at the same time.
+    ///
+    /// # Errors
+    /// The first slave that does not come, and why.
+    pub fn take_all_to(&mut self, state: AlState) -> Result<(), (usize, Failure)> {
+        let request = self.master.take_all_to(self.now, state);
+        let failure = |(slave, result): (Option<usize>, Result<_, _>)| Some((slave?, result.err()?));
+        self.complete(request).into_iter().find_map(failure).map_or(Ok(()), Err)
+    }
+
+    /// Carries out a dialogue with the state machine of a slave; what AL status shows then.
+    ///
+    /// # Errors
+    /// The state is refused or not reached.
+    pub fn request_state(&mut self, slave: usize, state: StateRequest) -> Result<AlReport, Failure> {
+        let request = self.master.request_state(self.now, slave, state);
+        match self.one(request)? {
+            Outcome::State(report) => Ok(report),
+            _ => Ok(AlReport::default()),
+        }
+    }
+
+    /// AL status and AL status code of a slave, at this moment.
+    ///
+    /// # Errors
+    /// The slave does not answer.
+    pub fn al_report(&mut self, slave: usize) -> Result<AlReport, Failure> {
+        let bytes = self.read(slave, registers::AL_STATUS, AlReport::LENGTH_BYTES)?;
+        Ok(AlReport::parse(&bytes))
+    }
+
+    /// The Explicit Device ID of a slave.
+    ///
+    /// # Errors
+    /// The slave does not tell it.
+    pub fn device_id(&mut self, slave: usize) -> Result<u16, Failure> {
+        let request = self.master.read_device_id(self.now, slave);
+        match self.one(request)? {
+            Outcome::DeviceId(id) => Ok(id),
+            _ => Err(Failure::NoAnswer),
+        }
+    }
+
+    /// Reads an entry or a whole object by SDO.
+    ///
+    /// # Errors
+    /// The refusal, or why no reply came.
+    pub fn upload(&mut self, slave: usize, target: SdoTarget) -> Result<Vec<u8>, Failure> {
+        let request = self.master.upload(self.now, slave, target);
+        self.data(request)
+    }
+
+    /// Writes an entry or a whole object by SDO.
+    ///
+    /// # Errors
+    /// The refusal, or why no reply came.
+    pub fn download(&mut self, slave: usize, target: SdoTarget, value: &[u8]) -> Result<(), Failure> {
+        let request = self.master.download(self.now, slave, target, value);
+        self.one(request).map(drop)
+    }
+
+    /// Asks about the object dictionary of a slave. [`crate::SdoInformation`] says what the answer is.
+    ///
+    /// # Errors
+    /// The refusal, or why no reply came.
+    pub fn information(&mut self, slave: usize, question: SdoInfoRequest) -> Result<Vec<u8>, Failure> {
+        let request = self.master.information(self.now, slave, question);
+        self.data(request)
+    }
+
+    /// Carries out a service by the mailbox of a slave.
+    ///
+    /// # Errors
+    /// The refusal, or why no reply came.
+    pub fn service(&mut self, slave: usize, service: Service) -> Result<Vec<u8>, Failure> {
+        let request = self.master.service(self.now, slave, service);
+        self.data(request)
+    }
+
+    /// Events that belong to no order that was completed: emergencies, and the ends of orders that went on meanwhile.
+    pub fn take_events(&mut self) -> Vec<Event> {
+        core::mem::take(&mut self.events)
+    }
+
+    fn data(&mut self, request: RequestId) -> Result<Vec<u8>, Failure> {
+        match self.one(request)? {
+            Outcome::Data(data) => Ok(data),
+            _ => Ok(Vec::new()),
+        }
+    }
+
     /// Reads bytes of a slave's memory.
     ///
     /// # Errors
     /// The slave does not answer.
     pub fn read(&mut self, slave: usize, offset: u16, length_bytes: u16) -> Result<Vec<u8>, Failure> {
         let request = self.master.read(self.now, slave, offset, length_bytes);
-        match self.one(request)? {
-            Outcome::Data(data) => Ok(data),
-            _ => Ok(Vec::new()),
-        }
+        self.data(request)
     }
 
     /// Writes bytes of a slave's memory.

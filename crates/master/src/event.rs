@@ -4,7 +4,11 @@ use core::fmt;
 
 use esi::sii::SiiContents;
 
-use crate::{AlReport, SiiFailure};
+use wire::Emergency;
+
+use crate::reaction::ServiceFailure;
+use crate::sii::SiiFailure;
+use crate::state::AlReport;
 
 /// An order of the owner. Its parts report under it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,6 +26,13 @@ pub enum Event {
         /// How it ended.
         result: Result<Outcome, Failure>,
     },
+    /// A slave has sent an emergency.
+    Emergency {
+        /// The slave's position.
+        slave: usize,
+        /// What it says.
+        emergency: Emergency,
+    },
 }
 
 /// How an order ended well.
@@ -31,7 +42,7 @@ pub enum Outcome {
     Done,
     /// This many slaves were found.
     Found(u16),
-    /// What was read.
+    /// What was read: memory, the value of an SDO, the reply to a message. Nothing for what was written by mailbox.
     Data(Vec<u8>),
     /// What a datagram came back with.
     Datagram {
@@ -70,6 +81,8 @@ pub enum Failure {
     Refused(AlReport),
     /// The state was not reached in time; what the slave shows.
     NotReached(AlReport),
+    /// A service by mailbox failed.
+    Mailbox(ServiceFailure),
 }
 
 impl fmt::Display for Failure {
@@ -85,6 +98,7 @@ impl fmt::Display for Failure {
             Self::Sii(failure) => failure.fmt(formatter),
             Self::Refused(report) => write!(formatter, "the slave refuses the state: {report}"),
             Self::NotReached(report) => write!(formatter, "the state is not reached in time: {report}"),
+            Self::Mailbox(failure) => failure.fmt(formatter),
         }
     }
 }

@@ -18,6 +18,8 @@ pub(crate) enum Sender {
     Slave(usize, u32),
     /// A datagram that the owner has ordered.
     Owner(RequestId),
+    /// The datagram of this number in the cycle.
+    Cycle(usize),
 }
 
 /// A datagram on its way.
@@ -106,6 +108,17 @@ impl Flights {
     pub(crate) fn lose(&mut self, now: Instant) -> Option<Vec<Part>> {
         let at = self.flying.iter().position(|flight| flight.due <= now)?;
         Some(self.flying.remove(at).parts)
+    }
+
+    /// What is still on its way of the last cycle does not count any more.
+    pub(crate) fn forget_cycle(&mut self) {
+        let is_cyclic = |flight: &Flight| {
+            flight.parts.first().is_some_and(|part| matches!(part.sender, Sender::Cycle(_)))
+        };
+        while let Some(at) = self.flying.iter().position(is_cyclic) {
+            let parts = self.flying.remove(at).parts;
+            self.recycle(parts);
+        }
     }
 
     /// The memory of a list serves the next frame.

@@ -4,6 +4,8 @@ use esi::Timeouts;
 use time::Duration;
 
 use crate::access::{Patience, Wait};
+use crate::mailbox::MailboxConduct;
+use crate::process_data::{Commands, Exchange, StatusRead};
 
 /// The habits of a master. The default is a patient one that fills its frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,6 +24,12 @@ pub struct Habits {
     pub access_patience: Duration,
     /// How long one command of the SII may take.
     pub sii_patience: Duration,
+    /// From one look into a mailbox, for emergencies, to the next one; none: it never looks unasked.
+    pub listen_period: Option<Duration>,
+    /// How mailboxes are treated at first.
+    pub mailbox: MailboxConduct,
+    /// How process data are exchanged at first.
+    pub exchange: Exchange,
 }
 
 /// How slaves are addressed.
@@ -55,6 +63,15 @@ impl Default for Habits {
             poll_period: Duration::from_micros(500),
             access_patience: Duration::from_secs(1),
             sii_patience: Duration::from_millis(500),
+            listen_period: Some(Duration::from_millis(10)),
+            mailbox: MailboxConduct::default(),
+            exchange: Exchange {
+                period: Duration::from_millis(1),
+                phase: Duration::ZERO,
+                commands: Commands::Lrw,
+                status: StatusRead::Never,
+                origin: 0,
+            },
         }
     }
 }

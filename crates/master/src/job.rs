@@ -2,10 +2,13 @@
 
 use crate::access::Dialogue;
 use crate::event::{Failure, Outcome};
+use crate::mailbox::MailboxDialogue;
+use crate::reaction::ServiceFailure;
 use crate::register::{RegisterRead, RegisterWrite};
+use crate::registers;
 use crate::search::Search;
 use crate::sii::SiiReader;
-use crate::state::{DeviceIdRequest, StateRequest};
+use crate::state::{AlReport, DeviceIdRequest, StateRequest};
 
 /// A dialogue in a queue.
 #[derive(Clone, Debug)]
@@ -16,9 +19,18 @@ pub(crate) enum Job {
     DeviceId(DeviceIdRequest),
     Sii(Box<SiiReader>),
     Search(Search),
+    Mailbox(Box<MailboxDialogue>),
 }
 
 impl Job {
+    pub(crate) const fn read_al_status() -> Self {
+        Self::read(registers::AL_STATUS, AlReport::LENGTH_BYTES)
+    }
+
+    pub(crate) fn mailbox(dialogue: MailboxDialogue) -> Self {
+        Self::Mailbox(Box::new(dialogue))
+    }
+
     pub(crate) const fn read(offset: u16, length_bytes: u16) -> Self {
         Self::Read(RegisterRead::new(offset, length_bytes))
     }
@@ -35,6 +47,7 @@ impl Job {
             Self::DeviceId(request) => request,
             Self::Sii(reader) => &**reader,
             Self::Search(search) => search,
+            Self::Mailbox(mailbox) => &**mailbox,
         }
     }
 
@@ -46,6 +59,7 @@ impl Job {
             Self::DeviceId(request) => request,
             Self::Sii(reader) => &mut **reader,
             Self::Search(search) => search,
+            Self::Mailbox(mailbox) => &mut **mailbox,
         }
     }
 
@@ -65,6 +79,9 @@ impl Job {
                 None => Err(Failure::NoAnswer),
             },
             Self::Search(search) => Ok(Outcome::Found(search.found())),
+            Self::Mailbox(mailbox) => {
+                mailbox.into_service().into_result().map(Outcome::Data).map_err(Failure::Mailbox)
+            }
         }
     }
 
@@ -72,9 +89,12 @@ impl Job {
     pub(crate) fn failure(&self) -> Failure {
         match self {
             Self::Read(_) | Self::Write(_) | Self::Search(_) => Failure::NoAnswer,
-            Self::State(request) => Failure::NotReached(request.report()),
+            Self::State(request) if request.is_taken() => Failure::NotReached(request.report()),
+            Self::State(_) => Failure::NoAnswer,
             Self::DeviceId(request) => Failure::NotReached(request.report()),
             Self::Sii(_) => Failure::SiiBusy,
+            Self::Mailbox(mailbox) if mailbox.is_taken() => Failure::Mailbox(ServiceFailure::NoReply),
+            Self::Mailbox(_) => Failure::Mailbox(ServiceFailure::NotTaken),
         }
     }
 }

@@ -8,6 +8,7 @@
 //! be used alone, also for what a right master never does.
 
 mod access;
+mod channels;
 mod connected;
 mod event;
 mod flight;
@@ -15,24 +16,42 @@ mod habits;
 mod information;
 mod job;
 mod load;
+mod mailbox;
 mod master;
+mod process_data;
 mod queue;
+mod reaction;
 mod register;
 pub mod registers;
+mod sdo;
+mod sdo_information;
 mod search;
+mod service;
+mod settings;
 mod sii;
 mod slave;
 mod state;
+mod walk;
 
 pub use access::{Access, Address, Answer, Dialogue, Patience, Progress, Wait};
+pub use channels::{FmmuSettings, SyncManagerSettings};
 pub use connected::{Connected, Line};
 pub use event::{Event, Failure, Outcome, RequestId};
 pub use flight::Ticket;
 pub use habits::{Addressing, Habits, Indexes};
 pub use information::{DlStatus, EscFeatures, EscInformation};
+pub use mailbox::{Counter, LostRead, MailboxConduct, MailboxDialogue, Reading};
 pub use master::Master;
+pub use process_data::{Commands, CycleReport, Exchange, StatusRead};
+pub use reaction::ServiceFailure;
 pub use register::{RegisterRead, RegisterWrite};
+pub use sdo::SdoTransfer;
+pub use sdo_information::SdoInformation;
 pub use search::Search;
+pub use service::{Message, Reply, Service};
+pub use settings::{
+    DeviceIdSource, Direction, MailboxSettings, ProcessDataArea, RegisterSetting, SlaveSettings, StartUpSdo,
+};
 pub use sii::{SiiFailure, SiiReader};
 pub use slave::Slave;
 pub use state::{AlReport, DeviceIdRequest, StateRequest};

@@ -32,7 +32,7 @@ impl Load {
         let (command, field) = address.command(access);
         match *access {
             Access::Read { offset, length_bytes } => {
-                self.builder.add_read(command, field, offset, length_bytes)
+                self.builder.add_zeros(command, field, offset, length_bytes);
             }
             Access::Write { offset, data } => self.builder.add(command, field, offset, data),
         }
@@ -42,6 +42,24 @@ impl Load {
     pub(crate) fn datagram(&mut self, sender: Sender, command: Command, fields: (u16, u16), data: &[u8]) {
         self.builder.add(command, fields.0, fields.1, data);
         self.parts.push(Part { sender, command, length_bytes: data.len() });
+    }
+
+    /// Adds a read.
+    pub(crate) fn read(&mut self, sender: Sender, address: Address, offset: u16, length_bytes: u16) {
+        self.access(sender, address, &Access::Read { offset, length_bytes });
+    }
+
+    /// Adds a datagram with a logical address, and gives its data to be filled.
+    pub(crate) fn logical(
+        &mut self,
+        sender: Sender,
+        command: Command,
+        address: u32,
+        length_bytes: usize,
+    ) -> &mut [u8] {
+        self.parts.push(Part { sender, command, length_bytes });
+        let (low, high) = (address as u16, (address >> 16) as u16);
+        self.builder.add_zeros(command, low, high, length_bytes as u16)
     }
 
     /// The bytes of the frame, and whose its datagrams are.

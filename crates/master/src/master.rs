@@ -1,6 +1,7 @@
 //! The master: orders in, frames out and in, events out.
 
 mod answers;
+mod exchange;
 mod orders;
 
 use std::collections::VecDeque;
@@ -14,6 +15,8 @@ use crate::event::{Event, RequestId};
 use crate::flight::{Flights, Sender, Ticket};
 use crate::habits::{Habits, Indexes};
 use crate::load::Load;
+use crate::mailbox::MailboxConduct;
+use crate::process_data::{Cycle, Image, Layout};
 use crate::queue::Queue;
 use crate::slave::Slave;
 
@@ -40,8 +43,14 @@ pub struct Master {
     everybody: Queue,
     slaves: Vec<Slave>,
     datagrams: VecDeque<OwnDatagram>,
+    layout: Layout,
+    images: Vec<Image>,
+    cycle: Cycle,
+    /// The owner has stopped the exchange: a slave that comes to SAFE-OP does not begin it.
+    is_stopped: bool,
     flights: Flights,
     events: VecDeque<Event>,
+    emergencies_lost: u64,
     requests: u64,
     /// The slave that comes first when not all find room in a frame.
     turn: usize,
@@ -59,20 +68,27 @@ struct OwnDatagram {
 
 /// Time-outs of dialogues with all slaves.
 const EVERYBODYS: Timeouts = Timeouts::USUAL;
+/// What nobody has ordered.
+const NOBODYS: RequestId = RequestId(0);
 
 impl Master {
     /// A master with these habits that knows of no slave yet.
     #[must_use]
     pub fn new(habits: Habits) -> Self {
         Self {
-            habits,
-            everybody: Queue::new(),
+            everybody: Queue::new(MailboxConduct::default()),
             slaves: Vec::new(),
             datagrams: VecDeque::new(),
+            layout: Layout::default(),
+            images: Vec::new(),
+            cycle: Cycle::new(habits.exchange),
+            is_stopped: false,
             flights: Flights::default(),
             events: VecDeque::new(),
-            requests: 0,
+            emergencies_lost: 0,
+            requests: NOBODYS.0,
             turn: 0,
+            habits,
         }
     }
 
@@ -85,13 +101,10 @@ impl Master {
     /// Whether something of an order is still to be done.
     #[must_use]
     pub fn is_open(&self, request: RequestId) -> bool {
-        self.queues().any(|queue| queue.holds(request))
+        self.everybody.holds(request)
+            || self.slaves.iter().any(|slave| slave.queue.holds(request))
             || self.datagrams.iter().any(|datagram| datagram.request == request)
             || self.flights.carries(Sender::Owner(request))
-    }
-
-    fn queues(&self) -> impl Iterator<Item = &Queue> {
-        core::iter::once(&self.everybody).chain(self.slaves.iter().map(|slave| &slave.queue))
     }
 
     /// Takes the oldest event.
@@ -99,19 +112,30 @@ impl Master {
         self.events.pop_front()
     }
 
+    /// Emergencies that were dropped because nobody took the events before them.
+    #[must_use]
+    pub const fn emergencies_lost(&self) -> u64 {
+        self.emergencies_lost
+    }
+
     /// When [`Master::transmit`] has to be called next, whatever comes back.
     #[must_use]
     pub fn deadline(&self) -> Instant {
-        let queues = self.queues().map(Queue::deadline).min().unwrap_or(Instant::NEVER);
+        let slaves = self.slaves.iter().map(Slave::deadline).min().unwrap_or(Instant::NEVER);
         let datagrams = if self.datagrams.is_empty() { Instant::NEVER } else { Instant::ZERO };
-        queues.min(datagrams).min(self.flights.deadline())
+        slaves
+            .min(self.everybody.deadline())
+            .min(datagrams)
+            .min(self.cycle.deadline())
+            .min(self.flights.deadline())
     }
 
     /// Writes the next frame that leaves now into `frame`, in place of what it holds; none if no further one leaves.
-    /// Nothing is allocated for a frame if `frame` has room for 1,518 bytes.
+    /// Process data come first. Nothing is allocated for a frame if `frame` has room for 1,518 bytes.
     pub fn transmit(&mut self, now: Instant, frame: &mut Vec<u8>) -> Option<Ticket> {
         self.lose_frames(now);
         self.give_up(now);
+        self.listen(now);
         let first_index = match self.habits.indexes {
             Indexes::Running => self.flights.next_index(),
             Indexes::FromZero => 0,
@@ -129,12 +153,21 @@ impl Master {
         Some(self.flights.depart(first_index, parts, now + self.habits.answer_patience))
     }
 
-    /// Accesses that are due, as many as find room. A dialogue with all slaves has its frame for itself.
+    /// Process data; when those of this cycle have left, accesses that are due, as many as find room. A dialogue with
+    /// all slaves has its frame for itself.
     fn load(&mut self, now: Instant, load: &mut Load) {
+        if self.cycle.next_cycle(now) {
+            self.flights.forget_cycle();
+        }
+        self.cycle.load(&self.images, load);
+        if !load.is_empty() {
+            return;
+        }
         if self.everybody.is_empty() {
             self.load_datagrams(load);
             self.load_slaves(now, load);
-        } else if let Some(number) = self.everybody.due(now).then(|| self.everybody.depart()) {
+        } else if self.everybody.due(now) {
+            let number = self.everybody.depart();
             self.everybody.load(Sender::Everybody(number), Address::All, load);
         }
     }

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 
 use esi::Timeouts;
 use time::Instant;
+use wire::{AlState, Emergency};
 
 use crate::access::{Address, Answer, Progress};
 use crate::event::{Failure, Outcome, RequestId};
@@ -11,6 +12,7 @@ use crate::flight::Sender;
 use crate::habits::Habits;
 use crate::job::Job;
 use crate::load::Load;
+use crate::mailbox::MailboxConduct;
 
 /// A job and what its end leads to.
 #[derive(Clone, Debug)]
@@ -23,14 +25,22 @@ pub(crate) struct Task {
 /// What is done with the outcome of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Then {
-    /// The owner gets it.
-    Report,
     /// Nothing.
     Continue,
     /// The slave has its station address from now on.
     UseStationAddress(u16),
     /// It is something that the search wants to know.
     Keep(Found),
+    /// It is AL status, from which the way to this state begins.
+    Walk(AlState),
+    /// It is AL status, which has to show this state.
+    Arrive(AlState),
+    /// The slave exchanges process data from now on.
+    Open,
+    /// The slave has started its mailbox.
+    RestartMailbox,
+    /// It is a word: the Explicit Device ID.
+    DeviceId,
 }
 
 /// What the search wants to know of a slave.
@@ -62,16 +72,22 @@ pub(crate) struct Queue {
     on_its_way: Option<u32>,
     /// Datagrams that have left so far.
     departed: u32,
+    /// How the mailbox is treated, and its counters.
+    pub(crate) conduct: MailboxConduct,
+    /// Emergencies that nobody has taken yet.
+    emergencies: VecDeque<Emergency>,
 }
 
 impl Queue {
-    pub(crate) const fn new() -> Self {
+    pub(crate) const fn new(conduct: MailboxConduct) -> Self {
         Self {
             tasks: VecDeque::new(),
             at: Instant::NEVER,
             until: Instant::NEVER,
             on_its_way: None,
             departed: 0,
+            conduct,
+            emergencies: VecDeque::new(),
         }
     }
 
@@ -91,9 +107,21 @@ impl Queue {
         }
     }
 
+    /// Puts jobs in front of all others, in their order.
+    pub(crate) fn push_front(&mut self, tasks: Vec<Task>, pace: &Pace<'_>) {
+        for task in tasks.into_iter().rev() {
+            self.tasks.push_front(task);
+        }
+        self.begin(pace);
+    }
+
+    /// The first job begins.
     fn begin(&mut self, pace: &Pace<'_>) {
         self.on_its_way = None;
         self.at = if self.tasks.is_empty() { Instant::NEVER } else { pace.now };
+        if let Some(Task { job: Job::Mailbox(mailbox), .. }) = self.tasks.front_mut() {
+            mailbox.begin(self.conduct);
+        }
         self.be_patient(pace);
     }
 
@@ -137,8 +165,7 @@ impl Queue {
         if self.deadline() > pace.now || self.until > pace.now {
             return None;
         }
-        let Task { request, job, then } = self.tasks.pop_front()?;
-        self.begin(pace);
+        let Task { request, job, then } = self.pop(pace)?;
         Some(Over { request, then, result: Err(job.failure()) })
     }
 
@@ -155,8 +182,7 @@ impl Queue {
         }
         self.on_its_way = None;
         self.at = pace.now;
-        let task = self.tasks.front_mut()?;
-        match task.job.dialogue_mut().answer(answer) {
+        match self.take(answer)? {
             Progress::Next => None,
             Progress::Later => {
                 self.at = pace.now + pace.habits.poll_period;
@@ -167,17 +193,51 @@ impl Queue {
                 None
             }
             Progress::Done => {
-                let Task { request, job, then } = self.tasks.pop_front()?;
-                self.begin(pace);
+                let Task { request, job, then } = self.pop(pace)?;
                 Some(Over { request, then, result: job.result() })
             }
         }
     }
 
+    /// The first job takes an answer.
+    fn take(&mut self, answer: Option<Answer<'_>>) -> Option<Progress> {
+        let task = self.tasks.front_mut()?;
+        let progress = task.job.dialogue_mut().answer(answer);
+        if let Job::Mailbox(mailbox) = &mut task.job {
+            self.emergencies.extend(core::iter::from_fn(|| mailbox.take_emergency()));
+        }
+        Some(progress)
+    }
+
+    /// Takes the first job out; the next one begins.
+    fn pop(&mut self, pace: &Pace<'_>) -> Option<Task> {
+        let task = self.tasks.pop_front()?;
+        if let Job::Mailbox(mailbox) = &task.job {
+            self.conduct = mailbox.conduct();
+        }
+        self.begin(pace);
+        Some(task)
+    }
+
     /// Drops what is left of an order.
     pub(crate) fn drop_order(&mut self, request: RequestId, pace: &Pace<'_>) {
-        self.tasks.retain(|task| task.request != request);
-        self.begin(pace);
+        if self.holds(request) {
+            self.tasks.retain(|task| task.request != request);
+            self.begin(pace);
+        }
+    }
+
+    /// Changes how the mailbox is treated, by the present job too.
+    pub(crate) fn change_conduct(&mut self, mut change: impl FnMut(&mut MailboxConduct)) {
+        change(&mut self.conduct);
+        if let Some(Task { job: Job::Mailbox(mailbox), .. }) = self.tasks.front_mut() {
+            change(mailbox.conduct_mut());
+        }
+    }
+
+    /// Takes the oldest emergency.
+    pub(crate) fn take_emergency(&mut self) -> Option<Emergency> {
+        self.emergencies.pop_front()
     }
 }
 

@@ -1,12 +1,16 @@
 //! What the master knows of one slave.
 
-use esi::Timeouts;
 use esi::sii::SiiContents;
+use time::Instant;
+use wire::{AlState, AlStatus, AlStatusCode};
 
 use crate::access::{Address, word};
+use crate::channels::SyncManagerSettings;
 use crate::event::{Failure, Outcome};
-use crate::information::{DlStatus, EscInformation};
+use crate::information::{DlStatus, EscFeatures, EscInformation};
+use crate::mailbox::MailboxConduct;
 use crate::queue::{Found, Queue};
+use crate::settings::SlaveSettings;
 use crate::state::AlReport;
 
 /// One slave of the line, as the search has found it.
@@ -14,8 +18,12 @@ use crate::state::AlReport;
 pub struct Slave {
     pub(crate) address: Address,
     pub(crate) queue: Queue,
-    pub(crate) timeouts: Timeouts,
+    pub(crate) settings: SlaveSettings,
     pub(crate) report: AlReport,
+    /// It exchanges process data.
+    pub(crate) is_open: bool,
+    /// The next look into its mailbox, if nothing else is to be done.
+    pub(crate) next_listen: Instant,
     information: EscInformation,
     dl_status: DlStatus,
     alias: u16,
@@ -23,12 +31,14 @@ pub struct Slave {
 }
 
 impl Slave {
-    pub(crate) fn new(position: u16) -> Self {
+    pub(crate) fn new(position: u16, conduct: MailboxConduct) -> Self {
         Self {
             address: Address::Position(position),
-            queue: Queue::new(),
-            timeouts: Timeouts::default(),
+            queue: Queue::new(conduct),
+            settings: SlaveSettings::default(),
             report: AlReport::NOTHING,
+            is_open: false,
+            next_listen: Instant::NEVER,
             information: EscInformation::default(),
             dl_status: DlStatus::default(),
             alias: 0,
@@ -72,7 +82,31 @@ impl Slave {
         self.report
     }
 
-    /// Keeps what a job has found.
+    /// What is set at it on its way up.
+    #[must_use]
+    pub const fn settings(&self) -> &SlaveSettings {
+        &self.settings
+    }
+
+    /// Whether it exchanges process data.
+    #[must_use]
+    pub const fn is_exchanging(&self) -> bool {
+        self.is_open
+    }
+
+    /// When something of it is due: its first job, or a look into its mailbox.
+    pub(crate) fn deadline(&self) -> Instant {
+        if self.queue.is_empty() { self.next_listen } else { self.queue.deadline() }
+    }
+
+    /// The SyncManagers of the mailbox that its state has; none for a slave without one.
+    pub(crate) fn mailbox(&self) -> Option<(SyncManagerSettings, SyncManagerSettings)> {
+        let mailbox = self.settings.mailbox.as_ref()?;
+        let in_boot = mailbox.in_boot().filter(|_| self.state() == AlState::Boot);
+        Some(in_boot.unwrap_or((mailbox.out, mailbox.inward)))
+    }
+
+    /// Keeps what a job has found. By its SII it is set up, unless somebody changes that.
     pub(crate) fn keep(&mut self, found: Found, outcome: Outcome) {
         match (found, outcome) {
             (Found::Information, Outcome::Data(data)) => {
@@ -80,9 +114,20 @@ impl Slave {
             }
             (Found::DlStatus, Outcome::Data(data)) => self.dl_status = DlStatus::parse(&data),
             (Found::Alias, Outcome::Data(data)) => self.alias = word(&data),
-            (Found::Sii, Outcome::Sii(contents)) => self.sii = Some(*contents),
+            (Found::Sii, Outcome::Sii(contents)) => {
+                self.settings = SlaveSettings::from_sii(&contents);
+                self.adapt_settings();
+                self.sii = Some(*contents);
+            }
             (Found::Information | Found::DlStatus | Found::Alias | Found::Sii, _) => {}
         }
+    }
+
+    /// What the controller cannot do is not asked of it.
+    pub(crate) const fn adapt_settings(&mut self) {
+        let features = self.information.features;
+        self.settings.bytewise_fmmus |= features.contains(EscFeatures::FMMU_BYTEWISE);
+        self.settings.separate_commands |= features.contains(EscFeatures::NO_LRW);
     }
 
     /// Notes the state that a job has seen.
@@ -92,5 +137,17 @@ impl Slave {
         {
             self.report = *report;
         }
+    }
+
+    /// Notes AL status without its code.
+    pub(crate) fn note_status(&mut self, status: AlStatus) {
+        let code = if status.error { self.report.code } else { AlStatusCode::NO_ERROR };
+        self.report = AlReport { status, code };
+    }
+
+    /// Its state, as it was read last.
+    #[must_use]
+    pub const fn state(&self) -> AlState {
+        self.report.status.state
     }
 }

@@ -26,6 +26,12 @@ impl AlReport {
         code: AlStatusCode::NO_ERROR,
     };
 
+    /// Whether it shows one of the standard's states, and no error.
+    #[must_use]
+    pub const fn is_good(self) -> bool {
+        !self.status.error && !matches!(self.status.state, AlState::Other(_))
+    }
+
     /// What a read of 6 bytes from 0x0130 on gave; of 2 bytes the code is 0.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Self {
@@ -124,6 +130,12 @@ impl StateRequest {
         self.report
     }
 
+    /// Whether the slave has taken the request, or may have.
+    #[must_use]
+    pub const fn is_taken(&self) -> bool {
+        self.request.is_none()
+    }
+
     /// Whether the state is reached, without an error.
     #[must_use]
     pub fn is_reached(&self) -> bool {
@@ -156,8 +168,9 @@ impl Dialogue for StateRequest {
         answer.taken().map_or(Progress::Later, |data| self.watch(data))
     }
 
+    /// A slow slave keeps the request before this one until it has carried that out.
     fn patience(&self) -> Patience {
-        if self.request.is_some() { Patience::Access } else { Patience::State(self.wait) }
+        Patience::State(self.wait)
     }
 }
 

@@ -73,12 +73,13 @@ impl FrameBuilder {
         self.bytes.extend([0, 0]);
     }
 
-    /// Adds a datagram whose data are zeros: a read.
-    pub fn add_read(&mut self, command: Command, address: u16, offset: u16, length_bytes: u16) {
+    /// Adds a datagram whose data are zeros: a read, or data that are filled in now.
+    pub fn add_zeros(&mut self, command: Command, address: u16, offset: u16, length_bytes: u16) -> &mut [u8] {
         let length_bytes = usize::from(length_bytes);
         self.add_header(command, address, offset, length_bytes);
-        self.bytes.resize(self.bytes.len() + length_bytes, 0);
-        self.bytes.extend([0, 0]);
+        let start = self.bytes.len();
+        self.bytes.resize(start + length_bytes + 2, 0);
+        &mut self.bytes[start..start + length_bytes]
     }
 
     fn add_header(&mut self, command: Command, address: u16, offset: u16, length_bytes: usize) {

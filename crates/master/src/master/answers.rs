@@ -1,13 +1,18 @@
 //! What comes back: whose answer it is, what is over by it, what follows.
 
 use time::Instant;
-use wire::DatagramView;
+use wire::{AlState, DatagramView};
 
-use super::{EVERYBODYS, Master};
-use crate::access::{Address, Answer};
-use crate::event::{Event, Failure, Outcome};
+use super::{EVERYBODYS, Master, NOBODYS};
+use crate::access::{Address, Answer, word};
+use crate::event::{Event, Failure, Outcome, RequestId};
 use crate::flight::Sender;
-use crate::queue::{Over, Pace, Then};
+use crate::queue::{Over, Pace, Task, Then};
+use crate::state::AlReport;
+use crate::walk::{has_mailbox, has_process_data, sets_process_data, way};
+
+/// Events that may wait before emergencies are dropped.
+const EVENTS_MAX: usize = 4_096;
 
 impl Master {
     /// Takes the answer to a datagram; none: its frame is lost.
@@ -21,13 +26,8 @@ impl Master {
                     self.over_everybody(now, over);
                 }
             }
-            Sender::Slave(position, number) => {
-                let Some(slave) = self.slaves.get_mut(position) else { return };
-                let pace = Pace { now, habits: &self.habits, timeouts: &slave.timeouts };
-                if let Some(over) = slave.queue.answer(number, answer, &pace) {
-                    self.over(now, position, over);
-                }
-            }
+            Sender::Slave(position, number) => self.answer_slave(now, position, number, answer),
+            Sender::Cycle(number) => self.answer_cycle(number, answer),
             Sender::Owner(request) => {
                 let result = answer.ok_or(Failure::Lost).map(|answer| Outcome::Datagram {
                     working_counter: answer.working_counter,
@@ -35,6 +35,32 @@ impl Master {
                 });
                 self.events.push_back(Event::Finished { request, slave: None, result });
             }
+        }
+    }
+
+    fn answer_slave(&mut self, now: Instant, position: usize, number: u32, answer: Option<Answer<'_>>) {
+        let Some(slave) = self.slaves.get_mut(position) else { return };
+        let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
+        let over = slave.queue.answer(number, answer, &pace);
+        while let Some(emergency) = slave.queue.take_emergency() {
+            if self.events.len() < EVENTS_MAX {
+                self.events.push_back(Event::Emergency { slave: position, emergency });
+            } else {
+                self.emergencies_lost += 1;
+            }
+        }
+        if let Some(over) = over {
+            self.over(now, position, over);
+        }
+    }
+
+    fn answer_cycle(&mut self, number: usize, answer: Option<Answer<'_>>) {
+        let Some(Answer { working_counter, data }) = answer else { return };
+        let status = self.cycle.answer(number, (working_counter, data), &mut self.images);
+        if let Some((slave, status)) =
+            status.and_then(|(at, status)| Some((self.slaves.get_mut(at)?, status)))
+        {
+            slave.note_status(status);
         }
     }
 
@@ -46,7 +72,7 @@ impl Master {
         }
         for position in 0..self.slaves.len() {
             let slave = &mut self.slaves[position];
-            let pace = Pace { now, habits: &self.habits, timeouts: &slave.timeouts };
+            let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
             if let Some(over) = slave.queue.give_up(&pace) {
                 self.over(now, position, over);
             }
@@ -55,27 +81,74 @@ impl Master {
 
     /// A job of a slave is over. With the last job of an order, or a failed one, its order is over.
     fn over(&mut self, now: Instant, position: usize, Over { request, then, result }: Over) {
+        let result = result.and_then(|outcome| self.follow(now, position, request, then, outcome));
         let Some(slave) = self.slaves.get_mut(position) else { return };
         slave.note_state(&result);
-        let result = match (then, result) {
-            (_, Err(failure)) => {
-                let pace = Pace { now, habits: &self.habits, timeouts: &slave.timeouts };
-                slave.queue.drop_order(request, &pace);
-                Err(failure)
-            }
-            (Then::Report, Ok(outcome)) => Ok(outcome),
-            (Then::Continue, Ok(_)) => Ok(Outcome::Done),
-            (Then::UseStationAddress(address), Ok(_)) => {
-                slave.address = Address::Station(address);
-                Ok(Outcome::Done)
-            }
-            (Then::Keep(found), Ok(outcome)) => {
-                slave.keep(found, outcome);
-                Ok(Outcome::Done)
-            }
-        };
-        if !slave.queue.holds(request) {
+        if result.is_err() {
+            let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
+            slave.queue.drop_order(request, &pace);
+        }
+        if request != NOBODYS && !slave.queue.holds(request) {
             self.events.push_back(Event::Finished { request, slave: Some(position), result });
+        }
+    }
+
+    /// What a job leads to.
+    fn follow(
+        &mut self,
+        now: Instant,
+        position: usize,
+        request: RequestId,
+        then: Then,
+        outcome: Outcome,
+    ) -> Result<Outcome, Failure> {
+        let slave = self.slaves.get_mut(position).ok_or(Failure::NoSlave)?;
+        match (then, outcome) {
+            (Then::UseStationAddress(address), _) => slave.address = Address::Station(address),
+            (Then::Keep(found), outcome) => slave.keep(found, outcome),
+            (Then::RestartMailbox, outcome) => {
+                slave.queue.conduct.restart();
+                return Ok(outcome);
+            }
+            (Then::Open, outcome) => {
+                self.open(now, position);
+                return Ok(outcome);
+            }
+            (Then::DeviceId, Outcome::Data(data)) => return Ok(Outcome::DeviceId(word(&data))),
+            (Then::Walk(target), Outcome::Data(data)) => {
+                let shown = AlReport::parse(&data);
+                self.walk(now, position, request, shown, target);
+                return Ok(Outcome::State(shown));
+            }
+            (Then::Arrive(target), Outcome::Data(data)) => return arrived(AlReport::parse(&data), target),
+            (Then::Continue | Then::DeviceId | Then::Walk(_) | Then::Arrive(_), outcome) => {
+                return Ok(outcome);
+            }
+        }
+        Ok(Outcome::Done)
+    }
+
+    /// Orders the jobs of the way from what a slave shows to a state.
+    fn walk(&mut self, now: Instant, position: usize, request: RequestId, shown: AlReport, target: AlState) {
+        if !has_process_data(target) {
+            self.close(position);
+        }
+        if sets_process_data(shown.status.state, target) {
+            self.close(position);
+            self.place(position);
+        }
+        let Some(slave) = self.slaves.get_mut(position) else { return };
+        let listens = has_mailbox(target) && slave.settings.mailbox.is_some();
+        slave.next_listen =
+            self.habits.listen_period.filter(|_| listens).map_or(Instant::NEVER, |period| now + period);
+        let fmmus: Vec<_> = self.layout.fmmus(position, self.cycle.exchange.origin).collect();
+        let jobs = way(shown, target, &slave.settings, &fmmus);
+        let tasks = jobs.into_iter().map(|(job, then)| Task { request, job, then }).collect();
+        let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
+        slave.queue.push_front(tasks, &pace);
+        // A slave that has stopped at SAFE-OP waits for outputs on its way to OP.
+        if target == AlState::Op && slave.is_open && !self.is_stopped {
+            self.cycle.begin(now);
         }
     }
 
@@ -85,4 +158,10 @@ impl Master {
         }
         self.events.push_back(Event::Finished { request, slave: None, result });
     }
+}
+
+/// Whether a slave is where its way has led.
+fn arrived(report: AlReport, target: AlState) -> Result<Outcome, Failure> {
+    let is_there = report.status.state == target && !report.status.error;
+    if is_there { Ok(Outcome::State(report)) } else { Err(Failure::Refused(report)) }
 }

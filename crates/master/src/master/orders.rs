@@ -1,17 +1,25 @@
 //! Orders of the owner, and the jobs that they come down to.
 
+use esi::DeviceDescription;
 use time::Instant;
-use wire::{AlState, Command};
+use wire::{AlState, Command, SdoInfoRequest, SdoTarget};
 
-use super::{EVERYBODYS, Master, OwnDatagram};
+use super::{EVERYBODYS, Master, NOBODYS, OwnDatagram};
 use crate::event::{Event, Failure, RequestId};
 use crate::habits::Addressing;
 use crate::information::EscInformation;
 use crate::job::Job;
+use crate::mailbox::{MailboxConduct, MailboxDialogue};
+use crate::process_data::Layout;
 use crate::queue::{Found, Pace, Task, Then};
+use crate::reaction::ServiceFailure;
 use crate::register::{RegisterRead, RegisterWrite};
 use crate::registers;
+use crate::sdo::SdoTransfer;
+use crate::sdo_information::SdoInformation;
 use crate::search::Search;
+use crate::service::Service;
+use crate::settings::{DeviceIdSource, SlaveSettings};
 use crate::slave::Slave;
 use crate::state::{DeviceIdRequest, StateRequest};
 
@@ -24,15 +32,18 @@ impl Master {
     pub fn search(&mut self, now: Instant) -> RequestId {
         let request = self.next_request();
         self.slaves.clear();
+        self.cycle.stop();
         let pace = Pace { now, habits: &self.habits, timeouts: &EVERYBODYS };
         let job = Job::Search(Search::default());
-        self.everybody.push(Task { request, job, then: Then::Report }, &pace);
+        self.everybody.push(Task { request, job, then: Then::Continue }, &pace);
         request
     }
 
     /// So many slaves have answered: each of them is asked who it is.
     pub(super) fn identify(&mut self, now: Instant, request: RequestId, count: u16) {
-        self.slaves = (0..count).map(Slave::new).collect();
+        self.slaves = (0..count).map(|position| Slave::new(position, self.habits.mailbox)).collect();
+        self.layout = Layout::default();
+        self.images.clear();
         for position in 0..count {
             let mut jobs = Vec::new();
             if let Addressing::Station { first } = self.habits.addressing {
@@ -77,15 +88,38 @@ impl Master {
         self.order(now, slave, data.len(), Job::Write(RegisterWrite::new(offset, data.to_vec())))
     }
 
+    /// Takes a slave to a state by the way of a real master: errors are acknowledged, SyncManagers, FMMUs, registers
+    /// and SDOs are written, process data begin with SAFE-OP.
+    pub fn take_to(&mut self, now: Instant, slave: usize, state: AlState) -> RequestId {
+        let request = self.next_request();
+        self.push(now, slave, request, [(Job::read_al_status(), Then::Walk(state))]);
+        request
+    }
+
+    /// Takes all slaves to a state, at the same time.
+    pub fn take_all_to(&mut self, now: Instant, state: AlState) -> RequestId {
+        let request = self.next_request();
+        for slave in 0..self.slaves.len() {
+            self.push(now, slave, request, [(Job::read_al_status(), Then::Walk(state))]);
+        }
+        request
+    }
+
     /// Carries out a dialogue with the state machine of a slave, as it is: nothing is set up and nothing acknowledged.
     pub fn request_state(&mut self, now: Instant, slave: usize, state: StateRequest) -> RequestId {
         self.order(now, slave, 0, Job::State(state))
     }
 
-    /// Asks a slave for its Explicit Device ID.
+    /// Asks a slave for its Explicit Device ID, where its settings say that it shows it.
     pub fn read_device_id(&mut self, now: Instant, slave: usize) -> RequestId {
-        let state = self.slaves.get(slave).map_or(AlState::Init, |slave| slave.report.status.state);
-        self.order(now, slave, 0, Job::DeviceId(DeviceIdRequest::new(state)))
+        let request = self.next_request();
+        let job = match self.slaves.get(slave).map(|slave| (slave.settings.device_id, slave.state())) {
+            Some((DeviceIdSource::AlStatusCode, state)) => Job::DeviceId(DeviceIdRequest::new(state)),
+            Some((DeviceIdSource::Register(offset), _)) => Job::read(offset, 2),
+            Some((DeviceIdSource::StationAlias, _)) | None => Job::read(registers::STATION_ALIAS, 2),
+        };
+        self.push(now, slave, request, [(job, Then::DeviceId)]);
+        request
     }
 
     /// Reads the SII of a slave.
@@ -93,12 +127,76 @@ impl Master {
         self.order(now, slave, 0, Job::Sii(Box::default()))
     }
 
+    /// Reads an entry or a whole object by SDO.
+    pub fn upload(&mut self, now: Instant, slave: usize, target: SdoTarget) -> RequestId {
+        self.service(now, slave, Service::Sdo(SdoTransfer::upload(target)))
+    }
+
+    /// Writes an entry or a whole object by SDO.
+    pub fn download(&mut self, now: Instant, slave: usize, target: SdoTarget, value: &[u8]) -> RequestId {
+        self.service(now, slave, Service::Sdo(SdoTransfer::download(target, value)))
+    }
+
+    /// Asks about the object dictionary. [`SdoInformation`] says what the answer is.
+    pub fn information(&mut self, now: Instant, slave: usize, question: SdoInfoRequest) -> RequestId {
+        self.service(now, slave, Service::Information(SdoInformation::new(question)))
+    }
+
+    /// Carries out a service by the mailbox of a slave.
+    pub fn service(&mut self, now: Instant, slave: usize, service: Service) -> RequestId {
+        let request = self.next_request();
+        let mailbox = self.slaves.get(slave).map(Slave::mailbox);
+        match mailbox {
+            Some(Some((out, inward))) => {
+                let job = Job::mailbox(MailboxDialogue::new(out, inward, service));
+                self.push(now, slave, request, [(job, Then::Continue)]);
+            }
+            Some(None) => self.refuse(request, Some(slave), Failure::Mailbox(ServiceFailure::NoMailbox)),
+            None => self.refuse(request, Some(slave), Failure::NoSlave),
+        }
+        request
+    }
+
+    /// Looks into the mailboxes of slaves that have nothing else to do.
+    pub(super) fn listen(&mut self, now: Instant) {
+        let Some(period) = self.habits.listen_period else { return };
+        for slave in self.slaves.iter_mut().filter(|slave| slave.queue.is_empty() && slave.next_listen <= now)
+        {
+            slave.next_listen = now + period;
+            if let Some((out, inward)) = slave.mailbox() {
+                let job = Job::mailbox(MailboxDialogue::new(out, inward, Service::Listen));
+                let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
+                slave.queue.push(Task { request: NOBODYS, job, then: Then::Continue }, &pace);
+            }
+        }
+    }
+
+    /// What is set at a slave on its way up, to be changed. It holds from its next way up on.
+    pub fn settings_mut(&mut self, slave: usize) -> Option<&mut SlaveSettings> {
+        self.slaves.get_mut(slave).map(|slave| &mut slave.settings)
+    }
+
+    /// Sets a slave up as a description says, in place of its SII.
+    pub fn describe(&mut self, slave: usize, description: &DeviceDescription) {
+        if let Some(slave) = self.slaves.get_mut(slave) {
+            slave.settings = SlaveSettings::from_description(description);
+            slave.adapt_settings();
+        }
+    }
+
+    /// Changes how the mailbox of a slave is treated from now on.
+    pub fn change_mailbox(&mut self, slave: usize, change: impl FnMut(&mut MailboxConduct)) {
+        if let Some(slave) = self.slaves.get_mut(slave) {
+            slave.queue.change_conduct(change);
+        }
+    }
+
     fn order(&mut self, now: Instant, slave: usize, length_bytes: usize, job: Job) -> RequestId {
         let request = self.next_request();
         if length_bytes > DATAGRAM_BYTES_MAX {
             self.refuse(request, Some(slave), Failure::TooLong { length_bytes });
         } else {
-            self.push(now, slave, request, [(job, Then::Report)]);
+            self.push(now, slave, request, [(job, Then::Continue)]);
         }
         request
     }
@@ -113,7 +211,7 @@ impl Master {
         let Some(slave) = self.slaves.get_mut(position) else {
             return self.refuse(request, Some(position), Failure::NoSlave);
         };
-        let pace = Pace { now, habits: &self.habits, timeouts: &slave.timeouts };
+        let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
         for (job, then) in jobs {
             slave.queue.push(Task { request, job, then }, &pace);
         }

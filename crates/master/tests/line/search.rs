@@ -1,10 +1,8 @@
 //! The search: how many slaves there are, and who they are.
 
-mod bench;
-
-use bench::{Units, connected};
+use crate::bench::{connected, connected_with};
 use esc::SiiTiming;
-use master::{Address, Addressing, Connected, Failure, Habits, Master, Outcome, SiiFailure};
+use master::{Address, Addressing, Failure, Habits, Master, Outcome, SiiFailure};
 use time::{Duration, Instant};
 use wire::{AlState, Command};
 
@@ -40,26 +38,26 @@ fn every_slave_is_identified_by_its_sii() {
 fn what_was_read_is_what_the_image_holds() {
     let mut bench = connected(1);
     bench.search().expect("one slave");
-    let image = bench.line.0.esc(0).expect("an ESC").sii_image().to_vec();
+    let image = bench.line.network.esc(0).expect("an ESC").sii_image().to_vec();
     let whole = esi::sii::parse(&image).expect("a good image");
     assert_eq!(bench.master.slaves()[0].sii(), Some(&whole));
 }
 
 #[test]
 fn a_slow_sii_is_waited_for() {
-    let busy = |time| Units::with(2, move |_, config| config.esc.sii = SiiTiming::Busy(time));
-    let mut bench = Connected::new(Master::default(), busy(Duration::from_millis(3)), Instant::ZERO);
+    let busy =
+        |time| connected_with(Master::default(), 2, move |_, config| config.esc.sii = SiiTiming::Busy(time));
+    let mut bench = busy(Duration::from_millis(3));
     assert_eq!(bench.search(), Ok(2));
     assert!(bench.now() > Instant::ZERO + Duration::from_millis(3 * 50), "many reads of 3 ms");
-    let mut bench = Connected::new(Master::default(), busy(Duration::from_secs(10)), Instant::ZERO);
+    let mut bench = busy(Duration::from_secs(10));
     assert_eq!(bench.search(), Err(Failure::SiiBusy));
 }
 
 #[test]
 fn a_blank_sii_has_no_categories_and_a_broken_one_is_refused() {
     let with = |image: Vec<u8>| {
-        let line = Units::with(1, |_, config| config.sii_image = image.clone());
-        let mut bench = Connected::new(Master::default(), line, Instant::ZERO);
+        let mut bench = connected_with(Master::default(), 1, |_, config| config.sii_image = image.clone());
         let result = bench.search();
         (result, bench.master.slaves()[0].sii().cloned())
     };
@@ -82,18 +80,17 @@ fn a_blank_sii_has_no_categories_and_a_broken_one_is_refused() {
 fn slaves_that_the_search_has_left_keep_no_address() {
     let mut bench = connected(3);
     bench.search().expect("three slaves");
-    bench.line.0.set_cable(1, false);
+    bench.line.network.set_cable(1, false);
     assert_eq!(bench.search(), Ok(1));
     assert_eq!(bench.master.slaves().len(), 1);
-    bench.line.0.set_cable(1, true);
+    bench.line.network.set_cable(1, true);
     assert_eq!(bench.search(), Ok(3));
 }
 
 #[test]
 fn a_master_may_go_by_position() {
     let habits = Habits { addressing: Addressing::Position, ..Habits::default() };
-    let line = Units::with(2, |_, _| {});
-    let mut bench = Connected::new(Master::new(habits), line, Instant::ZERO);
+    let mut bench = connected_with(Master::new(habits), 2, |_, _| {});
     assert_eq!(bench.search(), Ok(2));
     assert_eq!(bench.master.slaves()[1].address(), Address::Position(1));
     assert_eq!(bench.read(1, 0x0010, 2), Ok(vec![0, 0]), "nobody has set a station address");

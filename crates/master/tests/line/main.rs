@@ -1,0 +1,11 @@
+//! The master against our own slaves, in one process and in virtual time.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+mod allocation;
+mod bench;
+mod exchange;
+mod faults;
+mod mailbox;
+mod search;
+mod states;
