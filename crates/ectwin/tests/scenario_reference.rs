@@ -5,98 +5,103 @@ use std::path::{Path, PathBuf};
 use nx_ect101::{Event, Fault, Pattern};
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
 
-/// Set to anything, it makes the test write the page instead of comparing it.
+/// If this variable is set, the test writes the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
 
 const HEAD: &str = r#"<!-- Generated: cargo xtask bless -->
 # Scenario files
 
-Every key, sentence, place and fault of a scenario file. [Write a scenario](write-a-scenario.md) begins from nothing.
+Every key, sentence, placeholder and fault of a scenario file. To start, read [write a scenario](write-a-scenario.md).
 
 ## The file
-| key | value | left out |
+| key | value | default |
 |---|---|---|
-| `title` | what the scenario shows, as a sentence | refused: every file needs it |
-| `seed` | seed of the dice, a number | 1 |
-| `limit` | the moment behind which nothing goes on: who still waits then has waited in vain | `"60s"` |
+| `title` | what the scenario shows, as a sentence | none: every file needs it |
+| `seed` | seed of the random generator, a number | 1 |
+| `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
-| `cycle_phase` | where in its period the cycle lies, from the beginning | the seed decides |
+| `cycle_phase` | phase of the cycle in its period, from the beginning | the seed decides |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file | one unit at its factory setting |
-| `master` | a table: the [user program of the master](#the-masters-user-program) | it only does what steps order |
-| `capture` | a capture whose frames are sent again at their times: a recorded master | the scripted master alone |
-| `steps` | list of steps | refused: every file needs it |
+| `master` | a table: the [user program of the master](#the-masters-user-program) | no program: the master only follows the steps |
+| `capture` | a capture whose frames are sent again at their times: a recorded master | only the scripted master |
+| `steps` | list of steps | none: every file needs it |
 
-Paths are seen from the scenario file, the program of a unit file from that file. A unit may run the programs `"builtin:copy"`,
-`"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
+Paths are relative to the folder of the scenario file; the program of a unit file is relative to the unit file. A unit can run the
+programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
 [one program](structured-text.md#several-files).
 
 ## The master's user program
-The scripted master can run a program in Structured Text of its own, as an NJ/NX-series CPU Unit does with its built-in port
+The scripted master can run its own program in Structured Text, like an NJ/NX-series CPU Unit with its built-in port
 (manual, A-4-3).
 
-| key of `master` | value | left out |
+| key of `master` | value | default |
 |---|---|---|
-| `program` | path of a program in Structured Text, or a list of paths | refused |
+| `program` | path of a program in Structured Text, or a list of paths | none: required |
 | `device_names` | names of the units as EtherCAT slaves, in the order of the line | `"E005"` for the node address 5 |
 | `task_period` | 125us, or 250us to 32ms in steps of 250us | the cycle of the process data, in step with them |
 
-The node address of a unit is the ID that its file gives it: the ID switch, or `alias` with the switch at 0 (manual, 3-3). With a
-program, each unit needs an ID of its own, 1 to 192. A unit that gets another ID in a step keeps its node address: a master learns
-it from its configuration.
+The node address of a unit is the ID in its file: the ID switch, or `alias` with the switch at 0 (manual, 3-3). If the master has a
+program, each unit needs a different ID, 1 to 192. A unit that gets another ID in a step keeps its node address, because a master
+has the address from its configuration.
 
-In each period it takes in what the slaves have sent, runs once, and gives out what goes to them with the next cycle. It has
+In each period the program reads the data of the slaves, runs once, and outputs the data that go to them with the next cycle. It has
 
-- each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. Those M to C are written by it: they
-  replace what steps set. An entry that is not mapped at the moment keeps its value;
+- each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. The program writes the entries M to C:
+  they replace the values that steps set. An entry that is not mapped at the moment keeps its value;
 - the bits of Sysmac Error Status that are ports: `E001_Observation`, AT `ECAT://node#1/Sysmac Error Status/Observation`, and
   `E001_Minor_Fault`;
 - `_EC_PDSlavTbl[n]`: the slave with node address `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP,
-  SAFE-OP or OP. For that the master reads AL status of each slave in each period; without an answer twice in a row, the slave is
-  not there.
+  SAFE-OP or OP. For this the master reads AL status of each slave in each period. A slave that does not answer twice in a row counts
+  as absent.
 
 It has no NX bus: NX_ReadObj, NX_WriteObj and ResetNXBError end with an error (16#400).
 
 ## Steps
-A step is a table, and happens behind the step in front of it. It tells one of these:
+A step is a table. It happens after the step before it, and has one of these keys:
 
-| key | who is told |
+| key | addressee or check |
 |---|---|
-| `master` | the [scripted master](#master), which works off its orders one after the other |
-| `unit` | hands on a [unit](#unit) |
+| `master` | the [scripted master](#master), which carries out its orders one after the other |
+| `unit` | a manual operation at a [unit](#unit) |
 | `cpu` | a [CPU Unit](#cpu) |
 | `line` | the [line](#line): cables and frames |
-| `expect` | nobody: the [condition](#conditions) has to hold now |
-| `never` | nobody: the condition has to hold at no moment from now to the end |
-| `random` | so many steps that the dice write, within the time of `within`; a scenario may have one such step |
+| `expect` | the [condition](#conditions) has to hold now |
+| `never` | the condition must not hold at any moment from now to the end |
+| `random` | this number of random steps, within the time of `within`; a scenario can have one such step |
 
-When it is due; without any, at once:
+These keys say when a step is due; without them it is due at once:
 
 | key | due |
 |---|---|
 | `at` | at this time from the beginning |
-| `after` | so long after the step in front of it |
+| `after` | this time after the step before it |
 | `when` | as soon as this condition holds |
 
-How long an `expect` has, and how often a step happens:
+These keys give the time of an `expect`, and the repetition of a step:
 
 | key | meaning |
 |---|---|
 | `within` | the condition has to hold at some moment before this time has passed; the next step comes at that moment |
 | `for` | it has to hold at every moment until this time has passed |
-| `until` | it has to hold at every moment until this condition does; `never` takes it too |
-| `repeat`, `every` | the step happens so many times in all, one so long after the other |
-| `jitter` | each repetition comes earlier or later by at most this time, as the dice say |
+| `until` | it has to hold at every moment until this condition holds; `never` takes this key too |
+| `repeat`, `every` | total number of times that the step happens, and the time from one to the next |
+| `jitter` | each repetition is earlier or later by at most this time, chosen at random |
 
 Times have a unit: `20us`, `1.5ms`, `2s`.
 "#;
 
 fn page() -> String {
     let mut page = HEAD.to_owned();
-    sentences(&mut page, "master", "What `master` may be told.", MASTER);
-    sentences(&mut page, "unit", "What `unit` may be told.", UNIT);
-    sentences(&mut page, "cpu", "What `cpu` may be told.", CPU);
-    sentences(&mut page, "line", "What `line` may be told. Faults add up until the line is quiet.", LINE);
-    sentences(&mut page, "conditions", "What `expect`, `never` and `when` take.", CONDITIONS);
+    sentences(&mut page, "master", "The sentences of `master`.", MASTER);
+    sentences(&mut page, "unit", "The sentences of `unit`.", UNIT);
+    sentences(&mut page, "cpu", "The sentences of `cpu`.", CPU);
+    sentences(&mut page, "line", "The sentences of `line`. Faults accumulate until the line is quiet.", LINE);
+    sentences(
+        &mut page,
+        "conditions",
+        "The conditions of `expect`, `never`, `when` and `until`.",
+        CONDITIONS,
+    );
     places(&mut page);
     faults(&mut page);
     patterns(&mut page);
@@ -112,7 +117,13 @@ fn sentences<T>(page: &mut String, heading: &str, opening: &str, table: &[Senten
 
 fn places(page: &mut String) {
     let rows = Place::all().iter().map(|place| [format!("`{{{}}}`", place.name), place.meaning.to_owned()]);
-    section(page, "places", "What a sentence may have in its places.", ["place", "what stands there"], rows);
+    section(
+        page,
+        "places",
+        "The placeholders of the sentences, and their values.",
+        ["placeholder", "value"],
+        rows,
+    );
 }
 
 fn faults(page: &mut String) {
@@ -124,7 +135,7 @@ fn faults(page: &mut String) {
     section(
         page,
         "faults",
-        "What `break` and `mend` name, and the event that it raises.",
+        "The faults of `break` and `mend`, and the events that they raise.",
         ["fault", "event"],
         rows,
     );
@@ -136,7 +147,7 @@ fn patterns(page: &mut String) {
         let times = if steps.is_empty() { "steady".to_owned() } else { steps.join(", ") };
         [format!("`{}`", pattern.id()), times]
     });
-    let opening = "What an indicator does; the times are lit, dark, lit, … in milliseconds.";
+    let opening = "The patterns of an indicator; the times are lit, not lit, lit, … in milliseconds.";
     section(page, "patterns", opening, ["pattern", "times"], rows);
 }
 

@@ -4,20 +4,20 @@ use std::path::{Path, PathBuf};
 
 use st::{Class, Elementary, Entry};
 
-/// Set to anything, it makes the test write the page instead of comparing it.
+/// If this variable is set, the test writes the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
 
 const HEAD: &str = "<!-- Generated: cargo xtask bless -->
 # Structured Text: types and library
 
-Every elementary type, function and function block that a program may use. [Run your PLC program](structured-text.md) begins from
-nothing, and has statements and operators.
+Every elementary type, function and function block that a program can use. To start, read [run your PLC program](structured-text.md);
+[the language](structured-text-language.md) has statements and operators.
 
-Names are the same in whatever case. A name in parentheses is another name of the same input, the one of IEC 61131-3 where the maker
-has his own. Inputs are given by name or in this order; where a list ends with `…`, as many more as you like may come. What is a fault
+The case of names is ignored. A name in parentheses is another name of the same input: the name in IEC 61131-3, if OMRON uses a different
+one. Give inputs by name or in this order; if a list ends with `…`, any number of further inputs can follow. A fault
 [ends the scan](structured-text.md#a-scan).
 
-Inputs that take several types name them as the standard does: ANY_INT is SINT to ULINT, ANY_REAL is REAL and LREAL, ANY_NUM is both of them,
+Inputs that take several types use the names of the standard: ANY_INT is SINT to ULINT, ANY_REAL is REAL and LREAL, ANY_NUM is both of them,
 ANY_MAGNITUDE is ANY_NUM and TIME.
 ";
 
@@ -31,18 +31,18 @@ const GENERIC_TYPES: [(&str, &str); 4] = [
 
 const CONVERSIONS: &str = "
 ## conversions
-| call | gives |
+| call | result |
 |---|---|
 | `INT_TO_REAL(x)`, and the same for every two types of the table above | x as a value of the other type |
-| `TO_REAL(x)` | the same, from whatever type x has |
+| `TO_REAL(x)` | the same, for any type of x |
 | `INT_TO_STRING(x)`, `TO_STRING(x)` | x as text: `-5`, `00FF` (a bit string, all its digits), `0.1`, `TRUE`, `T#1s500ms` |
-| `STRING_TO_INT(x)` | the value that such a text tells; a fault if it tells none of the type |
+| `STRING_TO_INT(x)` | the value of such a text; a text that is not a value of the type is a fault |
 | `EnumToNum(x)` | the number of a value of an enumeration, as a DINT |
 | `LOWER_BOUND(x, 1)`, `UPPER_BOUND(x, 1)` | the bounds of a dimension of an array, as DINTs |
 
-Between integers and bit strings the low bits stay, the others are lost. A floating point number is rounded to the nearest integer, halves to the
-even one, and is the limit of the type beyond it; NaN becomes 0. A bit string takes the rounded number as a pattern: `REAL_TO_WORD(-1.6)` is
-16#FFFE. To BOOL everything but 0 is TRUE. Of a date, only `DT_TO_DATE` and `DT_TO_TOD` make another type.
+Between integers and bit strings the low bits stay and the others are cut. A floating point number is rounded to the nearest integer, halves to the
+even one; beyond the range of the type it becomes the limit, and NaN becomes 0. A bit string takes the rounded number as a bit pattern: `REAL_TO_WORD(-1.6)` is
+16#FFFE. To BOOL, every value except 0 is TRUE. For dates, only `DT_TO_DATE` and `DT_TO_TOD` convert to another type.
 ";
 
 fn page() -> String {

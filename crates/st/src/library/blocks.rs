@@ -47,7 +47,7 @@ macro_rules! up {
             $name,
             concat!("CU: BOOL, Reset (R): BOOL, PV: ", $type),
             concat!("Q: BOOL, CV: ", $type),
-            "counts up to PV at the rising edge of CU, and stops there; Q from PV on",
+            "counts up at each rising edge of CU, to PV at most; Q is TRUE at PV or above",
         )
     };
 }
@@ -58,7 +58,7 @@ macro_rules! down {
             $name,
             concat!("CD: BOOL, Load (LD): BOOL, PV: ", $type),
             concat!("Q: BOOL, CV: ", $type),
-            "counts down to 0 at the rising edge of CD, and stops there; Q from 0 down",
+            "counts down at each rising edge of CD, to 0 at least; Q is TRUE at 0 or below",
         )
     };
 }
@@ -69,7 +69,7 @@ macro_rules! both_ways {
             $name,
             concat!("CU: BOOL, CD: BOOL, Reset (R): BOOL, Load (LD): BOOL, PV: ", $type),
             concat!("QU: BOOL, QD: BOOL, CV: ", $type),
-            "counts up to PV and down to 0; Reset before Load before the edges; both edges in one call leave CV as it is",
+            "counts up to PV and down to 0; Reset has priority over Load, and Load over the edges; both edges in one call do not change CV",
         )
     };
 }
@@ -78,23 +78,23 @@ macro_rules! both_ways {
 pub(super) const BLOCKS: &[Row] = &[
     row("R_TRIG", "Clk: BOOL", "Q: BOOL", "TRUE for one call when Clk becomes TRUE, also at the first call"),
     row("F_TRIG", "Clk: BOOL", "Q: BOOL", "TRUE for one call when Clk becomes FALSE"),
-    row("RS", "Set (S): BOOL, Reset1 (R1): BOOL", "Q1: BOOL", "keeps what was set; Reset1 wins"),
-    row("SR", "Set1 (S1): BOOL, Reset (R): BOOL", "Q1: BOOL", "keeps what was set; Set1 wins"),
+    row("RS", "Set (S): BOOL, Reset1 (R1): BOOL", "Q1: BOOL", "stays TRUE after Set until Reset1; Reset1 has priority"),
+    row("SR", "Set1 (S1): BOOL, Reset (R): BOOL", "Q1: BOOL", "stays TRUE after Set1 until Reset; Set1 has priority"),
     up!("CTU", "INT"), down!("CTD", "INT"), both_ways!("CTUD", "INT"),
     up!("CTU_DINT", "DINT"), down!("CTD_DINT", "DINT"), both_ways!("CTUD_DINT", "DINT"),
     up!("CTU_LINT", "LINT"), down!("CTD_LINT", "LINT"), both_ways!("CTUD_LINT", "LINT"),
     up!("CTU_UDINT", "UDINT"), down!("CTD_UDINT", "UDINT"), both_ways!("CTUD_UDINT", "UDINT"),
     up!("CTU_ULINT", "ULINT"), down!("CTD_ULINT", "ULINT"), both_ways!("CTUD_ULINT", "ULINT"),
-    row("TON", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q when In has been TRUE for PT"),
-    row("TOF", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q until In has been FALSE for PT"),
-    row("TP", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q for PT from the rising edge of In on, whatever In does then"),
+    row("TON", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q is TRUE when In has been TRUE for PT"),
+    row("TOF", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q is TRUE from In until In has been FALSE for PT"),
+    row("TP", "In: BOOL, PT: TIME", "Q: BOOL, ET: TIME", "Q is TRUE for PT from the rising edge of In, independent of In afterwards"),
     row("AccumulationTimer", "In: BOOL, PT: TIME, Reset: BOOL", "Q: BOOL, ET: TIME",
-        "Q when In has been TRUE for PT in all since Reset; Reset wins"),
+        "Q is TRUE when In has been TRUE for PT in total since Reset; Reset has priority"),
     row("NX_ReadObj", "Execute: BOOL, UnitProxy: _sNXUNIT_ID, Obj: _sNXOBJ_ACCESS, TimeOut: UINT, ReadDat: a variable",
         "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD, ErrorIDEx: DWORD",
         "reads an NX object at the rising edge of Execute; TimeOut in 0.1 s, 0 is 2.0 s"),
     row("ResetNXBError", "Execute: BOOL", "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD",
-        "resets the errors of the NX Bus Function Module, and with them those of the unit, at the rising edge of Execute"),
+        "resets the errors of the NX Bus Function Module, and the errors of the unit, at the rising edge of Execute"),
     row("NX_WriteObj", "Execute: BOOL, UnitProxy: _sNXUNIT_ID, Obj: _sNXOBJ_ACCESS, TimeOut: UINT, WriteDat: a variable",
         "Done: BOOL, Busy: BOOL, Error: BOOL, ErrorID: WORD, ErrorIDEx: DWORD",
         "writes an NX object at the rising edge of Execute; TimeOut in 0.1 s, 0 is 2.0 s"),

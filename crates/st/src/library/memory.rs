@@ -17,13 +17,13 @@ const SLOTS_FOR_ONE: u64 = 16;
 
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
-    row("MemCopy", COPY, DONE, "copies Size elements from In on to AryOut on, also where both overlap; gives TRUE; \
-        more elements than there are is a fault", copy),
+    row("MemCopy", COPY, DONE, "copies Size elements beginning at In to AryOut and the elements after it, which may overlap; returns TRUE; \
+        a Size beyond the end of an array is a fault", copy),
     row("AryMove", COPY, DONE, "the same as MemCopy", copy),
-    row("SetBlock", COPY, DONE, "copies the one value In to Size elements from AryOut on; gives TRUE; \
-        more elements than there are is a fault", fill),
+    row("SetBlock", COPY, DONE, "copies the value In to Size elements beginning at AryOut; returns TRUE; \
+        a Size beyond the end of an array is a fault", fill),
     row("SizeOfAry", &[pin("In", Takes::Elements { written: false })], ResultType::Fixed(Elementary::Uint),
-        "how many elements an array has, from the given one on", |call| Ok(Elements::of(call, 0).count.min(u16::MAX.into()).into())),
+        "the number of elements of an array, beginning at the given one", |call| Ok(Elements::of(call, 0).count.min(u16::MAX.into()).into())),
 ];
 
 /// What the three arguments of such a pin say.

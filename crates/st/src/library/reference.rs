@@ -46,7 +46,7 @@ fn of_function(group: &'static str, function: &Function) -> Entry {
 
 fn of_pin(pin: &Pin) -> String {
     let alias = if pin.alias.is_empty() { String::new() } else { format!(" ({})", pin.alias) };
-    let optional = if pin.default.is_some() { ", may be left out" } else { "" };
+    let optional = if pin.default.is_some() { ", optional" } else { "" };
     format!("{}{alias}: {}{optional}", pin.name, of_taken(pin.takes))
 }
 

@@ -10,12 +10,12 @@ const MANY: &[Pin] = &[pin("In1", Takes::Generic(MAGNITUDES)), pin("In2", Takes:
 
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
-    row("MOVE", &[pin("In", Takes::GenericOrText(EVERY))], ResultType::Generic, "In as it is", |call| Ok(call.bits(0))),
+    row("MOVE", &[pin("In", Takes::GenericOrText(EVERY))], ResultType::Generic, "the value of In", |call| Ok(call.bits(0))),
     row("SEL", &[
         pin("G", Takes::Fixed(Elementary::Bool)),
         pin("In0", Takes::GenericOrText(EVERY)),
         pin("In1", Takes::GenericOrText(EVERY))],
-        ResultType::Generic, "In1 if G is TRUE, else In0",
+        ResultType::Generic, "In1 if G is TRUE, otherwise In0",
         |call| Ok(if call.bits(0) == 0 { call.bits(1) } else { call.bits(2) })),
     row_of_many("MUX", &[
         pin("K", Takes::Any(INTEGERS)),
@@ -23,7 +23,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         pin("In1", Takes::GenericOrText(EVERY))],
         ResultType::Generic, "the value with the number K, from 0; a K without a value is a fault", multiplex),
     row_of_many("MAX", MANY, ResultType::Generic, "the greatest value", |call| best(call, Binary::Greater)),
-    row_of_many("MIN", MANY, ResultType::Generic, "the least value", |call| best(call, Binary::Less)),
+    row_of_many("MIN", MANY, ResultType::Generic, "the smallest value", |call| best(call, Binary::Less)),
     row("LIMIT", &[
         pin("MN", Takes::Generic(MAGNITUDES)),
         pin("In", Takes::Generic(MAGNITUDES)),

@@ -19,12 +19,12 @@ const LAST_INFORMATION: i64 = 60_000;
 
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
-    row("SetAlarm", EVENT, DONE, "a user-defined error with a Code of 1 to 40000 and two values of whatever type; gives TRUE",
+    row("SetAlarm", EVENT, DONE, "raises a user-defined error with a Code of 1 to 40000 and two values of any type; returns TRUE",
         |call| raise(call, 1, LAST_ERROR)),
-    row("SetInfo", EVENT, DONE, "user-defined information with a Code of 40001 to 60000 and two values of whatever type; gives TRUE",
+    row("SetInfo", EVENT, DONE, "raises user-defined information with a Code of 40001 to 60000 and two values of any type; returns TRUE",
         |call| raise(call, LAST_ERROR + 1, LAST_INFORMATION)),
     row("ResetAlarm", &[optional("Code", Takes::Fixed(Elementary::Uint), 0)], DONE,
-        "resets the user-defined error of this Code, 0 all of them; gives TRUE",
+        "resets the user-defined error with this Code; 0 resets all of them; returns TRUE",
         |call| { let code = call.number(0, 0, LAST_ERROR)? as u16; call.machine.host.reset_alarm(code); Ok(1) }),
 ];
 
