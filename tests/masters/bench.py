@@ -1,6 +1,6 @@
 """What the master scripts share: pysoem brought up step by step, a strict 1 ms cycle, and readable failures.
 
-Each script is started by crates/ectwin/tests/masters/main.rs with the name of the master's interface and ends
+Each script is started by crates/ectwin-cli/tests/masters/main.rs with the name of the master's interface and ends
 with exit code 0, or prints what was wrong and ends with 1.
 """
 

@@ -27,6 +27,7 @@ mod ethercrab_port;
 pub mod explain;
 mod live;
 mod memory_file;
+#[cfg(feature = "modbus")]
 mod modbus_clients;
 pub mod object_words;
 #[cfg(feature = "opcua")]
@@ -43,6 +44,7 @@ mod watched_program;
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::{Live, run};
+#[cfg(feature = "modbus")]
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
 pub use nx_ect101::unit_file;
 pub use nx_ect101::{

@@ -16,10 +16,10 @@ pub(crate) enum Scope {
 const MASTERS: &str = "masters";
 
 /// Features that are off by default: all of them are checked.
-const FEATURES: &str = "ectwin/opcua,ectwin/wasm";
+const FEATURES: &str = "ectwin-cli/opcua,ectwin-cli/wasm";
 /// Those that are built and tested too, and their test binaries. OPC UA is not: its library alone takes more than
-/// six minutes of a processor to build. `cargo test -p ectwin --features opcua --test opcua` runs its test.
-const TESTED_FEATURES: &str = "ectwin/wasm";
+/// six minutes of a processor to build. `cargo test -p ectwin-cli --features opcua --test opcua` runs its test.
+const TESTED_FEATURES: &str = "ectwin-cli/wasm";
 const FEATURE_TESTS: &[&str] = &["wasm_programs"];
 
 pub(crate) fn tests(scope: Scope) -> Outcome {

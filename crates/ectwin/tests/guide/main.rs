@@ -1,4 +1,4 @@
-//! The Rust examples of docs/user, each a file that a reader can copy; crates/ectwin/tests/docs.rs holds them to
+//! The Rust examples of docs/user, each a file that a reader can copy; crates/ectwin-cli/tests/docs.rs holds them to
 //! the pages.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
@@ -13,5 +13,6 @@ mod events;
 mod frames_in_virtual_time;
 mod link_in_memory;
 mod messages;
+#[cfg(feature = "modbus")]
 mod modbus;
 mod scenario;

@@ -1,6 +1,6 @@
 //! Round trips over a veth pair: `ectwin run` against a process that only echoes, in the same run.
 //!
-//! `cargo bench -p ectwin --bench veth` makes its own network namespace. Each line is one placement of the two
+//! `cargo bench -p ectwin-cli --bench veth` makes its own network namespace. Each line is one placement of the two
 //! processes; the echo blocks in its receive call, and is the floor that no emulation can go below.
 
 use std::io::{Read, Write};

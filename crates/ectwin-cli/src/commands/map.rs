@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use modbus::{MapRow, ModbusMap};
+use ectwin::modbus::{MapRow, ModbusMap};
 use nx_ect101::{DataSet, Direction, SlaveStatus};
 use plc::{DeviceVariables, NodeLocation, Variable, VariableAccess, VariableSource};
 use serde::Serialize;
