@@ -7,6 +7,7 @@ use device::Network;
 use link::{FrameFate, Responder};
 use nx_ect101::NxEct101;
 use plc::CpuUnit;
+#[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
 use time::{Duration, Instant};
 
@@ -121,6 +122,7 @@ impl Twin {
     }
 
     /// Attaches a way in for runtimes on other threads to each CPU Unit, in the order of the line.
+    #[cfg(any(feature = "modbus", feature = "opcua"))]
     pub(crate) fn connect_outside(&mut self) -> Vec<OutsideEnd> {
         let connect = |cpu: &mut CpuUnit| {
             let (program, end) = outside::connect(cpu.io().variables());

@@ -1,27 +1,38 @@
 //! Real media and the real clock: raw, UDP, TAP and in-memory links.
 //!
-//! A [`FramePort`] carries Ethernet frames; [`open`] makes one from a [`LinkSpec`], [`memory::pair`] makes two
+//! A [`FramePort`] carries Ethernet frames; `open` makes one from a [`LinkSpec`], [`memory::pair`] makes two
 //! that are joined. [`runner::run`] answers the frames of a port through a [`Responder`], first of all, and
 //! then tells an [`Observer`], such as the [`Recorder`] that writes them to a pcapng file.
 //!
-//! This is the only crate below the binary that opens sockets and asks what time it is.
+//! This is the only crate below the binary that opens sockets and asks what time it is. Without its feature `media`
+//! it has links in memory alone.
 
 mod clock;
+#[cfg(feature = "media")]
+mod descriptor;
+#[cfg(feature = "media")]
 mod filter;
 mod losses;
 pub mod memory;
+#[cfg(feature = "media")]
 mod open;
+#[cfg(feature = "media")]
 mod open_error;
 mod port;
+#[cfg(feature = "media")]
 mod raw;
 mod recorder;
 pub mod runner;
 mod spec;
+#[cfg(feature = "media")]
 mod tap;
+#[cfg(feature = "media")]
 mod udp;
 
 pub use clock::Clock;
+#[cfg(feature = "media")]
 pub use open::open;
+#[cfg(feature = "media")]
 pub use open_error::OpenError;
 pub use port::{FRAME_BUFFER_BYTES, FramePort};
 pub use recorder::{Medium, Recorder, Recording};

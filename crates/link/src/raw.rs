@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 use time::Duration;
 
-use crate::port::receive_from;
+use crate::descriptor::receive_from;
 use crate::{FramePort, LinkSpec, OpenError};
 use bell::Bell;
 use interface::{Interface, Watch};

@@ -5,7 +5,7 @@ use std::io;
 use time::Duration;
 use tun_rs::{DeviceBuilder, Layer, SyncDevice};
 
-use crate::port::{may_be_ethercat, receive_from};
+use crate::descriptor::{may_be_ethercat, receive_from};
 use crate::{FramePort, LinkSpec, OpenError};
 
 /// Our end of a TAP interface. The interface goes away with it unless it was there before.

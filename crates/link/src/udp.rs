@@ -7,7 +7,7 @@ use socket2::SockRef;
 use time::Duration;
 
 use crate::filter::{ANSWER_TOS, NO_ANSWERS};
-use crate::port::receive_from;
+use crate::descriptor::receive_from;
 use crate::{FramePort, LinkSpec, OpenError};
 
 /// The Ethernet header in which the segment sees the UDP payload: to everyone, from an address of no maker.

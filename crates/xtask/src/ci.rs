@@ -8,7 +8,7 @@ use clap::Args;
 use crate::outcome::Ending;
 use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
-use crate::{advisories, arrows, conformance, tidy};
+use crate::{advisories, arrows, conformance, library, tidy};
 
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]
@@ -35,6 +35,7 @@ const STEPS: &[Step] = &[
     Step { name: "tidy", in_quick: true, run: |_| tidy::check().into() },
     Step { name: "licences", in_quick: false, run: |_| tools::licences().into() },
     Step { name: "advisories", in_quick: false, run: |_| advisories::check() },
+    Step { name: "library", in_quick: false, run: |_| library::check().into() },
     Step { name: "clippy", in_quick: true, run: |_| tools::clippy().into() },
     Step { name: "tests", in_quick: true, run: |scope| tests_step::tests(scope).into() },
     Step { name: "features", in_quick: false, run: |_| tests_step::features().into() },

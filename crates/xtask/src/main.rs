@@ -5,6 +5,7 @@ mod arrows;
 mod bless;
 mod ci;
 mod conformance;
+mod library;
 mod metadata;
 mod outcome;
 mod sources;
@@ -41,6 +42,8 @@ enum Task {
         #[arg(long)]
         bless: bool,
     },
+    /// The library without features: how many crates it pulls in, and that it builds
+    Library,
     /// The licences and origins of what we depend on
     Licences,
     /// Known vulnerabilities of what we depend on, where their index can be had
@@ -58,6 +61,7 @@ fn main() -> ExitCode {
         Task::Arrows { bless: false } => arrows::check(),
         Task::Conformance { bless: true } => conformance::bless(),
         Task::Conformance { bless: false } => conformance::check(),
+        Task::Library => library::check(),
         Task::Licences => tools::licences(),
         Task::Advisories => advisories::check().told(),
         Task::Tidy => tidy::check(),
