@@ -6,8 +6,8 @@ use std::net::{SocketAddr, UdpSocket};
 use socket2::SockRef;
 use time::Duration;
 
-use crate::filter::{ANSWER_TOS, NO_ANSWERS};
 use crate::descriptor::receive_from;
+use crate::filter::{ANSWER_TOS, NO_ANSWERS};
 use crate::{FramePort, LinkSpec, OpenError};
 
 /// The Ethernet header in which the segment sees the UDP payload: to everyone, from an address of no maker.

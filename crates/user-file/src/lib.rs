@@ -7,6 +7,7 @@
 //! A file can be anything: an ESI file, a program in another character set, 200 KB of keys that do not exist. This crate
 //! bounds what is said about it, in number and in length.
 
+mod encoding;
 mod error;
 mod kind;
 mod located;

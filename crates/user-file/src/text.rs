@@ -1,7 +1,6 @@
 //! From the bytes of a file to its text.
 
-use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
-
+use crate::encoding;
 use crate::kind::{Refusal, Wanted, of_another_kind};
 use crate::line_and_column;
 
@@ -24,30 +23,26 @@ pub fn text(bytes: Vec<u8>, name: &str, wanted: Wanted) -> Result<String, Refusa
 }
 
 fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
-    let encoding = match bytes {
-        [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] => "UTF-16",
-        _ if bytes.contains(&0) => return Refusal::new("this is a binary file", wanted.help()),
-        _ => guessed(bytes),
-    };
+    if matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]) {
+        return not_utf8_but(Some("UTF-16"), "");
+    }
+    if bytes.contains(&0) {
+        return Refusal::new("this is a binary file", wanted.help());
+    }
     let before = String::from_utf8_lossy(bytes.get(..wrong).unwrap_or_default());
     let (line, _) = line_and_column(&before, before.len());
     let byte = bytes.get(wrong).copied().unwrap_or_default();
-    let place =
-        if encoding == "UTF-16" { String::new() } else { format!(": byte 0x{byte:02X} in line {line}") };
-    Refusal::new(
-        format!("this text is not UTF-8; it looks like {encoding}{place}"),
-        format!("save it as UTF-8, or convert it: iconv -f {encoding} -t UTF-8 FILE > NEW"),
-    )
+    not_utf8_but(encoding::guessed(bytes), &format!(": byte 0x{byte:02X} in line {line}"))
 }
 
-/// The character set that such bytes are most likely in.
-fn guessed(bytes: &[u8]) -> &'static str {
-    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
-    detector.feed(bytes, true);
-    match detector.guess(None, Utf8Detection::Deny).name() {
-        // Latin-1 with letters in place of control characters: nobody can tell them apart.
-        "windows-1252" => "Latin-1",
-        other => other,
+/// Refuses a text in another character set, which is perhaps known.
+fn not_utf8_but(encoding: Option<&str>, place: &str) -> Refusal {
+    match encoding {
+        Some(encoding) => Refusal::new(
+            format!("this text is not UTF-8; it looks like {encoding}{place}"),
+            format!("save it as UTF-8, or convert it: iconv -f {encoding} -t UTF-8 FILE > NEW"),
+        ),
+        None => Refusal::new(format!("this text is not UTF-8{place}"), "save it as UTF-8"),
     }
 }
 
@@ -60,6 +55,7 @@ mod tests {
         format!("{message} ({help})")
     }
 
+    #[cfg(feature = "encodings")]
     #[test]
     fn a_text_in_another_character_set_is_told_which() {
         // "(* プログラム *)" and "(* Zähler für Öl *)".

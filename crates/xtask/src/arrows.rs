@@ -53,7 +53,7 @@ const FLOORS: &[Row] = &[
     row("link", 8, Only(&["time", "capture", "segment"])),
     row("storage", 8, Only(&[])),
     row("ectwin", 9, AnyFloorBelow),
-    row("ectwin-cli", 10, AnyFloorBelow),
+    row("cli", 10, AnyFloorBelow),
     row("xtask", CHECKS_FLOOR, AnyFloorBelow),
     row(TESTBED, 0, Only(&[])),
 ];
