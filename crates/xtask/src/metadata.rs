@@ -1,6 +1,6 @@
 //! What `cargo metadata` says of our own crates.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use serde::Deserialize;
@@ -17,6 +17,7 @@ pub(crate) struct Metadata {
 #[derive(Deserialize)]
 pub(crate) struct Package {
     pub(crate) name: String,
+    manifest_path: PathBuf,
     pub(crate) description: Option<String>,
     pub(crate) dependencies: Vec<Dependency>,
 }
@@ -32,7 +33,7 @@ pub(crate) struct Dependency {
 impl Package {
     /// The name of its folder under crates/, which is also its name in our code.
     pub(crate) fn short_name(&self) -> &str {
-        short(&self.name)
+        self.manifest_path.parent().and_then(folder).unwrap_or(&self.name)
     }
 }
 
@@ -47,14 +48,14 @@ impl Dependency {
         self.kind.as_deref() == Some("dev")
     }
 
-    /// The name without our prefix.
+    /// The name of its folder, if it is a crate of ours.
     pub(crate) fn short_name(&self) -> &str {
-        short(&self.name)
+        self.path.as_deref().and_then(folder).unwrap_or(&self.name)
     }
 }
 
-fn short(name: &str) -> &str {
-    name.strip_prefix("ectwin-").unwrap_or(name)
+fn folder(path: &Path) -> Option<&str> {
+    path.file_name()?.to_str()
 }
 
 /// Asks cargo.
