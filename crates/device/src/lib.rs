@@ -24,7 +24,7 @@ pub use conditions::{Condition, PROCESS_DATA, Requirement, WATCHED_PROCESS_DATA,
 pub use conduct::{Conduct, Refusals, TransitionTimes};
 pub use config::{ConfigError, DeviceConfig, OutputsBeforeOp, RefusedInOp, StartUp};
 pub use device::Device;
-pub use esc::{EscConfig, SiiTiming, SmIndex, SyncManagerWrites};
+pub use esc::{EscConfig, PortKind, SiiTiming, SmIndex, SyncManagerWrites};
 pub use mailbox::AbortProfile;
 pub use network::Network;
 pub use segment::FrameFate;

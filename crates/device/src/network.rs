@@ -45,7 +45,7 @@ impl<U: Unit> Network<U> {
         for (position, device) in self.devices.iter_mut().enumerate() {
             let Some(esc) = self.segment.esc_mut(position) else { continue };
             let due = device.deadline().min(esc.deadline()) <= now;
-            if esc.interrupts_pdi() || due || device.awaits_outputs() {
+            if esc.interrupts_pdi() || due || device.awaits_outputs() || device.follows_frame(esc) {
                 reset |= esc.asks_for_reset();
                 device.poll(esc, now);
             }

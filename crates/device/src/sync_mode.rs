@@ -10,6 +10,9 @@ pub enum SyncMode {
     /// Also with every event of the outputs' SyncManagers, or of the inputs' where there are no outputs. The event
     /// needs the PDI interrupt in the control byte (bit 5).
     SmSynchronous,
+    /// As digital outputs without a processor: also with the end of every frame that writes outputs, whatever the
+    /// control byte says.
+    EndOfFrame,
     /// With SYNC0 of the distributed clocks. No slave of ours follows it yet.
     Dc,
 }
@@ -19,6 +22,7 @@ impl fmt::Display for SyncMode {
         formatter.write_str(match self {
             Self::FreeRun => "Free-Run",
             Self::SmSynchronous => "SM-synchronous",
+            Self::EndOfFrame => "end of frame",
             Self::Dc => "DC",
         })
     }

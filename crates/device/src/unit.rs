@@ -23,7 +23,7 @@ pub struct PortLinks {
 pub enum RefreshCause {
     /// The period of the unit ([`Unit::refresh_period`]) is over.
     Period,
-    /// The master has exchanged process data with an SM-synchronous unit.
+    /// The master has exchanged process data with a unit that follows them ([`SyncMode`]).
     SyncManager,
     /// A state or a status has changed between two periods, and the master is to see it at once.
     Change,
@@ -99,8 +99,8 @@ pub trait Unit {
     /// The state machine has arrived in `state`.
     fn entered(&mut self, _now: Instant, _state: AlState) {}
 
-    /// Time between two refreshes by the unit's own timer; none: it is refreshed at changes, and where it is
-    /// SM-synchronous.
+    /// Time between two refreshes by the unit's own timer; none: it is refreshed at changes, and as its
+    /// synchronisation mode says.
     fn refresh_period(&self) -> Option<Duration>;
 
     /// Moves data between the SyncManagers and the application.

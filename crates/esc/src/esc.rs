@@ -12,7 +12,7 @@ use crate::ports::{self, Port, PortStatus, Ports};
 use crate::registers::at;
 use crate::shadow::Shadow;
 use crate::sii::Sii;
-use crate::sync_manager::{SYNC_MANAGERS_MAX, SyncManager};
+use crate::sync_manager::{SYNC_MANAGERS_MAX, SmIndex, SyncManager};
 use crate::watchdog::Watchdog;
 
 /// Features: distributed clocks, 64 bits wide.
@@ -294,6 +294,12 @@ impl Esc {
     #[must_use]
     pub fn interrupts_pdi(&self) -> bool {
         self.reset_requested || !self.visible_al_events().is_empty()
+    }
+
+    /// Whether the wire has handed over at a SyncManager, and the PDI has not looked yet, be it interrupted or not.
+    #[must_use]
+    pub fn has_sync_manager_event(&self, index: SmIndex) -> bool {
+        self.sync_managers[usize::from(index.0 & 0x0F)].pdi_event
     }
 
     /// Whether the master asks for a reset of the controller.

@@ -155,7 +155,7 @@ impl Pdi<'_> {
     /// Whether the wire has read or written this SyncManager, and the PDI has not looked yet.
     #[must_use]
     pub fn has_event(&self, index: SmIndex) -> bool {
-        self.sm(index).pdi_event
+        self.esc.has_sync_manager_event(index)
     }
 
     /// Takes the event that the wire has read or written this SyncManager.

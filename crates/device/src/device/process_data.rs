@@ -1,6 +1,6 @@
 //! The exchange of process data: when it happens, and which outputs are valid.
 
-use esc::{Pdi, Port, SmIndex};
+use esc::{Esc, Pdi, Port, SmIndex};
 use time::{Duration, Instant};
 use wire::AlState;
 
@@ -22,9 +22,20 @@ impl<U: Unit> Device<U> {
         {
             self.exchange(RefreshCause::Period, pdi, now);
             self.power = Power::On { next_refresh: self.refresh_after(next_refresh, now) };
-        } else if self.sync_events().any(|index| pdi.has_event(index)) {
+        } else if self.is_synchronised(pdi) {
             self.exchange(RefreshCause::SyncManager, pdi, now);
         }
+    }
+
+    /// Whether the master has exchanged process data that the unit follows.
+    fn is_synchronised(&self, pdi: &Pdi<'_>) -> bool {
+        self.sync_events().any(|index| pdi.has_event(index) && pdi.sync_manager(index).pdi_event)
+            || self.frame_events().any(|index| pdi.has_event(index))
+    }
+
+    /// Whether a frame has brought outputs that go out at its end.
+    pub(crate) fn follows_frame(&self, esc: &Esc) -> bool {
+        self.frame_events().any(|index| esc.has_sync_manager_event(index))
     }
 
     /// What was missed is not made up for, and the phase stays.
@@ -95,11 +106,21 @@ impl<U: Unit> Device<U> {
 
     /// The SyncManagers whose events an SM-synchronous unit follows now.
     pub(super) fn sync_events(&self) -> impl Iterator<Item = SmIndex> + '_ {
-        let process_data = self.machine.state.process_data();
-        let follows = process_data.is_some_and(|data| data.sync_mode == SyncMode::SmSynchronous);
-        let followed =
-            follows.then(|| if self.has_outputs() { DataDirection::Outputs } else { DataDirection::Inputs });
+        let followed = self
+            .is_in(SyncMode::SmSynchronous)
+            .then(|| if self.has_outputs() { DataDirection::Outputs } else { DataDirection::Inputs });
         followed.into_iter().flat_map(|direction| self.sync_managers_of(direction))
+    }
+
+    /// The SyncManagers whose outputs go out with the end of a frame.
+    fn frame_events(&self) -> impl Iterator<Item = SmIndex> + '_ {
+        let followed = self.is_in(SyncMode::EndOfFrame).then_some(DataDirection::Outputs);
+        followed.into_iter().flat_map(|direction| self.sync_managers_of(direction))
+    }
+
+    /// Whether process data are exchanged, and in this mode.
+    fn is_in(&self, sync_mode: SyncMode) -> bool {
+        self.machine.state.process_data().is_some_and(|data| data.sync_mode == sync_mode)
     }
 
     /// The synchronisation mode that the master has set.

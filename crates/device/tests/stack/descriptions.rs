@@ -171,6 +171,31 @@ fn an_sm_synchronous_slave_follows_the_outputs() {
     assert_eq!(bench.unit().refreshes, []);
 }
 
+/// As digital outputs without a processor do: the control byte has no PDI interrupt.
+#[test]
+fn outputs_may_go_out_with_the_end_of_the_frame() {
+    let config = DeviceConfig { sync_modes: &[SyncMode::EndOfFrame], ..sm_synchronous() };
+    let mut bench = in_pre_op(config, &[(0, 0x1000, 1, 0x44), (1, 0x1100, 1, 0x00)]);
+    to_op(&mut bench);
+    bench.unit().refreshes.clear();
+    bench.write(0x1000, &[0x55]);
+    assert_eq!(bench.unit().refreshes, [RefreshCause::SyncManager]);
+    assert_eq!(bench.unit().outputs, Some(vec![0x55]));
+    bench.read(0x1100, 1);
+    assert_eq!(bench.unit().refreshes.len(), 1, "inputs follow the timer");
+}
+
+#[test]
+fn an_sm_synchronous_slave_needs_the_interrupt() {
+    let mut bench = in_pre_op(sm_synchronous(), &[(0, 0x1000, 1, 0x44), (1, 0x1100, 1, 0x00)]);
+    bench.unit().sync_mode = Some(SyncMode::SmSynchronous);
+    to_op(&mut bench);
+    bench.unit().refreshes.clear();
+    bench.write(0x1000, &[0x55]);
+    bench.run_for(Duration::from_millis(1));
+    assert_eq!(bench.unit().refreshes, [RefreshCause::Period]);
+}
+
 #[test]
 fn a_slave_with_inputs_only_follows_the_inputs() {
     let config = DeviceConfig {
@@ -202,7 +227,7 @@ fn a_synchronisation_mode_that_is_not_described_is_refused() {
     {
         let others: &[SyncMode] = match sync_mode {
             SyncMode::FreeRun | SyncMode::Dc => &[SyncMode::SmSynchronous],
-            SyncMode::SmSynchronous => &[SyncMode::FreeRun],
+            SyncMode::SmSynchronous | SyncMode::EndOfFrame => &[SyncMode::FreeRun],
         };
         let mut bench = in_pre_op(DeviceConfig { sync_modes: others, ..described([]) }, &[]);
         bench.unit().sync_mode = Some(sync_mode);
