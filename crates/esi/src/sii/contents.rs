@@ -37,6 +37,12 @@ impl SiiContents {
         }
     }
 
+    /// Whether there is a mailbox, or a PDO.
+    #[must_use]
+    pub fn carries_data(&self) -> bool {
+        self.header.receive.length_bytes > 0 || !self.rx_pdos.is_empty() || !self.tx_pdos.is_empty()
+    }
+
     /// Whether category `number` is there.
     #[must_use]
     pub fn has_category(&self, number: u16) -> bool {

@@ -118,14 +118,16 @@ fn check_header(header: &Header, length_bytes: usize, findings: &mut Vec<Finding
 }
 
 fn check_categories(contents: &SiiContents, findings: &mut Vec<Finding>) {
+    // A coupler has no data, and nothing that would carry them.
+    let has_data = contents.carries_data();
     let needed = [
-        (category::STRINGS, "category 10 (strings)"),
-        (category::GENERAL, "category 30 (general)"),
-        (category::FMMU, "category 40 (FMMU)"),
-        (category::SYNC_MANAGER, "category 41 (SyncM)"),
+        (category::STRINGS, "category 10 (strings)", true),
+        (category::GENERAL, "category 30 (general)", true),
+        (category::FMMU, "category 40 (FMMU)", has_data),
+        (category::SYNC_MANAGER, "category 41 (SyncM)", has_data),
     ];
-    for (number, place) in needed {
-        if !contents.has_category(number) {
+    for (number, place, is_needed) in needed {
+        if is_needed && !contents.has_category(number) {
             findings.push(finding("C027", place, "missing", "one".into()));
         }
     }

@@ -2,7 +2,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::tests::small_device;
-use crate::{FmmuUsage, PortPhysics};
+use crate::{DeviceDescription, FmmuUsage, PortPhysics};
 
 /// Words 0 to 6 of a drive with the checksum that it stores, and the `ConfigData` of a published ESI sample.
 const VECTORS: [([u8; 14], u8); 2] = [
@@ -24,6 +24,16 @@ fn an_image_has_the_size_of_the_eeprom_and_no_finding() {
     assert_eq!(image.len(), 2048);
     assert_eq!(lint(&image), []);
     assert_eq!(compare(&image, &description), []);
+}
+
+/// C027: FMMUs and SyncManagers are there for data.
+#[test]
+fn a_device_without_data_needs_no_fmmu_and_no_sync_manager() {
+    let empty = DeviceDescription { mailbox: None, fmmus: vec![], sync_managers: vec![], ..small_device() };
+    let missing = lint(&image(&empty)).into_iter().map(|finding| finding.place).collect::<Vec<_>>();
+    assert!(missing.contains(&"category 40 (FMMU)".into()), "{missing:?}");
+    let coupler = DeviceDescription { rx_pdos: vec![], tx_pdos: vec![], ..empty };
+    assert_eq!(lint(&image(&coupler)), []);
 }
 
 #[test]
