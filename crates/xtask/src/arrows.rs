@@ -43,6 +43,7 @@ const FLOORS: &[Row] = &[
     row("esi", 3, Only(&["wire", "objects"])),
     row("device", 4, AnyFloorBelow),
     row("nx-ect101", 5, Only(&["time", "wire", "objects", "user-file", "esi", "device"])),
+    row("digital", 5, Only(&["time", "wire", "esi", "device"])),
     row(MASTER, 5, Only(&["time", "wire", "objects", "esi"])),
     row("st", 5, Only(&["iec-types"])),
     row("plc", 6, Only(&["time", "st", "nx-ect101"])),

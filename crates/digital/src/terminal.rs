@@ -1,0 +1,66 @@
+//! The terminal itself.
+
+use device::{Exchange, Start, Unit};
+use time::{Duration, Instant};
+use wire::AlStatusCode;
+
+use crate::channels::Channels;
+use crate::settings::TerminalSettings;
+use crate::wiring::Wiring;
+
+/// Time between two looks at the inputs.
+const INPUT_PERIOD: Duration = Duration::from_millis(1);
+
+/// A terminal in operation: levels pass between the process data and its wiring, and nothing else happens.
+#[derive(Debug)]
+pub struct Terminal<W> {
+    inputs: Channels,
+    outputs: Channels,
+    wiring: W,
+}
+
+impl<W: Wiring> Terminal<W> {
+    /// A terminal with this wiring.
+    #[must_use]
+    pub const fn power_on(settings: &TerminalSettings, wiring: W) -> Self {
+        Self { inputs: settings.inputs, outputs: settings.outputs, wiring }
+    }
+
+    /// What is wired to it.
+    #[must_use]
+    pub const fn wiring(&self) -> &W {
+        &self.wiring
+    }
+
+    /// What is wired to it, to be changed.
+    pub const fn wiring_mut(&mut self) -> &mut W {
+        &mut self.wiring
+    }
+
+    /// Outputs are off without valid process data: below OP, and when the watchdog has expired.
+    fn switch_outputs(&mut self, process_data: Option<&[u8]>) {
+        let levels = process_data.map_or(0, |bytes| self.outputs.levels(bytes));
+        self.wiring.set_outputs(levels);
+    }
+}
+
+impl<W: Wiring> Unit for Terminal<W> {
+    /// Outputs go out with the frame, so that only inputs need a timer.
+    fn refresh_period(&self) -> Option<Duration> {
+        (!self.inputs.is_none()).then_some(INPUT_PERIOD)
+    }
+
+    fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
+        self.switch_outputs(exchange.outputs);
+        self.inputs.put(self.wiring.inputs(), exchange.inputs);
+    }
+
+    fn restart(&mut self, _now: Instant, _start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
+        self.switch_outputs(None);
+        None
+    }
+
+    fn power_off(&mut self, _now: Instant) {
+        self.switch_outputs(None);
+    }
+}

@@ -1,0 +1,9 @@
+//! Terminals by hand-made frames: one of each kind, and a line of them.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+mod bench;
+mod description;
+mod line;
+mod process_data;
+mod states;
