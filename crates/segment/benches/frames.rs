@@ -63,7 +63,7 @@ fn full_unit(criterion: &mut Criterion) {
         bencher.iter(|| {
             segment.frame(Instant::ZERO, black_box(&mut outputs));
             if let Some(esc) = segment.esc_mut(0) {
-                esc.pdi().exchange(SmIndex::OUTPUTS, SmIndex::INPUTS, |outputs, inputs| {
+                esc.pdi().exchange(Some(SmIndex::OUTPUTS), Some(SmIndex::INPUTS), |outputs, inputs| {
                     inputs[..outputs.len()].copy_from_slice(outputs);
                 });
             }
