@@ -2,7 +2,8 @@
 
 use device::{DataDirection, DataLength, ProcessDataConfig};
 use esi::{
-    DeviceDescription, FmmuUsage, Group, Pdo, PdoEntry, PortPhysics, SyncManager, SyncManagerType, Vendor,
+    DeviceDescription, FmmuUsage, Group, Pdo, PdoEntry, PortPhysics, SyncManager, SyncManagerType, Timeouts,
+    Vendor,
 };
 use wire::{DataType, ObjectIndex, SubIndex};
 
@@ -32,8 +33,14 @@ pub fn description(settings: &TerminalSettings) -> DeviceDescription {
         sync_managers: layout::process_data(settings).map(sync_manager).collect(),
         rx_pdos: pdos(settings, DataDirection::Outputs),
         tx_pdos: pdos(settings, DataDirection::Inputs),
+        timeouts: timeouts(),
         ..DeviceDescription::default()
     }
+}
+
+/// How long a master should wait.
+pub(crate) fn timeouts() -> Timeouts {
+    Timeouts::default()
 }
 
 /// Such as DO8, DI16, DO8-DI8.

@@ -1,7 +1,7 @@
 //! Digital terminals as they are built in hardware: 1 to 64 inputs or outputs or both, without mailbox and processor;
 //! and a coupler, which has neither.
 //!
-//! [`TerminalSettings`] say which one, [`device_config`] describes it to the slave stack, and a [`Terminal`] moves the
+//! A [`UnitFile`] or [`TerminalSettings`] say which one, [`device_config`] describes it to the slave stack, and a [`Terminal`] moves the
 //! levels between process data and its [`Wiring`].
 
 mod channels;
@@ -10,6 +10,7 @@ mod description;
 mod layout;
 mod settings;
 mod terminal;
+mod unit_file;
 mod wiring;
 
 pub use channels::Channels;
@@ -18,4 +19,5 @@ pub use description::description;
 pub use layout::VENDOR_ID;
 pub use settings::{Ports, TerminalSettings};
 pub use terminal::Terminal;
+pub use unit_file::{KEYS, MODEL, UnitFile};
 pub use wiring::{BitImages, Wiring};

@@ -1,0 +1,76 @@
+//! All keys that every model has.
+
+use device::StartUp;
+use time::Duration;
+use user_file::{Located, Reader, Section, values};
+
+use crate::slave::{Shape, SlaveKeys};
+use crate::times;
+use crate::timing::{self, Timing};
+
+/// The keys and sections of every model, beside `model`, `storage` and `cpu`.
+pub const KEYS: [&str; 10] = [
+    "name",
+    "serial",
+    "alias",
+    "timing",
+    "start_up",
+    "refresh_phase",
+    "outputs_before_op",
+    "blank_sii",
+    "times",
+    "refuse",
+];
+
+/// What a unit file says by the keys of every model.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct CommonKeys {
+    /// Name of the unit, an IEC 61131-3 identifier of up to 127 characters.
+    pub name: Option<Located<String>>,
+    /// Serial number.
+    pub serial: Option<Located<u32>>,
+    /// Configured station alias, or the ID that is set by software: 1 to 65535.
+    pub alias: Option<Located<u16>>,
+    /// Exact or fast; exact when left out.
+    pub timing: Timing,
+    /// Start-up time, 0 s to 60 s; that of the model when left out.
+    pub start_up: Option<Located<Duration>>,
+    /// From the first step of the unit to its first refresh, 0 s to 2 ms.
+    pub refresh_phase: Option<Located<Duration>>,
+    /// What it does as an EtherCAT slave.
+    pub slave: SlaveKeys,
+}
+
+impl CommonKeys {
+    /// Reads the keys of a model of this shape. Keys beside them are the model's: it refuses what is unknown.
+    #[must_use]
+    pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape) -> Self {
+        Self {
+            name: reader.value(file, "name", values::identifier),
+            serial: reader.value(file, "serial", |place, value| {
+                values::integer(place, value, 0..=u32::MAX.into(), "0 to 4294967295")
+            }),
+            alias: reader
+                .value(file, "alias", |place, value| values::integer(place, value, 1..=0xFFFF, "1 to 65535")),
+            timing: reader
+                .value(file, "timing", |place, value| values::choice(place, value, &timing::WORDS))
+                .map_or(Timing::default(), |timing| timing.value),
+            start_up: reader.value(file, "start_up", times::start_up),
+            refresh_phase: reader.value(file, "refresh_phase", times::refresh_phase),
+            slave: SlaveKeys::read(reader, file, shape),
+        }
+    }
+
+    /// The start-up time that the file names, or that of the model. Without a name for it the unit has been under
+    /// power for long when it is powered on first, so that a master finds it ready.
+    #[must_use]
+    pub fn start_up(&self, of_model: Duration) -> StartUp {
+        let named = self.start_up.as_ref().map(|start_up| start_up.value);
+        match self.timing {
+            Timing::Exact => {
+                StartUp { first: named.unwrap_or(Duration::ZERO), again: named.unwrap_or(of_model) }
+            }
+            Timing::Fast => StartUp::default(),
+        }
+    }
+}

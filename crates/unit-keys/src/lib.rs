@@ -1,0 +1,16 @@
+//! The keys of a unit file that every model has: `name`, `serial`, `alias`, `timing`, `start_up`, `refresh_phase`,
+//! `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
+//!
+//! A model reads them by [`CommonKeys::read`] beside its own; [`KEYS`] is their list.
+
+mod common;
+mod slave;
+mod times;
+mod timing;
+
+pub use common::{CommonKeys, KEYS};
+pub use slave::{OutputsRule, Shape, SlaveKeys};
+pub use timing::Timing;
+
+#[cfg(test)]
+mod tests;

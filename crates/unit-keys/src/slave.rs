@@ -1,0 +1,146 @@
+//! What a file says of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
+
+use device::{Conduct, Refusals, SiiTiming, TRANSITIONS, Transition, TransitionTimes};
+use time::Duration;
+use user_file::{DeValue, Reader, Section, values, wrong_type};
+use wire::{AlState, AlStatusCode};
+
+use crate::times::time;
+use crate::timing::Timing;
+
+const OUTPUTS_RULES: [(&str, OutputsRule); 2] =
+    [("required", OutputsRule::Required), ("not-required", OutputsRule::NotRequired)];
+const REFUSED_STATES: [(&str, AlState); 5] = [
+    ("init", AlState::Init),
+    ("pre_op", AlState::PreOp),
+    ("boot", AlState::Boot),
+    ("safe_op", AlState::SafeOp),
+    ("op", AlState::Op),
+];
+const ACKNOWLEDGE: &str = "acknowledge";
+
+/// What a model has, and so has keys for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shape {
+    /// A mailbox.
+    pub mailbox: bool,
+    /// The state BOOT.
+    pub boot: bool,
+}
+
+/// `outputs_before_op`: whether SAFE-OP to OP waits for outputs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputsRule {
+    /// `required`: as slaves do that check it, for the time that the ESI gives a master.
+    Required,
+    /// `not-required`: OP comes at once, and the outputs are not valid until they come.
+    NotRequired,
+}
+
+/// What a unit file says of the slave. The default is a slave that follows its model and is quick.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SlaveKeys {
+    /// Whether OP is reached without outputs (`outputs_before_op`); none: as the model does.
+    pub outputs_before_op: Option<OutputsRule>,
+    /// How long each transition takes (`[times] transitions`), and what is refused (`[refuse]`).
+    pub conduct: Conduct,
+    /// How long an SII command takes (`[times] sii`).
+    pub sii_time: Duration,
+    /// How long after its request a mailbox response is there (`[times] mailbox`); none: the time of the model.
+    pub mailbox_time: Option<Duration>,
+    /// The EEPROM is erased, whatever the non-volatile memory holds (`blank_sii`).
+    pub is_sii_blank: bool,
+}
+
+impl SlaveKeys {
+    /// The conduct with this timing: fast, no time is left; what is refused stays.
+    #[must_use]
+    pub fn conduct(&self, timing: Timing) -> Conduct {
+        let conduct = self.conduct.clone();
+        match timing {
+            Timing::Exact => conduct,
+            Timing::Fast => Conduct { transition_times: TransitionTimes::default(), ..conduct },
+        }
+    }
+
+    /// When SII commands are finished.
+    #[must_use]
+    pub fn sii_timing(&self, timing: Timing) -> SiiTiming {
+        if timing == Timing::Fast || self.sii_time.is_zero() {
+            SiiTiming::Immediate
+        } else {
+            SiiTiming::Busy(self.sii_time)
+        }
+    }
+
+    pub(crate) fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape) -> Self {
+        let rule = |place: &str, value: &DeValue<'_>| values::choice(place, value, &OUTPUTS_RULES);
+        let mut slave = Self {
+            outputs_before_op: reader.value(file, "outputs_before_op", rule).map(|rule| rule.value),
+            is_sii_blank: truth(reader, file, "blank_sii"),
+            ..Self::default()
+        };
+        slave.read_times(reader, file, shape);
+        refusals(reader, file, shape, &mut slave.conduct);
+        slave
+    }
+
+    fn read_times(&mut self, reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape) {
+        let Some(section) = reader.section(file, "times") else { return };
+        let keys: &[&str] =
+            if shape.mailbox { &["transitions", "sii", "mailbox"] } else { &["transitions", "sii"] };
+        reader.only(&section, keys);
+        self.conduct.transition_times = transitions(reader, &section, shape);
+        self.sii_time = reader.value(&section, "sii", time).map_or(Duration::ZERO, |time| time.value);
+        self.mailbox_time = reader.value(&section, "mailbox", time).map(|time| time.value);
+    }
+}
+
+/// One time for all, or a table of those that take one.
+fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>, shape: Shape) -> TransitionTimes {
+    const KEY: &str = "transitions";
+    let is_table = times.get(KEY).is_some_and(|value| value.get_ref().is_table());
+    if !is_table {
+        let every = reader.value(times, KEY, |place, value| match value {
+            DeValue::String(_) => time(place, value),
+            _ => Err(wrong_type(
+                place,
+                value,
+                "a time for all, \"0ms\" to \"60s\", or a table: { PS = \"50ms\" }",
+            )),
+        });
+        return every.map_or(TransitionTimes::default(), |every| TransitionTimes::every(every.value));
+    }
+    let mut each = TransitionTimes::default();
+    let Some(section) = reader.section(times, KEY) else { return each };
+    let has_it = |row: &&Transition| shape.boot || !row.needs_boot();
+    let letters: Vec<&str> = TRANSITIONS.iter().filter(has_it).map(|row| row.letters).collect();
+    reader.only(&section, &letters);
+    for letters in letters {
+        if let Some(time) = reader.value(&section, letters, time) {
+            each.set(letters, time.value);
+        }
+    }
+    each
+}
+
+fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape, conduct: &mut Conduct) {
+    let Some(section) = reader.section(file, "refuse") else { return };
+    let states = REFUSED_STATES.iter().filter(|(_, state)| shape.boot || *state != AlState::Boot);
+    let keys: Vec<&str> = states.clone().map(|(key, _)| *key).chain([ACKNOWLEDGE]).collect();
+    reader.only(&section, &keys);
+    let mut refusals = Refusals::default();
+    for (key, state) in states {
+        let code = reader.value(&section, key, |place, value| {
+            values::integer(place, value, 1..=0xFFFF, "an AL status code, 0x0001 to 0xFFFF")
+        });
+        refusals.set(*state, code.map(|code| AlStatusCode(code.value)));
+    }
+    conduct.refusals = refusals;
+    conduct.ignores_acknowledge = truth(reader, &section, ACKNOWLEDGE);
+}
+
+/// A key that is `true` or `false`; left out it is false.
+fn truth(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> bool {
+    reader.value(section, key, values::truth).is_some_and(|truth| truth.value)
+}
