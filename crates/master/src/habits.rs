@@ -3,9 +3,9 @@
 use esi::Timeouts;
 use time::Duration;
 
-use crate::access::{Patience, Wait};
+use crate::access::{Address, Patience, Wait};
 use crate::mailbox::MailboxConduct;
-use crate::process_data::{Commands, Exchange, StatusRead};
+use crate::process_data::Exchange;
 
 /// The habits of a master. The default is a patient one that fills its frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +44,17 @@ pub enum Addressing {
     },
 }
 
+impl Addressing {
+    /// How the slave at a position is addressed when it was identified.
+    #[must_use]
+    pub const fn of(self, position: u16) -> Address {
+        match self {
+            Self::Position => Address::Position(position),
+            Self::Station { first } => Address::Station(first.wrapping_add(position)),
+        }
+    }
+}
+
 /// What is in the index field of datagrams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexes {
@@ -65,13 +76,7 @@ impl Default for Habits {
             sii_patience: Duration::from_millis(500),
             listen_period: Some(Duration::from_millis(10)),
             mailbox: MailboxConduct::default(),
-            exchange: Exchange {
-                period: Duration::from_millis(1),
-                phase: Duration::ZERO,
-                commands: Commands::Lrw,
-                status: StatusRead::Never,
-                origin: 0,
-            },
+            exchange: Exchange::default(),
         }
     }
 }

@@ -42,7 +42,7 @@ pub use habits::{Addressing, Habits, Indexes};
 pub use information::{DlStatus, EscFeatures, EscInformation};
 pub use mailbox::{Counter, LostRead, MailboxConduct, MailboxDialogue, Reading};
 pub use master::Master;
-pub use process_data::{Commands, CycleReport, Exchange, StatusRead};
+pub use process_data::{Commands, CycleReport, Exchange, Grouping, ProcessData, StatusRead};
 pub use reaction::ServiceFailure;
 pub use register::{RegisterRead, RegisterWrite};
 pub use sdo::SdoTransfer;

@@ -4,6 +4,7 @@ use wire::{Command, FrameBuilder};
 
 use crate::access::{Access, Address};
 use crate::flight::{Part, Sender};
+use crate::process_data::ProcessData;
 
 /// The next frame.
 pub(crate) struct Load {
@@ -44,22 +45,13 @@ impl Load {
         self.parts.push(Part { sender, command, length_bytes: data.len() });
     }
 
-    /// Adds a read.
-    pub(crate) fn read(&mut self, sender: Sender, address: Address, offset: u16, length_bytes: u16) {
-        self.access(sender, address, &Access::Read { offset, length_bytes });
-    }
-
-    /// Adds a datagram with a logical address, and gives its data to be filled.
-    pub(crate) fn logical(
-        &mut self,
-        sender: Sender,
-        command: Command,
-        address: u32,
-        length_bytes: usize,
-    ) -> &mut [u8] {
-        self.parts.push(Part { sender, command, length_bytes });
-        let (low, high) = (address as u16, (address >> 16) as u16);
-        self.builder.add_zeros(command, low, high, length_bytes as u16)
+    /// Adds the next frame of process data.
+    pub(crate) fn process_data(&mut self, process_data: &mut ProcessData) {
+        for number in process_data.load(&mut self.builder) {
+            if let Some((command, length_bytes)) = process_data.shape(number) {
+                self.parts.push(Part { sender: Sender::Cycle(number), command, length_bytes });
+            }
+        }
     }
 
     /// The bytes of the frame, and whose its datagrams are.

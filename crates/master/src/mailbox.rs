@@ -101,6 +101,8 @@ pub struct MailboxDialogue {
     phase: Phase,
     emergencies: Vec<Emergency>,
     strays: u8,
+    /// It has asked for a message once more, so that one may come twice.
+    has_asked_again: bool,
 }
 
 /// How far a dialogue is.
@@ -141,6 +143,7 @@ impl MailboxDialogue {
             phase: Phase::Failed,
             emergencies: Vec::new(),
             strays: 0,
+            has_asked_again: false,
         }
     }
 
@@ -220,6 +223,7 @@ impl MailboxDialogue {
     const fn lost(&mut self) -> Progress {
         match (self.phase, self.conduct.lost_read) {
             (Phase::Ask { .. }, _) => self.phase = Phase::Ask { may_be_taken: true },
+            (Phase::AskToRepeat { .. }, _) => self.has_asked_again = true,
             (Phase::Read, LostRead::AskAgain) => self.phase = Phase::LookAtRepeat,
             _ => {}
         }
@@ -250,7 +254,10 @@ impl MailboxDialogue {
             Phase::Read if self.conduct.reading == Reading::Never => return Progress::Later,
             Phase::Read => return self.message(data),
             Phase::LookAtRepeat => self.phase = Phase::AskToRepeat { activate: [first ^ REPEAT_REQUEST] },
-            Phase::AskToRepeat { .. } => self.phase = Phase::Wait,
+            Phase::AskToRepeat { .. } => {
+                self.has_asked_again = true;
+                self.phase = Phase::Wait;
+            }
             Phase::Failed => return Progress::Done,
         }
         Progress::Next
@@ -260,7 +267,8 @@ impl MailboxDialogue {
     fn message(&mut self, mailbox: &[u8]) -> Progress {
         self.phase = Phase::Wait;
         let Some((header, body)) = open(mailbox) else { return self.stray() };
-        if self.conduct.came_before(header.counter) {
+        // Otherwise a slave that has started again may come to the same counter.
+        if self.conduct.came_before(header.counter) && self.has_asked_again {
             return self.stray();
         }
         if let Some(emergency) = emergency(header, body) {

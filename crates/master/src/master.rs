@@ -16,7 +16,7 @@ use crate::flight::{Flights, Sender, Ticket};
 use crate::habits::{Habits, Indexes};
 use crate::load::Load;
 use crate::mailbox::MailboxConduct;
-use crate::process_data::{Cycle, Image, Layout};
+use crate::process_data::ProcessData;
 use crate::queue::Queue;
 use crate::slave::Slave;
 
@@ -43,11 +43,7 @@ pub struct Master {
     everybody: Queue,
     slaves: Vec<Slave>,
     datagrams: VecDeque<OwnDatagram>,
-    layout: Layout,
-    images: Vec<Image>,
-    cycle: Cycle,
-    /// The owner has stopped the exchange: a slave that comes to SAFE-OP does not begin it.
-    is_stopped: bool,
+    process_data: ProcessData,
     flights: Flights,
     events: VecDeque<Event>,
     emergencies_lost: u64,
@@ -79,10 +75,7 @@ impl Master {
             everybody: Queue::new(MailboxConduct::default()),
             slaves: Vec::new(),
             datagrams: VecDeque::new(),
-            layout: Layout::default(),
-            images: Vec::new(),
-            cycle: Cycle::new(habits.exchange),
-            is_stopped: false,
+            process_data: ProcessData::new(habits.exchange, []),
             flights: Flights::default(),
             events: VecDeque::new(),
             emergencies_lost: 0,
@@ -126,7 +119,7 @@ impl Master {
         slaves
             .min(self.everybody.deadline())
             .min(datagrams)
-            .min(self.cycle.deadline())
+            .min(self.process_data.deadline())
             .min(self.flights.deadline())
     }
 
@@ -156,10 +149,10 @@ impl Master {
     /// Process data; when those of this cycle have left, accesses that are due, as many as find room. A dialogue with
     /// all slaves has its frame for itself.
     fn load(&mut self, now: Instant, load: &mut Load) {
-        if self.cycle.next_cycle(now) {
+        if self.process_data.next_cycle(now) {
             self.flights.forget_cycle();
         }
-        self.cycle.load(&self.images, load);
+        load.process_data(&mut self.process_data);
         if !load.is_empty() {
             return;
         }

@@ -20,8 +20,6 @@ pub struct Slave {
     pub(crate) queue: Queue,
     pub(crate) settings: SlaveSettings,
     pub(crate) report: AlReport,
-    /// It exchanges process data.
-    pub(crate) is_open: bool,
     /// The next look into its mailbox, if nothing else is to be done.
     pub(crate) next_listen: Instant,
     information: EscInformation,
@@ -37,7 +35,6 @@ impl Slave {
             queue: Queue::new(conduct),
             settings: SlaveSettings::default(),
             report: AlReport::NOTHING,
-            is_open: false,
             next_listen: Instant::NEVER,
             information: EscInformation::default(),
             dl_status: DlStatus::default(),
@@ -86,12 +83,6 @@ impl Slave {
     #[must_use]
     pub const fn settings(&self) -> &SlaveSettings {
         &self.settings
-    }
-
-    /// Whether it exchanges process data.
-    #[must_use]
-    pub const fn is_exchanging(&self) -> bool {
-        self.is_open
     }
 
     /// When something of it is due: its first job, or a look into its mailbox.

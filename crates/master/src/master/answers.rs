@@ -55,10 +55,9 @@ impl Master {
     }
 
     fn answer_cycle(&mut self, number: usize, answer: Option<Answer<'_>>) {
-        let Some(Answer { working_counter, data }) = answer else { return };
-        let status = self.cycle.answer(number, (working_counter, data), &mut self.images);
-        if let Some((slave, status)) =
-            status.and_then(|(at, status)| Some((self.slaves.get_mut(at)?, status)))
+        let Some(answer) = answer else { return };
+        if let Some((slave, status)) = self.process_data.answer(number, answer)
+            && let Some(slave) = self.slaves.get_mut(slave)
         {
             slave.note_status(status);
         }
@@ -111,7 +110,7 @@ impl Master {
                 return Ok(outcome);
             }
             (Then::Open, outcome) => {
-                self.open(now, position);
+                self.process_data.open(position, now);
                 return Ok(outcome);
             }
             (Then::DeviceId, Outcome::Data(data)) => return Ok(Outcome::DeviceId(word(&data))),
@@ -131,24 +130,24 @@ impl Master {
     /// Orders the jobs of the way from what a slave shows to a state.
     fn walk(&mut self, now: Instant, position: usize, request: RequestId, shown: AlReport, target: AlState) {
         if !has_process_data(target) {
-            self.close(position);
+            self.process_data.close(position);
         }
         if sets_process_data(shown.status.state, target) {
-            self.close(position);
+            self.process_data.close(position);
             self.place(position);
         }
         let Some(slave) = self.slaves.get_mut(position) else { return };
         let listens = has_mailbox(target) && slave.settings.mailbox.is_some();
         slave.next_listen =
             self.habits.listen_period.filter(|_| listens).map_or(Instant::NEVER, |period| now + period);
-        let fmmus: Vec<_> = self.layout.fmmus(position, self.cycle.exchange.origin).collect();
+        let fmmus: Vec<_> = self.process_data.fmmus(position).collect();
         let jobs = way(shown, target, &slave.settings, &fmmus);
         let tasks = jobs.into_iter().map(|(job, then)| Task { request, job, then }).collect();
         let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
         slave.queue.push_front(tasks, &pace);
         // A slave that has stopped at SAFE-OP waits for outputs on its way to OP.
-        if target == AlState::Op && slave.is_open && !self.is_stopped {
-            self.cycle.begin(now);
+        if target == AlState::Op && self.process_data.is_open(position) {
+            self.process_data.begin(now);
         }
     }
 

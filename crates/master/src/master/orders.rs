@@ -5,12 +5,12 @@ use time::Instant;
 use wire::{AlState, Command, SdoInfoRequest, SdoTarget};
 
 use super::{EVERYBODYS, Master, NOBODYS, OwnDatagram};
+use crate::access::Address;
 use crate::event::{Event, Failure, RequestId};
-use crate::habits::Addressing;
 use crate::information::EscInformation;
 use crate::job::Job;
 use crate::mailbox::{MailboxConduct, MailboxDialogue};
-use crate::process_data::Layout;
+use crate::process_data::ProcessData;
 use crate::queue::{Found, Pace, Task, Then};
 use crate::reaction::ServiceFailure;
 use crate::register::{RegisterRead, RegisterWrite};
@@ -32,7 +32,7 @@ impl Master {
     pub fn search(&mut self, now: Instant) -> RequestId {
         let request = self.next_request();
         self.slaves.clear();
-        self.cycle.stop();
+        self.process_data = ProcessData::new(self.process_data.exchange(), []);
         let pace = Pace { now, habits: &self.habits, timeouts: &EVERYBODYS };
         let job = Job::Search(Search::default());
         self.everybody.push(Task { request, job, then: Then::Continue }, &pace);
@@ -42,12 +42,11 @@ impl Master {
     /// So many slaves have answered: each of them is asked who it is.
     pub(super) fn identify(&mut self, now: Instant, request: RequestId, count: u16) {
         self.slaves = (0..count).map(|position| Slave::new(position, self.habits.mailbox)).collect();
-        self.layout = Layout::default();
-        self.images.clear();
+        let addresses = (0..count).map(|position| self.habits.addressing.of(position));
+        self.process_data = ProcessData::new(self.process_data.exchange(), addresses);
         for position in 0..count {
             let mut jobs = Vec::new();
-            if let Addressing::Station { first } = self.habits.addressing {
-                let address = first.wrapping_add(position);
+            if let Address::Station(address) = self.habits.addressing.of(position) {
                 let write = Job::write(registers::STATION_ADDRESS, &address.to_le_bytes());
                 jobs.push((write, Then::UseStationAddress(address)));
             }

@@ -7,21 +7,34 @@ use crate::settings::{Direction, SlaveSettings};
 pub(crate) struct Image {
     pub(crate) outputs: Vec<u8>,
     pub(crate) inputs: Vec<u8>,
+    /// The working counters of this cycle so far, added up.
+    pub(crate) counted: u16,
+    /// The same, of the last cycle of which something came back.
+    pub(crate) working_counter: Option<u16>,
 }
 
 impl Image {
-    /// As long as the settings say; what is there already stays.
-    pub(crate) fn resize(&mut self, settings: &SlaveSettings) {
-        let length = |direction| settings.areas(direction).map(|area| area.bits.div_ceil(8) as usize).sum();
-        self.outputs.resize(length(Direction::Outputs), 0);
-        self.inputs.resize(length(Direction::Inputs), 0);
+    /// Zeros, as many as the settings say.
+    pub(crate) fn of(settings: &SlaveSettings) -> Self {
+        let zeros = |direction| {
+            let length_bytes = settings.areas(direction).map(|area| area.bits.div_ceil(8) as usize).sum();
+            vec![0; length_bytes]
+        };
+        let (outputs, inputs) = (zeros(Direction::Outputs), zeros(Direction::Inputs));
+        Self { outputs, inputs, ..Self::default() }
     }
 
-    pub(crate) fn of(&self, direction: Direction) -> &[u8] {
+    pub(crate) fn way(&self, direction: Direction) -> &[u8] {
         match direction {
             Direction::Outputs => &self.outputs,
             Direction::Inputs => &self.inputs,
         }
+    }
+
+    /// A datagram with its process data came back.
+    pub(crate) fn count(&mut self, working_counter: u16) {
+        self.counted = self.counted.saturating_add(working_counter);
+        self.working_counter = Some(self.counted);
     }
 }
 

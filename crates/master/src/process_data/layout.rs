@@ -1,5 +1,6 @@
 //! The logical address space: a place for each area of process data of each slave.
 
+use super::exchange::Grouping;
 use crate::channels::FmmuSettings;
 use crate::settings::{Direction, ProcessDataArea, SlaveSettings};
 
@@ -44,7 +45,7 @@ impl Place {
     }
 }
 
-/// All places, in the order of their addresses: outputs of all slaves, then inputs of all, then what was placed later.
+/// All places.
 #[derive(Debug, Default)]
 pub(crate) struct Layout {
     places: Vec<Place>,
@@ -67,7 +68,15 @@ impl Layout {
     }
 
     /// Places the process data of these slaves behind what is there already.
-    pub(crate) fn place_all(&mut self, slaves: &[(usize, &SlaveSettings)]) {
+    pub(crate) fn place_all(&mut self, slaves: &[(usize, &SlaveSettings)], grouping: Grouping) {
+        match grouping {
+            Grouping::Filled => self.place_group(slaves),
+            Grouping::EachSlave => slaves.chunks(1).for_each(|slave| self.place_group(slave)),
+        }
+    }
+
+    /// Outputs of all of them, then inputs of all.
+    fn place_group(&mut self, slaves: &[(usize, &SlaveSettings)]) {
         for direction in [Direction::Outputs, Direction::Inputs] {
             for (slave, settings) in slaves {
                 self.place(*slave, settings, direction);
@@ -144,7 +153,7 @@ mod tests {
         let (four, eight, twelve) =
             (settings(&[(Outputs, 4)]), settings(&[(Outputs, 8)]), settings(&[(Inputs, 12)]));
         let mut layout = Layout::default();
-        layout.place_all(&[(0, &four), (1, &four), (2, &eight), (3, &four), (4, &twelve)]);
+        layout.place_all(&[(0, &four), (1, &four), (2, &eight), (3, &four), (4, &twelve)], Grouping::Filled);
         assert_eq!(starts(&layout), [(0, 0, 4), (1, 4, 4), (2, 8, 8), (3, 16, 4), (4, 24, 16)]);
         let fmmus: Vec<_> = layout.fmmus(1, 0x1_0000).collect();
         let [fmmu] = fmmus[..] else { panic!("one FMMU") };
@@ -156,7 +165,7 @@ mod tests {
     fn bits_may_go_over_the_end_of_a_byte() {
         let five = settings(&[(Inputs, 5)]);
         let mut layout = Layout::default();
-        layout.place_all(&[(0, &five), (1, &five)]);
+        layout.place_all(&[(0, &five), (1, &five)], Grouping::Filled);
         let fmmu = layout.fmmus(1, 0).next().expect("an FMMU");
         assert_eq!((fmmu.logical_start, fmmu.length_bytes), (0, 2));
         assert_eq!((fmmu.logical_start_bit, fmmu.logical_stop_bit), (5, 1));
@@ -166,18 +175,21 @@ mod tests {
     fn outputs_of_all_come_before_inputs_of_all_and_never_share_a_byte_with_them() {
         let both = settings(&[(Outputs, 3), (Inputs, 3)]);
         let mut layout = Layout::default();
-        layout.place_all(&[(0, &both), (1, &both)]);
+        layout.place_all(&[(0, &both), (1, &both)], Grouping::Filled);
         assert_eq!(starts(&layout), [(0, 0, 3), (1, 3, 3), (0, 8, 3), (1, 11, 3)]);
+        let mut layout = Layout::default();
+        layout.place_all(&[(0, &both), (1, &both)], Grouping::EachSlave);
+        assert_eq!(starts(&layout), [(0, 0, 3), (0, 8, 3), (1, 16, 3), (1, 24, 3)]);
     }
 
     #[test]
     fn a_slave_that_changes_goes_behind_the_others() {
         let (old, new) = (settings(&[(Outputs, 16)]), settings(&[(Outputs, 24)]));
         let mut layout = Layout::default();
-        layout.place_all(&[(0, &old), (1, &old)]);
+        layout.place_all(&[(0, &old), (1, &old)], Grouping::Filled);
         assert!(layout.holds(0, &old) && !layout.holds(0, &new) && !layout.holds(2, &old));
         layout.remove(0);
-        layout.place_all(&[(0, &new)]);
+        layout.place_all(&[(0, &new)], Grouping::Filled);
         assert_eq!(starts(&layout), [(1, 16, 16), (0, 32, 24)]);
         assert!(layout.holds(0, &new));
     }
@@ -185,7 +197,7 @@ mod tests {
     #[test]
     fn two_areas_of_a_slave_lie_behind_each_other_in_its_image() {
         let mut layout = Layout::default();
-        layout.place_all(&[(0, &settings(&[(Inputs, 4), (Inputs, 16), (Outputs, 0)]))]);
+        layout.place_all(&[(0, &settings(&[(Inputs, 4), (Inputs, 16), (Outputs, 0)]))], Grouping::Filled);
         let images: Vec<_> = layout.places().iter().map(|place| place.image_start).collect();
         assert_eq!(images, [0, 8]);
     }

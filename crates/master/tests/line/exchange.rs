@@ -1,7 +1,7 @@
 //! Process data of all slaves in shared frames.
 
 use crate::bench::{Slaves, Terminal, connected, connected_with, terminals};
-use master::{Commands, Connected, Habits, Master, StatusRead};
+use master::{Commands, Connected, Grouping, Habits, Master, StatusRead};
 use time::Duration;
 use wire::{AlState, Command, datagrams};
 
@@ -65,6 +65,22 @@ fn frames_are_filled_and_no_process_data_are_torn() {
     assert_eq!(total, 25 * (180 + 183));
     let report = bench.master.cycle();
     assert_eq!((report.working_counter, report.expected), (75, 75));
+}
+
+#[test]
+fn each_slave_may_have_a_datagram_of_its_own_in_frames_that_are_shared() {
+    let mut habits = Habits { listen_period: None, ..Habits::default() };
+    (habits.exchange.grouping, habits.exchange.commands) = (Grouping::EachSlave, Commands::Fitting);
+    let mut bench = connected_with(Master::new(habits), 9, |_, _| {});
+    bench.search().expect("nine units");
+    bench.take_all_to(AlState::Op).expect("OP");
+    // 1,498 bytes hold three datagrams of 375.
+    assert_eq!(cycle(&mut bench), vec![vec![(Command::Lrw, 180 + 183); 3]; 3]);
+    bench.line.network.power_off(4, bench.now());
+    bench.run_for(CYCLE);
+    let counters: Vec<_> = (0..9).map(|slave| bench.master.working_counter(slave)).collect();
+    let expected = [3, 3, 3, 3, 0, 0, 0, 0, 0].map(Some);
+    assert_eq!(counters, expected, "behind a slave without power nobody is reached");
 }
 
 #[test]
