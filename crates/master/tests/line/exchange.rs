@@ -1,6 +1,7 @@
 //! Process data of all slaves in shared frames.
 
-use crate::bench::{Slaves, Terminal, connected, connected_with, terminals};
+use crate::bench::{Slaves, connected, connected_with, terminals};
+use digital::{BitImages, Terminal};
 use master::{Commands, Connected, Grouping, Habits, Master, StatusRead};
 use time::Duration;
 use wire::{AlState, Command, datagrams};
@@ -33,20 +34,23 @@ fn terminals_share_one_datagram_and_bytes_of_it() {
     bench.take_all_to(AlState::Op).expect("OP");
     // Outputs 4 + 4 + 2 bits, inputs 4 + 4 bits and 12 in two bytes of their own.
     assert_eq!(cycle(&mut bench), [[(Command::Lrw, 2 + 1 + 2)]]);
-    let set = |bench: &mut Connected<Slaves<Terminal>>, position: usize, value| {
-        bench.line.network.device_mut(position).expect("a terminal").unit_mut().inputs = value;
+    let set = |bench: &mut Connected<Slaves<Terminal<BitImages>>>, position: usize, value| {
+        bench.line.network.device_mut(position).expect("a terminal").unit_mut().wiring_mut().inputs = value;
     };
-    for (position, value) in [(2, 0x0A), (3, 0x05), (4, 0xC3)] {
+    for (position, value) in [(2, 0x0A), (3, 0x05), (4, 0xAC3)] {
         set(&mut bench, position, value);
     }
     for (position, value) in [(0, 0x09), (1, 0x06), (4, 0x02)] {
         bench.master.outputs_mut(position)[0] = value;
     }
     bench.run_for(CYCLE * 4);
-    let outputs = |position| bench.line.network.device(position).map(|device| device.unit().outputs & 0x0F);
-    assert_eq!([0, 1, 4].map(outputs), [Some(0x09), Some(0x06), Some(0x02)]);
+    let outputs = |position| {
+        let terminal = bench.line.network.device_mut(position).expect("a terminal").unit_mut();
+        terminal.wiring_mut().outputs
+    };
+    assert_eq!([0, 1, 4].map(outputs), [0x09, 0x06, 0x02]);
     assert_eq!([2, 3].map(|position| bench.master.inputs(position)[0]), [0x0A, 0x05]);
-    assert_eq!(bench.master.inputs(4), [0xC3, 0xC3]);
+    assert_eq!(bench.master.inputs(4), [0xC3, 0x0A]);
     let report = bench.master.cycle();
     assert_eq!((report.working_counter, report.expected, report.lost), (2 + 2 + 1 + 1 + 3, 9, 0));
 }
@@ -133,7 +137,7 @@ fn what_a_slave_shows_is_seen_with_each_cycle() {
     let mut bench = terminals(habits(Commands::Lrw, StatusRead::EachSlave), &[(8, 8), (0, 8)]);
     bench.search().expect("two terminals");
     bench.take_all_to(AlState::Op).expect("OP");
-    let frame = |bench: &mut Connected<Slaves<Terminal>>| {
+    let frame = |bench: &mut Connected<Slaves<Terminal<BitImages>>>| {
         let request = bench.master.datagram(Command::Apwr, 0, 0x0120, &[5, 0]);
         bench.complete(request);
         bench.run_for(CYCLE * 2);

@@ -1,6 +1,6 @@
 //! States: the way up and down, refusals, acknowledges, time-outs.
 
-use crate::bench::{connected, connected_with, description, terminals};
+use crate::bench::{channels, connected, connected_with, terminals};
 use device::TransitionTimes;
 use master::{AlReport, Failure, Master, StateRequest, Wait};
 use nx_ect101::UnitSettings;
@@ -71,7 +71,7 @@ fn a_terminals_description_says_what_its_sii_says() {
     bench.search().expect("one slave");
     let by_sii = bench.master.slaves()[0].settings().clone();
     assert_eq!(by_sii.process_data.iter().map(|area| area.bits).collect::<Vec<_>>(), [3, 12]);
-    bench.master.describe(0, &description(3, 12));
+    bench.master.describe(0, &digital::description(&channels(3, 12)));
     assert_eq!(bench.master.slaves()[0].settings(), &by_sii);
 }
 
