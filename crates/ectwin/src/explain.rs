@@ -2,109 +2,47 @@
 //!
 //! A text may be several things: 0x0020 is an AL status code, an ESC register, and in a diagnosis message the event
 //! 00200000. [`explain`] gives all of them, as facts under headings; [`event_pages`] writes the same facts as the
-//! pages of docs/events. Names and meanings come from the tables of the model and from docs/glossary.md.
+//! pages of docs/events. Names and meanings come from the tables of the model, docs/glossary.md and
+//! docs/user/unit-file.md.
 
 mod al_status;
 mod al_status_codes;
 mod emergency;
 mod event;
+mod explanation;
 mod glossary;
 mod indicator;
+mod key;
 mod names;
 mod number;
 mod object;
+mod page;
 mod pages;
+mod port;
 mod register;
 mod sdo_abort_codes;
 mod subject;
 #[cfg(test)]
 mod tests;
 mod unexplained;
-
-use std::borrow::Cow;
-use std::fmt;
+mod unknown;
 
 use wire::SdoAbort;
 
+pub use explanation::{Advice, Explanation, Fact, Section};
 use number::Number;
 pub use pages::{Page, event_pages};
 pub use subject::Subject;
 pub use unexplained::Unexplained;
 
-/// Why a code comes, and what helps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Advice {
-    /// The likely cause.
-    pub cause: &'static str,
-    /// What to do about it.
-    pub correction: &'static str,
-}
-
-/// Something that is known, under a word that says of what.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fact {
-    /// Of what: a word or two.
-    pub label: Cow<'static, str>,
-    /// What is known of it.
-    pub text: String,
-}
-
-impl Fact {
-    fn new(label: impl Into<Cow<'static, str>>, text: impl Into<String>) -> Self {
-        Self { label: label.into(), text: text.into() }
-    }
-}
-
-/// Facts that belong together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Section {
-    /// What they are about.
-    pub heading: &'static str,
-    /// The facts, in the order in which they are told.
-    pub facts: Vec<Fact>,
-}
-
-/// Something that is known.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Explanation {
-    /// What it is.
-    pub subject: Subject,
-    /// What it is called; of a word, what it means.
-    pub name: String,
-    /// What there is to say before its causes.
-    pub facts: Vec<Fact>,
-    /// Causes with their corrections, the likeliest first.
-    pub advice: Vec<Advice>,
-    /// What each side sees of it.
-    pub sections: Vec<Section>,
-}
-
-/// Lines of text, a fact each, without the last line's end.
-impl fmt::Display for Explanation {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}: {}", self.subject, self.name)?;
-        let line = |formatter: &mut fmt::Formatter<'_>, label: &str, text: &str| {
-            write!(formatter, "\n  {label:<12}{text}")
-        };
-        for fact in &self.facts {
-            line(formatter, &fact.label, &fact.text)?;
-        }
-        for advice in &self.advice {
-            line(formatter, "cause", advice.cause)?;
-            line(formatter, "correction", advice.correction)?;
-        }
-        for section in &self.sections {
-            write!(formatter, "\n{}", section.heading)?;
-            for fact in &section.facts {
-                line(formatter, &fact.label, &fact.text)?;
-            }
-        }
-        Ok(())
-    }
-}
+/// So many meanings of one name are explained in whole.
+const WHOLE_MAX: usize = 3;
+/// So many names that share a part are shown.
+const PARTS_MAX: usize = 20;
 
 /// Explains `text`: a code, an index or a register in hexadecimal digits, with or without `0x`, `hex` and underscores;
-/// an object's entry, such as `10F3:05`; a name of the tables or a word of the glossary. All that it can be, one at least.
+/// an object's entry, such as `10F3:05`; a name of the tables, a key of the unit file or a word of the glossary; or words
+/// that are a part of such names. All that it can be, one at least.
 ///
 /// # Errors
 /// No table has it.
@@ -116,10 +54,43 @@ pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     let codes = number.into_iter().flat_map(Number::subjects);
     let meanings: Vec<_> = codes.chain(names::subjects(text)).filter_map(explanation).collect();
     match (meanings.is_empty(), number) {
-        (false, _) => Ok(meanings),
-        (true, Some(number)) => Err(Unexplained::number(number)),
-        (true, None) => Err(Unexplained::name(text)),
+        (false, _) => Ok(shortened(meanings, WHOLE_MAX)),
+        (true, Some(number)) => Err(unknown::number(number, number.near().and_then(explanation))),
+        (true, None) => named_by_a_part(text),
     }
+}
+
+/// The names that have the words of `text` in them.
+fn named_by_a_part(text: &str) -> Result<Vec<Explanation>, Unexplained> {
+    let meanings: Vec<_> = names::containing(text).into_iter().filter_map(explanation).collect();
+    match meanings.len() {
+        0 => Err(unknown::name(text)),
+        1..=PARTS_MAX => Ok(shortened(meanings, 1)),
+        _ => Err(unknown::part(text, &meanings)),
+    }
+}
+
+/// More explanations than these are shown by their first lines.
+fn shortened(meanings: Vec<Explanation>, whole_max: usize) -> Vec<Explanation> {
+    if meanings.len() <= whole_max {
+        return meanings;
+    }
+    meanings.into_iter().map(first_line).collect()
+}
+
+/// What it is and what it is called; of an entry, the object's name too.
+fn first_line(known: Explanation) -> Explanation {
+    let object = object::name_around(known.subject);
+    let name = object.map_or_else(|| known.name.clone(), |object| format!("{}, {object}", known.name));
+    Explanation { name, facts: Vec::new(), advice: Vec::new(), sections: Vec::new(), ..known }
+}
+
+/// The explanations as text: an empty line between two, and none between first lines.
+#[must_use]
+pub fn to_text(explanations: &[Explanation]) -> String {
+    let is_line = |known: &Explanation| known.facts.is_empty() && known.sections.is_empty();
+    let between = if explanations.iter().all(is_line) { "\n" } else { "\n\n" };
+    explanations.iter().map(ToString::to_string).collect::<Vec<_>>().join(between)
 }
 
 /// What is known of it; none if no table has it.
@@ -136,6 +107,8 @@ fn explanation(subject: Subject) -> Option<Explanation> {
         Subject::Register(offset) => register::explanation(offset),
         Subject::Indicator(name) => indicator::explanation(name),
         Subject::Pattern(pattern) => Some(indicator::pattern(pattern)),
+        Subject::Port(name) => port::explanation(name),
+        Subject::Key(path) => key::explanation(path),
         Subject::Word(word) => glossary::explanation(word),
     }
 }

@@ -6,6 +6,7 @@
 
 mod entries;
 mod information;
+mod keys;
 mod sections;
 mod slave;
 #[cfg(test)]
@@ -24,6 +25,7 @@ use crate::timing::Timing;
 use crate::unit_information::UnitInformation;
 
 pub use entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
+pub use keys::keys;
 pub use user_file::{FileErrors, Located};
 pub use wire::EntryAddress;
 

@@ -3,27 +3,14 @@
 use nx_ect101::Event;
 use wire::AlStatusCode;
 
+use super::al_status_codes::{self, CPU_UNIT_ERROR, name};
 use super::event::{event_facts, section};
-use super::{Advice, Explanation, Fact, Subject, al_status_codes};
-
-/// AL status code of the NX-ECT101 that no standard has: its manual, 8-5-2.
-const CPU_UNIT_ERROR: AlStatusCode = AlStatusCode(0x8004);
+use super::{Advice, Explanation, Fact, Subject};
 
 const CPU_UNIT_ERROR_ADVICE: Advice = Advice {
     cause: "The hardware of the unit or of the CPU Unit failed: NX Unit Clock Not Synchronized Error.",
     correction: "Switch the power off and on; the unit stays in INIT until then.",
 };
-
-/// What a code is called; none if nobody has published a name.
-pub(super) fn name(code: AlStatusCode) -> Option<&'static str> {
-    let ours = (code == CPU_UNIT_ERROR).then_some("CPU Unit error (NX-ECT101)");
-    ours.or_else(|| code.row().map(|row| row.meaning))
-}
-
-/// All codes that are known.
-pub(super) fn known() -> impl Iterator<Item = AlStatusCode> {
-    AlStatusCode::TABLE.iter().map(|row| row.code).chain([CPU_UNIT_ERROR])
-}
 
 pub(super) fn explanation(code: AlStatusCode) -> Option<Explanation> {
     let (state, advice) = if code == CPU_UNIT_ERROR {

@@ -1,9 +1,23 @@
-//! Likely cause and correction of each AL status code, for someone with a master before him. What the code is
-//! called stands in [`AlStatusCode::TABLE`].
+//! Names of AL status codes, and the likely cause and correction of each, for the user of a master. The names of the
+//! standard are in [`AlStatusCode::TABLE`].
 
 use wire::AlStatusCode;
 
 use super::Advice;
+
+/// AL status code of the NX-ECT101 that no standard has: its manual, 8-5-2.
+pub(super) const CPU_UNIT_ERROR: AlStatusCode = AlStatusCode(0x8004);
+
+/// What a code is called; none if nobody has published a name.
+pub(super) fn name(code: AlStatusCode) -> Option<&'static str> {
+    let ours = (code == CPU_UNIT_ERROR).then_some("CPU Unit error (NX-ECT101)");
+    ours.or_else(|| code.row().map(|row| row.meaning))
+}
+
+/// All codes that are known.
+pub(super) fn known() -> impl Iterator<Item = AlStatusCode> {
+    AlStatusCode::TABLE.iter().map(|row| row.code).chain([CPU_UNIT_ERROR])
+}
 
 type Row = (AlStatusCode, Advice);
 

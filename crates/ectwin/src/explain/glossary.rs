@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::{Explanation, Fact, Subject};
+use super::{Explanation, Fact, Subject, page};
 
 const GLOSSARY: &str = include_str!("../../../../docs/glossary.md");
 
@@ -37,16 +37,12 @@ fn split(words: &'static str) -> impl Iterator<Item = &'static str> {
 }
 
 fn rows(text: &'static str) -> Vec<Row> {
-    let mut section = "";
     let mut rows = Vec::new();
-    for line in text.lines() {
-        if let Some(heading) = line.strip_prefix("## ") {
-            section = heading;
-        }
-        let cells = line.strip_prefix("| ").and_then(|line| line.strip_suffix(" |"));
-        match cells.and_then(|cells| cells.split_once(" | ")) {
-            Some(("word", "meaning")) | None => {}
-            Some((words, meaning)) => rows.push(Row { section, words, meaning: meaning.replace('`', "") }),
+    for section in page::sections(text) {
+        for row in section.tables.iter().flat_map(|table| &table.rows) {
+            if let [words, meaning] = row[..] {
+                rows.push(Row { section: section.heading, words, meaning: page::plain(meaning) });
+            }
         }
     }
     rows

@@ -1,9 +1,29 @@
 //! Names of the tables and words of the glossary: what a text names, and which name is near.
 
-use esc::REGISTERS;
-use nx_ect101::{Event, NxObject, Pattern, object_table};
+use std::sync::LazyLock;
 
-use super::{Subject, glossary, indicator};
+use esc::REGISTERS;
+use nx_ect101::{Event, MINOR_FAULT_BIT, NxObject, OBSERVATION_BIT, Pattern, object_table};
+use objects::ObjectCode;
+
+use super::{Subject, glossary, indicator, key, object, port};
+
+static ALL: LazyLock<Vec<Name>> = LazyLock::new(|| all().map(Name::new).collect());
+
+/// A name and what has it.
+#[derive(Debug)]
+struct Name {
+    text: String,
+    /// The text without case, spaces and punctuation.
+    letters: String,
+    subject: Subject,
+}
+
+impl Name {
+    fn new((text, subject): (String, Subject)) -> Self {
+        Self { letters: letters(&text), text, subject }
+    }
+}
 
 /// All that has the name `text`; case, spaces and punctuation do not count.
 pub(super) fn subjects(text: &str) -> Vec<Subject> {
@@ -12,29 +32,49 @@ pub(super) fn subjects(text: &str) -> Vec<Subject> {
         return Vec::new();
     }
     let mut found: Vec<Subject> = Vec::new();
-    for (name, subject) in all() {
-        if letters(&name) == wanted && !found.contains(&subject) {
-            found.push(subject);
+    for name in ALL.iter().filter(|name| name.letters == wanted) {
+        if !found.contains(&name.subject) {
+            found.push(name.subject);
+        }
+    }
+    found
+}
+
+/// All whose names have the words of `text` in a row, but for the case.
+pub(super) fn containing(text: &str) -> Vec<Subject> {
+    let wanted = words(text);
+    if letters(text).chars().filter(|letter| letter.is_alphabetic()).count() < 3 {
+        return Vec::new();
+    }
+    let mut found: Vec<Subject> = Vec::new();
+    for Name { text, subject, .. } in ALL.iter() {
+        if words(text).windows(wanted.len()).any(|part| part == wanted) && !found.contains(subject) {
+            found.push(*subject);
         }
     }
     found
 }
 
 /// A name that differs from `text` in a letter or two; none if all are further away.
-pub(super) fn near(text: &str) -> Option<String> {
+pub(super) fn near(text: &str) -> Option<&'static str> {
     let wanted = letters(text);
     let differing_max = match wanted.len() {
         0..=3 => return None,
         4..=7 => 1,
         _ => 2,
     };
-    let by_distance = all().map(|(name, _)| (strsim::osa_distance(&letters(&name), &wanted), name));
+    let by_distance = ALL.iter().map(|name| (strsim::osa_distance(&name.letters, &wanted), name));
     let nearest = by_distance.min_by_key(|(distance, _)| *distance);
-    nearest.filter(|(distance, _)| *distance <= differing_max).map(|(_, name)| name)
+    nearest.filter(|(distance, _)| *distance <= differing_max).map(|(_, name)| name.text.as_str())
 }
 
 fn letters(text: &str) -> String {
     text.chars().filter(|letter| letter.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+}
+
+fn words(text: &str) -> Vec<String> {
+    let words = text.split(|letter: char| !letter.is_alphanumeric()).filter(|word| !word.is_empty());
+    words.map(str::to_lowercase).collect()
 }
 
 fn all() -> impl Iterator<Item = (String, Subject)> {
@@ -48,7 +88,26 @@ fn all() -> impl Iterator<Item = (String, Subject)> {
     let registers =
         REGISTERS.iter().map(|register| (register.name.to_owned(), Subject::Register(register.offset)));
     let indicators = indicator::names().flat_map(indicator_names);
-    indicators.chain(patterns).chain(words).chain(events).chain(objects).chain(nx_objects).chain(registers)
+    let keys = key::names().map(|(name, path)| (name.to_owned(), Subject::Key(path)));
+    let ports = port::names().map(|(name, port)| (name.to_owned(), Subject::Port(port)));
+    let status_bits = [OBSERVATION_BIT, MINOR_FAULT_BIT];
+    let (index, sub) = object::SYSMAC_ERROR_STATUS;
+    let status_bits = status_bits.map(|bit| (bit.port.to_owned(), Subject::Entry(index, sub)));
+    let of_model = events.chain(objects).chain(nx_objects).chain(entries()).chain(ports).chain(status_bits);
+    indicators.chain(patterns).chain(words).chain(keys).chain(of_model).chain(registers)
+}
+
+/// The entries of all objects. That of a variable is the object, by the same name.
+fn entries() -> impl Iterator<Item = (String, Subject)> {
+    let mut entries = Vec::new();
+    for object in object_table().iter().filter(|object| object.code != ObjectCode::Variable) {
+        let of_object = object.entries.iter();
+        entries.extend(of_object.map(|entry| (entry.name.clone(), Subject::Entry(object.index, entry.sub))));
+    }
+    let nx_entries = NxObject::all().iter().flat_map(|object| {
+        object.entries.iter().map(|entry| (entry.name.clone(), Subject::NxEntry(object.index, entry.sub)))
+    });
+    entries.into_iter().chain(nx_entries)
 }
 
 /// `L/A IN` is one of the two that `L/A` names.

@@ -5,7 +5,7 @@ use std::fmt;
 use nx_ect101::{Event, EventCode, NxObject, object_table};
 use wire::{AlStatusCode, ObjectIndex, SdoAbort};
 
-use super::{Subject, al_status, emergency};
+use super::{Subject, al_status_codes, emergency};
 
 /// Low word of a diagnosis code whose high word is an emergency error code (manual, A-6-4).
 const DIAGNOSIS_CODE: u32 = 0xE800;
@@ -82,7 +82,7 @@ impl Number {
                 let objects = object_table().iter().map(|object| object.index.0.into()).collect();
                 let nx_objects = NxObject::all().iter().map(|object| object.index.0.into()).collect();
                 [
-                    ("AL status codes", al_status::known().map(|code| code.0.into()).collect()),
+                    ("AL status codes", al_status_codes::known().map(|code| code.0.into()).collect()),
                     ("emergency error codes", emergency::known().map(u32::from).collect()),
                     ("objects", objects),
                     ("NX objects", nx_objects),
@@ -102,7 +102,7 @@ impl Number {
     fn known(self) -> Vec<(u32, Subject)> {
         match self {
             Self::Word(_) => {
-                let al_status = al_status::known().map(|code| (code.0.into(), Subject::AlStatus(code)));
+                let al_status = al_status_codes::known().map(|code| (code.0.into(), Subject::AlStatus(code)));
                 let emergency = emergency::known().map(|code| (code.into(), Subject::Emergency(code)));
                 al_status.chain(emergency).collect()
             }

@@ -1,14 +1,18 @@
 //! Objects: of the CoE object dictionary for the master, and NX objects for the CPU Unit.
 
+use nx_ect101::unit_file::{DataSetEntries, Entries, IoAllocationSection, Located, UnitFile};
 use nx_ect101::{
-    DataSet, MINOR_FAULT_BIT, NxAccess, NxEntry, NxObject, OBSERVATION_BIT, SLAVE_STATUS_BITS, SlaveStatus,
-    StatusBit, object_table,
+    DataSet, Direction, MINOR_FAULT_BIT, NxAccess, NxEntry, NxObject, OBSERVATION_BIT, SLAVE_STATUS_BITS,
+    SlaveStatus, StatusBit, object_table,
 };
 use objects::{AccessRights, Entry, Object};
 use wire::{ObjectIndex, SubIndex};
 
 use super::{Explanation, Fact, Section, Subject, Unexplained};
 use crate::object_words::{access, code, default, pdo, type_name, writable_in};
+
+/// Whose bits 4 and 5 are I/O ports of a master.
+pub(super) const SYSMAC_ERROR_STATUS: (ObjectIndex, SubIndex) = (ObjectIndex(0x2002), SubIndex(1));
 
 /// Longest default that is shown among others.
 const SHOWN_DEFAULT: usize = 20;
@@ -53,6 +57,30 @@ impl EntryNumber {
         let message = format!("object {index} has no subindex {sub}");
         Unexplained::new(message, format!("its subindexes are {}", subs.join(", ")))
     }
+}
+
+/// The name of the object to which an entry belongs; none for what is no entry.
+pub(super) fn name_around(subject: Subject) -> Option<String> {
+    match subject {
+        Subject::Entry(index, _) => object_table().object(index).map(|object| object.name.clone()),
+        Subject::NxEntry(index, _) => NxObject::find(index).map(|object| object.name.clone()),
+        _ => None,
+    }
+}
+
+/// Unit files that together have every I/O entry: a data set each, because all of them are more than a unit can hold.
+pub(super) fn files_with_every_io_entry() -> Vec<UnitFile> {
+    let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { return Vec::new() };
+    let with = |set: &DataSet| {
+        let all = Located::left_out(Entries::Count(set.max_count));
+        let entries = vec![DataSetEntries { kind: set.kind, entries: all }];
+        let section = match set.direction {
+            Direction::MToC => IoAllocationSection { m_to_c: entries, c_to_m: Vec::new() },
+            Direction::CToM => IoAllocationSection { m_to_c: Vec::new(), c_to_m: entries },
+        };
+        UnitFile { io_allocation: Some(Located::left_out(section)), ..file.clone() }
+    };
+    DataSet::all().iter().map(with).collect()
 }
 
 pub(super) fn object(index: ObjectIndex) -> Option<Explanation> {
@@ -108,7 +136,7 @@ pub(super) fn entry(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
     }
     let set = DataSet::all().iter().find(|set| set.pdo_entry == index && set.has(sub));
     facts.extend(set.map(|set| Fact::new("NX object", format!("{}:{sub}, {}", set.nx_entry, set.name))));
-    if (index.0, sub.0) == (0x2002, 1) {
+    if (index, sub) == SYSMAC_ERROR_STATUS {
         facts.extend(bits(&[OBSERVATION_BIT, MINOR_FAULT_BIT]));
     }
     let (subject, name) = (Subject::Entry(index, sub), entry.name.clone());

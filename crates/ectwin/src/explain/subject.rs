@@ -30,6 +30,10 @@ pub enum Subject {
     Indicator(&'static str),
     /// Pattern of an indicator.
     Pattern(Pattern),
+    /// I/O port of the unit at its CPU Unit, or a system-defined variable.
+    Port(&'static str),
+    /// Key of the unit file, by its path.
+    Key(&'static str),
     /// Word of the glossary.
     Word(&'static str),
 }
@@ -50,6 +54,8 @@ impl fmt::Display for Subject {
             Self::Register(offset) => write!(formatter, "register 0x{offset:04X}"),
             Self::Indicator(name) => write!(formatter, "indicator {name}"),
             Self::Pattern(pattern) => write!(formatter, "pattern {}", pattern.id()),
+            Self::Port(name) => write!(formatter, "I/O port {name}"),
+            Self::Key(path) => write!(formatter, "key {path}"),
             Self::Word(word) => write!(formatter, "word {word}"),
         }
     }

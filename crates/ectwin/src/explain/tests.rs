@@ -1,9 +1,17 @@
 //! Codes, objects, indicators and words in every usual way of writing, and what each is.
 
 use nx_ect101::{EventCode, Pattern};
-use wire::{AlStatusCode, ObjectIndex, SubIndex};
+use objects::ObjectCode;
+use wire::{AlState, AlStatusCode, Command, ObjectIndex, SubIndex};
 
 use super::*;
+
+/// Unit files that come with the project.
+const UNIT_FILES: [(&str, &str); 3] = [
+    ("nx-ect101.toml", include_str!("../../../../units/nx-ect101.toml")),
+    ("nx-ect101-1200-bytes.toml", include_str!("../../../../units/nx-ect101-1200-bytes.toml")),
+    ("nx-ect101-mixed-520-bytes.toml", include_str!("../../../../units/nx-ect101-mixed-520-bytes.toml")),
+];
 
 fn subjects(text: &str) -> Vec<Subject> {
     explain(text)
@@ -65,8 +73,7 @@ fn an_al_status_code_tells_the_events_behind_it() {
 }
 
 fn told(text: &str) -> String {
-    let known = explain(text).unwrap_or_else(|error| panic!("{text}: {error}"));
-    known.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n\n")
+    to_text(&explain(text).unwrap_or_else(|error| panic!("{text}: {error}")))
 }
 
 fn refused(text: &str) -> String {
@@ -175,7 +182,7 @@ fn every_word_of_the_glossary_is_explained() {
     }
     let watchdog = told("watchdog");
     assert!(
-        watchdog.starts_with("word watchdog: ends OP when no process data was written in time"),
+        watchdog.starts_with("word watchdog (WDT): ends OP when no process data was written in time"),
         "{watchdog}"
     );
     assert_eq!(subjects("sync manager"), subjects("SyncManager"));
@@ -188,6 +195,142 @@ fn names_of_events_objects_and_registers_are_explained() {
     assert_eq!(subjects("Identity Object"), [Subject::Object(ObjectIndex(0x1018))]);
     assert_eq!(subjects("Production Info"), [Subject::NxObject(ObjectIndex(0x1001))]);
     assert_eq!(subjects("0x10F3:04"), [Subject::Entry(ObjectIndex(0x10F3), SubIndex(4))]);
+}
+
+/// Every name of the object dictionary, on both sides.
+#[test]
+fn every_name_of_an_object_and_of_an_entry_is_explained() {
+    for object in nx_ect101::object_table().iter() {
+        assert!(subjects(&object.name).contains(&Subject::Object(object.index)), "{}", object.name);
+        for entry in &object.entries {
+            let known = subjects(&entry.name);
+            let is_variable = object.code == ObjectCode::Variable;
+            let wanted = if is_variable {
+                Subject::Object(object.index)
+            } else {
+                Subject::Entry(object.index, entry.sub)
+            };
+            assert!(known.contains(&wanted), "{}:{} {}", object.index, entry.sub, entry.name);
+        }
+    }
+    for object in nx_ect101::NxObject::all() {
+        assert!(subjects(&object.name).contains(&Subject::NxObject(object.index)), "{}", object.name);
+        for entry in &object.entries {
+            let wanted = Subject::NxEntry(object.index, entry.sub);
+            assert!(subjects(&entry.name).contains(&wanted), "{}:{} {}", object.index, entry.sub, entry.name);
+        }
+    }
+    assert_eq!(subjects("Sysmac Error Status"), [Subject::Entry(ObjectIndex(0x2002), SubIndex(1))]);
+    assert_eq!(subjects("minor fault"), subjects("Sysmac Error Status"), "a bit of it");
+}
+
+#[test]
+fn a_name_of_many_entries_is_told_as_their_list() {
+    let text = told("Number of entries");
+    assert!(text.contains("object 0x1018:00: Number of entries, Identity Object\nobject "), "{text}");
+    assert!(text.lines().all(|line| line.to_lowercase().contains(":00: number of entries, ")), "{text}");
+}
+
+/// Every I/O port, its variable and its AT specification, of every unit file that comes with the project.
+#[test]
+fn every_io_port_of_the_cpu_unit_is_explained() {
+    for (file, text) in UNIT_FILES {
+        let file =
+            nx_ect101::unit_file::UnitFile::parse(text).unwrap_or_else(|errors| panic!("{file}: {errors}"));
+        let variables = plc::DeviceVariables::of_unit_file(&file);
+        for (_, variable) in variables.iter() {
+            let port = variable.port.as_ref().unwrap_or(&variable.name);
+            for name in [Some(port), Some(&variable.name), variable.at.as_ref()].into_iter().flatten() {
+                let known = subjects(name);
+                let is_port = |subject: &Subject| matches!(subject, Subject::Port(known) if known == port);
+                assert!(known.iter().any(is_port), "{name}: {known:?}");
+            }
+        }
+    }
+    assert!(told("SDO Communications Enabled").contains("bit         0 of EtherCAT Slave Status"));
+    assert!(
+        told("NX Unit I/O Data Active Status")
+            .starts_with("I/O port NX Unit I/O Data Active Status: BOOL, programs read it")
+    );
+    assert!(told("_NXB_UnitErrFlagTbl").contains("ARRAY[0..32] OF BOOL"));
+    let entry = told("UINTs 03 C to M");
+    assert!(
+        entry.contains("I/O port UINTs 03 C to M: ARRAY[0..14] OF UINT, programs read and write it"),
+        "{entry}"
+    );
+    assert!(entry.contains("NX object 0x7000:03: UINTs 03 C to M"), "{entry}");
+}
+
+/// Every key that the reader takes, by its path and by its last word; a number alone is an object or an event.
+#[test]
+fn every_key_of_the_unit_file_is_explained() {
+    for path in nx_ect101::unit_file::keys() {
+        let last = path.rsplit_once('.').map_or(path.as_str(), |(_, last)| last);
+        let is_number = last.starts_with(|first: char| first.is_ascii_digit());
+        for name in [path.as_str(), if is_number { &path } else { last }] {
+            let known = subjects(name);
+            let is_key = |subject: &Subject| matches!(subject, Subject::Key(known) if *known == path);
+            assert!(known.iter().any(is_key), "{name}: {known:?}");
+        }
+        assert!(explain(&path).unwrap().iter().all(|known| !known.name.is_empty()), "{path}: no words");
+    }
+    let fail_soft = told("fail_soft");
+    assert!(fail_soft.starts_with("key cpu.fail_soft: fail-soft operation of the NX bus"), "{fail_soft}");
+    assert!(
+        fail_soft.ends_with("  section     [cpu]\n  type, range true, false\n  default     true"),
+        "{fail_soft}"
+    );
+    assert!(told("outputs_before_op").contains("section     the top of the file"));
+    assert!(told("start_up").contains("\"300ms\" at each restart"));
+    assert!(told("times").ends_with("keys        transitions, sii, mailbox"));
+    assert!(told("assign").contains("keys        rx, tx"));
+    assert!(told("times.transitions.PS").contains("the request waits in AL control"));
+    assert!(told("pdo.mapping.1602").contains("section     [pdo]"));
+}
+
+fn commands() -> impl Iterator<Item = String> {
+    Command::ALL.into_iter().map(|command| format!("{command:?}").to_uppercase())
+}
+
+#[test]
+fn every_command_of_a_datagram_is_explained() {
+    for command in commands() {
+        assert!(matches!(subjects(&command)[..], [Subject::Word(_)]), "{command}");
+    }
+}
+
+/// An abbreviation has its words beside it; those of states and commands are names.
+#[test]
+fn every_abbreviation_of_the_glossary_is_known_by_its_words_too() {
+    let is_name = |word: &str| {
+        AlState::ALL.iter().any(|state| state.to_string() == word)
+            || commands().any(|command| command == word)
+    };
+    let is_abbreviation =
+        |word: &str| word.len() <= 4 && word.chars().filter(char::is_ascii_uppercase).count() >= 2;
+    for (word, row) in glossary::words() {
+        let words = glossary::words().filter(|(_, other)| *other == row).count();
+        assert!(!is_abbreviation(word) || is_name(word) || words > 1, "{word}");
+    }
+    for (abbreviation, words) in
+        [("DC", "distributed clocks"), ("WDT", "watchdog"), ("WKC", "working counter")]
+    {
+        assert!(
+            subjects(abbreviation).iter().any(|subject| subjects(words).contains(subject)),
+            "{abbreviation}"
+        );
+    }
+}
+
+#[test]
+fn words_within_names_find_them() {
+    assert_eq!(told("identity"), "object 0x1018: Identity Object\nNX object 0x1000: NX Bus Identity");
+    assert!(told("Data M to C").contains("NX object 0x6000: UINTs Data M to C"), "{}", told("Data M to C"));
+    assert!(told("event log").starts_with("word event log, system event log, access event log: "));
+    let many = refused("object to be mapped");
+    assert!(many.starts_with("`object to be mapped` is a part of "), "{many}");
+    assert!(many.contains("give more words of the name, such as `1st "), "{many}");
+    assert!(!refused("entit").contains("Identity"), "a part of a word is none of its words");
 }
 
 #[test]
@@ -208,7 +351,22 @@ fn an_unknown_code_is_told_with_those_that_exist_and_with_a_near_one_only() {
 #[test]
 fn an_unknown_word_is_told_with_a_near_one_only() {
     assert!(refused("watchdgo").starts_with("`watchdgo` is not known; is `watchdog` meant?"));
-    for text in ["", "0x", "hello", "123456789", "-1", "+1B", "hex", "banana bread", ":", "1018:"] {
+    for text in [
+        "",
+        "0x",
+        "hello",
+        "123456789",
+        "-1",
+        "+1B",
+        "hex",
+        "banana bread",
+        ":",
+        "1018:",
+        "table",
+        "pump",
+        "a",
+        "to",
+    ] {
         assert!(!refused(text).contains("meant"), "{text}: {}", refused(text));
     }
 }

@@ -7,45 +7,18 @@ use wire::ObjectIndex;
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
 use super::{
     ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile,
-    information, slave, times,
+    information, keys, slave, times,
 };
-use crate::data_sets::{DataSet, DataSetKind};
-use crate::events::{Event, EventLevel};
+use crate::data_sets::DataSet;
+use crate::events::EventLevel;
 use crate::timing::Timing;
 
-const UNIT_KEYS: [&str; 23] = [
-    "model",
-    "name",
-    "unit_number",
-    "serial",
-    "id_switch",
-    "alias",
-    "device_type",
-    "unit_version",
-    "lot_number",
-    "hardware_version",
-    "software_version",
-    "timing",
-    "start_up",
-    "refresh_phase",
-    "outputs_before_op",
-    "blank_sii",
-    "times",
-    "refuse",
-    "storage",
-    "io_allocation",
-    "pdo",
-    "event_levels",
-    "cpu",
-];
 /// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
 const UNIT_NUMBER_MAX: u64 = 32;
-const DATA_SET_KEYS: [(&str, DataSetKind); 3] =
-    [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
 
 /// The whole file; none when it does not name its model.
 pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
-    reader.only(file, &UNIT_KEYS);
+    reader.only(file, &keys::UNIT);
     if file.get("model").is_none() {
         reader.refuse(0..0, Problem::new("`model` is missing", "`model = \"nx-ect101\"`"));
     }
@@ -95,7 +68,7 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
 
 fn io_allocation(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<IoAllocationSection>> {
     let section = reader.section(file, "io_allocation")?;
-    reader.only(&section, &["m_to_c", "c_to_m"]);
+    reader.only(&section, &keys::IO_ALLOCATION);
     let m_to_c = data_sets(reader, &section, "m_to_c");
     let c_to_m = data_sets(reader, &section, "c_to_m");
     Some(section.locate(IoAllocationSection { m_to_c, c_to_m }))
@@ -103,9 +76,9 @@ fn io_allocation(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Loca
 
 fn data_sets(reader: &mut Reader<'_>, parent: &Section<'_, '_>, key: &str) -> Vec<DataSetEntries> {
     let Some(section) = reader.section(parent, key) else { return Vec::new() };
-    reader.only(&section, &DATA_SET_KEYS.map(|(key, _)| key));
+    reader.only(&section, &keys::DATA_SETS.map(|(key, _)| key));
     let mut sets = Vec::new();
-    for (key, kind) in DATA_SET_KEYS {
+    for (key, kind) in keys::DATA_SETS {
         let value = section.get(key);
         if let Some(entries) = value.and_then(|value| entries(reader, &section.place_of(key), value)) {
             sets.push(DataSetEntries { kind, entries });
@@ -131,10 +104,10 @@ fn entries(reader: &mut Reader<'_>, place: &str, value: &Value<'_>) -> Option<Lo
 
 fn pdo(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<PdoSection>> {
     let section = reader.section(file, "pdo")?;
-    reader.only(&section, &["assign", "mapping"]);
+    reader.only(&section, &keys::PDO);
     let mut pdo = PdoSection::default();
     if let Some(assign) = reader.section(&section, "assign") {
-        reader.only(&assign, &["rx", "tx"]);
+        reader.only(&assign, &keys::ASSIGN);
         pdo.assign_rx = assignment(reader, &assign, "rx");
         pdo.assign_tx = assignment(reader, &assign, "tx");
     }
@@ -187,8 +160,7 @@ fn mapping_object(key: &str) -> Option<ObjectIndex> {
 }
 
 fn refuse_mapping_key(reader: &mut Reader<'_>, place: &str, key: Located<&str>) {
-    let mut names: Vec<String> = DataSet::all().iter().map(|set| format!("{:04X}", set.pdo.0)).collect();
-    names.sort_unstable();
+    let names = keys::mappings();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let problem = Problem::unknown(format!("unknown key `{place}`"), key.value, &names);
     reader.refuse(key.span.unwrap_or_default(), problem);
@@ -196,15 +168,14 @@ fn refuse_mapping_key(reader: &mut Reader<'_>, place: &str, key: Located<&str>) 
 
 fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<ChangedLevel> {
     let Some(section) = reader.section(file, "event_levels") else { return Vec::new() };
-    let changeable = Event::all().iter().filter(|event| event.changeable_level).map(|event| event.code);
     let mut levels = Vec::new();
     for (key, value) in section.entries() {
-        let Some(code) = changeable.clone().find(|code| code.to_string() == key.value) else {
+        let Some(code) = keys::changeable_events().find(|code| code.to_string() == key.value) else {
             let message = format!(
                 "`event_levels`: no event `{}` whose level can be changed",
                 user_file::shown(key.value)
             );
-            let names: Vec<String> = changeable.clone().map(|code| code.to_string()).collect();
+            let names: Vec<String> = keys::changeable_events().map(|code| code.to_string()).collect();
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
             reader.refuse(key.span.unwrap_or_default(), Problem::unknown(message, key.value, &names));
             continue;
@@ -232,7 +203,7 @@ fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
         statement_budget: Located::left_out(STATEMENT_BUDGET_DEFAULT),
     };
     let Some(section) = reader.section(file, "cpu") else { return cpu };
-    reader.only(&section, &["task_period", "task_phase", "mode", "fail_soft", "program", "statement_budget"]);
+    reader.only(&section, &keys::CPU);
     if let Some(task_period) = reader.value(&section, "task_period", times::task_period) {
         cpu.task_period = task_period;
     }

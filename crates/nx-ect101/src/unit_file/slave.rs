@@ -2,20 +2,18 @@
 
 use core::ops::RangeInclusive;
 
-use device::{Conduct, Refusals, TRANSITIONS, Transition, TransitionTimes};
+use device::{Conduct, Refusals, TransitionTimes};
 use time::Duration;
 use user_file::{DeValue, Problem, Reader, Section, values, wrong_type};
-use wire::{AlState, AlStatusCode};
+use wire::AlStatusCode;
 
+use super::keys;
 use crate::slave_settings::{OutputsRule, SlaveSettings};
 
 /// The longest is more than any master waits.
 const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
 const OUTPUTS_RULES: [(&str, OutputsRule); 2] =
     [("required", OutputsRule::Required), ("not-required", OutputsRule::NotRequired)];
-const REFUSED_STATES: [(&str, AlState); 4] =
-    [("init", AlState::Init), ("pre_op", AlState::PreOp), ("safe_op", AlState::SafeOp), ("op", AlState::Op)];
-const ACKNOWLEDGE: &str = "acknowledge";
 
 pub(super) fn slave(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> SlaveSettings {
     let mut slave = SlaveSettings::default();
@@ -31,7 +29,7 @@ pub(super) fn slave(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> SlaveSet
 
 fn times(reader: &mut Reader<'_>, file: &Section<'_, '_>, slave: &mut SlaveSettings) {
     let Some(section) = reader.section(file, "times") else { return };
-    reader.only(&section, &["transitions", "sii", "mailbox"]);
+    reader.only(&section, &keys::TIMES);
     slave.conduct.transition_times = transitions(reader, &section);
     slave.sii_time = reader.value(&section, "sii", time).map_or(Duration::ZERO, |time| time.value);
     slave.mailbox_time = reader.value(&section, "mailbox", time).map(|time| time.value);
@@ -54,8 +52,7 @@ fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>) -> TransitionTi
     }
     let mut each = TransitionTimes::default();
     let Some(section) = reader.section(times, KEY) else { return each };
-    let has_it = |row: &&Transition| !row.needs_boot();
-    let letters: Vec<&str> = TRANSITIONS.iter().filter(has_it).map(|row| row.letters).collect();
+    let letters = keys::transitions();
     reader.only(&section, &letters);
     for letters in letters {
         if let Some(time) = reader.value(&section, letters, time) {
@@ -67,18 +64,16 @@ fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>) -> TransitionTi
 
 fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, conduct: &mut Conduct) {
     let Some(section) = reader.section(file, "refuse") else { return };
-    let mut keys = REFUSED_STATES.map(|(key, _)| key).to_vec();
-    keys.push(ACKNOWLEDGE);
-    reader.only(&section, &keys);
+    reader.only(&section, &keys::refuse());
     let mut refusals = Refusals::default();
-    for (key, state) in REFUSED_STATES {
+    for (key, state) in keys::REFUSED_STATES {
         let code = reader.value(&section, key, |place, value| {
             values::integer(place, value, 1..=0xFFFF, "an AL status code, 0x0001 to 0xFFFF")
         });
         refusals.set(state, code.map(|code| AlStatusCode(code.value)));
     }
     conduct.refusals = refusals;
-    conduct.ignores_acknowledge = truth(reader, &section, ACKNOWLEDGE);
+    conduct.ignores_acknowledge = truth(reader, &section, keys::ACKNOWLEDGE);
 }
 
 fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {

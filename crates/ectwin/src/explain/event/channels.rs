@@ -5,10 +5,10 @@ use nx_ect101::{
 };
 
 use super::words;
-use crate::explain::{Fact, al_status};
+use crate::explain::{Fact, al_status_codes};
 
 /// When an emergency message is sent for an event that is notified.
-pub(in crate::explain) const fn when_emergencies_are_sent() -> &'static str {
+pub(crate) const fn when_emergencies_are_sent() -> &'static str {
     "if 10F3:05 is 1, in PRE-OP, SAFE-OP and OP"
 }
 
@@ -42,7 +42,7 @@ pub(super) fn cpu_unit(event: &Event) -> Vec<Fact> {
 
 fn al_status(event: &Event) -> String {
     let Some(code) = event.al_status_code else { return "no AL status code".into() };
-    let name = al_status::name(code).unwrap_or("vendor-specific");
+    let name = al_status_codes::name(code).unwrap_or("vendor-specific");
     let is_one_of_several = event.ecat_effect == EcatEffect::StopPreop;
     let first = if is_one_of_several {
         "; of several errors detected together the first one sets the code"

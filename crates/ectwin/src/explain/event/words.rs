@@ -5,7 +5,7 @@ use nx_ect101::{
 };
 
 /// A level.
-pub(in crate::explain) const fn level(level: EventLevel) -> &'static str {
+pub(crate) const fn level(level: EventLevel) -> &'static str {
     match level {
         EventLevel::MinorFault => "minor fault",
         EventLevel::Observation => "observation",
@@ -14,7 +14,7 @@ pub(in crate::explain) const fn level(level: EventLevel) -> &'static str {
 }
 
 /// How an error of a unit ends after the cause is gone.
-pub(in crate::explain) const fn recovery(recovery: Recovery) -> &'static str {
+pub(crate) const fn recovery(recovery: Recovery) -> &'static str {
     match recovery {
         Recovery::ResetErrorInSlaveUnit => "reset the error in the unit: 2002:02 = 1, or from the CPU Unit",
         Recovery::RedoIoAllocationSettings => "correct the I/O allocation settings and download them",

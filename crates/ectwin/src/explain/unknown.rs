@@ -1,0 +1,32 @@
+//! What to say of a text that nothing explains: what it might have been, and what there is.
+
+use super::number::Number;
+use super::{Explanation, Unexplained, names};
+
+/// Names that show what more words would be.
+const SHOWN_PARTS: usize = 3;
+
+const KNOWN: &str = "codes and indexes in hexadecimal digits, such as 391E0000 (event code), 0x001B (AL status code), 0xA000 \
+    (emergency error code), 0x0602_0000 (SDO abort code), 0x1018 or 10F3:05 (objects), 0x0130 (register); indicators and \
+    their patterns, such as ERR; names of events, objects, entries, I/O ports and registers; keys of the unit file, such as \
+    fail_soft; words of the glossary, such as watchdog";
+
+/// A number that is no code, no object and no register.
+pub(super) fn number(number: Number, near: Option<Explanation>) -> Unexplained {
+    let near = near.map_or_else(String::new, |near| format!("; is {}, {}, meant?", near.subject, near.name));
+    Unexplained::new(format!("{number} is not known as {}{near}", number.kinds()), number.there_is())
+}
+
+/// A text that is no number, and no name either.
+pub(super) fn name(text: &str) -> Unexplained {
+    let near = names::near(text).map_or_else(String::new, |near| format!("; is `{near}` meant?"));
+    Unexplained::new(format!("`{}` is not known{near}", text.escape_debug()), KNOWN)
+}
+
+/// Words that are a part of more names than can be shown.
+pub(super) fn part(text: &str, meanings: &[Explanation]) -> Unexplained {
+    let message = format!("`{}` is a part of {} names", text.escape_debug(), meanings.len());
+    let some = meanings.iter().take(SHOWN_PARTS).map(|known| format!("`{}`", known.name));
+    let some = some.collect::<Vec<_>>().join(", ");
+    Unexplained::new(message, format!("give more words of the name, such as {some}"))
+}

@@ -1,0 +1,128 @@
+//! The keys of the unit file, section by section: those that the reader takes, and [`keys`] lists.
+
+use device::TRANSITIONS;
+use wire::AlState;
+
+use crate::data_sets::{DataSet, DataSetKind};
+use crate::events::{Event, EventCode};
+
+/// Of the file itself: keys and sections.
+pub(super) const UNIT: [&str; 23] = [
+    "model",
+    "name",
+    "unit_number",
+    "serial",
+    "id_switch",
+    "alias",
+    "device_type",
+    "unit_version",
+    "lot_number",
+    "hardware_version",
+    "software_version",
+    "timing",
+    "start_up",
+    "refresh_phase",
+    "outputs_before_op",
+    "blank_sii",
+    "times",
+    "refuse",
+    "storage",
+    "io_allocation",
+    "pdo",
+    "event_levels",
+    "cpu",
+];
+pub(super) const TIMES: [&str; 3] = ["transitions", "sii", "mailbox"];
+pub(super) const REFUSED_STATES: [(&str, AlState); 4] =
+    [("init", AlState::Init), ("pre_op", AlState::PreOp), ("safe_op", AlState::SafeOp), ("op", AlState::Op)];
+pub(super) const ACKNOWLEDGE: &str = "acknowledge";
+pub(super) const IO_ALLOCATION: [&str; 2] = ["m_to_c", "c_to_m"];
+pub(super) const DATA_SETS: [(&str, DataSetKind); 3] =
+    [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
+pub(super) const PDO: [&str; 2] = ["assign", "mapping"];
+pub(super) const ASSIGN: [&str; 2] = ["rx", "tx"];
+pub(super) const CPU: [&str; 6] =
+    ["task_period", "task_phase", "mode", "fail_soft", "program", "statement_budget"];
+
+/// The transitions of a unit without BOOT, by the standard's letters.
+pub(super) fn transitions() -> Vec<&'static str> {
+    TRANSITIONS.iter().filter(|row| !row.needs_boot()).map(|row| row.letters).collect()
+}
+
+pub(super) fn refuse() -> Vec<&'static str> {
+    REFUSED_STATES.iter().map(|(key, _)| *key).chain([ACKNOWLEDGE]).collect()
+}
+
+/// The mapping objects whose entries a master may set, ascending.
+pub(super) fn mappings() -> Vec<String> {
+    let mut names: Vec<String> = DataSet::all().iter().map(|set| format!("{:04X}", set.pdo.0)).collect();
+    names.sort_unstable();
+    names
+}
+
+/// The events whose level a user may change.
+pub(super) fn changeable_events() -> impl Iterator<Item = EventCode> {
+    Event::all().iter().filter(|event| event.changeable_level).map(|event| event.code)
+}
+
+/// Every key and every section of the unit file, as a path with dots: `start_up`, `cpu`, `cpu.fail_soft`.
+#[must_use]
+pub fn keys() -> Vec<String> {
+    let owned = |keys: &[&str]| keys.iter().map(|key| (*key).to_owned()).collect::<Vec<_>>();
+    let data_sets = || DATA_SETS.iter().map(|(key, _)| (*key).to_owned()).collect();
+    let sections: [(&str, Vec<String>); 11] = [
+        ("times", owned(&TIMES)),
+        ("times.transitions", owned(&transitions())),
+        ("refuse", owned(&refuse())),
+        ("io_allocation", owned(&IO_ALLOCATION)),
+        ("io_allocation.m_to_c", data_sets()),
+        ("io_allocation.c_to_m", data_sets()),
+        ("pdo", owned(&PDO)),
+        ("pdo.assign", owned(&ASSIGN)),
+        ("pdo.mapping", mappings()),
+        ("event_levels", changeable_events().map(|code| code.to_string()).collect()),
+        ("cpu", owned(&CPU)),
+    ];
+    let within =
+        sections.iter().flat_map(|(section, keys)| keys.iter().map(move |key| format!("{section}.{key}")));
+    owned(&UNIT).into_iter().chain(within).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::{BTreeMap, BTreeSet};
+
+    use super::super::UnitFile;
+    use super::keys;
+
+    /// What the reader accepts in a section, as its message for an unknown key lists it.
+    fn accepted_in(section: &str) -> BTreeSet<String> {
+        let header = if section.is_empty() { String::new() } else { format!("[{section}]\n") };
+        let text = format!("{header}key-of-nobody = 1\n");
+        let Err(errors) = UnitFile::parse(&text) else { panic!("{section}: a key of nobody is taken") };
+        let unknown = errors.iter().find(|error| error.message.contains("key-of-nobody"));
+        let Some(unknown) = unknown else { panic!("{section}: {errors}") };
+        unknown.expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn the_list_is_what_the_reader_takes_in_each_section() {
+        let mut sections: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for path in keys() {
+            let (section, key) = path.rsplit_once('.').unwrap_or(("", &path));
+            assert!(sections.entry(section.to_owned()).or_default().insert(key.to_owned()), "{path} twice");
+        }
+        for (section, keys) in &sections {
+            assert_eq!(accepted_in(section), *keys, "[{section}]");
+        }
+    }
+
+    /// A section is a key of the section around it.
+    #[test]
+    fn every_section_is_a_key_itself() {
+        let all = keys();
+        for (section, _) in all.iter().filter_map(|path| path.rsplit_once('.')) {
+            assert!(all.iter().any(|path| path == section), "{section}");
+        }
+    }
+}
