@@ -55,8 +55,8 @@ impl SiiContents {
 pub struct Header {
     /// Words 0 to 6 as bytes.
     pub configuration: [u8; 14],
-    /// Low byte of word 7.
-    pub checksum: u8,
+    /// Word 7: the checksum of words 0 to 6 in its low byte, 0 in its high byte.
+    pub checksum: u16,
     /// Words 8 and 9.
     pub vendor_id: u32,
     /// Words 0x0A and 0x0B.

@@ -86,10 +86,10 @@ fn compare_headers(actual: &Header, expected: &Header, findings: &mut Vec<Findin
 }
 
 fn check_header(header: &Header, length_bytes: usize, findings: &mut Vec<Finding>) {
-    let right = checksum(&header.configuration);
+    let right = u16::from(checksum(&header.configuration));
     if header.checksum != right {
-        let found = format!("{:#04X}", header.checksum);
-        findings.push(finding("C022", "checksum in word 7", found, format!("{right:#04X}")));
+        let found = format!("{:#06X}", header.checksum);
+        findings.push(finding("C022", "checksum in word 7", found, format!("{right:#06X}")));
     }
     if usize::try_from(header.size_bytes()) != Ok(length_bytes) {
         let found = format!("{} bytes (word {:#06X})", header.size_bytes(), header.size_word);

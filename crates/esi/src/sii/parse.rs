@@ -135,7 +135,7 @@ fn header(image: &[u8]) -> Result<Header, SiiError> {
 fn read_header(image: &[u8]) -> Option<Header> {
     Some(Header {
         configuration: image.get(layout::CONFIGURATION)?.try_into().ok()?,
-        checksum: *image.get(layout::CHECKSUM)?,
+        checksum: word(image, layout::CHECKSUM)?,
         vendor_id: double_word(image, layout::VENDOR_ID)?,
         product_code: double_word(image, layout::PRODUCT_CODE)?,
         revision: double_word(image, layout::REVISION)?,

@@ -99,11 +99,19 @@ fn lint_names_place_value_and_expectation() {
     image[57] = 0x80;
     let findings: Vec<String> = lint(&image).iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(findings.join("\n"), @"
-    checksum in word 7: 0x07, expected 0xF8 (C022)
+    checksum in word 7: 0x0007, expected 0x00F8 (C022)
     size in word 0x3E: 1024 bytes (word 0x0007), expected 2048 bytes (C025)
     mailbox protocols in word 0x1C: undefined bits 0x8000, expected 0 there (C024)
     receive mailbox in words 0x18 and 0x19: 0x1034, 128 bytes, expected 0x1000, 128 bytes as in category 41 (C036)
     ");
+}
+
+/// A controller does not load such an image.
+#[test]
+fn the_high_byte_of_the_checksum_is_looked_at() {
+    let mut image = image(&small_device());
+    image[15] = 1;
+    assert_eq!(lint(&image).iter().map(|finding| finding.check).collect::<Vec<_>>(), ["C022"]);
 }
 
 #[test]
