@@ -11,6 +11,21 @@ pub fn shown(text: &str) -> String {
     if characters.next().is_some() { format!("{head}...") } else { head }
 }
 
+/// Longest text that [`shortened`] leaves as it is.
+const WHOLE_BYTES_MAX: usize = 600;
+
+/// A message without its middle where that is long: what it quotes of a file may have no end.
+#[must_use]
+pub fn shortened(message: String) -> String {
+    if message.len() <= WHOLE_BYTES_MAX {
+        return message;
+    }
+    let kept = WHOLE_BYTES_MAX / 3;
+    let start: String = message.chars().take(kept).collect();
+    let end: Vec<char> = message.chars().rev().take(kept).collect();
+    start + "…" + &end.into_iter().rev().collect::<String>()
+}
+
 /// The text with its control characters written out, so that a terminal does not obey them. Line ends stay.
 #[must_use]
 pub fn escaped(text: &str) -> String {
@@ -43,6 +58,15 @@ mod tests {
         assert_eq!(shown(&"x".repeat(41)), format!("{}...", "x".repeat(40)));
         assert_eq!(escaped("a\u{1b}[2J\r\nb\u{9b}"), "a\\u{1b}[2J\\r\nb\\u{9b}");
         assert_eq!(escaped("plain ü"), "plain ü");
+    }
+
+    #[test]
+    fn a_long_message_keeps_its_beginning_and_its_end() {
+        assert_eq!(shortened("short".to_owned()), "short");
+        let long = format!("unknown field `{}`, expected `title`", "ü".repeat(1_000));
+        let short = shortened(long);
+        assert!(short.len() <= 2 * WHOLE_BYTES_MAX, "{short}");
+        assert!(short.starts_with("unknown field `ü") && short.ends_with("ü`, expected `title`"), "{short}");
     }
 
     #[test]

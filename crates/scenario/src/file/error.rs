@@ -3,6 +3,8 @@
 use core::fmt;
 use core::ops::Range;
 
+use user_file::shortened;
+
 /// One thing that is wrong.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScenarioError {
@@ -21,7 +23,7 @@ pub struct ScenarioError {
 impl ScenarioError {
     pub(crate) fn new(text: &str, span: Range<usize>, message: String, help: String) -> Self {
         let (line, column) = user_file::line_and_column(text, span.start);
-        Self { line, column, span, message, help }
+        Self { line, column, span, message: shortened(message), help: shortened(help) }
     }
 }
 
