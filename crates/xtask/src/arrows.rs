@@ -56,6 +56,7 @@ const FLOORS: &[Row] = &[
     row("storage", 8, Only(&[])),
     row("ectwin", 9, AnyFloorBelow),
     row("ectwin-cli", 10, AnyFloorBelow),
+    row("fuzz", CHECKS_FLOOR, AnyFloorBelow),
     row("xtask", CHECKS_FLOOR, AnyFloorBelow),
     row(TESTBED, 0, Only(&[])),
 ];
