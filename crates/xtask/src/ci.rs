@@ -8,12 +8,12 @@ use clap::Args;
 use crate::outcome::Ending;
 use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
-use crate::{advisories, arrows, conformance, library, tidy};
+use crate::{advisories, arrows, conformance, fuzz, library, tidy};
 
 /// What `cargo xtask ci` may be told.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Leave out what takes long: the real masters, optional features, doc tests, documentation, licences
+    /// Leave out what takes long: the real masters, fuzzers, optional features, doc tests, documentation, licences
     #[arg(long)]
     quick: bool,
     /// A test that cannot run here is a failure (this is so too when CI=true)
@@ -38,6 +38,7 @@ const STEPS: &[Step] = &[
     Step { name: "library", in_quick: false, run: |_| library::check().into() },
     Step { name: "clippy", in_quick: true, run: |_| tools::clippy().into() },
     Step { name: "tests", in_quick: true, run: |scope| tests_step::tests(scope).into() },
+    Step { name: "fuzz", in_quick: false, run: |_| fuzz::in_gate().into() },
     Step { name: "features", in_quick: false, run: |_| tests_step::features().into() },
     Step { name: "doc tests", in_quick: false, run: |_| tests_step::doc_tests().into() },
     Step { name: "documentation", in_quick: false, run: |_| tools::documentation().into() },

@@ -5,6 +5,7 @@ mod arrows;
 mod bless;
 mod ci;
 mod conformance;
+mod fuzz;
 mod library;
 mod metadata;
 mod outcome;
@@ -50,6 +51,8 @@ enum Task {
     Advisories,
     /// The habits of the house: lengths, words, pages, purposes
     Tidy,
+    /// Our own fuzzers: inputs that are generated or damaged, and what has to hold after each
+    Fuzz(fuzz::Options),
     /// Write what is generated and kept: pages of events, the table of the setting rules, where statements are pinned
     Bless,
 }
@@ -65,6 +68,7 @@ fn main() -> ExitCode {
         Task::Licences => tools::licences(),
         Task::Advisories => advisories::check().told(),
         Task::Tidy => tidy::check(),
+        Task::Fuzz(options) => fuzz::run(&options),
         Task::Bless => bless::bless(),
     };
     match outcome {
