@@ -1,6 +1,8 @@
 //! What is wrong with files that users wrote, with pictures of the places.
 
 mod excerpt;
+mod shown_file;
+mod shown_lines;
 
 use std::fmt;
 use std::ops::Range;
@@ -13,6 +15,7 @@ use user_file::{MISTAKES_MAX, and_more, escaped};
 
 use crate::colour::colour_on_stderr;
 use excerpt::Excerpt;
+pub(crate) use shown_file::ShownFile;
 
 /// What is wrong with the files of a command: the first things in full, and how many more there are.
 #[derive(Debug, Default)]

@@ -165,3 +165,50 @@ fn list_rules_has_the_seven_rules_and_their_events() {
         assert!(text.contains(event["code"].as_str().unwrap()), "{event}");
     }
 }
+
+/// Breaks the rules of type and order in every data set on both sides, and the order of the PDOs.
+const EVERYTHING_BROKEN: &str = r#"
+[io_allocation]
+m_to_c = { uints = ["6001:01", "6000:05"], bytes = ["6000:01", "6001:05"], udint = ["6000:01", "6002:05"] }
+c_to_m = { uints = ["7001:01", "7000:05"], bytes = ["7000:01", "7001:05"], udint = ["7000:01", "7002:05"] }
+[pdo]
+assign.rx = [0x1603, 0x1602, 0x1601]
+assign.tx = [0x1A03, 0x1A02, 0x1A01, 0x1A00]
+mapping.1601 = ["7001:01", "7000:05"]
+mapping.1602 = ["7000:01", "7001:05"]
+mapping.1603 = ["7000:01", "7002:05"]
+mapping.1A01 = ["6001:01", "6000:05"]
+mapping.1A02 = ["6000:01", "6001:05"]
+mapping.1A03 = ["6000:01", "6002:05"]
+"#;
+
+#[test]
+fn the_first_findings_have_pictures_and_the_others_are_counted() {
+    let (_, json) = check("check-many.toml", EVERYTHING_BROKEN, &["--json"]);
+    let document: Value = serde_json::from_str(&json).unwrap();
+    let count = document["findings"].as_array().unwrap().len();
+    assert!(count > 20, "JSON has all of them: {count}");
+    let (code, told) = check("check-many.toml", EVERYTHING_BROKEN, &[]);
+    assert_eq!((code, told.matches(" (rule ").count()), (Some(1), 20), "{told}");
+    let more = format!("and {} more", count - 20);
+    assert_eq!(told.lines().find(|line| line.starts_with("and ")), Some(more.as_str()));
+    assert!(told.contains(&format!(": {count} findings: ")), "the whole number at the end: {told}");
+    let (_, told) = check("check-few.toml", BROKEN, &[]);
+    assert!(!told.contains("more"), "{told}");
+}
+
+/// A line is cut around the place, and its column is that of the file.
+#[test]
+fn a_long_line_is_shown_around_its_place() {
+    let list = format!("{}, \"6001:01\"", vec!["\"6000:01\""; 3_000].join(", "));
+    let sections = format!("[io_allocation]\nm_to_c.uints = [{list}]\nc_to_m.uints = 6\n");
+    let (code, told) = check("check-long-line.toml", &sections, &[]);
+    assert_eq!(code, Some(1));
+    let column = "m_to_c.uints = [".len() + 3_000 * "\"6000:01\", ".len() + 1;
+    assert!(told.contains(&format!("check-long-line.toml:3:{column}]")), "{told}");
+    assert!(
+        told.contains("not an entry of 0x6000 that exists") && told.len() < 4_000,
+        "{} bytes",
+        told.len()
+    );
+}

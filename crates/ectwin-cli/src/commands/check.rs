@@ -9,12 +9,13 @@ use std::path::Path;
 
 use ectwin::unit_file::UnitFile;
 use nx_ect101::{Configuration, EventLevel, Finding, UnitSettings, Verdict};
+use user_file::{MISTAKES_MAX, and_more};
 
 use crate::cli::CheckArgs;
 use crate::failure::Failure;
 use crate::{output, unit_files};
 
-/// Shows all findings and what would be exchanged. A finding whose event is an observation is a warning.
+/// Shows the findings and what would be exchanged. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let (file, text) = unit_files::parse(&args.unit)?;
     let configuration = Configuration::from_unit_file(&file);
@@ -40,7 +41,9 @@ fn for_people(
 ) -> String {
     let picture =
         |finding: &Finding| report::picture(path, text, finding, level(finding), places::of(file, finding));
-    let mut told: String = verdict.findings.iter().map(picture).collect();
+    let mut told: String = verdict.findings.iter().take(MISTAKES_MAX).map(picture).collect();
+    let more = and_more(verdict.findings.len().saturating_sub(MISTAKES_MAX));
+    told.extend(more.map(|more| format!("{more}\n\n")));
     told.push_str(&format!("{}: {}\n", path.display(), exchange::consequence(verdict, level)));
     told.push_str(&exchange::table(configuration, verdict));
     told

@@ -3,13 +3,12 @@
 use std::fmt;
 use std::path::Path;
 
-use miette::{
-    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, Severity, SourceCode,
-};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, Severity, SourceCode};
 use nx_ect101::{EventLevel, Finding};
 
 use super::places::Place;
 use crate::colour::colour_on_stdout;
+use crate::file_problem::ShownFile;
 
 /// The finding with its places, its event and its correction.
 pub(super) fn picture(
@@ -19,7 +18,8 @@ pub(super) fn picture(
     level: EventLevel,
     places: Vec<Place>,
 ) -> String {
-    let source = NamedSource::new(path.display().to_string(), text.to_owned());
+    let spans = places.iter().map(|place| place.span.clone());
+    let source = ShownFile::of(&path.display().to_string(), text, spans);
     let diagnostic = RuleDiagnostic { finding, level, places, source };
     let theme = if colour_on_stdout() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
     let mut picture = String::new();
@@ -35,7 +35,7 @@ struct RuleDiagnostic<'f> {
     finding: &'f Finding,
     level: EventLevel,
     places: Vec<Place>,
-    source: NamedSource<String>,
+    source: ShownFile,
 }
 
 impl fmt::Display for RuleDiagnostic<'_> {
@@ -69,7 +69,9 @@ impl Diagnostic for RuleDiagnostic<'_> {
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = |place: &Place| LabeledSpan::new_with_span(Some(place.label.clone()), place.span.clone());
-        Some(Box::new(self.places.iter().map(label)))
+        let labelled = self.places.iter().zip(self.source.marked());
+        Some(Box::new(
+            labelled.map(|(place, span)| LabeledSpan::new_with_span(Some(place.label.clone()), span)),
+        ))
     }
 }
