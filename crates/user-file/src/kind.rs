@@ -1,6 +1,6 @@
 //! What a file is that is not what was asked for: a table of the kinds that users have at hand.
 
-use crc::{Algorithm, Crc};
+use wire::{SII_CONFIGURATION_BYTES, sii_checksum};
 
 use crate::sample::Sample;
 
@@ -170,28 +170,17 @@ const CAPTURES: &[&[u8]] = &[
     b"\xA1\xB2\x3C\x4D",
 ];
 
-/// The checksum over the first seven words of an SII image, in the low byte of the eighth. ETG.1000.6, SII.
-const SII_CHECKSUM: Crc<u8> = Crc::<u8>::new(&Algorithm {
-    width: 8,
-    poly: 0x07,
-    init: 0xFF,
-    refin: false,
-    refout: false,
-    xorout: 0,
-    check: 0xFB,
-    residue: 0,
-});
-
 /// How many bytes an SII image has in front of its categories.
 const SII_HEADER_BYTES: usize = 128;
 
 fn is_sii(bytes: &[u8]) -> bool {
-    let checked = bytes.get(..14).map(|words| SII_CHECKSUM.checksum(words));
+    let Some((configuration, rest)) = bytes.split_first_chunk::<SII_CONFIGURATION_BYTES>() else {
+        return false;
+    };
     // A few zeros have a checksum too, but not one of zero.
     bytes.len() >= SII_HEADER_BYTES
         && bytes.len().is_multiple_of(2)
-        && checked == Some(bytes[14])
-        && bytes[15] == 0
+        && rest.starts_with(&[sii_checksum(configuration), 0])
 }
 
 /// The first word of a program with declarations; statements alone could be anything.
@@ -219,11 +208,27 @@ mod tests {
     const ALL: [Wanted; 5] =
         [Wanted::UnitFile, Wanted::Scenario, Wanted::Program, Wanted::Capture, Wanted::Results];
 
+    /// The header words of a real device, with its checksum 0x40 (reference 4.2).
+    fn sii_of_a_drive() -> Vec<u8> {
+        let mut image = vec![0; SII_HEADER_BYTES];
+        image[..5].copy_from_slice(&[0x05, 0x06, 0x0B, 0x0E, 0x64]);
+        image[14] = 0x40;
+        image
+    }
+
+    #[test]
+    fn an_sii_image_is_known_by_its_checksum() {
+        let known = |image: &[u8]| of_another_kind(image, "a.bin", Wanted::UnitFile);
+        assert!(known(&sii_of_a_drive()).is_some_and(|refusal| refusal.message.contains("SII image")));
+        for at in [0, 13, 14, 15] {
+            let mut image = sii_of_a_drive();
+            image[at] ^= 1;
+            assert_eq!(known(&image), None, "byte {at}");
+        }
+    }
+
     /// A small file of each row, in the order of the table.
     fn samples() -> Vec<(&'static str, Vec<u8>)> {
-        let mut sii = vec![0x05; 128];
-        sii[14] = SII_CHECKSUM.checksum(&sii[..14]);
-        sii[15] = 0;
         vec![
             (
                 "a.xml",
@@ -241,7 +246,7 @@ mod tests {
             ("a.pcap", b"\xD4\xC3\xB2\xA1\x02".to_vec()),
             ("a.nvm", b"ectwnvm\0\x01".to_vec()),
             ("a", b"\0asm\x01\0\0\0".to_vec()),
-            ("a.bin", sii),
+            ("a.bin", sii_of_a_drive()),
             ("a.jsonl", b"{\"case\":1}\n".to_vec()),
             ("a.toml", b"title = \"x\"\n[[units]]\nmodel = \"nx-ect101\"\n[[steps]]\n".to_vec()),
             ("a.toml", b"# a unit\nmodel = \"nx-ect101\"\n".to_vec()),

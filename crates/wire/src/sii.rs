@@ -1,4 +1,4 @@
-//! What of the SII EEPROM both the controller and the files need: its checksum.
+//! The checksum of the SII EEPROM, for the controller, for files that describe a unit, and for telling them apart.
 
 use crc::{Algorithm, Crc};
 
