@@ -49,7 +49,7 @@ fn a_changed_program_is_loaded_and_a_wrong_one_is_not() {
     running.wait_for("user-defined error 16#1 ");
     change(&program, "SetAlarm(2, Misspelt);");
     running.wait_for("changed.st:1:13: there is no variable `Misspelt`");
-    running.wait_for("the old program goes on");
+    running.wait_for("the old program continues");
     change(&program, "SetAlarm(3);");
     running.wait_for("a user program was loaded");
     running.wait_for_before("user-defined error 16#3 ", "has changed");

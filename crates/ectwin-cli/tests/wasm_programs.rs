@@ -84,7 +84,7 @@ fn a_changed_module_is_loaded_and_a_wrong_one_is_not() {
     running.wait_for("error in the program: the first one");
     write(&path, "(module)");
     running.wait_for("changed.wasm: it does not export `scan`");
-    running.wait_for("the old program goes on");
+    running.wait_for("the old program continues");
     write(&path, &writes_and_reports(1, "the second one"));
     running.wait_for("a user program was loaded");
     running.wait_for("error in the program: the second one");

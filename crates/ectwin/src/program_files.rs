@@ -5,10 +5,10 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel}
 use std::thread;
 use std::time::Duration as WallDuration;
 
-use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, Program, ProgramEvent};
+use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, ProgramEvent};
 use time::{Duration, Instant};
 
-use crate::watched_program::{Watch, WatchedProgram};
+use crate::watched_program::{Loaded, Watch, WatchedProgram};
 
 /// How often the files are looked at.
 const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
@@ -17,7 +17,7 @@ const TELL_AGAIN: Duration = Duration::from_millis(1_000);
 
 /// Programs that have been changed, on their way to their CPU Units. Dropping it ends the watch.
 pub(crate) struct ProgramChanges {
-    changed: Receiver<Changed>,
+    changed: Receiver<Loaded>,
     _watch: Option<Sender<()>>,
 }
 
@@ -32,13 +32,10 @@ impl ProgramChanges {
             return Ok(Self { changed, _watch: None });
         }
         let (watch, ended) = channel();
-        let mut watches: Vec<_> =
-            programs.into_iter().map(|(position, program)| (position, Watch::new(program))).collect();
+        let mut watches = Watch::all(programs);
         let body = move || {
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK_AGAIN) {
-                let programs = watches
-                    .iter_mut()
-                    .filter_map(|(position, watch)| watch.look().map(|program| (*position, program)));
+                let programs = watches.iter_mut().flat_map(Watch::look);
                 if programs.map(|program| sender.send(program).is_ok()).any(|sent| !sent) {
                     return;
                 }
@@ -61,9 +58,6 @@ impl ProgramChanges {
         }
     }
 }
-
-/// The position of a unit, and its new program.
-type Changed = (usize, Box<dyn Program + Send>);
 
 /// What CPU Units tell, on its way into the log.
 #[derive(Debug, Default)]

@@ -222,7 +222,7 @@ impl Setup {
         span: Option<Range<usize>>,
     ) -> Result<(), SetupError> {
         let budget_statements = self.file.cpu.statement_budget.value;
-        let stamps = watched_program::stamps(&paths);
+        let stamps = watched_program::stamps(&paths).ok();
         let read = ProgramText::read(&paths).and_then(|text| {
             let program = text.compile(&self.device_variables(), budget_statements)?;
             Ok((text, program))

@@ -1,14 +1,18 @@
-//! A user program in files that may change while it runs.
+//! User programs in files that may change while they run.
 
-use std::path::{Path, PathBuf};
-use std::time::SystemTime;
+mod stamps;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use plc::{DeviceVariables, Program};
 
 use crate::program_file::{ProgramFileError, ProgramText};
-use crate::user_files;
 
-/// The files of a user program, and what was read from them.
+pub(crate) use stamps::{Stamps, stamps};
+
+/// The files of a user program, and what was read from them for one unit.
 #[derive(Debug)]
 pub(crate) struct WatchedProgram {
     /// Files and folders, as they are named.
@@ -21,118 +25,154 @@ pub(crate) struct WatchedProgram {
     pub(crate) budget_statements: u64,
 }
 
-/// What a change of files shows by.
-pub(crate) type Stamps = Vec<Stamp>;
+/// A program to be loaded, and the position of its unit.
+pub(crate) type Loaded = (usize, Box<dyn Program + Send>);
 
-/// The name of a file, when it was written last, its length in bytes, and its number on the disk: an editor that
-/// replaces a file by another may keep time and length.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Stamp {
-    path: PathBuf,
-    written: SystemTime,
-    size_bytes: u64,
-    inode: u64,
+/// Looks at the files of a program again and again, for all units that run it.
+pub(crate) struct Watch {
+    /// Files and folders, as they are named.
+    paths: Vec<PathBuf>,
+    /// What the files looked like before they were read last; none: that is not known.
+    read: Option<Stamps>,
+    /// What they looked like at the last look, or why they have no looks.
+    seen: Result<Stamps, String>,
+    users: Vec<User>,
+    /// What was logged last of files that cannot be read.
+    logged: Option<String>,
 }
 
-/// Looks at the files of a program again and again.
-pub(crate) struct Watch {
-    program: WatchedProgram,
-    /// What the files looked like at the last look.
-    seen: Option<Stamps>,
-    /// What was told last of files that cannot be read.
-    told: Option<String>,
+/// A unit that runs the program.
+struct User {
+    position: usize,
+    running: Arc<ProgramText>,
+    variables: DeviceVariables,
+    budget_statements: u64,
 }
 
 impl Watch {
-    pub(crate) fn new(program: WatchedProgram) -> Self {
-        let seen = program.stamps.clone();
-        Self { program, seen, told: None }
+    /// One watch for each program: units whose programs are in the same files share one.
+    pub(crate) fn all(programs: impl IntoIterator<Item = (usize, WatchedProgram)>) -> Vec<Self> {
+        let mut watches = BTreeMap::<Vec<PathBuf>, Self>::new();
+        for (position, program) in programs {
+            let WatchedProgram { paths, stamps, text, variables, budget_statements } = program;
+            let behind_links = |path: &PathBuf| path.canonicalize().unwrap_or_else(|_| path.clone());
+            let watch = watches.entry(paths.iter().map(behind_links).collect());
+            let watch = watch.or_insert_with(|| Self::new(paths, stamps.clone()));
+            if watch.read != stamps {
+                // The files have changed between two units.
+                watch.read = None;
+            }
+            let running = watch.same_text(text);
+            watch.users.push(User { position, running, variables, budget_statements });
+        }
+        watches.into_values().collect()
     }
 
-    /// The program, if its files have changed and it is right. What is wrong is logged once, and the old program
-    /// continues.
-    pub(crate) fn look(&mut self) -> Option<Box<dyn Program + Send>> {
+    fn new(paths: Vec<PathBuf>, read: Option<Stamps>) -> Self {
+        let seen = read.clone().ok_or_else(String::new);
+        Self { paths, read, seen, users: Vec::new(), logged: None }
+    }
+
+    fn same_text(&self, text: ProgramText) -> Arc<ProgramText> {
+        match self.users.first() {
+            Some(first) if *first.running == text => Arc::clone(&first.running),
+            _ => Arc::new(text),
+        }
+    }
+
+    /// The program of each unit that has to load it: its files have changed, and it has no mistake there. What is wrong
+    /// is logged once, and the old program continues.
+    pub(crate) fn look(&mut self) -> Vec<Loaded> {
+        let now = stamps(&self.paths);
         // A file that is being written changes from look to look, and is read when it has come to rest. While an
         // editor replaces it, it may be missing for a moment.
-        let stamps = stamps(&self.program.paths);
-        let rests = self.seen == stamps;
-        self.seen.clone_from(&stamps);
-        if !rests || stamps.is_none() || self.program.stamps == stamps {
-            return None;
+        let rests = self.seen == now;
+        self.seen = now;
+        match &self.seen {
+            _ if !rests => Vec::new(),
+            Ok(stamps) if self.read.as_ref() == Some(stamps) => {
+                self.logged = None;
+                Vec::new()
+            }
+            Ok(stamps) => self.read(stamps.clone()),
+            Err(reason) => {
+                self.log_once(reason.clone());
+                Vec::new()
+            }
         }
-        match ProgramText::read(&self.program.paths) {
+    }
+
+    fn read(&mut self, stamps: Stamps) -> Vec<Loaded> {
+        match ProgramText::read(&self.paths) {
             Ok(text) => {
-                self.program.stamps = stamps;
-                self.told = None;
+                self.read = Some(stamps);
+                self.logged = None;
                 self.compile(text)
             }
             Err(error) => {
                 if !matches!(&error, ProgramFileError::Unreadable { reason, .. } if reason.may_pass()) {
-                    self.program.stamps = stamps;
+                    self.read = Some(stamps);
                 }
-                let words = format!("{error}; the old program goes on");
-                if self.told.as_ref() != Some(&words) {
-                    tracing::warn!("{words}");
-                    self.told = Some(words);
-                }
-                None
+                self.log_once(error.to_string());
+                Vec::new()
             }
         }
     }
 
-    fn compile(&mut self, text: ProgramText) -> Option<Box<dyn Program + Send>> {
-        let name = named(&self.program.paths);
-        if text == self.program.text {
-            // A start would begin every timer again, for nothing.
+    fn log_once(&mut self, reason: String) {
+        if self.logged.as_ref() != Some(&reason) {
+            tracing::warn!("{reason}; the old program continues");
+            self.logged = Some(reason);
+        }
+    }
+
+    fn compile(&mut self, text: ProgramText) -> Vec<Loaded> {
+        let (name, text) = (self.name(), Arc::new(text));
+        let mut loaded = Vec::new();
+        let mut wrong = BTreeMap::<String, Vec<usize>>::new();
+        // A start would begin every timer again, for nothing, in a unit that runs this text.
+        for user in self.users.iter_mut().filter(|user| user.running != text) {
+            match text.compile(&user.variables, user.budget_statements) {
+                Ok(program) => {
+                    user.running = Arc::clone(&text);
+                    loaded.push((user.position, program));
+                }
+                Err(error) => wrong.entry(error.to_string()).or_default().push(user.position),
+            }
+        }
+        if loaded.is_empty() && wrong.is_empty() {
             tracing::debug!("{name} was written, and is the same");
-            return None;
         }
-        match text.compile(&self.program.variables, self.program.budget_statements) {
-            Ok(program) => {
-                tracing::info!("{name} has changed, and is loaded");
-                self.program.text = text;
-                Some(program)
-            }
-            Err(wrong) => {
-                for line in wrong.to_string().lines() {
-                    tracing::warn!("{}", user_file::escaped(line));
-                }
-                tracing::warn!("{name} has changed and is wrong: the old program goes on");
-                None
-            }
+        if !loaded.is_empty() {
+            let positions: Vec<_> = loaded.iter().map(|(position, _)| *position).collect();
+            tracing::info!("{name} has changed, and is loaded in {}", units(&positions));
         }
+        for (words, positions) in wrong {
+            for line in words.lines() {
+                tracing::warn!("{}", user_file::escaped(line));
+            }
+            let units = units(&positions);
+            tracing::warn!("{name} has changed and is wrong: the old program continues in {units}");
+        }
+        loaded
+    }
+
+    /// The files and folders of the program in a message.
+    fn name(&self) -> String {
+        self.paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
     }
 }
 
-/// The files and folders of a program in a message.
-fn named(paths: &[PathBuf]) -> String {
-    paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
-}
-
-/// What the files of a program look like now; none if one is not there.
-pub(crate) fn stamps(paths: &[PathBuf]) -> Option<Stamps> {
-    user_files::program_files(paths).ok()?.iter().map(|path| stamp(path)).collect()
-}
-
-fn stamp(path: &Path) -> Option<Stamp> {
-    let metadata = std::fs::metadata(path).ok()?;
-    let inode = inode(&metadata);
-    Some(Stamp {
-        path: path.to_owned(),
-        written: metadata.modified().ok()?,
-        size_bytes: metadata.len(),
-        inode,
-    })
-}
-
-#[cfg(unix)]
-fn inode(metadata: &std::fs::Metadata) -> u64 {
-    std::os::unix::fs::MetadataExt::ino(metadata)
-}
-
-#[cfg(not(unix))]
-fn inode(_metadata: &std::fs::Metadata) -> u64 {
-    0
+/// Units by their ascending positions from 0: `unit 1`, `units 1 to 3, 7`.
+fn units(positions: &[usize]) -> String {
+    let runs = positions.chunk_by(|position, next| position + 1 == *next);
+    let runs = runs.filter_map(|run| match run {
+        [only] => Some(format!("{}", only + 1)),
+        [first, .., last] => Some(format!("{} to {}", first + 1, last + 1)),
+        [] => None,
+    });
+    let word = if positions.len() == 1 { "unit" } else { "units" };
+    format!("{word} {}", runs.collect::<Vec<_>>().join(", "))
 }
 
 #[cfg(test)]

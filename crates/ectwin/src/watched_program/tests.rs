@@ -1,6 +1,10 @@
 //! Looks at files between saves: what is loaded, and how often.
 
 use std::fs;
+use std::io;
+use std::os::unix::fs::{MetadataExt, symlink};
+use std::path::Path;
+use std::sync::Mutex;
 
 use nx_ect101::unit_file::UnitFile;
 
@@ -25,21 +29,13 @@ impl Bench {
             .expect("written");
         fs::write(folder.join("main.st"), "PROGRAM Main VAR b : B; END_VAR b(x := 1); END_PROGRAM")
             .expect("written");
-        let paths = vec![folder.clone()];
-        let file = UnitFile::parse("model = \"nx-ect101\"").expect("the factory setting");
-        let program = WatchedProgram {
-            stamps: stamps(&paths),
-            text: ProgramText::read(&paths).expect("two files"),
-            paths,
-            variables: DeviceVariables::of_unit_file(&file),
-            budget_statements: 1_000,
-        };
-        Self { folder, watch: Watch::new(program) }
+        let watch = watches(&[&folder], &["N1"]).pop().expect("one");
+        Self { folder, watch }
     }
 
     /// How many programs so many looks give.
     fn loads(&mut self) -> usize {
-        (0..LOOKS).filter(|_| self.watch.look().is_some()).count()
+        (0..LOOKS).map(|_| self.watch.look().len()).sum()
     }
 
     fn save(&self, name: &str, text: &str) {
@@ -49,6 +45,47 @@ impl Bench {
     fn main(&self, x: &str) {
         self.save("main.st", &format!("PROGRAM Main VAR b : B; END_VAR b(x := {x}); END_PROGRAM"));
     }
+}
+
+/// The watches of units that run the program in these files and folders, each by one spelling of its path.
+fn watches(paths: &[&Path], names: &[&str]) -> Vec<Watch> {
+    let programs = names.iter().enumerate().map(|(position, name)| {
+        let paths = vec![paths[position % paths.len()].to_owned()];
+        let file = UnitFile::parse(&format!("model = \"nx-ect101\"\nname = \"{name}\"")).expect("a name");
+        let program = WatchedProgram {
+            stamps: stamps(&paths).ok(),
+            text: ProgramText::read(&paths).expect("two files"),
+            paths,
+            variables: DeviceVariables::of_unit_file(&file),
+            budget_statements: 1_000,
+        };
+        (position, program)
+    });
+    Watch::all(programs)
+}
+
+/// What is logged, for a look at it later.
+#[derive(Clone, Default)]
+struct Log(Arc<Mutex<Vec<u8>>>);
+
+impl io::Write for Log {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.lock().expect("unlocked").write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// The lines that are logged meanwhile.
+fn logged(run: impl FnOnce()) -> Vec<String> {
+    let log = Log::default();
+    let writer = log.clone();
+    let subscriber = tracing_subscriber::fmt().with_ansi(false).with_writer(move || writer.clone());
+    tracing::subscriber::with_default(subscriber.finish(), run);
+    let bytes = log.0.lock().expect("unlocked");
+    String::from_utf8_lossy(&bytes).lines().map(str::to_owned).collect()
 }
 
 impl Drop for Bench {
@@ -96,7 +133,7 @@ fn a_file_that_vanishes_and_comes_back_is_loaded_if_it_differs() {
     assert_eq!(bench.loads(), 0);
     bench.main("678");
     assert_eq!(bench.loads(), 1);
-    bench.watch.program.paths = vec![bench.folder.join("block.st"), main.clone()];
+    bench.watch.paths = vec![bench.folder.join("block.st"), main.clone()];
     fs::remove_file(&main).expect("removed");
     assert_eq!(bench.loads(), 0);
     bench.main("9");
@@ -120,4 +157,95 @@ fn a_file_that_is_written_and_is_the_same_is_not_loaded() {
     let mut bench = Bench::new("same");
     bench.main("1");
     assert_eq!(bench.loads(), 0);
+}
+
+#[test]
+fn a_file_that_is_rewritten_in_place_is_loaded_even_if_time_and_length_are_the_same() {
+    let mut bench = Bench::new("in-place");
+    let main = bench.folder.join("main.st");
+    let written = fs::metadata(&main).and_then(|metadata| metadata.modified()).expect("a time");
+    let changed =
+        || fs::metadata(&main).map(|metadata| (metadata.ctime(), metadata.ctime_nsec())).expect("a time");
+    for x in 2..5 {
+        let before = changed();
+        // The system's clock of changes has steps of some milliseconds.
+        while changed() == before {
+            bench.main(&x.to_string());
+            fs::File::options()
+                .write(true)
+                .open(&main)
+                .and_then(|file| file.set_modified(written))
+                .expect("set");
+        }
+        assert_eq!(bench.loads(), 1, "{x}");
+    }
+}
+
+#[test]
+fn a_link_to_nothing_in_the_folder_is_logged_once_and_the_program_is_loaded_when_it_leads_somewhere() {
+    let mut bench = Bench::new("link");
+    let (link, target) = (bench.folder.join("link.st"), bench.folder.join("target"));
+    for x in ["2", "3"] {
+        symlink("target", &link).expect("a link");
+        bench.main(x);
+        let mut loads = 0;
+        let lines = logged(|| loads = bench.loads());
+        assert_eq!((loads, lines.len()), (0, 1), "{lines:?}");
+        assert!(lines[0].contains("link.st cannot be read: ") && lines[0].contains("continues"), "{lines:?}");
+        fs::write(&target, format!("TYPE T{x} : INT; END_TYPE")).expect("written");
+        let lines = logged(|| loads = bench.loads());
+        assert_eq!((loads, lines.len()), (1, 1), "{lines:?}");
+        fs::remove_file(&target).expect("removed");
+        fs::remove_file(&link).expect("removed");
+        assert_eq!(bench.loads(), 1, "a file less");
+    }
+}
+
+#[test]
+fn a_link_to_nothing_that_goes_again_changes_nothing() {
+    let mut bench = Bench::new("passing-link");
+    let link = bench.folder.join("link.st");
+    for _ in 0..2 {
+        symlink("nothing", &link).expect("a link");
+        let lines = logged(|| assert_eq!(bench.loads(), 0));
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        fs::remove_file(&link).expect("removed");
+        let lines = logged(|| assert_eq!(bench.loads(), 0));
+        assert_eq!(lines.len(), 0, "{lines:?}");
+    }
+}
+
+#[test]
+fn units_that_share_a_program_log_a_change_once_with_all_of_them() {
+    let bench = Bench::new("shared");
+    let dotted = bench.folder.join(".");
+    let mut watches = watches(&[&bench.folder, &dotted], &["N1", "N2", "N3"]);
+    assert_eq!(watches.len(), 1);
+    let mut change = |program: &str| {
+        bench.save("main.st", program);
+        let mut loaded = Vec::new();
+        let lines = logged(|| {
+            for _ in 0..LOOKS {
+                loaded.extend(watches[0].look().into_iter().map(|(position, _)| position));
+            }
+        });
+        (loaded, lines)
+    };
+    let (loaded, lines) = change("PROGRAM Main VAR b : B; END_VAR b(x := 22); END_PROGRAM");
+    assert_eq!((loaded.as_slice(), lines.len()), (&[0, 1, 2][..], 1), "{lines:?}");
+    assert!(lines[0].ends_with("has changed, and is loaded in units 1 to 3"), "{lines:?}");
+    let (loaded, lines) = change("PROGRAM Main Misspelt := 1; END_PROGRAM");
+    assert_eq!((loaded.len(), lines.len()), (0, 2), "{lines:?}");
+    assert!(lines[0].contains("there is no variable `Misspelt`"), "{lines:?}");
+    assert!(lines[1].ends_with("the old program continues in units 1 to 3"), "{lines:?}");
+    // A variable that one of them has: that one loads it.
+    let (loaded, lines) = change("PROGRAM Main N2_UINTs_01_C_to_M[0] := 1; END_PROGRAM");
+    assert_eq!((loaded.as_slice(), lines.len()), (&[1][..], 5), "{lines:?}");
+    assert!(lines[0].ends_with("is loaded in unit 2"), "{lines:?}");
+    for line in [2, 4] {
+        assert!(lines[line].contains("is wrong: the old program continues in unit "), "{lines:?}");
+    }
+    // Back again: units 1 and 3 run this text already, and their timers with it.
+    let (loaded, lines) = change("PROGRAM Main VAR b : B; END_VAR b(x := 22); END_PROGRAM");
+    assert_eq!(loaded, [1], "{lines:?}");
 }
