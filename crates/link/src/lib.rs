@@ -34,7 +34,7 @@ pub use clock::Clock;
 pub use open::open;
 #[cfg(feature = "media")]
 pub use open_error::OpenError;
-pub use port::{FRAME_BUFFER_BYTES, FramePort};
+pub use port::{Envelope, FRAME_BUFFER_BYTES, FramePort};
 pub use recorder::{Medium, Recorder, Recording};
 pub use runner::{FrameFate, Observer, Responder, Seen, Statistics};
 pub use spec::{DEFAULT_UDP_PORT, LinkSpec, NotALink};

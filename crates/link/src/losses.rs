@@ -2,6 +2,8 @@
 
 use segment::{Defect, FrameFate, FrameKind};
 
+use crate::port::{Envelope, FRAME_BUFFER_BYTES};
+
 /// Why a frame did not come back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Loss {
@@ -12,6 +14,8 @@ enum Loss {
 }
 
 const KINDS: usize = 7;
+/// What the port puts in front of a UDP datagram.
+const ETHERNET_HEADER_BYTES: usize = 14;
 
 impl Loss {
     fn of(frame: &[u8], fate: FrameFate) -> Self {
@@ -24,15 +28,21 @@ impl Loss {
     }
 
     /// The place of its count, and what was wrong.
-    const fn row(self) -> (usize, &'static str) {
-        match self {
-            Self::Defective(Defect::TooShort) => (0, "it ends within the Ethernet or the EtherCAT header"),
-            Self::Defective(Defect::TooLong) => (1, "it is longer than 1,518 bytes"),
-            Self::Defective(Defect::Truncated) => (2, "it ends before its EtherCAT length does"),
-            Self::Defective(Defect::DatagramBeyondEnd) => (3, "a datagram ends behind its EtherCAT length"),
-            Self::Foreign => (4, "it is not EtherCAT"),
-            Self::LeftAtFarEnd => (5, "it left at the far end of the line"),
-            Self::NoWay => {
+    const fn row(self, envelope: Envelope) -> (usize, &'static str) {
+        match (self, envelope) {
+            (Self::Defective(Defect::TooShort), Envelope::Ethernet) => {
+                (0, "it ends within the Ethernet or the EtherCAT header")
+            }
+            (Self::Defective(Defect::TooShort), Envelope::Udp) => (0, "it ends within the EtherCAT header"),
+            (Self::Defective(Defect::TooLong), Envelope::Ethernet) => (1, "it is longer than 1,518 bytes"),
+            (Self::Defective(Defect::TooLong), Envelope::Udp) => (1, "it is longer than 1,504 bytes"),
+            (Self::Defective(Defect::Truncated), _) => (2, "it ends before its EtherCAT length does"),
+            (Self::Defective(Defect::DatagramBeyondEnd), _) => {
+                (3, "a datagram ends behind its EtherCAT length")
+            }
+            (Self::Foreign, _) => (4, "it is not EtherCAT"),
+            (Self::LeftAtFarEnd, _) => (5, "it left at the far end of the line"),
+            (Self::NoWay, _) => {
                 (6, "the cable is pulled, the first unit is off, or a loop is open without a cable")
             }
         }
@@ -40,30 +50,48 @@ impl Loss {
 }
 
 /// The frames of a run that did not come back.
-#[derive(Debug, Default)]
-pub(crate) struct Losses([Option<(Loss, u64)>; KINDS]);
+#[derive(Debug)]
+pub(crate) struct Losses {
+    envelope: Envelope,
+    counts: [Option<(Loss, u64)>; KINDS],
+}
 
 impl Losses {
+    /// None so far, of frames in such envelopes.
+    pub(crate) const fn new(envelope: Envelope) -> Self {
+        Self { envelope, counts: [None; KINDS] }
+    }
+
     /// A frame did not come back. The first one of its kind is logged.
     #[cold]
     pub(crate) fn count(&mut self, frame: &[u8], fate: FrameFate) {
         let loss = Loss::of(frame, fate);
-        let (place, reason) = loss.row();
-        let Some(counted) = self.0.get_mut(place) else { return };
+        let (place, reason) = loss.row(self.envelope);
+        let Some(counted) = self.counts.get_mut(place) else { return };
         let (_, count) = counted.get_or_insert((loss, 0));
         *count += 1;
         if *count == 1 {
-            let length_bytes = frame.len();
-            tracing::warn!(
-                "a frame of {length_bytes} bytes was destroyed: {reason}; further ones are counted until the end"
-            );
+            let what = self.what_came(frame);
+            tracing::warn!("{what} was destroyed: {reason}; further ones are counted until the end");
         }
+    }
+
+    /// What came, with its length on the medium.
+    fn what_came(&self, frame: &[u8]) -> String {
+        let (name, header_bytes) = match self.envelope {
+            Envelope::Ethernet => ("a frame", 0),
+            Envelope::Udp => ("a UDP datagram", ETHERNET_HEADER_BYTES),
+        };
+        // Of what is longer, the rest was cut off.
+        let or_more = if frame.len() < FRAME_BUFFER_BYTES { "" } else { " or more" };
+        format!("{name} of {} bytes{or_more}", frame.len().saturating_sub(header_bytes))
     }
 
     /// Logs the count of each kind of which there was more than the one that has been logged.
     pub(crate) fn log(&self) {
-        for (loss, count) in self.0.iter().flatten().filter(|(_, count)| *count > 1) {
-            tracing::warn!("{count} frames were destroyed in all, each because {}", loss.row().1);
+        for (loss, count) in self.counts.iter().flatten().filter(|(_, count)| *count > 1) {
+            let (_, reason) = loss.row(self.envelope);
+            tracing::warn!("{count} frames were destroyed in all, each because {reason}");
         }
     }
 }
@@ -96,11 +124,26 @@ mod tests {
 
     #[test]
     fn each_kind_has_a_count_of_its_own() {
-        let mut losses = Losses::default();
+        let mut losses = Losses::new(Envelope::Ethernet);
         for (times, (frame, fate)) in one_of_each().iter().enumerate() {
             (0..=times).for_each(|_| losses.count(frame, *fate));
         }
-        let counts: Vec<u64> = losses.0.iter().flatten().map(|(_, count)| *count).collect();
+        let counts: Vec<u64> = losses.counts.iter().flatten().map(|(_, count)| *count).collect();
         assert_eq!(counts, [1, 2, 3, 4, 5, 6, 7]);
+    }
+
+    #[test]
+    fn lengths_are_those_on_the_medium() {
+        let [frames, datagrams] = [Envelope::Ethernet, Envelope::Udp].map(Losses::new);
+        for (length_bytes, frame, datagram) in [
+            (14, "a frame of 14 bytes", "a UDP datagram of 0 bytes"),
+            (60, "a frame of 60 bytes", "a UDP datagram of 46 bytes"),
+            (FRAME_BUFFER_BYTES, "a frame of 2048 bytes or more", "a UDP datagram of 2034 bytes or more"),
+        ] {
+            let came = vec![0; length_bytes];
+            assert_eq!([frames.what_came(&came), datagrams.what_came(&came)], [frame, datagram]);
+        }
+        let too_long = Loss::Defective(Defect::TooLong);
+        assert_eq!(too_long.row(Envelope::Udp).1, format!("it is longer than 1,{} bytes", 1518 - 1000 - 14));
     }
 }

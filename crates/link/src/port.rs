@@ -10,6 +10,15 @@ use crate::LinkSpec;
 /// too long and not as a truncated one.
 pub const FRAME_BUFFER_BYTES: usize = 2048;
 
+/// What the medium carries a frame in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Envelope {
+    /// The whole Ethernet frame.
+    Ethernet,
+    /// A UDP datagram without an Ethernet header, which the port puts in front.
+    Udp,
+}
+
 /// A medium that carries whole Ethernet frames, from the destination address on, without FCS.
 pub trait FramePort: Send {
     /// Starts what the port needs beside its frames. Called once, before the first frame: between opening and this, a
@@ -39,6 +48,11 @@ pub trait FramePort: Send {
         None
     }
 
+    /// What frames come in.
+    fn envelope(&self) -> Envelope {
+        Envelope::Ethernet
+    }
+
     /// Whether the cable to the master carries a signal. A medium without a carrier has it always.
     fn carrier(&self) -> bool {
         true
@@ -65,6 +79,10 @@ impl<P: FramePort + ?Sized> FramePort for Box<P> {
 
     fn link(&self) -> Option<LinkSpec> {
         (**self).link()
+    }
+
+    fn envelope(&self) -> Envelope {
+        (**self).envelope()
     }
 
     fn carrier(&self) -> bool {

@@ -140,7 +140,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         observer: Option<&'o mut (dyn Observer + 'o)>,
         clock: &'a Clock,
     ) -> Self {
-        let (losses, statistics) = (Losses::default(), Statistics::default());
+        let (losses, statistics) = (Losses::new(port.envelope()), Statistics::default());
         Self { port, responder, observer, clock, carrier: true, losses, statistics }
     }
 

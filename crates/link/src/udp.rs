@@ -8,7 +8,7 @@ use time::Duration;
 
 use crate::descriptor::receive_from;
 use crate::filter::{ANSWER_TOS, NO_ANSWERS};
-use crate::{FramePort, LinkSpec, OpenError};
+use crate::{Envelope, FramePort, LinkSpec, OpenError};
 
 /// The Ethernet header in which the segment sees the UDP payload: to everyone, from an address of no maker.
 /// The socket does not show the headers that really came, and an ESC looks at none of them but the source
@@ -75,6 +75,10 @@ impl FramePort for UdpPort {
 
     fn link(&self) -> Option<LinkSpec> {
         Some(LinkSpec::Udp(self.address))
+    }
+
+    fn envelope(&self) -> Envelope {
+        Envelope::Udp
     }
 }
 

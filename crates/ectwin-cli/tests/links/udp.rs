@@ -21,6 +21,25 @@ fn the_line_ready_names_the_real_ports_so_that_tests_run_beside_each_other() {
     }
 }
 
+#[test]
+fn a_destroyed_datagram_is_logged_with_its_own_length() {
+    let twin = Twin::start("odd-datagrams", &["--link", "udp:127.0.0.1:0"]);
+    let master = UdpSocket::bind("127.0.0.1:0").unwrap();
+    for length_bytes in [1, 1505, 9000] {
+        master.send_to(&vec![0x10; length_bytes], twin.udp()).unwrap();
+    }
+    // It is answered behind them.
+    assert_eq!(count_units(&master, twin.udp()), 1);
+    let log = twin.end();
+    for words in [
+        "a UDP datagram of 1 bytes was destroyed: it ends within the EtherCAT header",
+        "a UDP datagram of 1505 bytes was destroyed: it is longer than 1,504 bytes",
+        "2 frames were destroyed in all, each because it is longer than 1,504 bytes",
+    ] {
+        assert_eq!(count(&log, words), 1, "`{words}` is not in:\n{log}");
+    }
+}
+
 /// Sends a datagram whose sender is `from`.
 fn forge(from: SocketAddr, to: SocketAddr, payload: &[u8]) {
     let mut bytes = from.port().to_be_bytes().to_vec();
