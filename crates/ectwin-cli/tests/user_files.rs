@@ -141,6 +141,13 @@ fn twenty_thousand_unknown_keys_are_twenty_mistakes_and_a_number() {
     assert_eq!(ended.code, Some(2));
     assert_eq!(ended.stderr.matches("unknown key").count(), 20);
     assert_eq!(ended.stderr.lines().last(), Some("and 19980 more"));
+    assert_eq!(ended.stderr.matches("`storage`").count(), 1, "the keys that there are, once:\n{}", ended.stderr);
+    // Each still has the name that is near.
+    bench.put("FILE", "model = \"nx-ect101\"\nstorag = 1\nseriel = 2\n[cpu]\nmodes = 3\n");
+    let ended = bounded(&bench, &["check", "FILE"]);
+    for name in ["storage", "serial", "mode"] {
+        assert!(ended.stderr.contains(&format!("did you mean `{name}`?")), "{}", ended.stderr);
+    }
 }
 
 #[test]
@@ -158,6 +165,7 @@ fn a_file_of_another_kind_is_told_what_it_is() {
     fs::write(bench.folder.join("shift-jis.st"), b"(* \x83\x76\x83\x8D\x83\x4F\x83\x89\x83\x80 *)\n;")
         .unwrap();
     fs::write(bench.folder.join("wide.st"), b"\xFF\xFE;\0\n\0").unwrap();
+    fs::write(bench.folder.join("wide.toml"), b"\0m\0 \0=\0 \01").unwrap();
     for (arguments, fragments) in [
         (&["check", "unit.xml"][..], &["this is an ESI file", "`ectwin esi FILE.toml`"][..]),
         (
@@ -176,6 +184,7 @@ fn a_file_of_another_kind_is_told_what_it_is() {
         ),
         (&["st", "check", "shift-jis.st"], &["looks like Shift_JIS: byte 0x83 in line 1"]),
         (&["st", "check", "wide.st"], &["looks like UTF-16"]),
+        (&["check", "wide.toml"], &["looks like UTF-16BE", "iconv -f UTF-16BE -t UTF-8"]),
         (&["check", "scenario.toml"], &["this is a scenario", "`ectwin replay FILE`"]),
         (&["replay", "unit.toml"], &["this is a unit file", "`ectwin check FILE`"]),
         (&["check", "program.st"], &["a program in Structured Text", "`ectwin st check FILE`"]),

@@ -2,6 +2,7 @@
 
 use core::fmt;
 use core::ops::Range;
+use std::collections::BTreeSet;
 
 use crate::mistakes::and_more;
 use crate::words::line_and_column;
@@ -17,17 +18,32 @@ pub struct FileError {
     pub column: usize,
     /// What is wrong: place and value.
     pub message: String,
-    /// What should stand there; empty when there is nothing to say.
+    /// What should stand there; empty when there is nothing to say, or when an error before has said it.
     pub expected: String,
     /// The valid name nearest to what stands there, if one is near.
     pub nearest: Option<String>,
+    /// How many names are expected.
+    pub(crate) names: usize,
+}
+
+/// Most names that each mistake repeats. A longer list is said once, by the first mistake of the file that has it.
+const REPEATED_NAMES_MAX: usize = 8;
+
+/// Leaves out of errors, in the order of their file, the long lists of names that an error before has said.
+pub(crate) fn say_long_lists_once(errors: &mut [FileError]) {
+    let mut said = BTreeSet::new();
+    for error in errors.iter_mut().filter(|error| error.names > REPEATED_NAMES_MAX) {
+        if !said.insert(error.expected.clone()) {
+            error.expected.clear();
+        }
+    }
 }
 
 impl FileError {
     pub(crate) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
         let (line, column) = line_and_column(text, span.start);
-        let Problem { message, expected, nearest } = problem;
-        Self { span, line, column, message, expected, nearest }
+        let Problem { message, expected, nearest, names } = problem;
+        Self { span, line, column, message, expected, nearest, names }
     }
 
     /// What it prints without the place, for a file whose text is a part of another file.
@@ -93,19 +109,21 @@ pub struct Problem {
     pub expected: String,
     /// The valid name nearest to what stands there, if one is near.
     pub nearest: Option<String>,
+    /// How many names are expected.
+    pub(crate) names: usize,
 }
 
 impl Problem {
     /// A problem without a nearest name.
     #[must_use]
     pub fn new(message: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { message: message.into(), expected: expected.into(), nearest: None }
+        Self { message: message.into(), expected: expected.into(), nearest: None, names: 0 }
     }
 
     /// `word` is none of `names`: says which there are, and which is nearest.
     #[must_use]
     pub fn unknown(message: impl Into<String>, word: &str, names: &[&str]) -> Self {
-        Self { nearest: nearest(word, names), ..Self::new(message, one_of(names)) }
+        Self { nearest: nearest(word, names), names: names.len(), ..Self::new(message, one_of(names)) }
     }
 }
 

@@ -5,7 +5,7 @@ use core::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::error::{FileError, FileErrors, Problem};
+use crate::error::{FileError, FileErrors, Problem, say_long_lists_once};
 use crate::kind::{Wanted, of_another_kind};
 use crate::located::Located;
 use crate::mistakes::Mistakes;
@@ -134,7 +134,8 @@ impl Reader<'_> {
     }
 
     fn into_errors(self) -> FileErrors {
-        let (list, more) = self.errors.into_parts();
+        let (mut list, more) = self.errors.into_parts();
+        say_long_lists_once(&mut list);
         FileErrors { list, more }
     }
 }

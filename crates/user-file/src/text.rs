@@ -16,7 +16,7 @@ pub fn text(bytes: Vec<u8>, name: &str, wanted: Wanted) -> Result<String, Refusa
         return Err(refusal);
     }
     match String::from_utf8(bytes) {
-        Ok(text) if text.contains('\0') => Err(Refusal::new("this is a binary file", wanted.help())),
+        Ok(text) if text.contains('\0') => Err(with_zeros(text.as_bytes(), wanted)),
         Ok(text) => Ok(text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text)),
         Err(error) => Err(not_utf8(error.as_bytes(), error.utf8_error().valid_up_to(), wanted)),
     }
@@ -27,7 +27,7 @@ fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
         return not_utf8_but(Some("UTF-16"), "");
     }
     if bytes.contains(&0) {
-        return Refusal::new("this is a binary file", wanted.help());
+        return with_zeros(bytes, wanted);
     }
     let before = String::from_utf8_lossy(bytes.get(..wrong).unwrap_or_default());
     let (line, _) = line_and_column(&before, before.len());
@@ -43,6 +43,38 @@ fn not_utf8_but(encoding: Option<&str>, place: &str) -> Refusal {
             format!("save it as UTF-8, or convert it: iconv -f {encoding} -t UTF-8 FILE > NEW"),
         ),
         None => Refusal::new(format!("this text is not UTF-8{place}"), "save it as UTF-8"),
+    }
+}
+
+/// No text in UTF-8 has a byte 0.
+fn with_zeros(bytes: &[u8], wanted: Wanted) -> Refusal {
+    match utf_16_without_mark(bytes) {
+        Some(encoding) => not_utf8_but(Some(encoding), ""),
+        None => Refusal::new("this is a binary file", wanted.help()),
+    }
+}
+
+/// The order of the bytes in a text in UTF-16 that has no byte order mark: all of it are characters of a text, and a
+/// third of them at least ASCII.
+fn utf_16_without_mark(bytes: &[u8]) -> Option<&'static str> {
+    let is_text = |unit_of: fn([u8; 2]) -> u16| {
+        let (units, rest) = bytes.as_chunks::<2>();
+        let (mut ascii, mut all) = (0, 0);
+        for character in char::decode_utf16(units.iter().map(|unit| unit_of(*unit))) {
+            match character {
+                Ok(character) if !character.is_control() || "\t\n\r".contains(character) => {
+                    all += 1;
+                    ascii += usize::from(character.is_ascii());
+                }
+                _ => return false,
+            }
+        }
+        rest.is_empty() && 3 * ascii >= all
+    };
+    match () {
+        () if is_text(u16::from_le_bytes) => Some("UTF-16LE"),
+        () if is_text(u16::from_be_bytes) => Some("UTF-16BE"),
+        () => None,
     }
 }
 
@@ -75,8 +107,30 @@ mod tests {
     }
 
     #[test]
+    fn utf_16_without_a_mark_is_told_with_the_order_of_its_bytes() {
+        let japanese = "(* プログラム、日本語のコメント *)\r\nx := 1;\r\n";
+        for text in ["x := 1;\n", "\tmodel = \"nx-ect101\"\r\n", "(* Zähler *)", japanese] {
+            let units: Vec<u16> = text.encode_utf16().collect();
+            let little: Vec<u8> = units.iter().flat_map(|unit| unit.to_le_bytes()).collect();
+            let big: Vec<u8> = units.iter().flat_map(|unit| unit.to_be_bytes()).collect();
+            for (bytes, name) in [(little, "UTF-16LE"), (big, "UTF-16BE")] {
+                let told = refused(&bytes);
+                assert!(told.contains(&format!("looks like {name} (")), "{text}: {told}");
+                assert!(told.contains(&format!("iconv -f {name} -t UTF-8")), "{text}: {told}");
+            }
+        }
+    }
+
+    #[test]
     fn bytes_that_are_no_text_are_told_so() {
-        for bytes in [&[0; 64][..], &[0x80, 0, 1, 2], b"x := 1;\0"] {
+        for bytes in [
+            &[0; 64][..],
+            &[0x80, 0, 1, 2],
+            b"x := 1;\0",
+            b"x\0:\0\0\0",
+            b"x\0:\0=",
+            b"\x7FELF\x02\x01\x01\0",
+        ] {
             assert!(refused(bytes).contains("this is a binary file"), "{}", refused(bytes));
         }
     }
