@@ -58,6 +58,16 @@ impl FileProblems {
         }
     }
 
+    /// Whether as many are there as are put into words.
+    pub(crate) const fn is_full(&self) -> bool {
+        self.list.len() >= MISTAKES_MAX
+    }
+
+    /// The reader stops at one more that it has found.
+    pub(crate) const fn stop(&mut self) {
+        self.have_stopped = true;
+    }
+
     /// Adds those of another file.
     pub(crate) fn append(&mut self, other: Self) {
         other.list.into_iter().for_each(|problem| self.push(problem));
@@ -100,6 +110,13 @@ impl FileProblem {
     /// At a place in the text of a file; an empty help is none.
     pub(crate) fn in_text(path: &Path, text: &str, span: Range<usize>, message: &str, help: &str) -> Self {
         Self::at(path, text, span, message, "here").with_help(help)
+    }
+
+    /// In this line of a file, from 1, of which nothing else is kept.
+    pub(crate) fn in_line(path: &Path, number: usize, line: &str, message: &str, help: &str) -> Self {
+        let excerpt = Excerpt::of_line(&path.display().to_string(), number, line);
+        Self { message: escaped(message), label: "here".to_owned(), help: None, excerpt: Some(excerpt) }
+            .with_help(help)
     }
 
     /// Of a file as a whole.

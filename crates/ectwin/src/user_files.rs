@@ -2,6 +2,7 @@
 
 mod beside;
 mod folders;
+mod lines;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -15,6 +16,7 @@ use user_file::{Refusal, escaped};
 
 pub use beside::Beside;
 pub use folders::below;
+pub use lines::Lines;
 pub use user_file::Wanted;
 
 const MIB: u64 = 1 << 20;
@@ -42,6 +44,9 @@ enum Reason {
     /// What it is instead of a regular file.
     NotRegular(&'static str),
     TooLarge,
+    LineTooLong {
+        number: usize,
+    },
     OfAnotherKind(Refusal),
 }
 
@@ -101,14 +106,18 @@ pub fn program_sources(paths: &[PathBuf]) -> Result<Sources, (PathBuf, Unreadabl
 }
 
 fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Reason> {
-    // A device may be disturbed by being opened, and a FIFO waits for a writer: they are refused before.
+    let mut bytes = Vec::new();
+    // It may grow meanwhile.
+    open_regular(path, limit_bytes)?.take(limit_bytes + 1).read_to_end(&mut bytes).map_err(Reason::Io)?;
+    if bytes.len() as u64 > limit_bytes { Err(Reason::TooLarge) } else { Ok(bytes) }
+}
+
+/// A device may be disturbed by being opened, and a FIFO waits for a writer: they are refused before.
+fn open_regular(path: &Path, limit_bytes: u64) -> Result<File, Reason> {
     refuse_irregular(&fs::metadata(path).map_err(Reason::Io)?, limit_bytes)?;
     let file = File::open(path).map_err(Reason::Io)?;
     refuse_irregular(&file.metadata().map_err(Reason::Io)?, limit_bytes)?;
-    let mut bytes = Vec::new();
-    // It may grow meanwhile.
-    file.take(limit_bytes + 1).read_to_end(&mut bytes).map_err(Reason::Io)?;
-    if bytes.len() as u64 > limit_bytes { Err(Reason::TooLarge) } else { Ok(bytes) }
+    Ok(file)
 }
 
 fn refuse_irregular(metadata: &fs::Metadata, limit_bytes: u64) -> Result<(), Reason> {
@@ -150,7 +159,7 @@ impl Unreadable {
             (Reason::TooLarge, Wanted::Capture) => {
                 "`editcap -c` cuts a capture into several, `editcap -A` and `-B` by time".to_owned()
             }
-            (Reason::TooLarge, _) => "is it the right file?".to_owned(),
+            (Reason::TooLarge | Reason::LineTooLong { .. }, _) => "is it the right file?".to_owned(),
         }
     }
 
@@ -187,6 +196,7 @@ impl fmt::Display for Unreadable {
             Reason::TooLarge => {
                 write!(formatter, "it is larger than {} MiB", limit_bytes(self.wanted) / MIB)
             }
+            Reason::LineTooLong { number } => write!(formatter, "line {number} is longer than 1 MiB"),
             Reason::OfAnotherKind(refusal) => formatter.write_str(&escaped(&refusal.message)),
         }
     }

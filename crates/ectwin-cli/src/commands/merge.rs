@@ -1,9 +1,10 @@
 //! `ectwin merge RESULT.jsonl…`: the parts of a campaign as one, if none of its cases is missing or double.
 
 use std::collections::BTreeMap;
+use std::mem;
 use std::path::{Path, PathBuf};
 
-use ectwin::user_files::{self, Wanted};
+use ectwin::user_files::{Lines, Unreadable, Wanted};
 
 use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
 use crate::cli::MergeArgs;
@@ -15,19 +16,13 @@ use crate::overwrite::{self, Output};
 /// Cases that one line of a message names.
 const NAMED_CASES: usize = 8;
 
-/// A result and the file that it was read from.
-struct Read<'a> {
-    result: CaseResult,
-    from: &'a Path,
-}
-
 /// Tells the failed cases and the sum of all.
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         overwrite::refuse(&[Output { option: "--junit", path }], &args.results)?;
     }
-    let read = read_all(&args.results)?;
-    let results = complete(read)?;
+    let kept = if args.junit.is_some() { Kept::All } else { Kept::Failed };
+    let (results, all) = read_all(&args.results, kept)?.complete()?;
     let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);
     for result in failed.clone() {
         let told = format!("FAILED  {}: {}\n{}", result.file, result.title, failure_story(result));
@@ -36,39 +31,60 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         output::write(Some(path), junit_report(&results)?.as_bytes())?;
     }
-    let (all, failed) = (results.len() as u64, failed.count() as u64);
+    let failed = failed.count() as u64;
     output::print_line(format_args!("{}: {} ok, {failed} failed", case_count(all), all - failed))?;
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }
 
-fn read_all(paths: &[PathBuf]) -> Result<Vec<Read<'_>>, Failure> {
-    let (mut results, mut problems) = (Vec::new(), FileProblems::default());
-    for path in paths {
-        let text = match user_files::text(path, Wanted::Results) {
-            Ok(text) => text,
-            Err(error) => {
+/// Reads file after file. Lines that are no results are told, the first of them in full; one more ends it.
+fn read_all(paths: &[PathBuf], kept: Kept) -> Result<Merged<'_>, Failure> {
+    let (mut merged, mut problems) = (Merged::new(paths, kept), FileProblems::default());
+    for (file, path) in paths.iter().enumerate() {
+        let read = read_file(path, |result| merged.take(result, file), &mut problems);
+        match read {
+            Ok(()) => {}
+            Err(NotMerged::Unreadable(error)) => {
                 let message = format!("cannot read {}: {error}", path.display());
                 problems.push(FileProblem::of_file(&message, &error.help()));
-                continue;
             }
-        };
-        let mut start = 0;
-        for line in text.split_inclusive('\n') {
-            match result_of(line) {
-                Ok(result) => results.push(Read { result, from: path }),
-                Err(reason) => {
-                    let span = start..start + line.trim_end().len();
-                    problems.push_by(|| no_result(path, &text, span, &reason));
-                }
+            Err(NotMerged::TooManyProblems) => {
+                problems.stop();
+                break;
             }
-            start += line.len();
+            // A damaged file is told first: what it lacks may be the reason.
+            Err(NotMerged::Contrary(_)) if !problems.is_empty() => break,
+            Err(NotMerged::Contrary(failure)) => return Err(failure),
         }
     }
-    if problems.is_empty() { Ok(results) } else { Err(Failure::BadFile(problems)) }
+    if problems.is_empty() { Ok(merged) } else { Err(Failure::BadFile(problems)) }
 }
 
-fn result_of(line: &str) -> Result<CaseResult, String> {
-    let result: CaseResult = serde_json::from_str(line).map_err(|error| error.to_string())?;
+/// Why the reading of a file ends before its last line.
+enum NotMerged {
+    Unreadable(Unreadable),
+    TooManyProblems,
+    /// A result that contradicts another one.
+    Contrary(Failure),
+}
+
+fn read_file(
+    path: &Path,
+    mut take: impl FnMut(CaseResult) -> Result<(), Failure>,
+    problems: &mut FileProblems,
+) -> Result<(), NotMerged> {
+    let mut lines = Lines::open(path, Wanted::Results).map_err(NotMerged::Unreadable)?;
+    while let Some((number, line)) = lines.next_line().map_err(NotMerged::Unreadable)? {
+        match result_of(line) {
+            Ok(result) => take(result).map_err(NotMerged::Contrary)?,
+            Err(_) if problems.is_full() => return Err(NotMerged::TooManyProblems),
+            Err(reason) => problems.push(no_result(path, number, line, &reason)),
+        }
+    }
+    Ok(())
+}
+
+fn result_of(line: &[u8]) -> Result<CaseResult, String> {
+    let result: CaseResult = serde_json::from_slice(line).map_err(|error| error.to_string())?;
     let is_case = (1..=result.cases).contains(&result.case) && result.cases <= CASES_MAX;
     if is_case && result.partition.has(result.case) {
         Ok(result)
@@ -77,41 +93,103 @@ fn result_of(line: &str) -> Result<CaseResult, String> {
     }
 }
 
-fn no_result(path: &Path, text: &str, span: std::ops::Range<usize>, reason: &str) -> FileProblem {
+fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProblem {
     let help = "each line comes from `ectwin replay --json`; a job that was killed may have left half a line";
-    FileProblem::in_text(path, text, span, &format!("this line is no result: {reason}"), help)
+    let message = format!("this line is no result: {reason}");
+    FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
 
-/// All cases of one campaign, in order.
-fn complete(read: Vec<Read<'_>>) -> Result<Vec<CaseResult>, Failure> {
-    let Some(first) = read.first() else {
-        return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
-    };
-    if let Some(other) = read.iter().find(|read| campaign(&read.result) != campaign(&first.result)) {
-        let message =
-            format!("{} and {} are not of one campaign", first.from.display(), other.from.display());
-        return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
+/// Which results are kept until the end; of all others nothing is, but that they are there.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kept {
+    Failed,
+    All,
+}
+
+/// The results of one campaign, as they come.
+struct Merged<'a> {
+    paths: &'a [PathBuf],
+    kept: Kept,
+    campaign: Option<Campaign>,
+    /// For each case the number of the file that has it, from 1; 0: none so far.
+    files: Vec<u32>,
+    results: Vec<CaseResult>,
+}
+
+/// What all parts of a campaign have in common, and the file that said so first.
+struct Campaign {
+    fingerprint: String,
+    cases: u64,
+    parts: u64,
+    file: usize,
+}
+
+impl<'a> Merged<'a> {
+    const fn new(paths: &'a [PathBuf], kept: Kept) -> Self {
+        Self { paths, kept, campaign: None, files: Vec::new(), results: Vec::new() }
     }
-    let (_, cases, parts) = campaign(&first.result);
-    let mut merged: BTreeMap<u64, Read<'_>> = BTreeMap::new();
-    for read in read {
-        let (case, from) = (read.result.case, read.from.display());
-        if let Some(other) = merged.insert(case, read) {
-            let message = format!("case {case} is there twice: in {} and in {from}", other.from.display());
-            return Err(refused(&message, "give each part once"));
+
+    /// Takes a result of the file at this place.
+    fn take(&mut self, mut result: CaseResult, file: usize) -> Result<(), Failure> {
+        let fingerprint = mem::take(&mut result.campaign);
+        let own = Campaign { fingerprint, cases: result.cases, parts: result.partition.count(), file };
+        match &self.campaign {
+            Some(first) if !first.is_that_of(&own) => {
+                let (first, other) = (self.path(first.file), self.path(file));
+                let message = format!("{first} and {other} are not of one campaign");
+                return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
+            }
+            Some(_) => {}
+            None => {
+                self.files = vec![0; own.cases as usize];
+                self.campaign = Some(own);
+            }
+        }
+        self.note(result.case, file)?;
+        if self.kept == Kept::All || result.verdict == Verdict::Failed {
+            self.results.push(result);
+        }
+        Ok(())
+    }
+
+    /// The case is there.
+    fn note(&mut self, case: u64, file: usize) -> Result<(), Failure> {
+        let Some(place) = self.files.get_mut(case as usize - 1) else {
+            unreachable!("case {case} is one of its campaign");
+        };
+        match mem::replace(place, file as u32 + 1) {
+            0 => Ok(()),
+            other => {
+                let (one, two) = (self.path(other as usize - 1), self.path(file));
+                let message = format!("case {case} is there twice: in {one} and in {two}");
+                Err(refused(&message, "give each part once"))
+            }
         }
     }
-    let missing: Vec<u64> = (1..=cases).filter(|case| !merged.contains_key(case)).collect();
-    if missing.is_empty() {
-        Ok(merged.into_values().map(|read| read.result).collect())
-    } else {
-        Err(lacking(&missing, cases, parts))
+
+    fn path(&self, file: usize) -> String {
+        self.paths.get(file).map(|path| path.display().to_string()).unwrap_or_default()
+    }
+
+    /// The results that were kept, in the order of their cases, and the number of all, if none is missing.
+    fn complete(mut self) -> Result<(Vec<CaseResult>, u64), Failure> {
+        let Some(Campaign { cases, parts, .. }) = self.campaign else {
+            return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
+        };
+        let missing: Vec<u64> =
+            (1..).zip(&self.files).filter(|(_, file)| **file == 0).map(|(case, _)| case).collect();
+        if !missing.is_empty() {
+            return Err(lacking(&missing, cases, parts));
+        }
+        self.results.sort_unstable_by_key(|result| result.case);
+        Ok((self.results, cases))
     }
 }
 
-/// What all parts of a campaign have in common: its fingerprint, the number of its cases and of its parts.
-fn campaign(result: &CaseResult) -> (&str, u64, u64) {
-    (&result.campaign, result.cases, result.partition.count())
+impl Campaign {
+    fn is_that_of(&self, other: &Self) -> bool {
+        (&self.fingerprint, self.cases, self.parts) == (&other.fingerprint, other.cases, other.parts)
+    }
 }
 
 /// Which parts lack which cases.

@@ -45,6 +45,12 @@ impl Excerpt {
         Self { name: user_file::escaped(name), text: lines.into_text(), first_line, marked, line, column }
     }
 
+    /// This line of a file, from 1, alone.
+    pub(super) fn of_line(name: &str, number: usize, line: &str) -> Self {
+        let (before, excerpt) = (number.saturating_sub(1), Self::of(name, line, 0..line.len()));
+        Self { first_line: excerpt.first_line + before, line: excerpt.line + before, ..excerpt }
+    }
+
     /// The place within the excerpt.
     pub(super) fn marked(&self) -> SourceSpan {
         self.marked.clone().into()
@@ -92,6 +98,16 @@ mod tests {
         assert_eq!(excerpt("", 0..0), (String::new(), String::new()));
         let at = Excerpt::of("a.toml", source, 10..11);
         assert_eq!((at.first_line, at.line, at.column), (1, 2, 2));
+    }
+
+    #[test]
+    fn a_line_alone_has_its_number() {
+        let alone = Excerpt::of_line("a.jsonl", 1_000_000, "{ ä");
+        assert_eq!(
+            (alone.text.as_str(), alone.first_line, alone.line, alone.column),
+            ("{ ä", 999_999, 999_999, 0)
+        );
+        assert_eq!(alone.marked, 0..4);
     }
 
     #[test]

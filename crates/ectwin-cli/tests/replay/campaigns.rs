@@ -1,5 +1,10 @@
 //! Campaigns: scenarios × seeds, on threads, in parts, and merged.
 
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+
+use serde_json::json;
+
 use crate::bench::Bench;
 use crate::{WATCHDOG, wrong};
 
@@ -117,6 +122,54 @@ fn merge_refuses_what_is_not_the_whole() {
         assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
         assert!(!bench.folder.join("merged.xml").exists(), "half a campaign leaves no report");
     }
+}
+
+#[test]
+fn merge_reads_files_of_any_size_line_by_line() {
+    const MIB: usize = 1 << 20;
+    const CASES: usize = 300;
+    let bench = campaign("large");
+    bench.ectwin(&["replay", "s/1-right.toml", "--json", "one.jsonl"]);
+    let one = &bench.json_lines("one.jsonl")[0];
+    // Larger than any file that is read as a whole, by few long lines.
+    let path = bench.folder.join("large.jsonl");
+    let mut large = BufWriter::new(File::create(&path).unwrap());
+    for case in 1..=CASES {
+        let mut line = one.clone();
+        line["case"] = json!(case);
+        line["cases"] = json!(CASES);
+        line["title"] = json!("t".repeat(MIB - 1_000));
+        writeln!(large, "{line}").unwrap();
+    }
+    large.into_inner().unwrap();
+    assert!(fs::metadata(&path).unwrap().len() > 256 * MIB as u64);
+    let ended = bench.ectwin(&["merge", "large.jsonl"]);
+    fs::remove_file(path).unwrap();
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (Some(0), "300 cases: 300 ok, 0 failed\n"),
+        "{}",
+        ended.stderr
+    );
+}
+
+#[test]
+fn merge_stops_where_lines_are_no_results() {
+    let bench = campaign("no-results");
+    bench.put("20.jsonl", &"x\n".repeat(20));
+    bench.put("21.jsonl", &"x\n".repeat(21));
+    // Each by itself would take minutes to be told in full.
+    bench.put("many.jsonl", &"x\n".repeat(10_000_000));
+    bench.put("long.jsonl", &"x".repeat(20_000_000));
+    let told = |files: &[&str]| bench.ectwin(&[&["merge"], files].concat()).stderr;
+    let problems = |text: &str| text.matches("this line is no result").count();
+    let [twenty, more, many] = ["20.jsonl", "21.jsonl", "many.jsonl"].map(|file| told(&[file]));
+    assert_eq!([problems(&twenty), problems(&more), problems(&many)], [20; 3]);
+    assert!(twenty.contains("20.jsonl:20:1]") && !twenty.contains("stopped"), "{twenty}");
+    assert!([more, many].iter().all(|text| text.ends_with("stopped at 20 problems; there are more\n")));
+    let several = told(&["20.jsonl", "21.jsonl", "many.jsonl"]);
+    assert!(problems(&several) == 20 && several.contains("there are more"), "{several}");
+    assert!(told(&["long.jsonl"]).contains("line 1 is longer than 1 MiB"));
 }
 
 #[test]
