@@ -19,6 +19,22 @@ pub(crate) fn refuse(
     outputs: &[Output<'_>],
     inputs: impl IntoIterator<Item = impl AsRef<Path>>,
 ) -> Result<(), Failure> {
+    refuse_all(outputs, inputs, "which this command uses")
+}
+
+/// Refuses an output that is one of the files which a unit file names: its memory, its program.
+pub(crate) fn refuse_named(
+    output: &Output<'_>,
+    named: impl IntoIterator<Item = impl AsRef<Path>>,
+) -> Result<(), Failure> {
+    refuse_all(std::slice::from_ref(output), named, "which the unit file names")
+}
+
+fn refuse_all(
+    outputs: &[Output<'_>],
+    inputs: impl IntoIterator<Item = impl AsRef<Path>>,
+    use_of_input: &str,
+) -> Result<(), Failure> {
     let written: Vec<_> =
         outputs.iter().filter_map(|output| Some((output, Identity::of(output.path)?))).collect();
     for (place, (output, identity)) in written.iter().enumerate() {
@@ -30,7 +46,7 @@ pub(crate) fn refuse(
         let identity = Identity::of(input.as_ref());
         if let Some((output, _)) = written.iter().find(|(_, written)| Some(written) == identity.as_ref()) {
             let input = input.as_ref().display();
-            return Err(refused(output, &format!("would overwrite {input}, which this command uses")));
+            return Err(refused(output, &format!("would overwrite {input}, {use_of_input}")));
         }
     }
     Ok(())

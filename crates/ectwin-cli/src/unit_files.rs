@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use ectwin::unit_file::UnitFile;
 use ectwin::user_files::{self, Wanted};
 use ectwin::{Setup, SetupError};
-use nx_ect101::UnitSettings;
+use plc::Builtin;
 
 use crate::descriptors;
 use crate::failure::Failure;
@@ -46,18 +46,22 @@ fn lack_of_descriptors(error: &SetupError) -> Option<Failure> {
 }
 
 /// The file of the non-volatile memory that this unit file names, behind symbolic links.
-pub(crate) fn storage_path(path: &Path, setup: &Setup) -> Option<PathBuf> {
-    let path = folder_of(path).join(&setup.file().storage.as_ref()?.value);
+pub(crate) fn storage_path(path: &Path, file: &UnitFile) -> Option<PathBuf> {
+    let path = folder_of(path).join(&file.storage.as_ref()?.value);
     Some(storage::resolve(&path).unwrap_or(path))
+}
+
+/// The files that this unit file names: the memory and those of the program.
+pub(crate) fn named_files(path: &Path, file: &UnitFile) -> Vec<PathBuf> {
+    let named = file.cpu.program.iter().flat_map(|program| &program.value);
+    let is_file = |name: &&PathBuf| Builtin::named(&name.display().to_string()).is_none();
+    let programs: Vec<_> = named.filter(is_file).map(|name| folder_of(path).join(name)).collect();
+    let programs = user_files::program_files(&programs).unwrap_or(programs);
+    programs.into_iter().chain(storage_path(path, file)).collect()
 }
 
 fn folder_of(path: &Path) -> &Path {
     path.parent().unwrap_or(Path::new(""))
-}
-
-/// What a unit file sets the unit to; what it names is left alone.
-pub(crate) fn settings(path: &Path) -> Result<UnitSettings, Failure> {
-    parse(path).map(|(file, _)| UnitSettings::from_unit_file(&file))
 }
 
 /// The text of a file.

@@ -16,11 +16,16 @@ use started::{Started, ended, folder_of, free_link};
 const CASES: &[(&[&str], &str)] = &[
     (&["esi", "unit.toml", "-o", "OUT"], "unit.toml"),
     (&["sii", "unit.toml", "-o", "OUT"], "unit.toml"),
+    (&["esi", "unit.toml", "-o", "OUT"], "N1.nvm"),
+    (&["sii", "unit.toml", "-o", "OUT"], "N1.nvm"),
+    (&["esi", "unit.toml", "-o", "OUT"], "program.st"),
+    (&["sii", "several.toml", "-o", "OUT"], "blocks/a.st"),
     (&["merge", "result.jsonl", "--junit", "OUT"], "result.jsonl"),
     (&["replay", "scenario.toml", "--junit", "OUT"], "scenario.toml"),
     (&["replay", "scenario.toml", "--json", "OUT"], "scenario.toml"),
     (&["replay", "scenario.toml", "--pcap", "OUT"], "scenario.toml"),
     (&["replay", "scenario.toml", "--json", "OUT"], "unit.toml"),
+    (&["replay", "scenario.toml", "--json", "OUT"], "N1.nvm"),
     (&["replay", "scenario.toml", "--pcap", "OUT"], "live.pcapng"),
     (&["replay", "scenario.toml", "--junit", "OUT"], "scenario.trace"),
     // Its golden trace would have its own name.
@@ -47,6 +52,7 @@ fn inputs(name: &str) -> std::path::PathBuf {
     put("unit.toml", "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n[cpu]\nprogram = \"program.st\"\n");
     put("program.st", ";\n");
     put("other.st", ";\n");
+    put("several.toml", "model = \"nx-ect101\"\n[cpu]\nprogram = [\"program.st\", \"blocks\"]\n");
     fs::create_dir_all(folder.join("blocks")).unwrap();
     put("blocks/a.st", ";\n");
     // The lock of an editor is no part of the program.
@@ -125,11 +131,30 @@ fn one_file_for_two_outputs_is_refused_and_a_device_is_not() {
 }
 
 #[test]
-fn a_capture_in_the_place_of_a_memory_that_is_not_there_yet_is_refused() {
+fn an_output_in_the_place_of_a_memory_that_is_not_there_yet_is_refused() {
     let folder = inputs("memory");
     fs::remove_file(folder.join("N1.nvm")).unwrap();
     let link = free_link();
-    let refused = ended(&folder, "", &["run", "unit.toml", "--link", &link, "--pcap", "./N1.nvm"]);
-    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
-    assert!(!folder.join("N1.nvm").exists());
+    for arguments in [
+        &["run", "unit.toml", "--link", &link, "--pcap", "./N1.nvm"][..],
+        &["esi", "unit.toml", "-o", "./N1.nvm"],
+        &["sii", "unit.toml", "-o", "./N1.nvm"],
+    ] {
+        let refused = ended(&folder, "", arguments);
+        assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+        assert!(refused.stderr.contains("would overwrite"), "{}", refused.stderr);
+        assert!(!folder.join("N1.nvm").exists());
+    }
+}
+
+#[test]
+fn an_output_beside_the_files_of_a_unit_is_written() {
+    let folder = inputs("beside");
+    for (command, output) in [("esi", "N1.xml"), ("sii", "builtin:copy")] {
+        let unit = "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n[cpu]\nprogram = \"builtin:copy\"\n";
+        fs::write(folder.join("builtin.toml"), unit).unwrap();
+        let written = ended(&folder, "", &[command, "builtin.toml", "-o", output]);
+        assert_eq!(written.code, Some(0), "{}", written.stderr);
+        assert!(folder.join(output).exists());
+    }
 }

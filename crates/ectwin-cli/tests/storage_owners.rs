@@ -57,6 +57,31 @@ fn a_second_user_is_refused_with_the_place_while_the_first_one_runs() {
 }
 
 #[test]
+fn a_second_user_that_is_refused_leaves_its_capture_as_it_is() {
+    let folder = folder_of("second-capture");
+    fs::write(folder.join("one.toml"), UNIT).unwrap();
+    fs::write(folder.join("old.pcapng"), "the capture of yesterday").unwrap();
+    symlink("linked.pcapng", folder.join("link.pcapng")).unwrap();
+    let first = Started::new(&folder, "", &run(&["one.toml"], &free_link())).ready();
+    for capture in ["old.pcapng", "new.pcapng"] {
+        let link = free_link();
+        let refused = ended(&folder, "", &[&run(&["one.toml"], &link)[..], &["--pcap", capture]].concat());
+        assert_refused(&refused, "another unit keeps its memory there");
+    }
+    assert_eq!(fs::read_to_string(folder.join("old.pcapng")).unwrap(), "the capture of yesterday");
+    assert!(!folder.join("new.pcapng").exists());
+    assert_eq!(first.interrupt().code, Some(0));
+    for capture in ["old.pcapng", "new.pcapng", "link.pcapng"] {
+        let link = free_link();
+        let arguments = [&run(&["one.toml"], &link)[..], &["--pcap", capture]].concat();
+        assert_eq!(Started::new(&folder, "", &arguments).ready().interrupt().code, Some(0));
+        let written = fs::read(folder.join(capture)).unwrap();
+        assert_eq!(written[..4], *b"\x0A\x0D\x0D\x0A", "{capture}");
+        assert!(!written.windows(9).any(|bytes| bytes == b"yesterday"), "nothing of the old one is left");
+    }
+}
+
+#[test]
 fn one_memory_for_two_units_of_a_line_is_refused() {
     let folder = folder_of("line");
     fs::write(folder.join("one.toml"), UNIT).unwrap();

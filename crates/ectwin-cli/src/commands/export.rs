@@ -2,6 +2,9 @@
 
 use std::slice;
 
+use ectwin::unit_file::UnitFile;
+use nx_ect101::UnitSettings;
+
 use crate::cli::ExportArgs;
 use crate::failure::Failure;
 use crate::overwrite::Output;
@@ -9,21 +12,27 @@ use crate::{output, overwrite, unit_files};
 
 /// The ESI file: what the configuration tool of a master reads.
 pub(crate) fn esi(args: &ExportArgs) -> Result<(), Failure> {
-    let settings = unit_files::settings(&args.unit)?;
-    let xml = esi::xml(&nx_ect101::description(&settings), &nx_ect101::object_table());
-    write(args, xml.as_bytes())
+    let file = unit_file(args)?;
+    let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));
+    write(args, &file, esi::xml(&description, &nx_ect101::object_table()).as_bytes())
 }
 
 /// The SII image: what the EEPROM of the unit holds at power-on.
 pub(crate) fn sii(args: &ExportArgs) -> Result<(), Failure> {
-    let settings = unit_files::settings(&args.unit)?;
-    let image = esi::sii::image(&nx_ect101::description(&settings));
-    write(args, &image)
+    let file = unit_file(args)?;
+    let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));
+    write(args, &file, &esi::sii::image(&description))
 }
 
-fn write(args: &ExportArgs, result: &[u8]) -> Result<(), Failure> {
+fn unit_file(args: &ExportArgs) -> Result<UnitFile, Failure> {
+    unit_files::parse(&args.unit).map(|(file, _)| file)
+}
+
+fn write(args: &ExportArgs, file: &UnitFile, result: &[u8]) -> Result<(), Failure> {
     if let Some(path) = &args.output {
-        overwrite::refuse(&[Output { option: "-o", path }], slice::from_ref(&args.unit))?;
+        let output = Output { option: "-o", path };
+        overwrite::refuse(&[output], slice::from_ref(&args.unit))?;
+        overwrite::refuse_named(&output, unit_files::named_files(&args.unit, file))?;
     }
     output::write(args.output.as_deref(), result)
 }

@@ -1,9 +1,10 @@
 //! `ectwin run FILE… --link LINK`.
 
+mod capture_file;
 mod servers;
 
 use std::fs::File;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -16,6 +17,7 @@ use crate::failure::Failure;
 use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, unit_files};
+use capture_file::CaptureFile;
 
 /// Emulates the units until SIGINT, SIGTERM or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -28,12 +30,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let listener = args.modbus.map(servers::listen_for_modbus).transpose()?;
     #[cfg(feature = "opcua")]
     let opcua_listener = args.opcua.map(servers::listen_for_opcua).transpose()?;
-    let capture = args.pcap.as_deref().map(create).transpose()?;
+    let capture = args.pcap.as_deref().map(CaptureFile::open).transpose()?;
     privileges::give_up(&files(args, &setups));
 
     let setups = with_storage(args, setups)?;
     let clock = Clock::start();
-    let mut recorder = capture.map(|capture| record(capture, args, &link, &clock)).transpose()?;
     let stop = flag_of(&[SIGINT, SIGTERM]).map_err(Failure::LinkLost)?;
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on_for_run(setups.into_iter().map(with_system_time));
@@ -41,6 +42,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let modbus = listener.map(|listener| servers::serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
+    let mut recorder = capture.map(|capture| record(capture.begin()?, args, &link, &clock)).transpose()?;
     // The port is open: a frame that comes from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
@@ -81,17 +83,13 @@ fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
 /// The files of the non-volatile memories.
 fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = PathBuf> + 'a {
     let pairs = args.units.iter().zip(setups);
-    pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup))
+    pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup.file()))
 }
 
 /// What is read or written while the units run. Programs that unit files name are where these are.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
     let read = args.units.iter().chain(&args.programs).cloned();
     memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
-}
-
-fn create(path: &Path) -> Result<File, Failure> {
-    File::create(path).map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
 }
 
 fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {

@@ -106,7 +106,8 @@ pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
 fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failure> {
     let (folder, other) = (folder_of(path), folder_of(output));
     let mut names = Vec::new();
-    let parsed = Scenario::parse_with(text, &mut Beside::new(folder, |name, _| names.push(name.to_owned())));
+    let parsed =
+        Scenario::parse_with(text, &mut Beside::new(folder, |name, _, _| names.push(name.to_owned())));
     names.extend(parsed.ok().and_then(|scenario| scenario.capture));
     let is_same = |name: &String| {
         let (one, another) = (folder.join(name).canonicalize(), other.join(name).canonicalize());

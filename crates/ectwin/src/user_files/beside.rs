@@ -7,13 +7,13 @@ use scenario::Files;
 use super::{Wanted, program_files, text};
 
 /// Reads the files that a scenario in this folder names, and shows each of them to someone.
-pub struct Beside<'f, S: FnMut(&str, &str)> {
+pub struct Beside<'f, S: FnMut(&str, Wanted, &str)> {
     folder: &'f Path,
     shown: S,
 }
 
-impl<'f, S: FnMut(&str, &str)> Beside<'f, S> {
-    /// The files are seen from `folder`; `shown` gets the path and the text of each.
+impl<'f, S: FnMut(&str, Wanted, &str)> Beside<'f, S> {
+    /// The files are seen from `folder`; `shown` gets the path, the kind and the text of each.
     pub const fn new(folder: &'f Path, shown: S) -> Self {
         Self { folder, shown }
     }
@@ -24,10 +24,10 @@ impl<'f, S: FnMut(&str, &str)> Beside<'f, S> {
     }
 }
 
-impl<S: FnMut(&str, &str)> Files for Beside<'_, S> {
+impl<S: FnMut(&str, Wanted, &str)> Files for Beside<'_, S> {
     fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String> {
         let text = text(&self.folder.join(path), wanted).map_err(|reason| reason.to_string())?;
-        (self.shown)(path, &text);
+        (self.shown)(path, wanted, &text);
         Ok(text)
     }
 

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ectwin::unit_file::UnitFile;
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Recording, Scenario};
 
@@ -11,13 +12,13 @@ use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
-use crate::output;
 use crate::overwrite::{self, Output};
+use crate::{output, unit_files};
 
 /// Scenarios × seeds.
 pub(super) struct Campaign {
     scenarios: Vec<Loaded>,
-    /// Every file that was read.
+    /// Every file that was read, and the memories of the units.
     inputs: Vec<PathBuf>,
     seeds: Seeds,
     is_drawn: bool,
@@ -104,7 +105,7 @@ impl Campaign {
         Ok(())
     }
 
-    /// Every file that was read.
+    /// Every file that was read, and the memories of the units.
     pub(super) fn inputs(&self) -> &[PathBuf] {
         &self.inputs
     }
@@ -189,8 +190,14 @@ fn load(
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut named = Beside::new(folder, |name, text| {
-        inputs.push(folder.join(name));
+    let mut named = Beside::new(folder, |name, wanted, text| {
+        let path = folder.join(name);
+        if wanted == Wanted::UnitFile {
+            // Not read, and yet not to be replaced: the memory of the unit.
+            let file = UnitFile::parse(text).ok();
+            inputs.extend(file.and_then(|file| unit_files::storage_path(&path, &file)));
+        }
+        inputs.push(path);
         fingerprint.add(text.as_bytes());
     });
     let parsed = Scenario::parse_with(&text, &mut named);
