@@ -141,13 +141,33 @@ fn twenty_thousand_unknown_keys_are_twenty_mistakes_and_a_number() {
     assert_eq!(ended.code, Some(2));
     assert_eq!(ended.stderr.matches("unknown key").count(), 20);
     assert_eq!(ended.stderr.lines().last(), Some("and 19980 more"));
-    assert_eq!(ended.stderr.matches("`storage`").count(), 1, "the keys that there are, once:\n{}", ended.stderr);
+    assert_eq!(
+        ended.stderr.matches("`storage`").count(),
+        1,
+        "the keys that there are, once:\n{}",
+        ended.stderr
+    );
     // Each still has the name that is near.
     bench.put("FILE", "model = \"nx-ect101\"\nstorag = 1\nseriel = 2\n[cpu]\nmodes = 3\n");
     let ended = bounded(&bench, &["check", "FILE"]);
     for name in ["storage", "serial", "mode"] {
         assert!(ended.stderr.contains(&format!("did you mean `{name}`?")), "{}", ended.stderr);
     }
+}
+
+#[test]
+fn wrong_and_right_steps_are_read_in_one_pass() {
+    let bench = bench("many-steps");
+    let steps = |step: &str| format!("title = \"t\"\nsteps = [\n{}]\n", step.repeat(180_000));
+    // A look back to the beginning of the file for each step takes minutes.
+    bench.put("FILE", &steps("{ line = \"sing\" },\n"));
+    let ended = bounded(&bench, &["replay", "FILE"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.ends_with("and 179980 more\n"), "{}", ended.stderr);
+    bench.put("FILE", &steps("{ line = \"be quiet\" },\n").replace("be quiet\" },\n]", "sing\" }]"));
+    let ended = bounded(&bench, &["replay", "FILE"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("[FILE:180002:"), "{}", ended.stderr);
 }
 
 #[test]
@@ -165,7 +185,7 @@ fn a_file_of_another_kind_is_told_what_it_is() {
     fs::write(bench.folder.join("shift-jis.st"), b"(* \x83\x76\x83\x8D\x83\x4F\x83\x89\x83\x80 *)\n;")
         .unwrap();
     fs::write(bench.folder.join("wide.st"), b"\xFF\xFE;\0\n\0").unwrap();
-    fs::write(bench.folder.join("wide.toml"), b"\0m\0 \0=\0 \01").unwrap();
+    fs::write(bench.folder.join("wide.toml"), b"\0m\0 \0=\0 \0x").unwrap();
     for (arguments, fragments) in [
         (&["check", "unit.xml"][..], &["this is an ESI file", "`ectwin esi FILE.toml`"][..]),
         (

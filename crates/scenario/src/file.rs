@@ -9,7 +9,7 @@ mod times;
 
 use core::ops::Range;
 
-use user_file::{Mistakes, Wanted, of_another_kind};
+use user_file::{LineNumbers, Mistakes, Wanted, of_another_kind};
 
 use crate::ready::{Files, Texts};
 use crate::run::Scenario;
@@ -50,6 +50,7 @@ impl Scenario {
         })?;
         let mut reader = Reader {
             text,
+            lines: LineNumbers::of(text),
             files,
             units: Vec::new(),
             unit_spans: Vec::new(),

@@ -6,6 +6,7 @@ mod tables;
 mod value;
 
 pub use place::Place;
+pub(crate) use sentence::{Misfit, try_read};
 pub use sentence::{NoSentence, Sentence, Values, read};
 pub use tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 pub use value::Value;

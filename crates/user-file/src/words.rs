@@ -48,6 +48,27 @@ pub fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (line, column)
 }
 
+/// The numbers of the lines of a text, found at once for many places.
+#[derive(Clone, Debug)]
+pub struct LineNumbers {
+    /// The byte of each end of a line.
+    ends: Vec<usize>,
+}
+
+impl LineNumbers {
+    /// Of this text.
+    #[must_use]
+    pub fn of(text: &str) -> Self {
+        Self { ends: text.match_indices('\n').map(|(at, _)| at).collect() }
+    }
+
+    /// The number of the line that has this byte, from 1.
+    #[must_use]
+    pub fn line(&self, byte: usize) -> usize {
+        self.ends.partition_point(|end| *end < byte) + 1
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,6 +88,16 @@ mod tests {
         let short = shortened(long);
         assert!(short.len() <= 2 * WHOLE_BYTES_MAX, "{short}");
         assert!(short.starts_with("unknown field `ü") && short.ends_with("ü`, expected `title`"), "{short}");
+    }
+
+    #[test]
+    fn many_places_have_the_lines_that_one_has() {
+        for text in ["", "\n", "one\ntwo\n\n\u{fc}four", "\r\n\r\n"] {
+            let lines = LineNumbers::of(text);
+            for byte in (0..=text.len()).filter(|byte| text.is_char_boundary(*byte)) {
+                assert_eq!(lines.line(byte), line_and_column(text, byte).0, "{byte} of {text:?}");
+            }
+        }
     }
 
     #[test]

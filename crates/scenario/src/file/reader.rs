@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use plc::DeviceVariables;
-use user_file::Mistakes;
+use user_file::{LineNumbers, Mistakes};
 
 use super::error::ScenarioError;
 use crate::ready::Files;
@@ -12,6 +12,7 @@ use crate::run::{LoadedProgram, MasterProgram, UnitSource};
 /// Reads one file.
 pub(crate) struct Reader<'a> {
     pub(crate) text: &'a str,
+    pub(crate) lines: LineNumbers,
     /// Gives the texts of files.
     pub(crate) files: &'a mut dyn Files,
     pub(crate) units: Vec<UnitSource>,

@@ -5,11 +5,12 @@ use toml::Spanned;
 use core::ops::Range;
 
 use super::entries::StepEntry;
+use super::error::ScenarioError;
 use super::reader::Reader;
 use crate::model::{Condition, Expectation, FrameFault, LineOrder, Mode, Order, Trigger};
 use crate::ready::{line_of, unit_of_cpu, unit_of_master, unit_of_unit};
 use crate::run::Step;
-use crate::words::{self, CONDITIONS, CPU, LINE, MASTER, UNIT};
+use crate::words::{self, CONDITIONS, CPU, LINE, MASTER, NoSentence, UNIT};
 
 impl Reader<'_> {
     pub(crate) fn step(&mut self, entry: StepEntry, span: Range<usize>) -> Option<Step> {
@@ -139,11 +140,15 @@ impl Reader<'_> {
     }
 
     fn sentence<T>(&mut self, table: &[words::Sentence<T>], text: &Spanned<String>) -> Option<T> {
-        let read = words::read(table, text.get_ref());
-        if let Err(problem) = &read {
-            self.refuse(text.span(), problem.message.clone(), problem.help.clone());
-        }
-        read.ok()
+        let (file, span) = (self.text, text.span());
+        let read = words::try_read(table, text.get_ref());
+        let refuse = |problem: words::Misfit<'_, T>| {
+            self.errors.note(span.start, || {
+                let NoSentence { message, help } = problem.words();
+                ScenarioError::new(file, span, message, help)
+            });
+        };
+        read.map_err(refuse).ok()
     }
 }
 

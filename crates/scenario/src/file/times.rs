@@ -97,7 +97,7 @@ impl Reader<'_> {
     }
 
     pub(crate) fn line(&self, at: usize) -> usize {
-        self.text.get(..at).unwrap_or_default().matches('\n').count() + 1
+        self.lines.line(at)
     }
 
     pub(crate) fn cycle(&mut self, text: &Spanned<String>) -> Option<Duration> {

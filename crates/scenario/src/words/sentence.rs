@@ -3,6 +3,8 @@
 //! A pattern is words and places, such as `take {units} to {state}`. A table of them reads text, gives the
 //! reference of the language, and names the nearest sentence when none fits.
 
+use core::fmt;
+
 use super::place::Place;
 use super::value::Value;
 use crate::model;
@@ -47,57 +49,92 @@ pub struct NoSentence {
 /// # Errors
 /// No row fits: what is wrong with the row that fits furthest.
 pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
+    try_read(table, text).map_err(|misfit| misfit.words())
+}
+
+/// The same; what is wrong is put into words by those who need them.
+pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result<T, Misfit<'a, T>> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let mut furthest: Option<(usize, NoSentence)> = None;
+    let mut furthest = None;
+    let mut furthest_reached = 0;
     for sentence in table {
         match fit(sentence.pattern, &words) {
             Ok(values) => return Ok((sentence.build)(&values)),
-            Err((reached, problem)) => {
-                if furthest.as_ref().is_none_or(|(before, _)| reached > *before) {
-                    furthest = Some((reached, problem.explained(sentence.pattern, sentence.example)));
-                }
+            Err((reached, problem)) if reached > furthest_reached => {
+                (furthest, furthest_reached) = (Some((sentence, problem)), reached);
             }
+            Err(_) => {}
         }
     }
-    Err(match furthest {
-        Some((reached, problem)) if reached > 0 => problem,
-        _ => unknown(table, text),
-    })
+    Err(Misfit { table, text, furthest })
 }
 
-/// Nothing of the text fits: the example whose words are nearest.
-fn unknown<T>(table: &[Sentence<T>], text: &str) -> NoSentence {
-    let nearest = table.iter().max_by(|a, b| {
-        let likeness = |sentence: &Sentence<T>| strsim::jaro_winkler(sentence.example, text);
-        likeness(a).total_cmp(&likeness(b))
-    });
-    let help = nearest.map_or(String::new(), |sentence| format!("did you mean `{}`?", sentence.example));
-    NoSentence { message: format!("`{text}` is no sentence that can stand here"), help }
+/// A text that is no sentence of a table.
+pub(crate) struct Misfit<'a, T> {
+    table: &'a [Sentence<T>],
+    text: &'a str,
+    /// The row that fits furthest, and what is wrong there; none: not a word fits.
+    furthest: Option<(&'a Sentence<T>, Problem<'a>)>,
 }
 
-pub(super) struct Problem(pub(super) String);
+impl<T> Misfit<'_, T> {
+    pub(crate) fn words(&self) -> NoSentence {
+        match &self.furthest {
+            Some((Sentence { pattern, example, .. }, problem)) => NoSentence {
+                message: problem.to_string(),
+                help: format!("the sentence is `{pattern}`, such as `{example}`"),
+            },
+            None => self.nearest(),
+        }
+    }
 
-impl Problem {
-    fn explained(self, pattern: &str, example: &str) -> NoSentence {
-        NoSentence { message: self.0, help: format!("the sentence is `{pattern}`, such as `{example}`") }
+    /// Nothing of the text fits: the example whose words are nearest.
+    fn nearest(&self) -> NoSentence {
+        let nearest = self.table.iter().max_by(|a, b| {
+            let likeness = |sentence: &Sentence<T>| strsim::jaro_winkler(sentence.example, self.text);
+            likeness(a).total_cmp(&likeness(b))
+        });
+        let help = nearest.map_or(String::new(), |sentence| format!("did you mean `{}`?", sentence.example));
+        NoSentence { message: format!("`{}` is no sentence that can stand here", self.text), help }
+    }
+}
+
+/// What is wrong with words where a pattern stops to fit.
+#[derive(Debug)]
+pub(super) enum Problem<'a> {
+    /// Another word is there, or the end.
+    Expected { word: &'static str, found: Option<&'a str> },
+    /// A place does not take what is there, for this reason.
+    Place(String),
+    /// The pattern ends in front of this word.
+    More(&'a str),
+}
+
+impl fmt::Display for Problem<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Expected { word, found: Some(found) } => {
+                write!(formatter, "expected `{word}`, found `{found}`")
+            }
+            Self::Expected { word, found: None } => write!(formatter, "expected `{word}`, found the end"),
+            Self::Place(reason) => formatter.write_str(reason),
+            Self::More(word) => write!(formatter, "`{word}` is more than the sentence has"),
+        }
     }
 }
 
 /// Reads words by a pattern; else how many words fitted, and what the next one lacks.
-pub(super) fn fit(pattern: &str, words: &[&str]) -> Result<Values, (usize, Problem)> {
+pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Values, (usize, Problem<'a>)> {
     let mut values = Vec::new();
     let mut at = 0;
     for part in pattern.split_whitespace() {
         let rest = words.get(at..).unwrap_or_default();
         match part.strip_prefix('{').and_then(|part| part.strip_suffix('}')) {
             None if rest.first() == Some(&part) => at += 1,
-            None => {
-                let found = rest.first().map_or("the end".to_owned(), |word| format!("`{word}`"));
-                return Err((at, Problem(format!("expected `{part}`, found {found}"))));
-            }
+            None => return Err((at, Problem::Expected { word: part, found: rest.first().copied() })),
             Some(name) => {
-                let (value, length) =
-                    Place::named(name).read(rest).map_err(|(fitting, why)| (at + fitting, Problem(why)))?;
+                let read = Place::named(name).read(rest);
+                let (value, length) = read.map_err(|(fitting, why)| (at + fitting, Problem::Place(why)))?;
                 values.push(value);
                 at += length;
             }
@@ -105,7 +142,7 @@ pub(super) fn fit(pattern: &str, words: &[&str]) -> Result<Values, (usize, Probl
     }
     match words.get(at) {
         None => Ok(Values(values)),
-        Some(word) => Err((at, Problem(format!("`{word}` is more than the sentence has")))),
+        Some(word) => Err((at, Problem::More(word))),
     }
 }
 

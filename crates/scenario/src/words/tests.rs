@@ -7,7 +7,7 @@ use super::*;
 fn examples_are_read<T: core::fmt::Debug>(table: &[Sentence<T>]) {
     for sentence in table {
         let words: Vec<&str> = sentence.example.split_whitespace().collect();
-        let values = fit(sentence.pattern, &words).map_err(|(_, problem)| problem.0);
+        let values = fit(sentence.pattern, &words).map_err(|(_, problem)| problem.to_string());
         let alone = format!("{:?}", (sentence.build)(&values.expect(sentence.example)));
         let read = read(table, sentence.example).map(|order| format!("{order:?}"));
         assert_eq!(read, Ok(alone), "{}", sentence.example);
