@@ -1,6 +1,6 @@
 //! Accesses: what one datagram asks of the memory of a slave, and what comes back.
 
-use wire::Command;
+use wire::{Command, FrameBuilder};
 
 /// Whom an access means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -53,6 +53,17 @@ impl Access<'_> {
     pub const fn offset(&self) -> u16 {
         match self {
             Self::Read { offset, .. } | Self::Write { offset, .. } => *offset,
+        }
+    }
+
+    /// Adds the datagram that carries it.
+    pub fn add_to(&self, frame: &mut FrameBuilder, address: Address) {
+        let (command, field) = address.command(self);
+        match *self {
+            Self::Read { offset, length_bytes } => {
+                frame.add_zeros(command, field, offset, length_bytes);
+            }
+            Self::Write { offset, data } => frame.add(command, field, offset, data),
         }
     }
 

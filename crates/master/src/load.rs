@@ -30,13 +30,8 @@ impl Load {
     }
 
     pub(crate) fn access(&mut self, sender: Sender, address: Address, access: &Access<'_>) {
-        let (command, field) = address.command(access);
-        match *access {
-            Access::Read { offset, length_bytes } => {
-                self.builder.add_zeros(command, field, offset, length_bytes);
-            }
-            Access::Write { offset, data } => self.builder.add(command, field, offset, data),
-        }
+        access.add_to(&mut self.builder, address);
+        let command = address.command(access).0;
         self.parts.push(Part { sender, command, length_bytes: access.length_bytes() });
     }
 

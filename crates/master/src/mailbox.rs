@@ -28,30 +28,19 @@ pub struct MailboxConduct {
     pub received: u8,
 }
 
-/// The counter of a mailbox header.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Counter {
-    /// Counts from 1 to 7 and on from 1; the last one that was used.
-    Running(u8),
-    /// Always this one, 0 to 7. 0 is a message that is not counted.
-    Fixed(u8),
-}
-
-impl Default for Counter {
-    fn default() -> Self {
-        Self::Running(0)
-    }
+/// The counter of the messages of a master.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counter {
+    /// The last one, 1 to 7, then 1 again; 0 before the first message.
+    pub last: u8,
+    /// What every message has in its place, 0 to 7; 0 is a message that is not counted. None: right counting.
+    pub fixed: Option<u8>,
 }
 
 impl Counter {
-    const fn next(&mut self) -> u8 {
-        match self {
-            Self::Running(last) => {
-                *last = *last % 7 + 1;
-                *last
-            }
-            Self::Fixed(counter) => *counter & 7,
-        }
+    fn next(&mut self) -> u8 {
+        self.last = self.last % 7 + 1;
+        self.fixed.unwrap_or(self.last) & 7
     }
 }
 
@@ -76,6 +65,14 @@ pub enum LostRead {
 }
 
 impl MailboxConduct {
+    /// Right, and nothing was sent yet.
+    pub const NEW: Self = Self {
+        counter: Counter { last: 0, fixed: None },
+        reading: Reading::Always,
+        lost_read: LostRead::AskAgain,
+        received: 0,
+    };
+
     /// The slave starts its mailbox: it has sent nothing yet.
     pub(crate) const fn restart(&mut self) {
         self.received = 0;
@@ -133,12 +130,7 @@ impl MailboxDialogue {
             out,
             inward,
             service,
-            conduct: MailboxConduct {
-                counter: Counter::Running(0),
-                reading: Reading::Always,
-                lost_read: LostRead::AskAgain,
-                received: 0,
-            },
+            conduct: MailboxConduct::NEW,
             message: Vec::new(),
             phase: Phase::Failed,
             emergencies: Vec::new(),

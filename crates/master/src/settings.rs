@@ -68,6 +68,17 @@ pub enum Direction {
     Inputs,
 }
 
+impl Direction {
+    /// The type byte of an FMMU that maps process data of this direction: bit 0 reads, bit 1 writes.
+    #[must_use]
+    pub const fn fmmu_kind(self) -> u8 {
+        match self {
+            Self::Inputs => 1,
+            Self::Outputs => 2,
+        }
+    }
+}
+
 /// Process data of one SyncManager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProcessDataArea {

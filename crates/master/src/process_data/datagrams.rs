@@ -245,8 +245,7 @@ fn expected_counter(command: Command, places: &[Place], takes_part: impl Fn(usiz
 
 fn load_status(frame: &mut FrameBuilder, address: Address) {
     let access = Access::Read { offset: registers::AL_STATUS, length_bytes: AL_STATUS_BYTES };
-    let (command, field) = address.command(&access);
-    frame.add_zeros(command, field, registers::AL_STATUS, AL_STATUS_BYTES);
+    access.add_to(frame, address);
 }
 
 /// The bits of a place that are in a datagram: where they begin in the image of the slave, how many they are, and where

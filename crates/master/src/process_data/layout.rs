@@ -36,10 +36,7 @@ impl Place {
             logical_stop_bit: ((self.end() - 1) % 8) as u8,
             physical_start: self.physical_start,
             physical_start_bit: 0,
-            kind: match self.direction {
-                Direction::Inputs => 1,
-                Direction::Outputs => 2,
-            },
+            kind: self.direction.fmmu_kind(),
             activate: 1,
         }
     }

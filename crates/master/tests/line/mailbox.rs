@@ -1,7 +1,7 @@
 //! SDOs, SDO information, emergencies, and mailboxes that are treated wrongly.
 
 use master::{
-    Connected, Counter, Event, Failure, Master, Message, Reading, Reply, SdoTransfer, Service, ServiceFailure,
+    Connected, Event, Failure, Master, Message, Reading, Reply, SdoTransfer, Service, ServiceFailure,
 };
 use nx_ect101::{NxEct101, layout, object_table};
 use time::Duration;
@@ -191,10 +191,10 @@ fn a_master_that_reads_no_mailbox_gets_no_reply_until_it_does() {
 #[test]
 fn a_counter_that_stands_still_loses_every_second_message() {
     let mut bench = in_pre_op(connected(1));
-    bench.master.change_mailbox(0, |conduct| conduct.counter = Counter::Fixed(3));
+    bench.master.change_mailbox(0, |conduct| conduct.counter.fixed = Some(3));
     assert_eq!(bench.upload(0, SdoTarget::entry(0x1018, 0)), Ok(vec![4]));
     assert_eq!(bench.upload(0, SdoTarget::entry(0x1018, 0)), failed(ServiceFailure::NoReply));
-    bench.master.change_mailbox(0, |conduct| conduct.counter = Counter::Fixed(0));
+    bench.master.change_mailbox(0, |conduct| conduct.counter.fixed = Some(0));
     for _ in 0..3 {
         assert_eq!(bench.upload(0, SdoTarget::entry(0x1018, 0)), Ok(vec![4]));
     }
