@@ -2,13 +2,11 @@
 //! data beside.
 
 mod answer;
-mod habits;
 mod last_sdo;
 mod operation;
 mod orders;
 mod process_data;
 mod program;
-mod sdo;
 mod sent;
 mod slave;
 mod states;
@@ -16,13 +14,13 @@ mod variables;
 
 use std::collections::VecDeque;
 
+use ::master::{Answer, LostRead, MailboxConduct, Progress};
 use time::{Duration, Instant};
 use wire::{Returned, returned_datagrams};
 
 use super::story::Story;
 
 use answer::{Outcome, Step};
-use habits::MailboxHabits;
 use last_sdo::LastSdo;
 use operation::Operation;
 use process_data::ProcessData;
@@ -46,6 +44,10 @@ const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
 /// How long a state may take. The ESI gives a unit 9 s at most, in which it tells why it does not come.
 const STATE_PATIENCE: Duration = Duration::from_secs(10);
 
+/// It reads once more where a read of the mailbox got lost, and asks for the message again if there is none.
+const RIGHT_CONDUCT: MailboxConduct =
+    MailboxConduct { lost_read: LostRead::ReadAgain, ..MailboxConduct::NEW };
+
 /// The scripted master.
 #[derive(Debug)]
 pub(crate) struct Master {
@@ -65,7 +67,8 @@ pub(crate) struct Master {
     /// Units whose mailboxes it looks into.
     listens: Vec<bool>,
     ticket: u64,
-    mailbox: MailboxHabits,
+    /// How it treats mailboxes, right or wrong. The counters of its messages are common to all units.
+    mailbox: MailboxConduct,
     gave_up: Option<String>,
     last_sdo: LastSdo,
     emergencies: Vec<u16>,
@@ -85,7 +88,7 @@ struct Waiting {
 impl Master {
     pub(crate) fn new(units: usize, cycle: Duration, phase: Duration) -> Self {
         Self {
-            slaves: (0..units).map(Slave::new).collect(),
+            slaves: Slave::line(units),
             operations: VecDeque::new(),
             waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
             process_data: ProcessData::new(units, cycle, phase),
@@ -95,7 +98,7 @@ impl Master {
             next_listen: Instant::NEVER,
             listens: vec![false; units],
             ticket: 0,
-            mailbox: MailboxHabits::default(),
+            mailbox: RIGHT_CONDUCT,
             gave_up: None,
             last_sdo: LastSdo::default(),
             emergencies: Vec::new(),
@@ -165,8 +168,8 @@ impl Master {
     /// Looks into the mailboxes, for emergencies.
     fn listen(&mut self, now: Instant) {
         self.next_listen = now + LISTEN_PERIOD;
-        let units = self.listens.iter().enumerate().filter(|(_, listens)| **listens);
-        self.operations.extend(units.map(|(unit, _)| Operation::listen(unit)));
+        let units = self.slaves.iter().zip(&self.listens).enumerate().filter(|(_, (_, listens))| **listens);
+        self.operations.extend(units.map(|(unit, (slave, _))| Operation::listen(unit, slave.mailbox())));
         self.begin(now);
     }
 
@@ -178,7 +181,12 @@ impl Master {
             self.give_up(reason, now);
             return None;
         }
-        let (frame, kind) = operation.frame(&mut self.mailbox);
+        if self.waiting.ticket.take().is_some() {
+            let _ = operation.answered(None);
+        }
+        let received = self.slaves.get(operation.unit).map_or(0, Slave::received);
+        operation.begin(MailboxConduct { received, ..self.mailbox });
+        let (frame, kind) = operation.frame();
         self.ticket += 1;
         self.waiting.ticket = Some(self.ticket);
         // Without an answer by then the frame is sent once more.
@@ -199,22 +207,57 @@ impl Master {
         self.answer(answer, now);
     }
 
-    fn answer(&mut self, answer: &Returned, now: Instant) {
+    fn answer(&mut self, Returned { working_counter, data, .. }: &Returned, now: Instant) {
         let Some(operation) = self.operations.front_mut() else { return };
-        match operation.answer(answer, &mut self.slaves) {
-            Outcome::Again => self.waiting.at = now + POLL_PERIOD,
-            Outcome::Next => self.waiting.at = now,
-            Outcome::Received(code) => {
-                self.emergencies.push(code);
-                self.story.push(format!("receives emergency {code:04X}"));
-                self.waiting.at = now;
-            }
+        let answer = Answer { working_counter: *working_counter, data };
+        let (progress, emergencies) = operation.answered(Some(answer));
+        for emergency in emergencies {
+            self.emergencies.push(emergency.code);
+            self.story.push(format!("receives emergency {:04X}", emergency.code));
+        }
+        match progress {
+            Progress::Next | Progress::NextStage => self.waiting.at = now,
+            Progress::Later => match operation.refusal() {
+                Some(reason) => self.give_up(reason, now),
+                None => self.waiting.at = now + POLL_PERIOD,
+            },
+            Progress::Done => self.end_operation(now),
+        }
+    }
+
+    /// The first operation is over.
+    fn end_operation(&mut self, now: Instant) {
+        self.keep_counters();
+        let Some(operation) = self.operations.pop_front() else { return };
+        let outcome = operation.clone().end(&mut self.slaves, &mut self.process_data);
+        match outcome {
             Outcome::Done(steps) => {
-                self.operations.pop_front();
                 self.take_steps(steps, now);
                 self.begin(now);
             }
-            Outcome::Failed(reason) => self.give_up(reason, now),
+            Outcome::Failed(reason) => {
+                self.operations.push_front(operation);
+                self.give_up(reason, now);
+            }
+        }
+    }
+
+    /// The counters of the mailbox go on from where the first operation leaves them.
+    fn keep_counters(&mut self) {
+        let Some(operation) = self.operations.front_mut() else { return };
+        let unit = operation.unit;
+        let Some(conduct) = operation.mailbox().map(|mailbox| mailbox.conduct()) else { return };
+        self.mailbox.counter.last = conduct.counter.last;
+        if let Some(slave) = self.slaves.get_mut(unit) {
+            slave.keep_received(conduct.received);
+        }
+    }
+
+    /// Changes how it treats mailboxes from now on, the present one too.
+    fn change_mailbox(&mut self, change: impl Fn(&mut MailboxConduct)) {
+        change(&mut self.mailbox);
+        if let Some(operation) = self.operations.front_mut() {
+            operation.change_mailbox(change);
         }
     }
 
@@ -223,8 +266,8 @@ impl Master {
         for step in steps.into_iter().rev() {
             match step {
                 Step::Do(operation) => self.operations.push_front(operation),
-                Step::Exchange { unit, outputs_bytes, inputs_bytes } => {
-                    self.process_data.open(unit, outputs_bytes, inputs_bytes, now);
+                Step::Exchange(unit) => {
+                    self.process_data.open(unit, now);
                     if let (Some(task), Some(slave)) = (&mut self.task, self.slaves.get(unit)) {
                         task.open(unit, slave.settings());
                     }
@@ -250,6 +293,7 @@ impl Master {
             self.story.push(format!("gives up: {reason}"));
             self.gave_up = Some(reason);
         }
+        self.keep_counters();
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
         for operation in self.operations.drain(..parts.max(1)) {
             self.last_sdo.give_up(operation.ordered_sdo());

@@ -1,19 +1,16 @@
 //! Operations: what one order of the master comes down to, a frame at a time.
 
-use nx_ect101::layout;
-use wire::{AlState, Command, FrameBuilder};
+use ::master::{
+    Access, Address, AlReport, Answer, Dialogue, MailboxConduct, MailboxDialogue, Progress, Reading,
+    RegisterRead, RegisterWrite, SdoTransfer, Service, StateRequest, SyncManagerSettings, registers,
+};
+use wire::{AlState, Emergency, FrameBuilder};
 
-use super::habits::MailboxHabits;
 use super::last_sdo::SdoNumber;
-use super::sdo::{Phase, SdoMessage};
 use crate::model::{FrameKind, StateName};
 
-const AL_CONTROL: u16 = 0x0120;
-const AL_STATUS: u16 = 0x0130;
-/// Status of SyncManager 1; bit 3: a message lies in it.
-const MAILBOX_STATUS: u16 = 0x080D;
-/// Activate of SyncManager 1.
-const MAILBOX_ACTIVATE: u16 = 0x080E;
+/// SyncManagers of the mailbox: from master to unit, and back.
+pub(super) type MailboxChannels = (SyncManagerSettings, SyncManagerSettings);
 
 /// One operation with one unit.
 #[derive(Clone, Debug)]
@@ -29,42 +26,68 @@ pub(crate) struct Operation {
 #[derive(Clone, Debug)]
 pub(super) enum What {
     /// Writes a register until somebody has taken it.
-    Write { offset: u16, data: Vec<u8> },
+    Write { offset: u16, write: RegisterWrite },
     /// Looks where the unit is, and goes on from there.
-    Take(AlState),
+    Take { target: AlState, look: RegisterRead },
     /// Asks for a state and waits for it; meanwhile the unit is in no state below `lowest`.
-    Reach { bits: u16, lowest: AlState, asked: bool },
+    Reach { request: StateRequest, lowest: AlState },
     /// Everything is set for the process data: they begin.
-    Open,
+    Open(RegisterRead),
     /// An SDO.
-    Sdo { message: SdoMessage, phase: Phase },
+    Sdo { transfer: &'static str, entry: (u16, u8), mailbox: Box<MailboxDialogue>, is_begun: bool },
     /// Looks into the mailbox, once.
-    Listen { full: bool },
+    Listen { mailbox: Box<MailboxDialogue>, is_begun: bool },
+}
+
+/// A read of AL status and AL status code.
+const fn look() -> RegisterRead {
+    RegisterRead::new(registers::AL_STATUS, AlReport::LENGTH_BYTES)
 }
 
 impl Operation {
-    pub(super) const fn new(unit: usize, what: What) -> Self {
+    const fn new(unit: usize, what: What) -> Self {
         Self { unit, what, is_part: false, ordered_sdo: None }
     }
 
-    pub(crate) const fn take(unit: usize, state: AlState) -> Self {
-        Self::new(unit, What::Take(state))
+    pub(crate) const fn take(unit: usize, target: AlState) -> Self {
+        Self::new(unit, What::Take { target, look: look() })
     }
 
     pub(crate) const fn write(unit: usize, offset: u16, data: Vec<u8>) -> Self {
-        Self::new(unit, What::Write { offset, data })
+        Self::new(unit, What::Write { offset, write: RegisterWrite::new(offset, data) })
     }
 
-    pub(crate) fn download(unit: usize, entry: (u16, u8), value: &[u8]) -> Self {
-        Self::new(unit, What::Sdo { message: SdoMessage::download(entry, value), phase: Phase::Ask })
+    pub(super) const fn reach(unit: usize, request: StateRequest, lowest: AlState) -> Self {
+        Self::new(unit, What::Reach { request, lowest })
     }
 
-    pub(crate) fn upload(unit: usize, entry: (u16, u8)) -> Self {
-        Self::new(unit, What::Sdo { message: SdoMessage::upload(entry), phase: Phase::Ask })
+    pub(super) const fn open(unit: usize) -> Self {
+        Self::new(unit, What::Open(look()))
     }
 
-    pub(crate) const fn listen(unit: usize) -> Self {
-        Self::new(unit, What::Listen { full: false })
+    pub(crate) fn download(unit: usize, channels: MailboxChannels, entry: (u16, u8), value: &[u8]) -> Self {
+        let transfer = SdoTransfer::download(wire::SdoTarget::entry(entry.0, entry.1), value);
+        Self::sdo(unit, channels, ("download", entry), transfer)
+    }
+
+    pub(crate) fn upload(unit: usize, channels: MailboxChannels, entry: (u16, u8)) -> Self {
+        let transfer = SdoTransfer::upload(wire::SdoTarget::entry(entry.0, entry.1));
+        Self::sdo(unit, channels, ("upload", entry), transfer)
+    }
+
+    fn sdo(
+        unit: usize,
+        (out, inward): MailboxChannels,
+        (words, entry): (&'static str, (u16, u8)),
+        transfer: SdoTransfer,
+    ) -> Self {
+        let mailbox = Box::new(MailboxDialogue::new(out, inward, Service::Sdo(transfer)));
+        Self::new(unit, What::Sdo { transfer: words, entry, mailbox, is_begun: false })
+    }
+
+    pub(crate) fn listen(unit: usize, (out, inward): MailboxChannels) -> Self {
+        let mailbox = Box::new(MailboxDialogue::new(out, inward, Service::Listen));
+        Self::new(unit, What::Listen { mailbox, is_begun: false })
     }
 
     /// The same as a part of a larger order, which it takes with it when it fails.
@@ -97,46 +120,83 @@ impl Operation {
         let unit = format!("unit {}", self.unit + 1);
         match &self.what {
             What::Write { offset, .. } => format!("write to register {offset:#06X} of {unit}"),
-            What::Take(state) => format!("take {unit} to {}", StateName(*state)),
-            What::Reach { bits, .. } => {
-                format!("request {} of {unit}", StateName(AlState::from_bits(*bits & 0x0F)))
+            What::Take { target, .. } => format!("take {unit} to {}", StateName(*target)),
+            What::Reach { request, .. } => format!("request {} of {unit}", StateName(request.state())),
+            What::Open(_) => format!("process data of {unit}"),
+            What::Sdo { transfer, entry: (index, sub), .. } => {
+                format!("SDO {transfer} {index:04X}:{sub:02X} of {unit}")
             }
-            What::Open => format!("process data of {unit}"),
-            What::Sdo { message, .. } => format!("{} of {unit}", message.words()),
             What::Listen { .. } => format!("mailbox of {unit}"),
         }
     }
 
-    /// Its next frame.
-    pub(crate) fn frame(&mut self, habits: &mut MailboxHabits) -> (Vec<u8>, FrameKind) {
-        let position = (self.unit as u16).wrapping_neg();
-        let write = |offset, data: &[u8]| {
-            FrameBuilder::new().physical(Command::Apwr, position, offset, data).finish()
-        };
-        let read = |offset, length_bytes: usize| {
-            FrameBuilder::new().physical(Command::Aprd, position, offset, &vec![0; length_bytes]).finish()
-        };
-        match &mut self.what {
-            What::Write { offset, data } => (write(*offset, data), FrameKind::Any),
-            What::Reach { bits, asked: false, .. } => {
-                (write(AL_CONTROL, &bits.to_le_bytes()), FrameKind::Any)
-            }
-            What::Take(_) | What::Reach { .. } | What::Open => (read(AL_STATUS, 6), FrameKind::Any),
-            What::Sdo { message, phase: phase @ (Phase::Ask | Phase::Asked | Phase::AskedAgain) } => {
-                *phase = if *phase == Phase::Ask { Phase::Asked } else { Phase::AskedAgain };
-                (write(layout::MAILBOX_RECEIVE_START, &message.mailbox(habits)), FrameKind::Mailbox)
-            }
-            What::Sdo { phase: Phase::Read, .. } if habits.reads_nothing() => {
-                (read(MAILBOX_STATUS, 1), FrameKind::Mailbox)
-            }
-            What::Sdo { phase: Phase::Read, .. } | What::Listen { full: true } => {
-                (read(layout::MAILBOX_SEND_START, usize::from(layout::MAILBOX_BYTES)), FrameKind::Mailbox)
-            }
-            What::Sdo { phase: Phase::LookAtRepeat, .. } => (read(MAILBOX_ACTIVATE, 1), FrameKind::Mailbox),
-            What::Sdo { phase: Phase::AskToRepeat(activate), .. } => {
-                (write(MAILBOX_ACTIVATE, &[*activate]), FrameKind::Mailbox)
-            }
-            What::Sdo { .. } | What::Listen { .. } => (read(MAILBOX_STATUS, 1), FrameKind::Mailbox),
+    fn dialogue(&self) -> &dyn Dialogue {
+        match &self.what {
+            What::Write { write, .. } => write,
+            What::Take { look, .. } | What::Open(look) => look,
+            What::Reach { request, .. } => request,
+            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => &**mailbox,
         }
+    }
+
+    fn dialogue_mut(&mut self) -> &mut dyn Dialogue {
+        match &mut self.what {
+            What::Write { write, .. } => write,
+            What::Take { look, .. } | What::Open(look) => look,
+            What::Reach { request, .. } => request,
+            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => &mut **mailbox,
+        }
+    }
+
+    /// The mailbox that it speaks through.
+    pub(super) fn mailbox(&mut self) -> Option<&mut MailboxDialogue> {
+        match &mut self.what {
+            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => Some(mailbox),
+            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => None,
+        }
+    }
+
+    /// Begins to speak through the mailbox, the first time that it is asked for a frame. A master that reads no replies
+    /// looks for emergencies all the same.
+    pub(super) fn begin(&mut self, conduct: MailboxConduct) {
+        let (mailbox, is_begun, conduct) = match &mut self.what {
+            What::Sdo { mailbox, is_begun, .. } => (mailbox, is_begun, conduct),
+            What::Listen { mailbox, is_begun } => {
+                (mailbox, is_begun, MailboxConduct { reading: Reading::Always, ..conduct })
+            }
+            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => return,
+        };
+        if !core::mem::replace(is_begun, true) {
+            mailbox.begin(conduct);
+        }
+    }
+
+    /// Changes how it treats the mailbox from now on.
+    pub(super) fn change_mailbox(&mut self, change: impl Fn(&mut MailboxConduct)) {
+        if let What::Sdo { mailbox, .. } = &mut self.what {
+            change(mailbox.conduct_mut());
+        }
+    }
+
+    /// Its next frame.
+    pub(crate) fn frame(&self) -> (Vec<u8>, FrameKind) {
+        let mut frame = FrameBuilder::new();
+        let access: Access<'_> = self.dialogue().access();
+        access.add_to(&mut frame, Address::Position(self.unit as u16));
+        let kind = match self.what {
+            What::Sdo { .. } | What::Listen { .. } => FrameKind::Mailbox,
+            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => FrameKind::Any,
+        };
+        (frame.finish(), kind)
+    }
+
+    /// What came back for its frame; none: the frame is lost. With the emergencies that were read.
+    pub(super) fn answered(&mut self, answer: Option<Answer<'_>>) -> (Progress, Vec<Emergency>) {
+        let progress = self.dialogue_mut().answer(answer);
+        let mailbox = self.mailbox();
+        let emergencies = mailbox
+            .into_iter()
+            .flat_map(|mailbox| core::iter::from_fn(|| mailbox.take_emergency()).collect::<Vec<_>>());
+        (progress, emergencies.collect())
     }
 }

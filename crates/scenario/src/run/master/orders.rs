@@ -1,10 +1,10 @@
 //! What the scripted master makes of an order.
 
+use ::master::Reading;
 use time::Instant;
 
 use super::Master;
-use super::habits::MailboxHabits;
-use super::operation::Operation;
+use super::operation::{MailboxChannels, Operation};
 use super::slave::Slave;
 use crate::model::{MasterOrder, UnitSet};
 
@@ -37,12 +37,14 @@ impl Master {
             }
             MasterOrder::WriteSdo(unit, entry, bytes) => {
                 let number = self.last_sdo.order();
-                let order = |unit| Operation::download(unit, entry, &bytes).ordered_as(number);
+                let channels = self.channels(unit);
+                let order = |unit| Operation::download(unit, channels, entry, &bytes).ordered_as(number);
                 self.queue_for(UnitSet::One(unit), now, order);
             }
             MasterOrder::ReadSdo(unit, entry) => {
                 let number = self.last_sdo.order();
-                let order = |unit| Operation::upload(unit, entry).ordered_as(number);
+                let channels = self.channels(unit);
+                let order = |unit| Operation::upload(unit, channels, entry).ordered_as(number);
                 self.queue_for(UnitSet::One(unit), now, order);
             }
             MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
@@ -58,10 +60,15 @@ impl Master {
             MasterOrder::SyncManagerControl { unit, number, control } => {
                 self.with_slave(unit, |slave| slave.wrong_control(number, control));
             }
-            MasterOrder::MailboxCounter(counter) => self.mailbox.stuck_counter = Some(counter),
-            MasterOrder::ReadNoMailbox => self.mailbox.reads_nothing = true,
+            MasterOrder::MailboxCounter(counter) => {
+                self.change_mailbox(|conduct| conduct.counter.fixed = Some(counter));
+            }
+            MasterOrder::ReadNoMailbox => self.change_mailbox(|conduct| conduct.reading = Reading::Never),
             MasterOrder::Behave => {
-                self.mailbox = MailboxHabits { counter: self.mailbox.counter, ..MailboxHabits::default() };
+                self.change_mailbox(|conduct| {
+                    conduct.counter.fixed = None;
+                    conduct.reading = Reading::Always;
+                });
                 self.slaves.iter_mut().for_each(Slave::behave);
             }
             MasterOrder::Restart => {
@@ -72,6 +79,11 @@ impl Master {
                 *self = Self { ticket, task, ..Self::new(units, cycle, phase) };
             }
         }
+    }
+
+    /// The SyncManagers of a unit's mailbox.
+    fn channels(&self, unit: usize) -> MailboxChannels {
+        self.slaves.get(unit).map(Slave::mailbox).unwrap_or_default()
     }
 
     fn with_slave(&mut self, unit: usize, change: impl FnOnce(&mut Slave)) {

@@ -1,15 +1,19 @@
 //! What the scripted master knows of one unit, and what it is going to set, right or wrong.
 
+use ::master::{FmmuSettings, ProcessDataArea, SlaveSettings, SyncManagerSettings, registers};
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{Assignment, Direction, ObjectIndex, PdoEntry, PdoSettings, SubIndex, layout};
+use nx_ect101::{Assignment, Direction, ObjectIndex, PdoEntry, PdoSettings, SubIndex, UnitSettings};
 
-use super::operation::Operation;
+use super::operation::{MailboxChannels, Operation};
+use super::process_data::ProcessData;
 use crate::model::MasterOrder;
 
 /// One unit as its master sees it.
 #[derive(Debug)]
 pub(crate) struct Slave {
     unit: usize,
+    /// What its description says.
+    settings: SlaveSettings,
     /// What the unit has by the factory setting, with the orders of the scenario.
     pdo: PdoSettings,
     /// What has to be written in PRE-OP, in the order in which it was told.
@@ -18,6 +22,8 @@ pub(crate) struct Slave {
     wrong_controls: Vec<(u8, u8)>,
     /// It was taken to INIT since the master has started.
     is_reset: bool,
+    /// The counter of the last message that came from its mailbox.
+    received: u8,
 }
 
 #[derive(Debug)]
@@ -26,24 +32,38 @@ enum Startup {
     Assignment(Direction, u16),
 }
 
-/// A SyncManager as it is set.
-struct SyncManager {
-    number: u8,
-    start: u16,
-    length_bytes: u16,
-    control: u8,
-}
-
 impl Slave {
-    pub(crate) fn new(unit: usize) -> Self {
+    /// The units of a line, as their description says.
+    pub(crate) fn line(units: usize) -> Vec<Self> {
+        let settings = SlaveSettings::from_description(&nx_ect101::description(&UnitSettings::default()));
+        (0..units).map(|unit| Self::new(unit, settings.clone())).collect()
+    }
+
+    fn new(unit: usize, settings: SlaveSettings) -> Self {
         Self {
             unit,
+            settings,
             pdo: PdoSettings::factory(),
             startup: Vec::new(),
             wrong_lengths: Vec::new(),
             wrong_controls: Vec::new(),
             is_reset: false,
+            received: 0,
         }
+    }
+
+    /// The SyncManagers of its mailbox, right in any case.
+    pub(crate) fn mailbox(&self) -> MailboxChannels {
+        let channels = self.settings.mailbox.as_ref().map(|mailbox| (mailbox.out, mailbox.inward));
+        channels.unwrap_or_default()
+    }
+
+    pub(crate) const fn received(&self) -> u8 {
+        self.received
+    }
+
+    pub(crate) const fn keep_received(&mut self, counter: u8) {
+        self.received = counter;
     }
 
     /// What the master has set, or sets the next time that PRE-OP is passed.
@@ -81,14 +101,6 @@ impl Slave {
         self.wrong_controls.clear();
     }
 
-    pub(crate) fn outputs_bytes(&self) -> u16 {
-        self.size_bytes(Direction::MToC)
-    }
-
-    pub(crate) fn inputs_bytes(&self) -> u16 {
-        self.size_bytes(Direction::CToM)
-    }
-
     /// As the unit counts: whatever is assigned, also what has no place there.
     fn size_bytes(&self, direction: Direction) -> u16 {
         let entries = self.pdo.assigned(direction).flat_map(|pdo| self.pdo.entries(pdo));
@@ -98,41 +110,26 @@ impl Slave {
 
     /// SyncManagers 0 and 1.
     pub(crate) fn set_mailboxes(&self) -> Vec<Operation> {
-        let length_bytes = layout::MAILBOX_BYTES;
-        let receive = SyncManager {
-            number: 0,
-            start: layout::MAILBOX_RECEIVE_START,
-            length_bytes,
-            control: layout::MAILBOX_RECEIVE_CONTROL,
-        };
-        let send = SyncManager {
-            number: 1,
-            start: layout::MAILBOX_SEND_START,
-            length_bytes,
-            control: layout::MAILBOX_SEND_CONTROL,
-        };
-        [receive, send].into_iter().flat_map(|sm| self.set(sm)).collect()
+        let (out, inward) = self.mailbox();
+        [out, inward].into_iter().flat_map(|sm| self.set(sm)).collect()
     }
 
     /// SyncManagers 2 and 3 and the FMMUs of both.
-    pub(crate) fn set_process_data(&self, logical: u32) -> Vec<Operation> {
-        let (outputs_bytes, inputs_bytes) = (self.outputs_bytes(), self.inputs_bytes());
-        let outputs = SyncManager {
-            number: 2,
-            start: layout::OUTPUTS_START,
-            length_bytes: outputs_bytes,
-            control: layout::OUTPUTS_CONTROL,
-        };
-        let inputs = SyncManager {
-            number: 3,
-            start: layout::INPUTS_START,
-            length_bytes: inputs_bytes,
-            control: layout::INPUTS_CONTROL,
-        };
-        let mut operations: Vec<_> = [outputs, inputs].into_iter().flat_map(|sm| self.set(sm)).collect();
-        let behind = logical + u32::from(outputs_bytes);
-        operations.push(self.set_fmmu(0, logical, outputs_bytes, layout::OUTPUTS_START, 2));
-        operations.push(self.set_fmmu(1, behind, inputs_bytes, layout::INPUTS_START, 1));
+    pub(crate) fn set_process_data(&mut self, process_data: &mut ProcessData) -> Vec<Operation> {
+        for direction in Direction::ALL {
+            let bits = 8 * u32::from(self.size_bytes(direction));
+            self.settings.set_bits(sync_manager(direction), bits);
+        }
+        let placed = process_data.place(self.unit, &self.settings);
+        let areas = &self.settings.process_data;
+        let mut operations: Vec<_> = areas.iter().flat_map(|area| self.set(area.sync_manager)).collect();
+        let mut behind = placed.first().map_or(0, |fmmu| fmmu.logical_start);
+        for area in areas {
+            let fmmu = placed.iter().find(|fmmu| fmmu.number == area.fmmu).copied();
+            let fmmu = fmmu.unwrap_or_else(|| unused_fmmu(area, behind));
+            behind = fmmu.logical_start + u32::from(fmmu.length_bytes);
+            operations.push(self.set_fmmu(&fmmu));
+        }
         operations
     }
 
@@ -140,8 +137,12 @@ impl Slave {
     pub(crate) fn startup_sdos(&self) -> Vec<Operation> {
         let mut operations: Vec<_> =
             self.startup.iter().flat_map(|startup| self.startup_sdo(startup)).collect();
-        operations.push(Operation::download(self.unit, (0x2002, 2), &[1]).within_an_order());
+        operations.push(self.download((0x2002, 2), &[1]));
         operations
+    }
+
+    fn download(&self, entry: (u16, u8), value: &[u8]) -> Operation {
+        Operation::download(self.unit, self.mailbox(), entry, value).within_an_order()
     }
 
     fn startup_sdo(&self, startup: &Startup) -> Vec<Operation> {
@@ -164,8 +165,7 @@ impl Slave {
 
     /// Subindex 0 to 0, the elements, subindex 0 to their number.
     fn write_list(&self, index: u16, elements: Vec<Vec<u8>>) -> Vec<Operation> {
-        let download =
-            |sub, value: &[u8]| Operation::download(self.unit, (index, sub), value).within_an_order();
+        let download = |sub, value: &[u8]| self.download((index, sub), value);
         let count = elements.len() as u8;
         let mut operations = vec![download(0, &[0])];
         operations.extend((1..).zip(&elements).map(|(sub, element)| download(sub, element)));
@@ -173,30 +173,41 @@ impl Slave {
         operations
     }
 
-    fn set(&self, sm: SyncManager) -> [Operation; 2] {
-        let wrong = |list: &[(u8, u16)]| {
-            list.iter().rev().find(|(number, _)| *number == sm.number).map(|wrong| wrong.1)
-        };
-        let length_bytes = wrong(&self.wrong_lengths).unwrap_or(sm.length_bytes);
-        let control = self.wrong_controls.iter().rev().find(|(number, _)| *number == sm.number);
-        let control = control.map_or(sm.control, |wrong| wrong.1);
-        let enable = u8::from(length_bytes > 0);
-        let ([s0, s1], [l0, l1]) = (sm.start.to_le_bytes(), length_bytes.to_le_bytes());
-        let offset = 0x0800 + 8 * u16::from(sm.number);
+    fn set(&self, mut sm: SyncManagerSettings) -> [Operation; 2] {
+        let wrong_length = self.wrong_lengths.iter().rev().find(|(number, _)| *number == sm.number);
+        let wrong_control = self.wrong_controls.iter().rev().find(|(number, _)| *number == sm.number);
+        sm.length_bytes = wrong_length.map_or(sm.length_bytes, |(_, length_bytes)| *length_bytes);
+        sm.control = wrong_control.map_or(sm.control, |(_, control)| *control);
+        sm.activate = u8::from(sm.length_bytes > 0);
+        let offset = registers::sync_manager(sm.number);
         [
-            Operation::write(self.unit, offset + 6, vec![0]).within_an_order(),
-            Operation::write(self.unit, offset, vec![s0, s1, l0, l1, control, 0, enable, 0])
-                .within_an_order(),
+            Operation::write(self.unit, offset + registers::SYNC_MANAGER_ACTIVATE, vec![0]).within_an_order(),
+            Operation::write(self.unit, offset, sm.pack().to_vec()).within_an_order(),
         ]
     }
 
-    fn set_fmmu(&self, number: u16, logical: u32, length_bytes: u16, start: u16, kind: u8) -> Operation {
-        let mut fmmu = logical.to_le_bytes().to_vec();
-        fmmu.extend(length_bytes.to_le_bytes());
-        fmmu.extend([0, 7]);
-        fmmu.extend(start.to_le_bytes());
-        fmmu.extend([0, kind, u8::from(length_bytes > 0), 0, 0, 0]);
-        Operation::write(self.unit, 0x0600 + 16 * number, fmmu).within_an_order()
+    fn set_fmmu(&self, fmmu: &FmmuSettings) -> Operation {
+        Operation::write(self.unit, registers::fmmu(fmmu.number), fmmu.pack().to_vec()).within_an_order()
+    }
+}
+
+/// The SyncManager of a direction.
+const fn sync_manager(direction: Direction) -> u8 {
+    match direction {
+        Direction::MToC => 2,
+        Direction::CToM => 3,
+    }
+}
+
+/// The FMMU of an area without process data: it is set all the same, and maps nothing.
+fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
+    FmmuSettings {
+        number: area.fmmu,
+        logical_start,
+        logical_stop_bit: 7,
+        physical_start: area.sync_manager.start,
+        kind: area.direction.fmmu_kind(),
+        ..FmmuSettings::default()
     }
 }
 

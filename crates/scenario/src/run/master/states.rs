@@ -1,11 +1,14 @@
 //! What the master knows of the states of its slaves, by one look at each AL status in each task period.
 
-use wire::{AlState, AlStatus, Command, FrameBuilder, Returned};
+use core::ops::Range;
+
+use ::master::{Access, Address, AlReport, registers};
+use wire::{AlState, AlStatus, FrameBuilder, Returned};
 
 use super::sent::{Sent, Ticket};
 use crate::model::FrameKind;
 
-const AL_STATUS: u16 = 0x0130;
+const LOOK: Access<'static> = Access::Read { offset: registers::AL_STATUS, length_bytes: 2 };
 /// Looks without an answer, one after the other, after which a slave counts as gone.
 const MISSED_MAX: u8 = 2;
 
@@ -13,35 +16,56 @@ const MISSED_MAX: u8 = 2;
 #[derive(Debug)]
 pub(crate) struct States {
     looks: Vec<Look>,
+    /// Frames that have not come back, and the slaves that they look at.
+    awaited: Vec<(u64, Range<usize>)>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Look {
-    /// The frame that has not come back.
-    ticket: Option<u64>,
     missed: u8,
     status: Option<AlStatus>,
 }
 
 impl States {
     pub(crate) fn new(units: usize) -> Self {
-        Self { looks: vec![Look::default(); units] }
+        Self { looks: vec![Look::default(); units], awaited: Vec::new() }
     }
 
-    /// One frame to each slave.
+    /// A look at each slave, in frames that they share. What has not come back by now is missed.
     pub(crate) fn send(&mut self, ticket: &mut u64) -> Vec<Sent> {
-        let looks = self.looks.iter_mut().enumerate();
-        looks.map(|(unit, look)| look.send(unit, ticket)).collect()
+        for (_, slaves) in self.awaited.drain(..) {
+            self.looks[slaves].iter_mut().for_each(Look::miss);
+        }
+        let mut frames = Vec::new();
+        let mut first = 0;
+        while first < self.looks.len() {
+            let mut frame = FrameBuilder::new();
+            let mut behind = first;
+            while behind < self.looks.len()
+                && frame.room_bytes().is_some_and(|room| LOOK.length_bytes() <= room)
+            {
+                LOOK.add_to(&mut frame, Address::Position(behind as u16));
+                behind += 1;
+            }
+            *ticket += 1;
+            self.awaited.push((*ticket, first..behind));
+            let ticket = Ticket::Scripted(*ticket);
+            frames.push(Sent { ticket, kind: FrameKind::Any, frame: frame.finish() });
+            first = behind;
+        }
+        frames
     }
 
     /// Takes what comes back; false if it is no look.
     pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
-        let look = self.looks.iter_mut().find(|look| look.ticket == Some(ticket));
-        if let (Some(look), Some(answer)) = (look, datagrams.first()) {
+        let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
+            return false;
+        };
+        let (_, slaves) = self.awaited.remove(place);
+        for (look, answer) in self.looks[slaves].iter_mut().zip(datagrams) {
             look.receive(answer);
-            return true;
         }
-        false
+        true
     }
 
     /// The state of a slave, whether it has an error or not; none if it is not there.
@@ -52,25 +76,12 @@ impl States {
 }
 
 impl Look {
-    fn send(&mut self, unit: usize, ticket: &mut u64) -> Sent {
-        *ticket += 1;
-        if self.ticket.replace(*ticket).is_some() {
-            self.miss();
-        }
-        let position = (unit as u16).wrapping_neg();
-        let frame = FrameBuilder::new().physical(Command::Aprd, position, AL_STATUS, &[0; 2]).finish();
-        Sent { ticket: Ticket::Scripted(*ticket), kind: FrameKind::Any, frame }
-    }
-
     fn receive(&mut self, answer: &Returned) {
-        self.ticket = None;
-        match (answer.working_counter, answer.data.get(..2)) {
-            (1.., Some(&[low, high])) => {
-                self.missed = 0;
-                self.status = Some(AlStatus::from_bits(u16::from_le_bytes([low, high])));
-            }
-            _ => self.miss(),
+        if answer.working_counter == 0 {
+            return self.miss();
         }
+        self.missed = 0;
+        self.status = Some(AlReport::parse(&answer.data).status);
     }
 
     const fn miss(&mut self) {

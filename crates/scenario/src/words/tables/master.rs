@@ -15,7 +15,7 @@ pub const MASTER: &[Sentence<MasterOrder>] = &[
     row("acknowledge and request {state} of {units}", "acknowledge and request PRE-OP of unit 1",
         "writes AL control once, with bit 4", |v| Request { state: v.state(0), units: v.units(1), acknowledge: true }),
     row("exchange process data every {period}", "exchange process data every 1ms",
-        "sets the cycle; one frame for each unit, from SAFE-OP on", |v| Exchange(v.duration(0))),
+        "sets the cycle; each unit has a datagram in frames that they share, from SAFE-OP on", |v| Exchange(v.duration(0))),
     row("stop process data", "stop process data", "sends no process data until they are exchanged again",
         |_| StopExchange),
     row("set the outputs of {unit} to {bytes}", "set the outputs of unit 1 to 01 02 03",
