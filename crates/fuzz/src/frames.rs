@@ -2,14 +2,15 @@
 //!
 //! An input is a text, a step a line: see [`step`].
 
-mod digital;
 mod end_state;
+mod even;
 mod frame_rules;
 mod generate;
 mod images;
 mod line;
 mod line_rules;
 mod step;
+mod units;
 mod watched;
 
 use std::fmt::Write;
@@ -17,7 +18,7 @@ use std::fmt::Write;
 use crate::fuzzer::{Checked, Fuzzer, Grain, Limits};
 use crate::real_files::Seeds;
 use line::Line;
-use step::{Model, Step};
+use step::Step;
 
 pub(crate) const FUZZER: Fuzzer = Fuzzer {
     name: "frames",
@@ -47,14 +48,7 @@ fn check(input: &[u8]) -> Checked {
     let Ok(text) = std::str::from_utf8(input) else { return Ok("no steps") };
     let mut steps = text.lines().filter_map(|line| line.parse::<Step>().ok()).peekable();
     let Some(Step::Line(models)) = steps.next() else { return Ok("no steps") };
-    if models.iter().all(|model| *model == Model::Digital) {
-        run(Line::of_digital_units(models.len()), steps)
-    } else {
-        run(Line::of_nx_units(models.len()), steps)
-    }
-}
-
-fn run<U: watched::Watched>(mut line: Line<U>, steps: impl Iterator<Item = Step>) -> Checked {
+    let mut line = Line::of(&models);
     for (number, step) in (2..).zip(steps) {
         line.step(&step).map_err(|reason| format!("step {number}, `{step}`: {reason}"))?;
     }
@@ -78,7 +72,7 @@ mod tests {
 
     #[test]
     fn a_fresh_line_comes_to_op() {
-        for models in ["line nx nx nx", "line digital digital digital"] {
+        for models in ["line nx nx nx", "line even even even", "line terminal nx even"] {
             let steps = "bring 0 op\nbring 1 op\nbring 2 op\ncycle 5A\nwait 2000\ncycle 5B\n";
             assert_eq!(check(format!("{models}\n{steps}").as_bytes()), Ok("op"), "{models}");
         }

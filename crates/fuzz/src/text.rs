@@ -6,10 +6,10 @@ use crate::random::Random;
 const LONGEST: usize = 1 << 16;
 
 /// What is put between other signs.
+#[rustfmt::skip]
 const SIGNS: &[&str] = &[
-    " ", "\n", "\t", "\r\n", "\"", "'", "\"\"\"", "{", "}", "[", "]", "(", ")", "=", ":=", "..", ",", ";",
-    ":", "#", "//", "(*", "*)", ".", "-", "\\", "\\u0000", "\0", "\u{7F}", "\u{FEFF}", "ä", "日本",
-    "\u{202E}", "😀",
+    " ", "\n", "\t", "\r\n", "\"", "'", "\"\"\"", "{", "}", "[", "]", "(", ")", "=", ":=", "..", ",", ";", ":", "#",
+    "//", "(*", "*)", ".", "-", "\\", "\\u0000", "\0", "\u{7F}", "\u{FEFF}", "ä", "日本", "\u{202E}", "😀",
 ];
 
 /// A text that was damaged in a few places. `words` belong to its language; `others` are texts of its kind.

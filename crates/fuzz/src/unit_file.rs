@@ -3,9 +3,11 @@
 //! What is refused has places in the text; what is accepted gets power, comes through its first milliseconds, and is
 //! checked as `ectwin check` does it.
 
-use ectwin::{Duration, Setup, SetupError, Twin};
+use device::Device;
+use digital::{BitImages, Terminal};
+use ectwin::{Duration, Instant, Setup, SetupError, Twin};
 use nx_ect101::Configuration;
-use user_file::MISTAKES_MAX;
+use user_file::{FileErrors, MISTAKES_MAX};
 
 use crate::fuzzer::{Checked, Fuzzer, Grain, Limits};
 use crate::mistakes::{check_number, check_place, check_words};
@@ -33,15 +35,12 @@ const RUN: Duration = Duration::from_millis(20);
 
 fn check(input: &[u8]) -> Checked {
     let Ok(text) = std::str::from_utf8(input) else { return Ok("no text") };
+    let accepted = terminal(text)?;
     let setup = match Setup::from_toml(text) {
         Ok(setup) => setup,
         Err(SetupError::UnitFile(errors)) => {
-            check_number(errors.iter().count(), MISTAKES_MAX)?;
-            for error in errors.iter() {
-                check_place(text, &error.span, error.line, error.column)?;
-                check_words(&error.words())?;
-            }
-            return Ok("refused");
+            check_errors(text, &errors)?;
+            return Ok(if accepted { "accepted" } else { "refused" });
         }
         // A text has no folder in which a program could be.
         Err(SetupError::ProgramUnreadable { span: Some(span), .. }) => {
@@ -59,78 +58,48 @@ fn check(input: &[u8]) -> Checked {
     if frame[28..30] == [1, 0] { Ok("accepted") } else { Err("the unit does not answer".to_owned()) }
 }
 
+fn check_errors(text: &str, errors: &FileErrors) -> Result<(), String> {
+    check_number(errors.iter().count(), MISTAKES_MAX)?;
+    for error in errors.iter() {
+        check_place(text, &error.span, error.line, error.column)?;
+        check_words(&error.words())?;
+    }
+    Ok(())
+}
+
+/// The same text as the unit file of a terminal: whether it gets power.
+fn terminal(text: &str) -> Result<bool, String> {
+    let settings = match digital::UnitFile::parse(text) {
+        Ok(file) => file.settings,
+        Err(errors) => return check_errors(text, &errors).map(|()| false),
+    };
+    let config = digital::device_config(&settings);
+    config.validate().map_err(|error| error.to_string())?;
+    let unit = Terminal::power_on(&settings, BitImages::default());
+    let (mut device, mut esc) = Device::power_on(config, unit, Instant::ZERO);
+    let (mut now, end) = (Instant::ZERO, Instant::ZERO + RUN);
+    while now < end {
+        device.poll(&mut esc, now);
+        let next = device.deadline().min(esc.deadline()).min(end);
+        if next <= now {
+            return Err("the terminal wants to be polled again at the same moment".to_owned());
+        }
+        now = next;
+    }
+    Ok(true)
+}
+
 /// Keys of every section.
+#[rustfmt::skip]
 const WORDS: &[&str] = &[
-    "model",
-    "name",
-    "unit_number",
-    "serial",
-    "id_switch",
-    "alias",
-    "device_type",
-    "unit_version",
-    "lot_number",
-    "hardware_version",
-    "software_version",
-    "timing",
-    "start_up",
-    "refresh_phase",
-    "outputs_before_op",
-    "blank_sii",
-    "times",
-    "refuse",
-    "storage",
-    "io_allocation",
-    "pdo",
-    "event_levels",
-    "cpu",
-    "m_to_c",
-    "c_to_m",
-    "uints",
-    "bytes",
-    "udint",
-    "assign",
-    "mapping",
-    "rx",
-    "tx",
-    "1601",
-    "1A01",
-    "transitions",
-    "sii",
-    "mailbox",
-    "PS",
-    "SO",
-    "init",
-    "pre_op",
-    "safe_op",
-    "op",
-    "acknowledge",
-    "task_period",
-    "task_phase",
-    "mode",
-    "fail_soft",
-    "program",
-    "statement_budget",
-    "\"nx-ect101\"",
-    "\"exact\"",
-    "\"fast\"",
-    "\"run\"",
-    "\"required\"",
-    "\"not-required\"",
-    "\"builtin:copy\"",
-    "\"1ms\"",
-    "\"125us\"",
-    "\"60s\"",
-    "true",
-    "false",
-    "\"39160000\"",
-    "\"observation\"",
-    "\"6000:01\"",
-    "[]",
-    "{}",
-    "inf",
-    "nan",
-    "1979-05-27T07:32:00Z",
+    "model", "name", "unit_number", "serial", "id_switch", "alias", "device_type", "unit_version", "lot_number",
+    "hardware_version", "software_version", "timing", "start_up", "refresh_phase", "outputs_before_op", "blank_sii",
+    "times", "refuse", "storage", "io_allocation", "pdo", "event_levels", "cpu", "m_to_c", "c_to_m", "uints", "bytes",
+    "udint", "assign", "mapping", "rx", "tx", "1601", "1A01", "transitions", "sii", "mailbox", "PS", "SO", "init",
+    "pre_op", "safe_op", "op", "acknowledge", "inputs", "outputs", "ports", "\"digital\"", "task_period",
+    "task_phase", "mode", "fail_soft", "program", "statement_budget", "\"nx-ect101\"", "\"exact\"", "\"fast\"",
+    "\"run\"", "\"required\"", "\"not-required\"", "\"builtin:copy\"", "\"1ms\"", "\"125us\"", "\"60s\"", "true",
+    "false", "\"39160000\"", "\"observation\"", "\"6000:01\"", "[]", "{}", "inf", "nan", "1979-05-27T07:32:00Z",
 ];
 
 fn generate(seeds: &Seeds, random: &mut Random) -> String {
@@ -145,23 +114,36 @@ fn generate(seeds: &Seeds, random: &mut Random) -> String {
 /// A key, and what stands behind it.
 type Key = (&'static str, fn(&mut Random) -> String);
 
+/// Those of every model.
 const KEYS: &[Key] = &[
     ("name", |random| quoted(random.text_of(&["N1", "Unit_2", "", "a b", "_x", "ä", "N__1"]))),
-    ("unit_number", |random| random.between(0, 40).to_string()),
     ("serial", number),
-    ("id_switch", |random| format!("0x{:02X}", random.byte())),
     ("alias", number),
+    ("timing", |random| quoted(random.text_of(&["exact", "fast", "slow"]))),
+    ("start_up", duration),
+    ("refresh_phase", duration),
+    ("outputs_before_op", |random| quoted(random.text_of(&["required", "not-required", "never"]))),
+    ("blank_sii", |random| random.once_in(2).to_string()),
+    ("times.transitions", |random| {
+        let each = format!("{{ PS = {}, IP = {} }}", duration(random), duration(random));
+        if random.once_in(2) { duration(random) } else { each }
+    }),
+    ("times.sii", duration),
+    ("times.mailbox", duration),
+    ("refuse.safe_op", number),
+    ("refuse.acknowledge", |random| random.once_in(2).to_string()),
+];
+
+/// Those of the NX-ECT101.
+const NX_KEYS: &[Key] = &[
+    ("unit_number", |random| random.between(0, 40).to_string()),
+    ("id_switch", |random| format!("0x{:02X}", random.byte())),
     ("device_type", number),
     ("unit_version", |random| quoted(random.text_of(&["1.0", "1.13", "", "x", "255.255", "1.0.0"]))),
     ("lot_number", number),
     ("hardware_version", |random| {
         quoted(random.text_of(&["V1.00", "", "12345678901234567890", "123456789012345678901"]))
     }),
-    ("timing", |random| quoted(random.text_of(&["exact", "fast", "slow"]))),
-    ("start_up", duration),
-    ("refresh_phase", duration),
-    ("outputs_before_op", |random| quoted(random.text_of(&["required", "not-required", "never"]))),
-    ("blank_sii", |random| random.once_in(2).to_string()),
     ("io_allocation.m_to_c.uints", entries),
     ("io_allocation.m_to_c.bytes", entries),
     ("io_allocation.m_to_c.udint", entries),
@@ -174,14 +156,6 @@ const KEYS: &[Key] = &[
     ("pdo.mapping.1a02", entries),
     ("pdo.mapping.1A03", entries),
     ("event_levels.\"39160000\"", |random| quoted(random.text_of(&["observation", "minor_fault", "fault"]))),
-    ("times.transitions", |random| {
-        let each = format!("{{ PS = {}, IP = {} }}", duration(random), duration(random));
-        if random.once_in(2) { duration(random) } else { each }
-    }),
-    ("times.sii", duration),
-    ("times.mailbox", duration),
-    ("refuse.safe_op", number),
-    ("refuse.acknowledge", |random| random.once_in(2).to_string()),
     ("cpu.task_period", duration),
     ("cpu.task_phase", duration),
     ("cpu.mode", |random| quoted(random.text_of(&["run", "program", "stop"]))),
@@ -192,11 +166,22 @@ const KEYS: &[Key] = &[
     }),
 ];
 
+/// Those of a terminal.
+const DIGITAL_KEYS: &[Key] = &[
+    ("inputs", |random| random.between(0, 70).to_string()),
+    ("outputs", |random| random.between(0, 70).to_string()),
+    ("ports", |random| random.between(1, 5).to_string()),
+    ("mailbox", |random| random.once_in(4).to_string()),
+];
+
 /// A file of some keys in any order.
 fn file(random: &mut Random) -> String {
-    let mut lines = vec!["model = \"nx-ect101\"".to_owned()];
+    let (model, own) =
+        *random.one_of(&[("nx-ect101", NX_KEYS), ("nx-ect101", NX_KEYS), ("digital", DIGITAL_KEYS)]);
+    let mut lines = vec![format!("model = {}", quoted(model))];
     for _ in 0..random.between(0, 12) {
-        let (key, value) = random.one_of(KEYS);
+        let keys = if random.once_in(3) { KEYS } else { own };
+        let (key, value) = random.one_of(keys);
         let at = random.below(lines.len() + 1);
         lines.insert(at, format!("{key} = {}", value(random)));
     }

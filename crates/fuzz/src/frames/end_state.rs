@@ -2,11 +2,10 @@
 
 use std::sync::LazyLock;
 
-use device::Network;
 use esc::{EcatAccess, Esc, REGISTERS};
 use time::Instant;
 
-use super::watched::Watched;
+use super::units::Units;
 
 /// Registers end here, and user RAM begins.
 const REGISTER_BYTES: usize = 0x0F80;
@@ -57,7 +56,7 @@ pub(super) fn check(esc: &mut Esc, now: Instant) -> Result<(), String> {
 }
 
 /// What each controller of the line holds.
-pub(super) fn snapshot<U: Watched>(network: &Network<U>, now: Instant) -> Vec<Vec<u8>> {
+pub(super) fn snapshot(network: &Units, now: Instant) -> Vec<Vec<u8>> {
     let memory = |position| {
         // A copy: reading has effects.
         let mut esc = network.esc(position)?.clone();

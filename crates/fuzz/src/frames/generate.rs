@@ -13,9 +13,8 @@ const AREAS: [u16; 8] = [0x1000, 0x1100, 0x103F, 0x113F, 0x1200, 0x13A0, 0x21B0,
 
 /// A line and what is done to it.
 pub(super) fn steps(random: &mut Random) -> Vec<Step> {
-    let model = *random.one_of(&[Model::Nx, Model::Digital, Model::Digital]);
     let units = random.between(1, 3);
-    let mut steps = vec![Step::Line(vec![model; units])];
+    let mut steps = vec![Step::Line(models(units, random))];
     for unit in 0..units {
         if !random.once_in(6) {
             steps.push(Step::Bring(
@@ -28,6 +27,15 @@ pub(super) fn steps(random: &mut Random) -> Vec<Step> {
         steps.push(step(units, random));
     }
     steps
+}
+
+/// Units of one model, or of all.
+fn models(units: usize, random: &mut Random) -> Vec<Model> {
+    match random.below(4) {
+        0 => vec![Model::Nx; units],
+        1 => (0..units).map(|_| *random.one_of(&[Model::Nx, Model::Even, Model::Terminal])).collect(),
+        _ => vec![Model::Even; units],
+    }
 }
 
 fn step(units: usize, random: &mut Random) -> Step {
@@ -137,7 +145,8 @@ fn physical(command: Command, units: usize, random: &mut Random) -> Datagram {
         _ => random.word(),
     };
     let address = if random.once_in(20) { random.word() } else { address };
-    let (offset, data) = match random.below(8) {
+    let (offset, data) = match random.below(9) {
+        8 => mailbox(random),
         0 => al_control(random),
         1 => sync_manager(random),
         2 => fmmu(random),
@@ -201,6 +210,26 @@ fn process_data(random: &mut Random) -> (u16, Vec<u8>) {
     let shift = if random.once_in(2) { 0 } else { random.below(70) as u16 };
     let length = *random.one_of(&[1, 2, 16, 32, 63, 64, 64, 65, 400, 1_204]);
     (start + shift, random.bytes(length))
+}
+
+/// A CoE message that fills the mailbox of an NX-ECT101, a read of the other one, or a request to repeat.
+fn mailbox(random: &mut Random) -> (u16, Vec<u8>) {
+    const MAILBOX_BYTES: usize = 400;
+    match random.below(5) {
+        0 | 1 => {
+            let command = *random.one_of(&[0x40, 0x2F, 0x2B, 0x23, 0x21, 0x60, 0x00, 0x50, 0x31]);
+            let [low, high] =
+                random.one_of(&[0x1018_u16, 0x1C12, 0x1601, 0x10F3, 0x7000, 0x3001]).to_le_bytes();
+            let service = *random.one_of(&[0x20, 0x20, 0x80]);
+            let counter = random.below(8) as u8;
+            let mut message = vec![10, 0, 0, 0, 0, 0x03 | counter << 4, 0, service, command, low, high];
+            message.extend([random.below(5) as u8, random.byte(), random.byte(), 0, 0]);
+            message.resize(MAILBOX_BYTES, 0);
+            (0x1000, message)
+        }
+        2 | 3 => (0x1200, vec![0; MAILBOX_BYTES]),
+        _ => (0x080E, vec![0x01 | (random.byte() & 0x02)]),
+    }
 }
 
 /// Who owns the SII, its commands and its address.

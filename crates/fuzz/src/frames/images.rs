@@ -6,10 +6,11 @@
 
 use std::ops::Range;
 
-use device::{DataDirection, DeviceConfig, Network};
+use device::{DataDirection, DeviceConfig};
 use wire::{AlState, Command, Returned};
 
-use super::watched::{Watched, length_bytes};
+use super::units::Units;
+use super::watched::length_bytes;
 
 /// What is known of the images of each unit.
 pub(super) struct Images {
@@ -39,9 +40,9 @@ impl Image {
 const SETUP: [Range<u32>; 3] = [0x0040..0x0041, 0x0600..0x0700, 0x0800..0x0880];
 
 impl Images {
-    pub(super) fn of<U: Watched>(configs: &[DeviceConfig], network: &Network<U>) -> Self {
+    pub(super) fn of(configs: &[DeviceConfig], network: &Units) -> Self {
         let image = |(config, position): (&DeviceConfig, usize)| {
-            let unit = network.device(position).map(|device| device.unit());
+            let unit = network.device(position).map(|device| &**device.unit());
             // Units whose images are looked at have one area each way.
             let area = |direction| {
                 let described = config.process_data.iter().find(|described| described.direction == direction);
@@ -54,7 +55,7 @@ impl Images {
             Image {
                 outputs: area(DataDirection::Outputs),
                 inputs: area(DataDirection::Inputs),
-                is_even: unit.is_some_and(Watched::has_even_images),
+                is_even: unit.is_some_and(|unit| unit.has_even_images()),
                 is_set_up: false,
                 has_whole_outputs: false,
                 byte: None,
@@ -97,12 +98,12 @@ impl Images {
     }
 
     /// A cycle of the scripted master came back: outputs and inputs of a unit.
-    pub(super) fn cycle_came_back<U: Watched>(
+    pub(super) fn cycle_came_back(
         &mut self,
         unit: usize,
         byte: u8,
         returned: &[Returned],
-        network: &Network<U>,
+        network: &Units,
     ) -> Result<(), String> {
         let are_all_set_up = self.units.iter().all(|image| image.is_set_up);
         let [outputs, inputs] = returned else { return Ok(()) };
@@ -119,11 +120,11 @@ impl Images {
     }
 
     /// Reads that begin with the first byte of a unit's inputs give inputs of one refresh.
-    pub(super) fn check_inputs<U: Watched>(
+    pub(super) fn check_inputs(
         &self,
         sent: &[Returned],
         returned: &[Returned],
-        network: &Network<U>,
+        network: &Units,
     ) -> Result<(), String> {
         for (sent, returned) in sent.iter().zip(returned) {
             let is_read = matches!(sent.header.command, Command::Aprd | Command::Fprd);
@@ -144,7 +145,7 @@ impl Images {
     }
 
     /// The outputs of the last refresh of each unit.
-    pub(super) fn check_outputs<U: Watched>(&self, network: &mut Network<U>) -> Result<(), String> {
+    pub(super) fn check_outputs(&self, network: &mut Units) -> Result<(), String> {
         for (unit, image) in self.units.iter().enumerate() {
             let Some((device, _)) = network.slave_mut(unit) else { continue };
             if let Some(wrong) = device.unit_mut().take_wrong() {
@@ -169,7 +170,7 @@ impl Images {
     }
 }
 
-fn has_inputs<U: Watched>(network: &Network<U>, unit: usize) -> bool {
+fn has_inputs(network: &Units, unit: usize) -> bool {
     let device = network.device(unit).filter(|device| !device.is_off());
     device.is_some_and(|device| matches!(device.al_status().state, AlState::SafeOp | AlState::Op))
 }

@@ -2,17 +2,15 @@
 
 use allocation_counter::measure;
 use device::{DataDirection, DeviceConfig, FrameFate, Network, OutputsBeforeOp, ProcessDataConfig, Start};
-use nx_ect101::unit_file::UnitFile;
-use nx_ect101::{NxEct101, UnitSettings, device_config};
 use time::{Duration, Instant};
 use wire::{AlState, Command, FrameKind, Returned, returned_datagrams};
 
-use super::digital::{self, Digital};
 use super::frame_rules::{self, End};
 use super::images::Images;
 use super::line_rules::Before;
-use super::step::{Datagram, Step, frame};
-use super::watched::{Watched, length_bytes};
+use super::step::{Datagram, Model, Step, frame};
+use super::units::{Units, unit};
+use super::watched::length_bytes;
 use super::{end_state, line_rules};
 use crate::examine::without_panic;
 
@@ -23,8 +21,8 @@ const TIME_MAX: Duration = Duration::from_secs(3);
 const PATIENCE: Duration = Duration::from_millis(200);
 
 /// A line of units at a moment.
-pub(super) struct Line<U> {
-    network: Network<U>,
+pub(super) struct Line {
+    network: Units,
     configs: Vec<DeviceConfig>,
     now: Instant,
     images: Images,
@@ -33,29 +31,10 @@ pub(super) struct Line<U> {
 
 type Rules = Result<(), String>;
 
-impl Line<Digital> {
-    pub(super) fn of_digital_units(count: usize) -> Self {
-        Self::power_on((0..count.min(UNITS_MAX)).map(|number| (digital::config(number), Digital::default())))
-    }
-}
-
-impl Line<NxEct101> {
-    /// Units that wait for nothing; they differ in what the unit file leaves to the user.
-    pub(super) fn of_nx_units(count: usize) -> Self {
-        let unit = |number: usize| {
-            let lenient = if number % 2 == 1 { "outputs_before_op = \"not-required\"\n" } else { "" };
-            let text =
-                format!("model = \"nx-ect101\"\ntiming = \"fast\"\nid_switch = {}\n{lenient}", number + 1);
-            let settings = UnitFile::parse(&text).map(|file| UnitSettings::from_unit_file(&file));
-            let settings = settings.unwrap_or_default();
-            (device_config(&settings), NxEct101::power_on(&settings).0)
-        };
-        Self::power_on((0..count.min(UNITS_MAX)).map(unit))
-    }
-}
-
-impl<U: Watched> Line<U> {
-    fn power_on(units: impl Iterator<Item = (DeviceConfig, U)>) -> Self {
+impl Line {
+    /// A line of these units.
+    pub(super) fn of(models: &[Model]) -> Self {
+        let units = models.iter().take(UNITS_MAX).enumerate().map(|(number, model)| unit(*model, number));
         let (configs, units): (Vec<_>, Vec<_>) = units.unzip();
         let now = Instant::ZERO;
         let network = Network::power_on(configs.iter().cloned().zip(units), now);
@@ -123,7 +102,7 @@ impl<U: Watched> Line<U> {
         &mut self,
         frame: Vec<u8>,
         end: End,
-        send: impl FnOnce(&mut Network<U>, Instant, &mut [u8]) -> FrameFate,
+        send: impl FnOnce(&mut Units, Instant, &mut [u8]) -> FrameFate,
     ) -> Rules {
         let returned = self.send(frame.clone(), end, send)?;
         self.images.master_sent(&returned_datagrams(&frame));
@@ -136,7 +115,7 @@ impl<U: Watched> Line<U> {
         &mut self,
         mut frame: Vec<u8>,
         end: End,
-        send: impl FnOnce(&mut Network<U>, Instant, &mut [u8]) -> FrameFate,
+        send: impl FnOnce(&mut Units, Instant, &mut [u8]) -> FrameFate,
     ) -> Result<Vec<Returned>, String> {
         let sent = frame.clone();
         let is_defective = matches!(FrameKind::of(&sent), FrameKind::Defective(_));
@@ -254,7 +233,7 @@ impl<U: Watched> Line<U> {
     /// How long the data of a SyncManager are now.
     fn length_bytes(&self, unit: usize, described: &ProcessDataConfig) -> u16 {
         let device = self.network.device(unit);
-        device.map_or(0, |device| length_bytes(device.unit(), described))
+        device.map_or(0, |device| length_bytes(&**device.unit(), described))
     }
 
     fn request(&mut self, unit: usize, state: AlState, acknowledge: bool) -> Rules {

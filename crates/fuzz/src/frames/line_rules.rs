@@ -1,11 +1,11 @@
 //! What holds of a line whenever its units have reacted.
 
-use device::{DataDirection, DeviceConfig, Network, transition};
+use device::{DataDirection, DeviceConfig, transition};
 use esc::Esc;
 use time::Instant;
 use wire::{AlState, AlStatus, AlStatusCode};
 
-use super::watched::Watched;
+use super::units::Units;
 
 /// The states before the units react.
 pub(super) struct Before {
@@ -13,15 +13,15 @@ pub(super) struct Before {
 }
 
 impl Before {
-    pub(super) fn of<U: Watched>(network: &Network<U>) -> Self {
+    pub(super) fn of(network: &Units) -> Self {
         let state = |position| network.device(position).map(|device| device.al_status().state);
         Self { states: (0..network.len()).filter_map(state).collect() }
     }
 }
 
 /// Looks at the whole line at `now`.
-pub(super) fn check<U: Watched>(
-    network: &mut Network<U>,
+pub(super) fn check(
+    network: &mut Units,
     configs: &[DeviceConfig],
     before: &Before,
     now: Instant,

@@ -1,7 +1,7 @@
 //! The steps of an input and how they are written.
 //!
 //! ```text
-//! line digital digital        the units, nx or digital
+//! line even terminal          the units: nx, even or terminal
 //! bring 0 op                  a master takes unit 0 there: init, preop, safeop or op
 //! cycle 5A                    every unit gets whole outputs of this byte, and its inputs are read
 //! frame FPWR 1001 0120 0200; BRD 0000 0130 0000
@@ -43,8 +43,10 @@ pub(super) enum Step {
 pub(super) enum Model {
     /// An NX-ECT101.
     Nx,
-    /// 64 bytes of outputs and of inputs, without mailbox.
-    Digital,
+    /// 64 bytes of outputs and of inputs, all of them equal, without mailbox.
+    Even,
+    /// A terminal of 16 inputs and 12 outputs, without processor.
+    Terminal,
 }
 
 /// A datagram as a master sends it.
@@ -96,6 +98,7 @@ pub(super) fn frame(datagrams: &[Datagram]) -> Vec<u8> {
     bytes
 }
 
+const MODELS: [(&str, Model); 3] = [("nx", Model::Nx), ("even", Model::Even), ("terminal", Model::Terminal)];
 const STATES: [(&str, AlState); 4] =
     [("init", AlState::Init), ("preop", AlState::PreOp), ("safeop", AlState::SafeOp), ("op", AlState::Op)];
 
@@ -105,9 +108,10 @@ impl fmt::Display for Step {
         match self {
             Self::Line(models) => {
                 formatter.write_str("line")?;
-                models
-                    .iter()
-                    .try_for_each(|model| formatter.write_str(either(*model == Model::Nx, " nx", " digital")))
+                models.iter().try_for_each(|model| {
+                    let name = MODELS.iter().find(|(_, known)| known == model).map_or("", |(name, _)| name);
+                    write!(formatter, " {name}")
+                })
             }
             Self::Bring(unit, state) => {
                 let name = STATES.iter().find(|(_, known)| known == state).map_or("init", |(name, _)| name);
@@ -171,11 +175,8 @@ fn read(line: &str) -> Option<Step> {
     let (first, second) = rest.split_once(' ').unwrap_or((rest, ""));
     Some(match word {
         "line" => {
-            let models = rest.split(' ').map(|word| match word {
-                "nx" => Some(Model::Nx),
-                "digital" => Some(Model::Digital),
-                _ => None,
-            });
+            let model = |word| MODELS.iter().find(|(name, _)| *name == word).map(|(_, model)| *model);
+            let models = rest.split(' ').map(model);
             Step::Line(models.collect::<Option<Vec<_>>>()?)
         }
         "bring" => Step::Bring(first.parse().ok()?, STATES.iter().find(|(name, _)| *name == second)?.1),

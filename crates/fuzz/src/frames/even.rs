@@ -15,7 +15,7 @@ const INPUTS_START: u16 = 0x1100;
 
 /// 64 bytes each way, without mailbox. It fills its inputs with the number of the refresh.
 #[derive(Debug, Default)]
-pub(super) struct Digital {
+pub(super) struct Even {
     refreshes: u8,
     /// The outputs of the last refresh, if it had any.
     outputs: Option<Vec<u8>>,
@@ -23,7 +23,7 @@ pub(super) struct Digital {
     wrong: Option<String>,
 }
 
-impl Unit for Digital {
+impl Unit for Even {
     fn refresh_period(&self) -> Option<Duration> {
         Some(Duration::from_millis(1))
     }
@@ -42,7 +42,7 @@ impl Unit for Digital {
     }
 }
 
-impl Watched for Digital {
+impl Watched for Even {
     fn take_wrong(&mut self) -> Option<String> {
         self.wrong.take()
     }
