@@ -96,17 +96,21 @@ fn date(text: &str) -> Option<u64> {
     let [year, month, day] = numbers(text, '-')?;
     let is_known =
         (FIRST_YEAR..=LAST_YEAR).contains(&year) && (1..=days_of_month(year, month)?).contains(&day);
+    if !is_known {
+        return None;
+    }
     let months: u64 = (1..month).filter_map(|month| days_of_month(year, month)).sum();
-    let days = (FIRST_YEAR..year).map(days_of_year).sum::<u64>() + months + day.checked_sub(1)?;
-    (is_known && days <= LAST_DAY).then_some(days * NS_PER_DAY)
+    let days = (FIRST_YEAR..year).map(days_of_year).sum::<u64>() + months + day - 1;
+    Some(days).filter(|days| *days <= LAST_DAY).map(|days| days * NS_PER_DAY)
 }
 
 fn time_of_day(text: &str) -> Option<u64> {
     let (whole, fraction) = text.split_once('.').unwrap_or((text, "0"));
     let [hours, minutes, seconds] = numbers(whole, ':')?;
-    let is_known = hours < 24 && minutes < 60 && seconds < 60;
-    let seconds = (hours.checked_mul(60)?.checked_add(minutes)?).checked_mul(60)?.checked_add(seconds)?;
-    is_known.then_some(seconds * NS_PER_S + nanoseconds(fraction)?)
+    if hours >= 24 || minutes >= 60 || seconds >= 60 {
+        return None;
+    }
+    Some(((hours * 60 + minutes) * 60 + seconds) * NS_PER_S + nanoseconds(fraction)?)
 }
 
 /// What stands behind the point of seconds; what is less than a nanosecond is cut off.
@@ -221,10 +225,24 @@ mod tests {
             "",
             "x-y-z",
             "99999999999999999999-01-01",
+            // Numbers that fit, and days that would not.
+            "4-2-214647",
+            "18446744073709551615-01-01",
         ] {
             assert_eq!(read(Date, text), None, "{text}");
         }
-        for text in ["24:00:00", "23:60:00", "23:59:60", "12:00", "12:00:00:00", "1:2:3.x", "1:2:-3", ""] {
+        for text in [
+            "24:00:00",
+            "23:60:00",
+            "23:59:60",
+            "12:00",
+            "12:00:00:00",
+            "1:2:3.x",
+            "1:2:-3",
+            "",
+            "0:0:18446744073709551615",
+            "5124095576030431:0:0",
+        ] {
             assert_eq!(read(TimeOfDay, text), None, "{text}");
         }
     }
