@@ -5,7 +5,7 @@ use core::ops::Range;
 use std::collections::BTreeSet;
 
 use crate::mistakes::and_more;
-use crate::words::line_and_column;
+use crate::words::{line_and_column, shortened};
 
 /// One thing that is wrong. Prints as `line:column: message, expected …`, to follow a file name and a colon.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +43,7 @@ impl FileError {
     pub(crate) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
         let (line, column) = line_and_column(text, span.start);
         let Problem { message, expected, nearest, names } = problem;
-        Self { span, line, column, message, expected, nearest, names }
+        Self { span, line, column, message: shortened(message), expected, nearest, names }
     }
 
     /// What it prints without the place, for a file whose text is a part of another file.

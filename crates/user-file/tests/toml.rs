@@ -92,3 +92,20 @@ fn of_a_text_that_is_no_toml_or_another_file_nothing_else_is_said() {
     );
     assert!(refusal("<EtherCATInfo>").contains("this is an ESI file"), "{}", refusal("<EtherCATInfo>"));
 }
+
+#[test]
+fn a_message_is_short_however_long_the_key_that_it_names() {
+    let text = format!("{} = 1", "key".repeat(5_000));
+    let errors = read_toml(&text, Wanted::UnitFile, |reader, file| {
+        for (key, value) in file.entries() {
+            reader.read(&file.place_of(key.value), value, values::truth);
+        }
+        None::<()>
+    });
+    let words = errors.expect_err("a number is no truth").to_string();
+    assert!(words.len() < 1_000, "{words}");
+    assert!(
+        words.starts_with("1:15004: `keykey") && words.ends_with("` is an integer, expected true or false"),
+        "{words}"
+    );
+}
