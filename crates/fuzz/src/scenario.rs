@@ -3,7 +3,7 @@
 //! What is refused has places in the text; what is accepted is replayed for a while, and twice the same.
 
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Sentence, UNIT};
-use scenario::{Recording, Scenario};
+use scenario::{ErrorPlace, Recording, Scenario};
 use time::Duration;
 use user_file::MISTAKES_MAX;
 
@@ -44,7 +44,10 @@ fn check(input: &[u8]) -> Checked {
         Err(errors) => {
             check_number(errors.iter().count(), MISTAKES_MAX)?;
             for error in errors.iter() {
-                check_place(text, &error.span, error.line, error.column)?;
+                let ErrorPlace::Text { line, column, span } = &error.place else {
+                    return Err(format!("a mistake of a file without a place: {error}"));
+                };
+                check_place(text, span, *line, *column)?;
                 check_words(&error.message)?;
             }
             return Ok("refused");

@@ -41,6 +41,12 @@ impl Fault {
         Self::MessageCommunications,
     ];
 
+    /// The fault of this name, such as `Processing`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|fault| format!("{fault:?}") == name)
+    }
+
     /// The event that it raises.
     #[must_use]
     pub const fn event(self) -> EventCode {

@@ -1,22 +1,23 @@
-//! Reading a scenario file.
+//! Reading a scenario file: its text becomes a script; lines and columns travel beside, for messages.
 
+mod draft;
 mod entries;
-mod error;
+mod nearest;
+mod places;
 mod reader;
-mod scenario;
+mod said;
 mod steps;
-mod times;
 
 use core::ops::Range;
 
-use user_file::{LineNumbers, Mistakes, Wanted, of_another_kind};
+use user_file::{Wanted, of_another_kind};
 
-use crate::ready::{Files, Texts};
+use crate::model::Script;
+use crate::ready::{Draft, Files, ScenarioError, ScenarioErrors, Texts, ready};
 use crate::run::Scenario;
 use entries::File;
-pub(crate) use entries::{FileEntry, MasterEntry, Paths, StepEntry, UnitEntry};
-pub use error::{ScenarioError, ScenarioErrors};
-pub(crate) use reader::Reader;
+use nearest::nearest_name;
+use reader::Reader;
 
 impl Scenario {
     /// Reads the text of a scenario file. `files` gives the text of a unit file or of a user program that it names,
@@ -38,33 +39,42 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::parse`].
     pub fn parse_with(text: &str, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
-        let alone = |span: Range<usize>, message: String, help: String| ScenarioErrors {
-            list: vec![ScenarioError::new(text, span, message, help)],
-            more: 0,
-        };
-        if let Some(refusal) = of_another_kind(text.as_bytes(), "", Wanted::Scenario) {
-            return Err(alone(0..0, refusal.message, refusal.help));
+        let file = file(text)?;
+        let mut reader = Reader::new(text);
+        let draft = reader.draft(file);
+        let (scenario, problems) = ready(draft, files);
+        for problem in problems {
+            let span = reader.places.of(problem.part);
+            reader.refuse(span, problem.message, problem.help);
         }
-        let file: File = toml::from_str(text).map_err(|error| {
-            alone(error.span().unwrap_or_default(), error.message().to_owned(), String::new())
-        })?;
-        let mut reader = Reader {
-            text,
-            lines: LineNumbers::of(text),
-            files,
-            units: Vec::new(),
-            unit_spans: Vec::new(),
-            variables: Vec::new(),
-            master: None,
-            is_ground_missing: false,
-            programs: Vec::new(),
-            errors: Mistakes::default(),
-        };
-        let scenario = reader.scenario(file);
-        if reader.errors.is_empty() {
-            return Ok(scenario);
-        }
-        let (list, more) = reader.errors.into_parts();
-        Err(ScenarioErrors { list, more })
+        reader.errors().map_or(Ok(scenario), Err)
     }
+}
+
+impl Script {
+    /// Reads the text of a scenario file, and leaves the files that it names alone.
+    ///
+    /// # Errors
+    /// What is wrong, in the order of the file, as far as it shows without units and programs.
+    pub fn parse(text: &str) -> Result<Self, ScenarioErrors> {
+        let file = file(text)?;
+        let mut reader = Reader::new(text);
+        let Draft { script, .. } = reader.draft(file);
+        reader.errors().map_or(Ok(script), Err)
+    }
+}
+
+/// The parts of a file.
+fn file(text: &str) -> Result<File, ScenarioErrors> {
+    let alone = |span: Range<usize>, message: String, help: String| ScenarioErrors {
+        list: vec![ScenarioError::in_text(text, span, message, help)],
+        more: 0,
+    };
+    if let Some(refusal) = of_another_kind(text.as_bytes(), "", Wanted::Scenario) {
+        return Err(alone(0..0, refusal.message, refusal.help));
+    }
+    toml::from_str(text).map_err(|error| {
+        let help = nearest_name(error.message()).map(|name| format!("did you mean `{name}`?"));
+        alone(error.span().unwrap_or_default(), error.message().to_owned(), help.unwrap_or_default())
+    })
 }

@@ -1,7 +1,8 @@
 //! Scenarios: units, a scripted master, CPU Units, faults and expectations in virtual time.
 //!
-//! A file says what happens and what must follow; a replay is the same on every machine. Nothing here reads a
-//! clock or a file: who does gives texts in and takes bytes out.
+//! [`model`] is what happens and what must follow, as plain values. [`words`] spells it in sentences. A file or a
+//! [`Script`](model::Script) becomes a [`Scenario`], whose replay is the same on every machine. Nothing here reads a
+//! clock or a file: the caller gives texts in and takes bytes out.
 
 mod builder;
 mod file;
@@ -14,15 +15,10 @@ mod search;
 pub mod words;
 
 pub use builder::ScenarioBuilder;
-pub use file::{ScenarioError, ScenarioErrors};
-pub use model::{
-    Choice, Condition, ConductOrder, Controller, CpuOrder, Disturbance, Expectation, FrameFault, FrameKind,
-    LineOrder, MasterOrder, Mode, Order, Trigger, UnitOrder, UnitSet,
-};
-pub use ready::Files;
+pub use ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 pub use run::{
     Aspect, DifferenceKind, Failure, MasterProgram, NotReplayable, ProgramFile, RandomPart, RecordedFrames,
-    Recording, Report, Scenario, Step, UnitSource, UserProgram,
+    Recording, Report, Scenario, UnitSource, UserProgram, WrittenStep,
 };
 pub use search::Found;
 pub use user_file::Wanted;

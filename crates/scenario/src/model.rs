@@ -1,19 +1,34 @@
-//! Scenarios as plain values: steps, orders and conditions. No parsing, and nothing of the world that they are about.
+//! Scenarios as plain values: steps, orders and conditions, with their form in JSON and TOML.
+//!
+//! No sentence is read here, and nothing of the world is known that the values are about. Units and cables are named by
+//! their numbers, from 1; faults, patterns, variables and programs by their names.
 
+mod bytes;
 mod condition;
 mod cpu;
 mod line;
 mod master;
+mod names;
+mod numbers;
+mod script;
 mod spelling;
 mod step;
+mod step_form;
 mod unit;
 mod units;
 
-pub use condition::{Condition, IndicatorName};
-pub use cpu::CpuOrder;
-pub use line::{Choice, Disturbance, FrameFault, FrameKind, LineOrder};
+pub(crate) use bytes::hex;
+pub use bytes::{Bytes, Entry};
+pub use condition::{Condition, DataDirection};
+pub use cpu::{CpuMode, CpuOrder};
+pub use line::{Choice, Disturbance, FrameFault, FrameKind, Frames, LineOrder};
 pub use master::MasterOrder;
-pub(crate) use spelling::{StateName, hex};
-pub use step::{Expectation, Mode, Order, Trigger};
-pub use unit::{ConductOrder, UnitOrder};
-pub use units::{Controller, UnitSet};
+pub use names::{IndicatorName, Position, StateName};
+pub use numbers::{EventCode, Hex, UserErrorCode};
+pub use script::{FileWithProgram, Paths, Script, ScriptMaster, ScriptUnit};
+pub use spelling::NotAValue;
+pub(crate) use spelling::{hexadecimal, number};
+pub use step::{Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
+pub(crate) use step_form::StepForm;
+pub use unit::{ConductOrder, EventLog, UnitOrder};
+pub use units::{CableNumber, Controller, UnitNumber, UnitSet};

@@ -2,9 +2,9 @@
 
 use time::Duration;
 
-use crate::model::{Order, Trigger};
-use crate::run::{DICE_OF_STEPS, Dice, Scenario, Step};
-use crate::words::{self, CPU, LINE, MASTER, UNIT};
+use crate::model::{Order, Step, Trigger};
+use crate::run::{DICE_OF_STEPS, Dice, Scenario, WrittenStep};
+use crate::words::Spoken;
 
 /// Who is told, by the key of the file.
 type Teller = &'static str;
@@ -75,15 +75,18 @@ impl RandomStep {
         format!("{{ after = \"{after}\", {teller} = \"{text}\" }}")
     }
 
-    fn step(&self, line: usize) -> Step {
+    fn step(&self, line: usize) -> WrittenStep {
         let order = match self.teller {
-            "line" => words::read(LINE, &self.text).map(Order::Line),
-            "unit" => words::read(UNIT, &self.text).map(Order::Unit),
-            "cpu" => words::read(CPU, &self.text).map(Order::Cpu),
-            _ => words::read(MASTER, &self.text).map(Order::Master),
+            "line" => Spoken::from_sentence(&self.text).map(Order::Line),
+            "unit" => Spoken::from_sentence(&self.text).map(Order::Unit),
+            "cpu" => Spoken::from_sentence(&self.text).map(Order::Cpu),
+            _ => Spoken::from_sentence(&self.text).map(Order::Master),
         };
         match order {
-            Ok(order) => Step { trigger: Trigger::After(self.after), order, line, text: self.text.clone() },
+            Ok(order) => {
+                let step = Step { trigger: Trigger::After(self.after), order, repetition: None };
+                WrittenStep { step, line, text: self.text.clone() }
+            }
             Err(problem) => panic!("`{}` of the pool: {}", self.text, problem.message),
         }
     }
@@ -109,12 +112,12 @@ impl Scenario {
     }
 
     /// All steps, with those of the dice in their place.
-    pub(crate) fn all_steps(&self, seed: u64) -> Vec<Step> {
+    pub(crate) fn all_steps(&self, seed: u64) -> Vec<WrittenStep> {
         self.steps_with(&self.random_steps(seed))
     }
 
     /// All steps, with these in the place of the dice's.
-    pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<Step> {
+    pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<WrittenStep> {
         let Some(part) = &self.random else { return self.steps.clone() };
         let mut steps = self.steps.clone();
         steps.splice(part.place..part.place, random.iter().map(|step| step.step(part.line)));

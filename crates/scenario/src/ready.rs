@@ -1,12 +1,76 @@
-//! What a scenario needs before it can run: its units and programs, and steps that name what is there.
+//! What a script needs before it can run: its units and programs, and steps that name what is there.
 
+mod error;
 mod files;
+mod maker;
 mod master;
 mod nodes;
+mod problem;
 mod reach;
 mod resolve;
+mod steps;
 mod units;
+mod written;
 
+use crate::model::Script;
+use crate::run::{RecordedFrames, Scenario};
+pub use error::{ErrorPlace, ScenarioError, ScenarioErrors};
 pub use files::Files;
 pub(crate) use files::Texts;
-pub(crate) use reach::{line_of, unit_of_cpu, unit_of_master, unit_of_unit};
+use maker::Maker;
+pub(crate) use problem::{Part, Problem, StepPart};
+use steps::{Ground, ReadySteps};
+pub(crate) use written::Written;
+
+/// A script, with the words of its steps.
+pub(crate) struct Draft {
+    pub(crate) script: Script,
+    /// Of each step.
+    pub(crate) written: Vec<Written>,
+    /// Nothing but steps was left out because it is wrong.
+    pub(crate) is_whole: bool,
+}
+
+impl Scenario {
+    /// A scenario that can run, of a script. `files` gives the texts of the files that it names.
+    ///
+    /// # Errors
+    /// What is wrong: units and programs that cannot be read, values beyond their range, units and variables that do
+    /// not exist, steps that run back in time.
+    pub fn of(script: Script, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
+        let written = script.steps.iter().enumerate().map(|(at, step)| Written::of_script(at, step));
+        let written = written.collect();
+        let (scenario, problems) = ready(Draft { script, written, is_whole: true }, files);
+        if problems.is_empty() { Ok(scenario) } else { Err(ScenarioErrors::of_script(problems)) }
+    }
+}
+
+/// A scenario, and what is wrong with it: it can run if nothing is.
+pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Problem>) {
+    let Draft { script, written, is_whole } = draft;
+    let mut maker = Maker::new(files);
+    maker.units(&script.units);
+    maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));
+    let ground = if is_whole && maker.problems.is_empty() { Ground::Firm } else { Ground::Missing };
+    if script.cycle.is_zero() {
+        maker.refuse(Part::Cycle, "a cycle of 0 never ends", "such as `cycle = \"1ms\"`");
+    }
+    let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);
+    let Maker { units, master, programs, problems, .. } = maker;
+    let scenario = Scenario {
+        title: script.title,
+        seed: script.seed,
+        limit: script.limit,
+        units,
+        cycle: script.cycle,
+        cycle_phase: script.cycle_phase,
+        master,
+        programs,
+        steps,
+        capture: script.capture,
+        recorded: RecordedFrames::default(),
+        golden_trace: None,
+        random,
+    };
+    (scenario, problems)
+}

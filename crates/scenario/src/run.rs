@@ -23,4 +23,4 @@ pub use programs::ProgramFile;
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
 pub use report::{Failure, Report};
-pub use scenario::{RandomPart, Scenario, Step, UnitSource, UserProgram};
+pub use scenario::{RandomPart, Scenario, UnitSource, UserProgram, WrittenStep};

@@ -1,13 +1,15 @@
-//! Sentences: one spelling of steps and conditions. The tables are also the reference of the language.
+//! Sentences: one spelling of orders and conditions, read and written. The tables are also the reference of the language.
 
 mod place;
 mod sentence;
+mod spoken;
 mod tables;
 mod value;
 
 pub use place::Place;
 pub(crate) use sentence::{Misfit, try_read};
-pub use sentence::{NoSentence, Sentence, Values, read};
+pub use sentence::{NoSentence, Sentence, read, row_of};
+pub use spoken::{Say, Spoken};
 pub use tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 pub use value::Value;
 

@@ -7,7 +7,8 @@ use std::fs;
 use std::path::Path;
 
 use nx_ect101::Event;
-use scenario::{Condition, Mode, Order, Scenario};
+use scenario::Scenario;
+use scenario::model::{Condition, Mode, Order};
 
 /// The events that the scenarios of a folder expect to be recorded exactly once, by code.
 fn expected_events(folder: &Path) -> BTreeSet<String> {
@@ -19,7 +20,7 @@ fn expected_events(folder: &Path) -> BTreeSet<String> {
 fn recorded_in(text: &str) -> Vec<String> {
     let scenario =
         Scenario::parse(text, |path| Err(format!("{path}: no unit files here"))).expect("a scenario");
-    let recorded = scenario.steps.iter().filter_map(|step| match &step.order {
+    let recorded = scenario.steps.iter().filter_map(|step| match &step.step.order {
         Order::Expect(expectation) if expectation.mode != Mode::Never => match expectation.condition {
             Condition::Recorded { event, times: Some(1), .. } => Some(event.to_string()),
             _ => None,

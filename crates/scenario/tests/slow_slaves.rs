@@ -2,6 +2,7 @@
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
+use scenario::model::UnitOrder;
 use scenario::{Recording, Scenario};
 
 /// A sentence, the steps before it, and what holds behind it and only behind it.
@@ -130,9 +131,8 @@ fn each_sentence_does_what_it_says() {
 #[test]
 fn every_sentence_of_conduct_is_tried() {
     let read = |text: &str| scenario::words::read(scenario::words::UNIT, text);
-    let is_conduct = |order: &scenario::UnitOrder| {
-        matches!(order, scenario::UnitOrder::Conduct(..) | scenario::UnitOrder::EraseSii(_))
-    };
+    let is_conduct =
+        |order: &UnitOrder| matches!(order, UnitOrder::Conduct { .. } | UnitOrder::EraseSii { .. });
     for sentence in scenario::words::UNIT {
         let is_tried = CASES.iter().any(|case| case.sentence == sentence.example);
         let order = read(sentence.example).expect("an example is a sentence");

@@ -284,7 +284,7 @@ fn a_wrong_id_is_told_at_its_unit() {
     let text = "title = \"t\"\nmaster = { program = \"m.st\" }\nunits = [\n\
         { model = \"nx-ect101\" },\n{ model = \"nx-ect101\", serial = 2 },\n]\nsteps = []";
     let errors = Scenario::parse(text, |_| Ok(";".to_owned())).unwrap_err();
-    assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [5]);
+    assert_eq!(errors.iter().map(|error| error.line()).collect::<Vec<_>>(), [Some(5)]);
 }
 
 #[test]

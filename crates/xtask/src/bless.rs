@@ -12,6 +12,7 @@ const TESTS: &[(&str, &str)] = &[
     ("ectwin-nx-ect101", "allocation_page"),
     ("ectwin", "event_pages"),
     ("ectwin", "scenario_reference"),
+    ("ectwin-scenario", "values_page"),
     ("ectwin", "structured_text_reference"),
 ];
 

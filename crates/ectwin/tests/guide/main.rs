@@ -16,3 +16,4 @@ mod messages;
 #[cfg(feature = "modbus")]
 mod modbus;
 mod scenario;
+mod scenario_values;

@@ -3,85 +3,52 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::said::SaidEntry;
+use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, Paths, ScriptUnit, UnitOrder};
+
 /// A scenario file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct File {
-    pub(crate) title: Spanned<String>,
-    pub(crate) seed: Option<u64>,
-    pub(crate) limit: Option<Spanned<String>>,
-    pub(crate) cycle: Option<Spanned<String>>,
-    pub(crate) cycle_phase: Option<Spanned<String>>,
-    pub(crate) capture: Option<String>,
-    pub(crate) master: Option<Spanned<MasterEntry>>,
+pub(super) struct File {
+    pub(super) title: Spanned<String>,
+    pub(super) seed: Option<u64>,
+    pub(super) limit: Option<Spanned<String>>,
+    pub(super) cycle: Option<Spanned<String>>,
+    pub(super) cycle_phase: Option<Spanned<String>>,
+    pub(super) capture: Option<String>,
+    pub(super) master: Option<Spanned<MasterEntry>>,
     #[serde(default)]
-    pub(crate) units: Vec<Spanned<UnitEntry>>,
-    pub(crate) steps: Vec<Spanned<StepEntry>>,
+    pub(super) units: Vec<Spanned<ScriptUnit>>,
+    pub(super) steps: Vec<Spanned<StepEntry>>,
 }
 
-/// One step.
+/// The user program of the master.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct StepEntry {
-    pub(crate) at: Option<Spanned<String>>,
-    pub(crate) after: Option<Spanned<String>>,
-    pub(crate) when: Option<Spanned<String>>,
-    pub(crate) master: Option<Spanned<String>>,
-    pub(crate) unit: Option<Spanned<String>>,
-    pub(crate) cpu: Option<Spanned<String>>,
-    pub(crate) line: Option<Spanned<String>>,
-    pub(crate) expect: Option<Spanned<String>>,
-    pub(crate) never: Option<Spanned<String>>,
-    pub(crate) within: Option<Spanned<String>>,
-    pub(crate) r#for: Option<Spanned<String>>,
-    pub(crate) until: Option<Spanned<String>>,
-    pub(crate) repeat: Option<Spanned<u64>>,
-    pub(crate) every: Option<Spanned<String>>,
-    pub(crate) jitter: Option<Spanned<String>>,
-    pub(crate) random: Option<Spanned<u64>>,
+pub(super) struct MasterEntry {
+    pub(super) program: Spanned<Paths>,
+    pub(super) device_names: Option<Spanned<Vec<String>>>,
+    pub(super) task_period: Option<Spanned<String>>,
 }
 
-/// How a scenario names a unit.
-#[derive(Deserialize)]
-#[serde(untagged)]
-pub(crate) enum UnitEntry {
-    /// A unit file.
-    Path(String),
-    /// A unit file, and another program than its own.
-    File(FileEntry),
-    /// The keys of a unit file.
-    Table(toml::Table),
-}
-
+/// One step: orders and conditions are sentences, or typed values.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct FileEntry {
-    pub(crate) file: String,
-    pub(crate) program: Option<Paths>,
-}
-
-/// One path, or several that belong together.
-#[derive(Deserialize)]
-#[serde(untagged)]
-pub(crate) enum Paths {
-    One(String),
-    Several(Vec<String>),
-}
-
-impl Paths {
-    pub(crate) fn list(self) -> Vec<String> {
-        match self {
-            Self::One(path) => vec![path],
-            Self::Several(paths) => paths,
-        }
-    }
-}
-
-/// What a scenario says of the master.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MasterEntry {
-    pub(crate) program: Spanned<Paths>,
-    pub(crate) device_names: Option<Spanned<Vec<String>>>,
-    pub(crate) task_period: Option<Spanned<String>>,
+pub(super) struct StepEntry {
+    pub(super) at: Option<Spanned<String>>,
+    pub(super) after: Option<Spanned<String>>,
+    pub(super) when: Option<Spanned<SaidEntry<Condition>>>,
+    pub(super) master: Option<Spanned<SaidEntry<MasterOrder>>>,
+    pub(super) unit: Option<Spanned<SaidEntry<UnitOrder>>>,
+    pub(super) cpu: Option<Spanned<SaidEntry<CpuOrder>>>,
+    pub(super) line: Option<Spanned<SaidEntry<LineOrder>>>,
+    pub(super) expect: Option<Spanned<SaidEntry<Condition>>>,
+    pub(super) never: Option<Spanned<SaidEntry<Condition>>>,
+    pub(super) within: Option<Spanned<String>>,
+    pub(super) r#for: Option<Spanned<String>>,
+    pub(super) until: Option<Spanned<SaidEntry<Condition>>>,
+    pub(super) repeat: Option<Spanned<u64>>,
+    pub(super) every: Option<Spanned<String>>,
+    pub(super) jitter: Option<Spanned<String>>,
+    pub(super) random: Option<Spanned<u64>>,
 }

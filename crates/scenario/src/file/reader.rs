@@ -1,37 +1,52 @@
 //! What is read of a scenario file so far, and what is wrong with it.
 
-use core::ops::Range;
-
-use plc::DeviceVariables;
+use time::Duration;
+use toml::Spanned;
 use user_file::{LineNumbers, Mistakes};
 
-use super::error::ScenarioError;
-use crate::ready::Files;
-use crate::run::{LoadedProgram, MasterProgram, UnitSource};
+use super::places::{Places, Span};
+use crate::ready::{ScenarioError, ScenarioErrors, Written};
 
 /// Reads one file.
-pub(crate) struct Reader<'a> {
-    pub(crate) text: &'a str,
-    pub(crate) lines: LineNumbers,
-    /// Gives the texts of files.
-    pub(crate) files: &'a mut dyn Files,
-    pub(crate) units: Vec<UnitSource>,
-    /// Where each of them is in the file.
-    pub(crate) unit_spans: Vec<Range<usize>>,
-    /// Their device variables.
-    pub(crate) variables: Vec<DeviceVariables>,
-    /// The master's own program.
-    pub(crate) master: Option<MasterProgram>,
-    /// A unit or a program is wrong, so that nobody can tell what steps may name.
-    pub(crate) is_ground_missing: bool,
-    /// Programs that steps load.
-    pub(crate) programs: Vec<LoadedProgram>,
-    pub(crate) errors: Mistakes<ScenarioError>,
+pub(super) struct Reader<'a> {
+    pub(super) text: &'a str,
+    pub(super) lines: LineNumbers,
+    pub(super) places: Places,
+    /// The words of each step, with their place.
+    pub(super) written: Vec<Written>,
+    pub(super) mistakes: Mistakes<ScenarioError>,
 }
 
-impl Reader<'_> {
-    pub(crate) fn refuse(&mut self, span: Range<usize>, message: impl Into<String>, help: impl Into<String>) {
+impl<'a> Reader<'a> {
+    pub(super) fn new(text: &'a str) -> Self {
+        Self {
+            text,
+            lines: LineNumbers::of(text),
+            places: Places::default(),
+            written: Vec::new(),
+            mistakes: Mistakes::default(),
+        }
+    }
+
+    pub(super) fn refuse(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
         let text = self.text;
-        self.errors.note(span.start, || ScenarioError::new(text, span, message.into(), help.into()));
+        self.mistakes.note(span.start, || ScenarioError::in_text(text, span, message.into(), help.into()));
+    }
+
+    /// What is wrong with the file, if anything is.
+    pub(super) fn errors(self) -> Option<ScenarioErrors> {
+        let is_right = self.mistakes.is_empty();
+        let (list, more) = self.mistakes.into_parts();
+        (!is_right).then_some(ScenarioErrors { list, more })
+    }
+
+    /// None for what is left out, and for what is no duration.
+    pub(super) fn duration(&mut self, text: Option<&Spanned<String>>) -> Option<Duration> {
+        let text = text?;
+        let duration = text.get_ref().parse();
+        if let Err(error) = &duration {
+            self.refuse(text.span(), format!("`{}`: {error}", text.get_ref()), "");
+        }
+        duration.ok()
     }
 }

@@ -1,163 +1,114 @@
-//! Steps: who is told what, when, and whether it can be.
+//! Steps of a file: each becomes a typed one; its words and places are noted beside.
 
 use toml::Spanned;
 
-use core::ops::Range;
-
 use super::entries::StepEntry;
-use super::error::ScenarioError;
+use super::places::{Span, StepPlaces};
 use super::reader::Reader;
-use crate::model::{Condition, Expectation, FrameFault, LineOrder, Mode, Order, Trigger};
-use crate::ready::{line_of, unit_of_cpu, unit_of_master, unit_of_unit};
-use crate::run::Step;
-use crate::words::{self, CONDITIONS, CPU, LINE, MASTER, NoSentence, UNIT};
+use super::said::SaidEntry;
+use crate::model::{ScriptStep, StepForm};
+use crate::ready::{ScenarioError, Written};
+use crate::words::{Misfit, NoSentence, Spoken, try_read};
 
-impl Reader<'_> {
-    pub(crate) fn step(&mut self, entry: StepEntry, span: Range<usize>) -> Option<Step> {
-        let trigger = self.trigger(&entry, span.clone());
-        let mode = self.mode(&entry);
-        let tellers = [
-            entry.master.map(|text| (text, Teller::Master)),
-            entry.unit.map(|text| (text, Teller::Unit)),
-            entry.cpu.map(|text| (text, Teller::Cpu)),
-            entry.line.map(|text| (text, Teller::Line)),
-            entry.expect.map(|text| (text, Teller::Expect)),
-            entry.never.map(|text| (text, Teller::Never)),
-        ];
-        let mut told: Vec<_> = tellers.into_iter().flatten().collect();
-        if told.len() != 1 {
-            let message = format!(
-                "a step tells one of master, unit, cpu, line, expect or never; this one {}",
-                told.len()
-            );
-            self.refuse(span, message, "");
-            return None;
-        }
-        let (text, teller) = told.remove(0);
-        let fits = match (&mode, teller) {
-            (None, _) | (Some(_), Teller::Expect) | (Some(Mode::Until(_)), Teller::Never) => true,
-            (Some(_), _) => false,
-        };
-        if !fits {
-            self.refuse(span, "`within` and `for` belong to `expect`, `until` to `expect` and `never`", "");
-            return None;
-        }
-        let line = self.line(span.start);
-        let order = self.order(&text, teller, mode.unwrap_or(Mode::Now))?;
-        Some(Step { trigger: trigger?, order, line, text: text.into_inner() })
-    }
+/// A step of a file.
+pub(super) struct StepReading {
+    pub(super) step: ScriptStep,
+    pub(super) places: StepPlaces,
+    pub(super) written: Written,
+}
 
-    fn trigger(&mut self, entry: &StepEntry, span: Range<usize>) -> Option<Trigger> {
-        match (&entry.at, &entry.after, &entry.when) {
-            (None, None, None) => Some(Trigger::AtOnce),
-            (Some(at), None, None) => self.duration(at).map(Trigger::At),
-            (None, Some(after), None) => self.duration(after).map(Trigger::After),
-            (None, None, Some(when)) => self.condition(when).map(Trigger::When),
-            _ => {
-                self.refuse(span, "a step has one of at, after and when", "");
-                None
-            }
+/// A step; none if something is wrong with it.
+pub(super) fn read_step(reader: &mut Reader<'_>, entry: Spanned<StepEntry>) -> Option<StepReading> {
+    let span = entry.span();
+    let entry = entry.into_inner();
+    let mut part = PartReader { reader, is_wrong: false, order: None };
+    let form = StepForm {
+        at: part.duration(entry.at.as_ref()),
+        after: part.duration(entry.after.as_ref()),
+        when: part.said(entry.when.as_ref()),
+        master: part.order(entry.master.as_ref()),
+        unit: part.order(entry.unit.as_ref()),
+        cpu: part.order(entry.cpu.as_ref()),
+        line: part.order(entry.line.as_ref()),
+        expect: part.order(entry.expect.as_ref()),
+        never: part.order(entry.never.as_ref()),
+        within: part.duration(entry.within.as_ref()),
+        r#for: part.duration(entry.r#for.as_ref()),
+        until: part.said(entry.until.as_ref()),
+        repeat: entry.repeat.as_ref().map(|times| *times.get_ref()),
+        every: part.duration(entry.every.as_ref()),
+        jitter: part.duration(entry.jitter.as_ref()),
+        random: entry.random.as_ref().map(|count| *count.get_ref()),
+    };
+    let (order, text) = match (part.is_wrong, part.order) {
+        (true, _) => return None,
+        (false, order) => order.unwrap_or_default(),
+    };
+    let places = StepPlaces {
+        whole: span.clone(),
+        order,
+        when: span_of(entry.when.as_ref()),
+        until: span_of(entry.until.as_ref()),
+        count: entry.repeat.or(entry.random).map(|count| count.span()).unwrap_or_default(),
+    };
+    let written = Written { line: reader.lines.line(span.start), bytes: span.clone(), text };
+    match form.read() {
+        Ok(step) => Some(StepReading { step, places, written }),
+        Err(wrong) => {
+            reader.refuse(span, wrong.message, wrong.help);
+            None
         }
-    }
-
-    /// What the step says of when an expectation has to hold.
-    fn mode(&mut self, entry: &StepEntry) -> Option<Mode> {
-        match (&entry.within, &entry.r#for, &entry.until) {
-            (Some(within), None, None) => self.duration(within).map(Mode::Within),
-            (None, Some(span), None) => self.duration(span).map(Mode::For),
-            (None, None, Some(until)) => self.condition(until).map(Mode::Until),
-            (None, None, None) => None,
-            (first, second, third) => {
-                let span = [first, second, third]
-                    .into_iter()
-                    .flatten()
-                    .map(Spanned::span)
-                    .next()
-                    .unwrap_or_default();
-                self.refuse(span, "`within`, `for` and `until` contradict each other", "");
-                None
-            }
-        }
-    }
-
-    fn order(&mut self, text: &Spanned<String>, teller: Teller, mode: Mode) -> Option<Order> {
-        let order = match teller {
-            Teller::Master => self.sentence(MASTER, text).map(Order::Master),
-            Teller::Unit => self.sentence(UNIT, text).map(Order::Unit),
-            Teller::Cpu => self.sentence(CPU, text).map(Order::Cpu),
-            Teller::Line => self.sentence(LINE, text).map(Order::Line),
-            Teller::Expect | Teller::Never => {
-                let condition = self.condition(text)?;
-                let mode = match (teller, mode) {
-                    (Teller::Never, Mode::Until(until)) => Mode::NeverUntil(until),
-                    (Teller::Never, _) => Mode::Never,
-                    (_, mode) => mode,
-                };
-                Some(Order::Expect(Expectation { condition, mode }))
-            }
-        }?;
-        if self.is_ground_missing {
-            return Some(order);
-        }
-        if !self.exists(&order) {
-            let help = line_of(self.units.len());
-            self.refuse(text.span(), "it names a unit or a cable that is not there", help);
-            return None;
-        }
-        if let Order::Cpu(order) = &order {
-            self.check_variables(order, text.span())?;
-        }
-        Some(order)
-    }
-
-    fn exists(&self, order: &Order) -> bool {
-        let units = self.units.len();
-        match order {
-            Order::Master(order) => unit_of_master(order).is_none_or(|set| set.exists(units)),
-            Order::Unit(order) => unit_of_unit(order).exists(units),
-            Order::Cpu(order) => unit_of_cpu(order).is_none_or(|set| set.exists(units)),
-            Order::Line(LineOrder::Cable { number, .. }) => *number <= units,
-            Order::Line(LineOrder::Disturb(disturbance)) => match disturbance.fault {
-                FrameFault::Corrupt(cable) => cable < units,
-                _ => true,
-            },
-            Order::Line(_) | Order::Expect(_) => true,
-        }
-    }
-
-    fn condition(&mut self, text: &Spanned<String>) -> Option<Condition> {
-        let condition = self.sentence(CONDITIONS, text)?;
-        if self.is_ground_missing {
-            return Some(condition);
-        }
-        let units = self.units.len();
-        let exists = condition.units().is_none_or(|set| set.exists(units));
-        if !exists {
-            self.refuse(text.span(), "it names a unit that is not there", line_of(units));
-            return None;
-        }
-        self.resolve(condition, text.span())
-    }
-
-    fn sentence<T>(&mut self, table: &[words::Sentence<T>], text: &Spanned<String>) -> Option<T> {
-        let (file, span) = (self.text, text.span());
-        let read = words::try_read(table, text.get_ref());
-        let refuse = |problem: words::Misfit<'_, T>| {
-            self.errors.note(span.start, || {
-                let NoSentence { message, help } = problem.words();
-                ScenarioError::new(file, span, message, help)
-            });
-        };
-        read.map_err(refuse).ok()
     }
 }
 
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Teller {
-    Master,
-    Unit,
-    Cpu,
-    Line,
-    Expect,
-    Never,
+fn span_of<T>(part: Option<&Spanned<T>>) -> Span {
+    part.map(Spanned::span).unwrap_or_default()
+}
+
+/// Reads the parts of one step.
+struct PartReader<'r, 'a> {
+    reader: &'r mut Reader<'a>,
+    is_wrong: bool,
+    /// Where the order stands, and its words.
+    order: Option<(Span, String)>,
+}
+
+impl PartReader<'_, '_> {
+    fn duration(&mut self, text: Option<&Spanned<String>>) -> Option<time::Duration> {
+        let duration = self.reader.duration(text);
+        self.is_wrong |= text.is_some() && duration.is_none();
+        duration
+    }
+
+    /// The order of the step, or what it expects. A typed value has the words of its sentence.
+    fn order<T: Spoken>(&mut self, entry: Option<&Spanned<SaidEntry<T>>>) -> Option<T> {
+        let value = self.said(entry)?;
+        let text = entry.map(|entry| match entry.get_ref() {
+            SaidEntry::Sentence(text) => text.clone(),
+            SaidEntry::Typed(value) => value.sentence(),
+        });
+        self.order = Some((span_of(entry), text.unwrap_or_default()));
+        Some(value)
+    }
+
+    fn said<T: Spoken>(&mut self, entry: Option<&Spanned<SaidEntry<T>>>) -> Option<T> {
+        let entry = entry?;
+        match entry.get_ref() {
+            SaidEntry::Typed(value) => Some(value.clone()),
+            SaidEntry::Sentence(text) => {
+                let read = try_read(T::SENTENCES, text);
+                let refuse = |misfit: Misfit<'_, T>| self.refuse(entry.span(), || misfit.words());
+                read.map_err(refuse).ok()
+            }
+        }
+    }
+
+    fn refuse(&mut self, span: Span, words: impl FnOnce() -> NoSentence) {
+        let text = self.reader.text;
+        self.is_wrong = true;
+        self.reader.mistakes.note(span.start, || {
+            let NoSentence { message, help } = words();
+            ScenarioError::in_text(text, span, message, help)
+        });
+    }
 }

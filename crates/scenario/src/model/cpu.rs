@@ -1,50 +1,57 @@
 //! What is done to a CPU Unit.
 
-use plc::OperatingMode;
+use serde::{Deserialize, Serialize};
 use time::Duration;
 
-use super::units::UnitSet;
+use super::bytes::Bytes;
+use super::spelling::text;
+use super::units::{UnitNumber, UnitSet};
 
 /// What is done to a CPU Unit.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum CpuOrder {
-    /// Changes the mode.
-    SetMode(UnitSet, OperatingMode),
-    /// Stops or starts I/O refreshing.
-    SetIoRefreshing(UnitSet, bool),
-    /// Stops or starts the primary periodic task.
-    SetTaskRunning(UnitSet, bool),
-    /// All bytes C to M.
-    SetInputs(usize, Vec<u8>),
+    /// Changes the operating mode.
+    SetMode { units: UnitSet, mode: CpuMode },
+    /// Stops I/O refreshing.
+    StopIoRefreshing { units: UnitSet },
+    /// Starts I/O refreshing.
+    StartIoRefreshing { units: UnitSet },
+    /// Stops the primary periodic task.
+    StopTask { units: UnitSet },
+    /// Starts the primary periodic task.
+    StartTask { units: UnitSet },
+    /// Resets the errors of the NX Bus Function Module, and those of the unit.
+    ResetNxBusErrors { units: UnitSet },
+    /// Turns the power of CPU Unit and unit off, and on at once.
+    CycleRackPower { units: UnitSet },
+    /// Bytes C to M, from the first on.
+    SetInputs { unit: UnitNumber, bytes: Bytes },
     /// The system time jumps ahead.
-    JumpTime(UnitSet, Duration),
-    /// Fixes a device variable, or an element of it, at a value until it is released.
-    Force {
-        /// Its name.
-        variable: String,
-        /// The value as text.
-        value: String,
+    JumpSystemTime {
+        units: UnitSet,
+        #[serde(with = "text")]
+        by: Duration,
     },
     /// Writes a device variable, or an element of it, once.
-    Write {
-        /// Its name.
-        variable: String,
-        /// The value as text.
-        value: String,
-    },
+    Write { variable: String, value: String },
+    /// Fixes a device variable, or an element of it, at a value until it is released.
+    Force { variable: String, value: String },
     /// Releases a device variable, or an element of it.
-    Release(String),
+    Release { variable: String },
     /// Releases everything.
-    ReleaseAll(UnitSet),
-    /// Resets the errors of the NX Bus Function Module, and those of the unit.
-    ResetNxBus(UnitSet),
-    /// Turns the power of CPU Unit and unit off, and on at once.
-    CycleRackPower(UnitSet),
-    /// Replaces the user program, in PROGRAM mode.
-    Load {
-        /// Of which unit.
-        unit: usize,
-        /// The file, as the step names it.
-        file: String,
-    },
+    ReleaseAll { units: UnitSet },
+    /// Replaces the user program, in PROGRAM mode, by the one of this file, seen from the scenario.
+    Load { unit: UnitNumber, program: String },
+}
+
+/// Operating mode of a CPU Unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "UPPERCASE")]
+pub enum CpuMode {
+    /// The user program runs.
+    Run,
+    /// The user program does not run; the I/O exchange continues.
+    Program,
 }

@@ -1,57 +1,89 @@
 //! What happens on the line: cables, and faults of frames.
 
+use serde::{Deserialize, Serialize};
 use time::Duration;
 
+use super::spelling::{nothing, text};
+use super::units::CableNumber;
+
 /// What happens to the line between the master and the units.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LineOrder {
+    /// A cable is pulled out.
+    Unplug {
+        /// Which one.
+        cable: CableNumber,
+    },
+    /// A cable is plugged in.
+    Plug {
+        /// Which one.
+        cable: CableNumber,
+    },
     /// Frames meet a fault.
     Disturb(Disturbance),
-    /// The cable in front of the unit at this position, or behind the last one.
-    Cable {
-        /// Counted from 0, the one to the master.
-        number: usize,
-        /// Whether it is plugged in.
-        plugged: bool,
-    },
     /// No frame meets a fault any more.
-    Quiet,
+    #[serde(with = "nothing")]
+    BeQuiet,
 }
 
 /// Which frames meet a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Disturbance {
     /// What happens to them.
     pub fault: FrameFault,
-    /// Of which kind they are.
-    pub kind: FrameKind,
-    /// Which of them.
-    pub choice: Choice,
+    /// Which ones.
+    pub frames: Frames,
 }
 
 /// What happens to a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum FrameFault {
     /// It gets lost on its way to the units.
     Lose,
     /// It passes the units, and its answer gets lost.
     LoseAnswer,
     /// It comes later.
-    Delay(Duration),
-    /// It comes twice.
+    Delay {
+        /// By this time.
+        #[serde(with = "text")]
+        by: Duration,
+    },
+    /// It passes the units twice.
     Duplicate,
     /// It ends early.
-    Truncate(usize),
-    /// A bit error on the cable in front of the unit at this position.
-    Corrupt(usize),
+    Cut {
+        /// It has as many bytes then.
+        length_bytes: u16,
+    },
+    /// A bit error on a cable.
+    Corrupt {
+        /// The cable in front of a unit.
+        cable: CableNumber,
+    },
     /// The working counters of its answer are one too low.
-    WorkingCounter,
+    LowerWorkingCounter,
 }
 
-/// Which frames a fault meets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Frames by their kind, and which of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Frames {
+    /// Of which kind they are.
+    #[serde(default)]
+    pub kind: FrameKind,
+    /// Which of them.
+    pub choice: Choice,
+}
+
+/// A kind of frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum FrameKind {
     /// All.
+    #[default]
     Any,
     /// Those of the cyclic exchange.
     ProcessData,
@@ -60,19 +92,20 @@ pub enum FrameKind {
 }
 
 /// Which frames of a kind.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Choice {
-    /// So many, beginning with the next one.
+    /// As many, beginning with the next one.
     Next(u64),
-    /// So many, behind so many others.
+    /// Some behind others.
     Behind {
-        /// Frames that are left alone first.
+        /// Frames that pass without a fault first.
         skip: u64,
         /// Frames that meet the fault then.
         count: u64,
     },
     /// All from now on.
     All,
-    /// Each with this probability, in per cent.
+    /// Each with this probability, in per cent, 1 to 100.
     Percent(u8),
 }

@@ -1,66 +1,74 @@
 //! Orders of the scripted master.
 
+use serde::{Deserialize, Serialize};
 use time::Duration;
 use wire::AlState;
 
-use super::units::UnitSet;
+use super::bytes::{Bytes, Entry};
+use super::names::state;
+use super::numbers::Hex;
+use super::spelling::{nothing, text};
+use super::units::{UnitNumber, UnitSet};
 
 /// What the scripted master does. It works off its orders one after the other, in virtual time.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum MasterOrder {
     /// Takes units to a state by the way of a real master.
-    Take(UnitSet, AlState),
-    /// Writes AL control once, whatever follows.
-    Request {
-        /// Of whom.
+    Take {
         units: UnitSet,
-        /// The state bits.
+        #[serde(with = "state")]
         state: AlState,
-        /// Bit 4.
+    },
+    /// Writes AL control once, with bit 4 for an acknowledge.
+    Request {
+        units: UnitSet,
+        #[serde(with = "state")]
+        state: AlState,
+        #[serde(default)]
         acknowledge: bool,
     },
-    /// Sets the cycle of the process data; they begin with SAFE-OP.
-    Exchange(Duration),
-    /// Sends no process data any more.
-    StopExchange,
-    /// Output bytes of a unit, from this place on.
-    SetOutputs(usize, usize, Vec<u8>),
+    /// Sets the cycle of the process data, which begin with SAFE-OP.
+    ExchangeProcessData {
+        #[serde(with = "text")]
+        every: Duration,
+    },
+    /// Sends no process data until they are exchanged again.
+    #[serde(with = "nothing")]
+    StopProcessData,
+    /// Output bytes of a unit from byte `at` on.
+    SetOutputs {
+        unit: UnitNumber,
+        #[serde(default)]
+        at: u16,
+        bytes: Bytes,
+    },
     /// Entries of a PDO, in force the next time that PRE-OP is passed.
-    Map(usize, u16, Vec<(u16, u8)>),
+    MapPdo { unit: UnitNumber, pdo: Hex<u16>, entries: Vec<Entry> },
     /// PDOs of an assignment object, in force the next time that PRE-OP is passed.
-    Assign(usize, u16, Vec<u16>),
+    AssignPdos { unit: UnitNumber, object: Hex<u16>, pdos: Vec<Hex<u16>> },
     /// Lets a SyncManager be set wrongly the next times: its length.
-    SyncManagerLength {
-        /// Of which unit.
-        unit: usize,
-        /// Which SyncManager.
-        number: u8,
-        /// The length in bytes.
-        length_bytes: u16,
-    },
+    SetSyncManagerLength { unit: UnitNumber, number: u8, length_bytes: u16 },
     /// Lets a SyncManager be set wrongly the next times: its control byte.
-    SyncManagerControl {
-        /// Of which unit.
-        unit: usize,
-        /// Which SyncManager.
-        number: u8,
-        /// The control byte.
-        control: u8,
-    },
+    SetSyncManagerControl { unit: UnitNumber, number: u8, control: Hex<u8> },
     /// An SDO download.
-    WriteSdo(usize, (u16, u8), Vec<u8>),
+    WriteSdo { unit: UnitNumber, entry: Entry, value: Bytes },
     /// An SDO upload.
-    ReadSdo(usize, (u16, u8)),
+    ReadSdo { unit: UnitNumber, entry: Entry },
     /// A write to the ESC.
-    WriteRegister(usize, u16, Vec<u8>),
+    WriteRegister { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
     /// A write to the ESC in two frames, one for each half.
-    WriteInHalves(usize, u16, Vec<u8>),
+    WriteRegisterInHalves { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
     /// Uses this mailbox counter from now on, instead of counting.
-    MailboxCounter(u8),
-    /// Lets the answers lie in the mailboxes.
+    UseMailboxCounter { counter: u8 },
+    /// Leaves the answers in the mailboxes.
+    #[serde(with = "nothing")]
     ReadNoMailbox,
     /// Does everything right again: counters, lengths, mailboxes.
+    #[serde(with = "nothing")]
     Behave,
-    /// Starts anew: forgets every order and what it has set.
+    /// Starts again: forgets every order and what it has set.
+    #[serde(with = "nothing")]
     Restart,
 }

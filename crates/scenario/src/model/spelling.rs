@@ -1,27 +1,134 @@
-//! Values as sentences write them.
+//! How single values are written: one spelling for files, JSON and sentences.
 
 use core::fmt;
+use core::str::FromStr;
 
-use wire::AlState;
+use serde::de::{self, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Bytes, such as `01 FF`.
-pub(crate) fn hex(bytes: &[u8]) -> String {
-    let words: Vec<String> = bytes.iter().map(|byte| format!("{byte:02X}")).collect();
-    if words.is_empty() { "nothing".to_owned() } else { words.join(" ") }
-}
+/// Why a text is no value: what was expected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotAValue(pub(super) &'static str);
 
-/// A state as a sentence names it.
-pub(crate) struct StateName(pub(crate) AlState);
-
-impl fmt::Display for StateName {
+impl fmt::Display for NotAValue {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.0 {
-            AlState::Init => formatter.write_str("INIT"),
-            AlState::PreOp => formatter.write_str("PRE-OP"),
-            AlState::SafeOp => formatter.write_str("SAFE-OP"),
-            AlState::Op => formatter.write_str("OP"),
-            AlState::Boot => formatter.write_str("BOOT"),
-            AlState::Other(bits) => write!(formatter, "{bits:#04X}"),
-        }
+        write!(formatter, "expected {}", self.0)
     }
 }
+
+impl core::error::Error for NotAValue {}
+
+/// A number in decimal, or in hexadecimal behind `0x` or `16#`.
+pub(crate) fn number(text: &str) -> Option<u64> {
+    match text.strip_prefix("0x").or_else(|| text.strip_prefix("16#")) {
+        Some(digits) => u64::from_str_radix(digits, 16).ok(),
+        None => text.parse().ok(),
+    }
+}
+
+/// At most so many hexadecimal digits, with `0x` in front or without.
+pub(crate) fn hexadecimal(text: &str, digits: usize) -> Option<u64> {
+    let bare = text.strip_prefix("0x").unwrap_or(text);
+    (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
+}
+
+/// A field that is written as a text.
+pub(super) mod text {
+    use super::*;
+
+    pub(crate) fn serialize<T: fmt::Display, S: Serializer>(
+        value: &T,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(value)
+    }
+
+    pub(crate) fn deserialize<'de, T: FromStr<Err: fmt::Display>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<T, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(|error| de::Error::custom(format_args!("`{text}`: {error}")))
+    }
+}
+
+/// The same, of a field that may be left out.
+pub(super) mod optional_text {
+    use super::*;
+
+    pub(crate) fn serialize<T: fmt::Display, S: Serializer>(
+        value: &Option<T>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        value.as_ref().map(ToString::to_string).serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, T: FromStr<Err: fmt::Display>, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<T>, D::Error> {
+        super::text::deserialize(deserializer).map(Some)
+    }
+}
+
+/// A variant without fields: `{ behave = {} }`, so that a text is always a sentence.
+pub(super) mod nothing {
+    use super::*;
+
+    #[derive(Serialize, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Nothing {}
+
+    pub(crate) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        Nothing {}.serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        Nothing::deserialize(deserializer).map(drop)
+    }
+}
+
+/// A value that is written as a text, and may be given as a number too.
+pub(super) struct TextOrNumber<T> {
+    pub(super) text: fn(&str) -> Option<T>,
+    pub(super) number: fn(u64) -> Option<T>,
+    pub(super) expected: &'static str,
+}
+
+impl<T> Visitor<'_> for TextOrNumber<T> {
+    type Value = T;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.expected)
+    }
+
+    fn visit_str<E: de::Error>(self, text: &str) -> Result<T, E> {
+        (self.text)(text).ok_or_else(|| E::invalid_value(de::Unexpected::Str(text), &self))
+    }
+
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<T, E> {
+        (self.number)(number).ok_or_else(|| E::invalid_value(de::Unexpected::Unsigned(number), &self))
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<T, E> {
+        let given = u64::try_from(number).ok().and_then(self.number);
+        given.ok_or_else(|| E::invalid_value(de::Unexpected::Signed(number), &self))
+    }
+}
+
+/// Types that are written as their text.
+macro_rules! by_text {
+    ($($type:ty)*) => {$(
+        impl serde::Serialize for $type {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $crate::model::spelling::text::serialize(self, serializer)
+            }
+        }
+
+        impl<'de> serde::Deserialize<'de> for $type {
+            fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                $crate::model::spelling::text::deserialize(deserializer)
+            }
+        }
+    )*};
+}
+
+pub(super) use by_text;

@@ -8,6 +8,25 @@ use super::line::LineOrder;
 use super::master::MasterOrder;
 use super::unit::UnitOrder;
 
+/// One step.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Step {
+    /// When it is due.
+    pub trigger: Trigger,
+    /// What it does.
+    pub order: Order,
+    /// How often it happens again; none: once.
+    pub repetition: Option<Repetition>,
+}
+
+impl Step {
+    /// A step that is due as soon as the one in front of it is done.
+    #[must_use]
+    pub const fn at_once(order: Order) -> Self {
+        Self { trigger: Trigger::AtOnce, order, repetition: None }
+    }
+}
+
 /// When a step is due; never before the step in front of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trigger {
@@ -15,12 +34,21 @@ pub enum Trigger {
     AtOnce,
     /// At this time from the beginning.
     At(Duration),
-    /// So long after the step in front of it.
+    /// This time after the step in front of it.
     After(Duration),
-    /// So long after the step in front of it, earlier or later by at most the second time, as the dice say.
-    About(Duration, Duration),
     /// As soon as this holds.
     When(Condition),
+}
+
+/// A step that happens several times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Repetition {
+    /// How often in all, 1 to 10,000.
+    pub times: u64,
+    /// From one time to the next.
+    pub every: Duration,
+    /// Each repetition comes earlier or later by at most this time, at most `every`.
+    pub jitter: Duration,
 }
 
 /// What one step does.
@@ -62,4 +90,28 @@ pub enum Mode {
     Until(Condition),
     /// At no moment until this holds.
     NeverUntil(Condition),
+}
+
+/// Steps that the dice write, in the place of this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RandomSteps {
+    /// How many, 1 to 10,000.
+    pub count: u64,
+    /// How long they take together, at most.
+    pub within: Duration,
+}
+
+/// What stands in the list of steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ScriptStep {
+    /// A step.
+    Step(Step),
+    /// Steps of the dice.
+    Random(RandomSteps),
+}
+
+impl From<Step> for ScriptStep {
+    fn from(step: Step) -> Self {
+        Self::Step(step)
+    }
 }

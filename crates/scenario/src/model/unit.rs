@@ -1,57 +1,94 @@
 //! What is done to a unit by hand, and how it behaves as a slave.
 
-use nx_ect101::{EventLog, Fault};
+use serde::{Deserialize, Serialize};
 use time::Duration;
 use wire::AlState;
 
-use super::units::UnitSet;
+use super::names::state;
+use super::numbers::Hex;
+use super::spelling::text;
+use super::units::{UnitNumber, UnitSet};
 
 /// What is done to a unit by hand.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum UnitOrder {
     /// Restart by support software.
-    Restart(UnitSet),
+    Restart { units: UnitSet },
     /// Off and on at once.
-    CyclePower(UnitSet),
+    CyclePower { units: UnitSet },
     /// Off.
-    PowerOff(UnitSet),
+    PowerOff { units: UnitSet },
     /// On.
-    PowerOn(UnitSet),
+    PowerOn { units: UnitSet },
     /// Resets the errors.
-    ResetErrors(UnitSet),
+    ResetErrors { units: UnitSet },
     /// Clears a log.
-    ClearLog(UnitSet, EventLog),
+    ClearEventLog { units: UnitSet, log: EventLog },
     /// Turns the ID switch.
-    SetIdSwitch(usize, u8),
+    SetIdSwitch { unit: UnitNumber, id: Hex<u8> },
     /// Flips every bit of a word of the EEPROM.
-    SpoilSii(usize, u16),
+    InvertSiiWord { unit: UnitNumber, word: u16 },
     /// Erases the EEPROM.
-    EraseSii(UnitSet),
+    EraseSii { units: UnitSet },
     /// Changes how it behaves as a slave.
-    Conduct(UnitSet, ConductOrder),
-    /// The cause of a fault appears.
-    Inject(UnitSet, Fault),
+    Conduct { units: UnitSet, conduct: ConductOrder },
+    /// The cause of a fault appears, by the name that the unit model gives it.
+    InjectFault { units: UnitSet, fault: String },
     /// The cause of a fault disappears.
-    Remove(UnitSet, Fault),
+    RemoveFault { units: UnitSet, fault: String },
 }
 
-/// How a unit behaves as a slave, until it is told otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// A log of events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventLog {
+    /// The system event log.
+    System,
+    /// The access event log.
+    Access,
+}
+
+/// How a unit behaves as a slave, until it is changed again.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum ConductOrder {
     /// Every transition takes this time.
-    EveryTransition(Duration),
+    EveryTransition {
+        #[serde(with = "text")]
+        time: Duration,
+    },
     /// The transition with these letters takes this time.
-    Transition(&'static str, Duration),
+    Transition {
+        transition: String,
+        #[serde(with = "text")]
+        time: Duration,
+    },
     /// Each SII command takes this time.
-    SiiTime(Duration),
+    SiiCommands {
+        #[serde(with = "text")]
+        time: Duration,
+    },
     /// The SII is busy for this time from now on.
-    SiiBusy(Duration),
+    SiiBusy {
+        #[serde(with = "text")]
+        time: Duration,
+    },
     /// An SDO is answered after this time.
-    SdoTime(Duration),
+    Sdos {
+        #[serde(with = "text")]
+        time: Duration,
+    },
     /// A state is refused with this AL status code.
-    Refuse(AlState, u16),
+    Refuse {
+        #[serde(with = "state")]
+        state: AlState,
+        al_status_code: Hex<u16>,
+    },
     /// The acknowledge of an error is ignored.
-    IgnoreAcknowledge,
+    IgnoreAcknowledges,
     /// Times are those of the unit file again, and nothing else is refused or ignored.
     Behave,
 }

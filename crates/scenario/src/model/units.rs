@@ -1,38 +1,144 @@
-//! Whom a sentence is about: units of the line, and who runs a user program.
+//! Whom a value is about: units and cables by their numbers in the line, and who runs a user program.
 
-/// Which units a sentence is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use core::fmt;
+use core::num::{NonZeroU16, NonZeroUsize};
+use core::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+/// The number of a unit: 1 for the one next to the master.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct UnitNumber(NonZeroUsize);
+
+impl UnitNumber {
+    /// The unit of this number; none for 0.
+    #[must_use]
+    pub const fn new(number: usize) -> Option<Self> {
+        match NonZeroUsize::new(number) {
+            Some(number) => Some(Self(number)),
+            None => None,
+        }
+    }
+
+    /// The unit at this position of the line, counted from 0.
+    #[must_use]
+    pub const fn at(position: usize) -> Self {
+        Self(NonZeroUsize::MIN.saturating_add(position))
+    }
+
+    /// Its position in the line, counted from 0.
+    #[must_use]
+    pub const fn position(self) -> usize {
+        self.0.get() - 1
+    }
+}
+
+impl fmt::Display for UnitNumber {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "unit {}", self.0)
+    }
+}
+
+/// Which units a value is about. In JSON `"all"`, or the number of the unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected \"all\" or the number of a unit, from 1")]
 pub enum UnitSet {
     /// All of them.
+    #[serde(with = "all")]
     All,
-    /// The one at this position, counted from 0.
-    One(usize),
+    /// This one.
+    One(UnitNumber),
 }
 
 impl UnitSet {
-    /// Positions of the units of a line of `count`.
-    pub fn positions(self, count: usize) -> core::ops::Range<usize> {
+    /// Positions of the units in a line of `count`, counted from 0.
+    #[must_use]
+    pub fn positions(self, count: usize) -> Range<usize> {
         match self {
             Self::All => 0..count,
-            Self::One(at) => at..(at + 1).min(count),
+            Self::One(unit) => unit.position()..(unit.position() + 1).min(count),
         }
     }
 }
 
-/// Whose user program it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+impl From<UnitNumber> for UnitSet {
+    fn from(unit: UnitNumber) -> Self {
+        Self::One(unit)
+    }
+}
+
+impl fmt::Display for UnitSet {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::All => formatter.write_str("all units"),
+            Self::One(unit) => unit.fmt(formatter),
+        }
+    }
+}
+
+/// The word for all units.
+mod all {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    enum Word {
+        #[serde(rename = "all")]
+        All,
+    }
+
+    pub(super) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
+        Word::All.serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
+        Word::deserialize(deserializer).map(drop)
+    }
+}
+
+/// The number of a cable: 1 for the one to the master, 2 for the one behind the first unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct CableNumber(NonZeroU16);
+
+impl CableNumber {
+    /// The cable of this number; none for 0.
+    #[must_use]
+    pub const fn new(number: u16) -> Option<Self> {
+        match NonZeroU16::new(number) {
+            Some(number) => Some(Self(number)),
+            None => None,
+        }
+    }
+
+    /// The position of the unit behind it, counted from 0.
+    #[must_use]
+    pub const fn position(self) -> usize {
+        self.0.get() as usize - 1
+    }
+
+    /// The number, from 1.
+    #[must_use]
+    pub const fn number(self) -> u16 {
+        self.0.get()
+    }
+}
+
+/// Whose user program it is. In JSON `"master"`, or `{ "unit": 1 }`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Controller {
     /// The master's own.
     Master,
-    /// That of the CPU Unit of the unit at this position, counted from 0.
-    Unit(usize),
+    /// That of the CPU Unit of this unit.
+    Unit(UnitNumber),
 }
 
-impl core::fmt::Display for Controller {
-    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+impl fmt::Display for Controller {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Master => formatter.write_str("the master"),
-            Self::Unit(at) => write!(formatter, "unit {}", at + 1),
+            Self::Unit(unit) => unit.fmt(formatter),
         }
     }
 }

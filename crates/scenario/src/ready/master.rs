@@ -1,122 +1,111 @@
 //! The master's own user program: its file, its device names, its period.
 
-use core::ops::Range;
-
 use nx_ect101::PdoSettings;
 use st::{TASK_PERIODS, is_task_period};
 use time::Duration;
-use toml::Spanned;
 
-use crate::file::{MasterEntry, Reader, StepEntry};
-use crate::model::MasterOrder;
+use super::maker::Maker;
+use super::problem::Part;
+use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber};
 use crate::run::{MasterProgram, MasterVariables, Node, changed_settings};
-use crate::words::{self, MASTER};
 
 /// Most characters of a device name.
 const NAME_MAX: usize = 127;
 
-impl Reader<'_> {
-    pub(crate) fn master_program(
+impl Maker<'_> {
+    pub(super) fn master_program(
         &mut self,
-        entry: Spanned<MasterEntry>,
-        steps: &[Spanned<StepEntry>],
+        master: &ScriptMaster,
+        steps: &[ScriptStep],
     ) -> Option<MasterProgram> {
-        let MasterEntry { program, device_names, task_period } = entry.into_inner();
-        let nodes = self.nodes(device_names)?;
-        let task_period = match task_period {
-            Some(period) => Some(self.task_period(&period)?),
-            None => None,
-        };
+        let nodes = self.nodes(&master.device_names)?;
+        if let Some(period) = master.task_period {
+            self.check_task_period(period)?;
+        }
         let variables = variables(&nodes, steps);
-        let (span, paths) = (program.span(), program.into_inner().list());
-        let sources = self.program_sources(&paths, span.clone())?;
-        match MasterProgram::compile(&paths.join(", "), sources, &variables, nodes, task_period) {
+        let paths = master.program.list();
+        let sources = self.program_sources(paths, Part::MasterProgram)?;
+        match MasterProgram::compile(&paths.join(", "), sources, &variables, nodes, master.task_period) {
             Ok(compiled) => Some(compiled),
             Err(problems) => {
-                self.refuse_program(span, &problems);
+                self.refuse_program(Part::MasterProgram, &problems);
                 None
             }
         }
     }
 
     /// The units as the program knows them.
-    fn nodes(&mut self, device_names: Option<Spanned<Vec<String>>>) -> Option<Vec<Node>> {
+    fn nodes(&mut self, device_names: &[String]) -> Option<Vec<Node>> {
         let addresses = self.node_addresses()?;
         let names = self.device_names(device_names, &addresses)?;
         let nodes = addresses.into_iter().zip(names).enumerate();
         Some(nodes.map(|(unit, (address, device_name))| Node { unit, address, device_name }).collect())
     }
 
-    /// A name for each unit: those that the file gives, then by the node address, such as E005.
-    fn device_names(
-        &mut self,
-        given: Option<Spanned<Vec<String>>>,
-        addresses: &[u16],
-    ) -> Option<Vec<String>> {
+    /// A name for each unit: those that the script gives, then by the node address, such as E005.
+    fn device_names(&mut self, given: &[String], addresses: &[u16]) -> Option<Vec<String>> {
         let count = addresses.len();
-        let (span, mut names) = match given {
-            Some(given) => (given.span(), given.into_inner()),
-            None => (0..0, Vec::new()),
-        };
-        if names.len() > count {
-            let message = format!("{} device names for {count} units", names.len());
-            self.refuse(span, message, "one for each unit at most, in the order of the line");
+        if given.len() > count {
+            let message = format!("{} device names for {count} units", given.len());
+            let help = "one for each unit at most, in the order of the line";
+            self.refuse(Part::DeviceNames, message, help);
             return None;
         }
-        let unnamed = addresses.iter().skip(names.len());
-        names.extend(unnamed.map(|address| format!("E{address:03}")).collect::<Vec<_>>());
-        self.check_names(&names, span).map(|()| names)
+        let unnamed = addresses.iter().skip(given.len()).map(|address| format!("E{address:03}"));
+        let names: Vec<String> = given.iter().cloned().chain(unnamed).collect();
+        self.check_names(&names).map(|()| names)
     }
 
-    fn check_names(&mut self, names: &[String], span: Range<usize>) -> Option<()> {
+    fn check_names(&mut self, names: &[String]) -> Option<()> {
         for (at, name) in names.iter().enumerate() {
             if !is_identifier(name) {
-                self.refuse(
-                    span,
-                    format!("`{name}` is no device name"),
-                    "letters, digits and _, such as E001",
-                );
+                let help = "letters, digits and _, such as E001";
+                self.refuse(Part::DeviceNames, format!("`{name}` is no device name"), help);
                 return None;
             }
             if names[..at].iter().any(|other| other.eq_ignore_ascii_case(name)) {
-                self.refuse(span, format!("two units have the device name {name}"), "");
+                self.refuse(Part::DeviceNames, format!("two units have the device name {name}"), "");
                 return None;
             }
         }
         Some(())
     }
 
-    fn task_period(&mut self, text: &Spanned<String>) -> Option<Duration> {
-        let period = self.duration(text)?;
+    fn check_task_period(&mut self, period: Duration) -> Option<()> {
         if !is_task_period(period.as_nanos()) {
             let message = format!("no CPU Unit has a task period of {period}");
-            self.refuse(text.span(), message, TASK_PERIODS);
+            self.refuse(Part::TaskPeriod, message, TASK_PERIODS);
             return None;
         }
-        Some(period)
+        Some(())
     }
 }
 
 /// The variables of all PDO entries that the master has by the factory setting, and by the orders of the steps.
-fn variables(nodes: &[Node], steps: &[Spanned<StepEntry>]) -> MasterVariables {
+fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
     let mut variables = MasterVariables::new();
     let mut settings = vec![PdoSettings::factory(); nodes.len()];
     for (node, settings) in nodes.iter().zip(&settings) {
         variables.add_slave(node, settings);
     }
-    for order in steps.iter().filter_map(master_order) {
-        let (MasterOrder::Map(unit, ..) | MasterOrder::Assign(unit, ..)) = order else { continue };
-        if let (Some(settings), Some(node)) = (settings.get_mut(unit), nodes.get(unit)) {
-            changed_settings(settings, &order);
+    for (unit, order) in steps.iter().filter_map(pdo_order) {
+        let at = unit.position();
+        if let (Some(settings), Some(node)) = (settings.get_mut(at), nodes.get(at)) {
+            changed_settings(settings, order);
             variables.add_slave(node, settings);
         }
     }
     variables
 }
 
-fn master_order(step: &Spanned<StepEntry>) -> Option<MasterOrder> {
-    let text = step.get_ref().master.as_ref()?;
-    words::read(MASTER, text.get_ref()).ok()
+/// An order that changes the PDO settings of a unit.
+fn pdo_order(step: &ScriptStep) -> Option<(UnitNumber, &MasterOrder)> {
+    let ScriptStep::Step(step) = step else { return None };
+    let Order::Master(order) = &step.order else { return None };
+    let (MasterOrder::MapPdo { unit, .. } | MasterOrder::AssignPdos { unit, .. }) = order else {
+        return None;
+    };
+    Some((*unit, order))
 }
 
 fn is_identifier(name: &str) -> bool {

@@ -2,10 +2,11 @@
 
 use nx_ect101::UnitSettings;
 
-use crate::file::Reader;
+use super::maker::Maker;
+use super::problem::Part;
 use crate::run::NODE_ADDRESS_MAX;
 
-impl Reader<'_> {
+impl Maker<'_> {
     /// The node address of each unit, in the order of the line. Refuses IDs that are missing, equal, or no node
     /// address, each with its unit.
     pub(super) fn node_addresses(&mut self) -> Option<Vec<u16>> {
@@ -15,8 +16,7 @@ impl Reader<'_> {
         let problems: Vec<_> = problems.collect();
         let are_right = problems.is_empty();
         for (at, message) in problems {
-            let span = self.unit_spans.get(at).cloned().unwrap_or_default();
-            self.refuse(span, message, way_out(&ids));
+            self.refuse(Part::Unit(at), message, way_out(&ids));
         }
         are_right.then_some(ids)
     }

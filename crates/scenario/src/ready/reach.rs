@@ -1,62 +1,133 @@
 //! Which units an order is about, so that it can be told whether they are there.
 
-use crate::model::{CpuOrder, MasterOrder, UnitOrder, UnitSet};
+use crate::model::{Condition, Controller, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitOrder, UnitSet};
 
-pub(crate) fn line_of(units: usize) -> String {
+pub(super) fn line_of(units: usize) -> String {
     format!("the line has {units} unit{}, counted from 1", if units == 1 { "" } else { "s" })
 }
 
 impl UnitSet {
-    pub(crate) const fn exists(self, count: usize) -> bool {
+    pub(super) const fn exists(self, count: usize) -> bool {
         match self {
             Self::All => true,
-            Self::One(at) => at < count,
+            Self::One(unit) => unit.position() < count,
         }
     }
 }
 
-pub(crate) fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
+pub(super) fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
     match order {
-        MasterOrder::Take(units, _) | MasterOrder::Request { units, .. } => Some(*units),
-        MasterOrder::SetOutputs(unit, ..)
-        | MasterOrder::Map(unit, ..)
-        | MasterOrder::Assign(unit, ..)
-        | MasterOrder::SyncManagerLength { unit, .. }
-        | MasterOrder::SyncManagerControl { unit, .. }
-        | MasterOrder::WriteSdo(unit, ..)
-        | MasterOrder::ReadSdo(unit, _)
-        | MasterOrder::WriteInHalves(unit, ..)
-        | MasterOrder::WriteRegister(unit, ..) => Some(UnitSet::One(*unit)),
-        _ => None,
+        MasterOrder::Take { units, .. } | MasterOrder::Request { units, .. } => Some(*units),
+        MasterOrder::SetOutputs { unit, .. }
+        | MasterOrder::MapPdo { unit, .. }
+        | MasterOrder::AssignPdos { unit, .. }
+        | MasterOrder::SetSyncManagerLength { unit, .. }
+        | MasterOrder::SetSyncManagerControl { unit, .. }
+        | MasterOrder::WriteSdo { unit, .. }
+        | MasterOrder::ReadSdo { unit, .. }
+        | MasterOrder::WriteRegisterInHalves { unit, .. }
+        | MasterOrder::WriteRegister { unit, .. } => Some(UnitSet::One(*unit)),
+        MasterOrder::ExchangeProcessData { .. }
+        | MasterOrder::StopProcessData
+        | MasterOrder::UseMailboxCounter { .. }
+        | MasterOrder::ReadNoMailbox
+        | MasterOrder::Behave
+        | MasterOrder::Restart => None,
     }
 }
 
-pub(crate) fn unit_of_unit(order: &UnitOrder) -> UnitSet {
+pub(super) fn unit_of_unit(order: &UnitOrder) -> UnitSet {
     match order {
-        UnitOrder::Restart(units)
-        | UnitOrder::CyclePower(units)
-        | UnitOrder::PowerOff(units)
-        | UnitOrder::PowerOn(units)
-        | UnitOrder::ResetErrors(units)
-        | UnitOrder::ClearLog(units, _)
-        | UnitOrder::EraseSii(units)
-        | UnitOrder::Conduct(units, _)
-        | UnitOrder::Inject(units, _)
-        | UnitOrder::Remove(units, _) => *units,
-        UnitOrder::SetIdSwitch(unit, _) | UnitOrder::SpoilSii(unit, _) => UnitSet::One(*unit),
+        UnitOrder::Restart { units }
+        | UnitOrder::CyclePower { units }
+        | UnitOrder::PowerOff { units }
+        | UnitOrder::PowerOn { units }
+        | UnitOrder::ResetErrors { units }
+        | UnitOrder::ClearEventLog { units, .. }
+        | UnitOrder::EraseSii { units }
+        | UnitOrder::Conduct { units, .. }
+        | UnitOrder::InjectFault { units, .. }
+        | UnitOrder::RemoveFault { units, .. } => *units,
+        UnitOrder::SetIdSwitch { unit, .. } | UnitOrder::InvertSiiWord { unit, .. } => UnitSet::One(*unit),
     }
 }
 
-pub(crate) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
+pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
     match order {
-        CpuOrder::SetMode(units, _)
-        | CpuOrder::SetIoRefreshing(units, _)
-        | CpuOrder::SetTaskRunning(units, _)
-        | CpuOrder::ReleaseAll(units)
-        | CpuOrder::ResetNxBus(units)
-        | CpuOrder::CycleRackPower(units)
-        | CpuOrder::JumpTime(units, _) => Some(*units),
-        CpuOrder::SetInputs(unit, _) | CpuOrder::Load { unit, .. } => Some(UnitSet::One(*unit)),
-        CpuOrder::Force { .. } | CpuOrder::Write { .. } | CpuOrder::Release(_) => None,
+        CpuOrder::SetMode { units, .. }
+        | CpuOrder::StopIoRefreshing { units }
+        | CpuOrder::StartIoRefreshing { units }
+        | CpuOrder::StopTask { units }
+        | CpuOrder::StartTask { units }
+        | CpuOrder::ReleaseAll { units }
+        | CpuOrder::ResetNxBusErrors { units }
+        | CpuOrder::CycleRackPower { units }
+        | CpuOrder::JumpSystemTime { units, .. } => Some(*units),
+        CpuOrder::SetInputs { unit, .. } | CpuOrder::Load { unit, .. } => Some(UnitSet::One(*unit)),
+        CpuOrder::Force { .. } | CpuOrder::Write { .. } | CpuOrder::Release { .. } => None,
+    }
+}
+
+/// Whether the cable that an order names is there.
+pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
+    match order {
+        // There is a cable behind the last unit too.
+        LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() <= units,
+        LineOrder::Disturb(disturbance) => match disturbance.fault {
+            FrameFault::Corrupt { cable } => cable.position() < units,
+            FrameFault::Lose
+            | FrameFault::LoseAnswer
+            | FrameFault::Delay { .. }
+            | FrameFault::Duplicate
+            | FrameFault::Cut { .. }
+            | FrameFault::LowerWorkingCounter => true,
+        },
+        LineOrder::BeQuiet => true,
+    }
+}
+
+/// Whom a condition is about.
+pub(super) enum Subject {
+    Units(UnitSet),
+    Controller(Controller),
+    Variable,
+    Masters,
+}
+
+pub(super) fn subject(condition: &Condition) -> Subject {
+    match condition {
+        Condition::State { units, .. }
+        | Condition::Recorded { units, .. }
+        | Condition::RecordedNothing { units }
+        | Condition::HasError { units, .. }
+        | Condition::HasNoError { units }
+        | Condition::NewMessages { units, .. }
+        | Condition::DataValid { units, .. }
+        | Condition::DirectionValid { units, .. }
+        | Condition::IoDataActive { units, .. }
+        | Condition::UnitError { units, .. }
+        | Condition::Indicator { units, .. } => Subject::Units(*units),
+        Condition::Object { unit, .. }
+        | Condition::Register { unit, .. }
+        | Condition::Outputs { unit, .. }
+        | Condition::Inputs { unit, .. }
+        | Condition::WorkingCounter { unit, .. } => Subject::Units(UnitSet::One(*unit)),
+        Condition::ProgramVariable { controller, .. }
+        | Condition::UserDefinedError { controller, .. }
+        | Condition::NoUserDefinedError { controller }
+        | Condition::TaskOverrun { controller }
+        | Condition::NoTaskOverrun { controller }
+        | Condition::ProgramError { controller, .. }
+        | Condition::NoProgramError { controller } => Subject::Controller(*controller),
+        Condition::VariableBytes { .. } | Condition::VariableValue { .. } => Subject::Variable,
+        Condition::Cycles { .. }
+        | Condition::MasterIdle
+        | Condition::MasterGaveUp
+        | Condition::SdoRefused { .. }
+        | Condition::SdoGave { .. }
+        | Condition::SdoTaken
+        | Condition::Emergency { .. }
+        | Condition::CaptureReplayed
+        | Condition::AnswersDiffer { .. } => Subject::Masters,
     }
 }

@@ -40,17 +40,16 @@ impl Line {
     /// The faults that a frame of this kind meets, in the order in which they were told.
     pub(crate) fn faults(&mut self, kind: FrameKind) -> Vec<FrameFault> {
         let Self { dice, disturbances, .. } = self;
-        let meant = |disturbance: &&mut Disturbance| {
-            matches!(disturbance.kind, FrameKind::Any) || disturbance.kind == kind
-        };
+        let meant =
+            |disturbance: &&mut Disturbance| [FrameKind::Any, kind].contains(&disturbance.frames.kind);
         let mut faults = Vec::new();
         for disturbance in disturbances.iter_mut().filter(meant) {
-            let meets = match &mut disturbance.choice {
+            let meets = match &mut disturbance.frames.choice {
                 Choice::All => true,
                 Choice::Percent(percent) => dice.hits(*percent),
                 Choice::Next(0) => false,
                 Choice::Behind { skip: 0, count } => {
-                    disturbance.choice = Choice::Next(count.saturating_sub(1));
+                    disturbance.frames.choice = Choice::Next(count.saturating_sub(1));
                     true
                 }
                 Choice::Behind { skip, .. } => {
@@ -66,7 +65,7 @@ impl Line {
                 faults.push(disturbance.fault);
             }
         }
-        disturbances.retain(|disturbance| disturbance.choice != Choice::Next(0));
+        disturbances.retain(|disturbance| disturbance.frames.choice != Choice::Next(0));
         faults
     }
 

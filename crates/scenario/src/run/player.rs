@@ -2,15 +2,16 @@
 
 use time::{Duration, Instant};
 
+use super::check::{Seen, check};
 use super::dice::{DICE_OF_STEPS, Dice};
 use super::recording::Recording;
 use super::report::{Failure, Report};
-use super::scenario::{Scenario, Step};
+use super::scenario::{Scenario, WrittenStep};
 use super::world::{QUIET_STEP, World};
-use crate::model::{Condition, Expectation, Mode, Order, Trigger};
+use crate::model::{Condition, Expectation, Mode, Order, Repetition, Trigger};
 
 /// Replays these steps with the units of a scenario.
-pub(crate) fn play(scenario: &Scenario, steps: &[Step], seed: u64, recording: Recording) -> Report {
+pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, recording: Recording) -> Report {
     let world = World::power_on(scenario, seed, recording);
     let (dice, limit) = (Dice::new(seed ^ DICE_OF_STEPS), Instant::ZERO + scenario.limit);
     let mut replay = Replay { world, dice, watches: Vec::new(), current: None, limit };
@@ -33,16 +34,35 @@ struct Replay<'a> {
     /// Expectations that last.
     watches: Vec<Watch<'a>>,
     /// The step that is being done.
-    current: Option<&'a Step>,
+    current: Option<&'a WrittenStep>,
     limit: Instant,
 }
 
 /// An expectation that is looked at after everything that happens.
 struct Watch<'a> {
-    step: &'a Step,
-    expectation: &'a Expectation,
+    step: &'a WrittenStep,
+    condition: &'a Condition,
+    wanted: Wanted,
     /// The moment at which it is decided.
     until: Instant,
+}
+
+/// Whether a condition has to hold.
+#[derive(Clone, Copy)]
+enum Wanted {
+    Always,
+    Never,
+}
+
+impl Wanted {
+    /// What is wrong with how a condition is now.
+    fn judge(self, checked: Result<(), Seen>) -> Result<(), Seen> {
+        match (self, checked) {
+            (Self::Always, checked) => checked,
+            (Self::Never, Err(_)) => Ok(()),
+            (Self::Never, Ok(())) => Err("it does hold".to_owned()),
+        }
+    }
 }
 
 /// Whether a watch goes on.
@@ -54,45 +74,52 @@ enum Watched {
 type Verdict<T = ()> = Result<T, Failure>;
 
 impl<'a> Replay<'a> {
-    fn step(&mut self, step: &'a Step) -> Verdict {
+    fn step(&mut self, step: &'a WrittenStep) -> Verdict {
         self.current = Some(step);
         self.wait(step)?;
-        if !matches!(step.order, Order::Expect(_)) {
-            let now = self.world.now();
-            self.world.recording().tell(now, "step", &step.text);
-        }
-        match &step.order {
+        self.perform(step)?;
+        let Some(repetition) = step.step.repetition else { return Ok(()) };
+        (1..repetition.times).try_for_each(|_| {
+            self.wait_again(repetition)?;
+            self.perform(step)
+        })
+    }
+
+    fn perform(&mut self, step: &'a WrittenStep) -> Verdict {
+        match &step.step.order {
             Order::Master(order) => {
+                self.tell(step);
                 let now = self.world.now();
                 self.world.master_mut().order(order.clone(), now);
                 self.run_until(now)
             }
-            Order::Unit(order) => self.then(|world| world.unit_order(order)),
-            Order::Cpu(order) => self.then(|world| world.cpu_order(order)),
-            Order::Line(order) => self.then(|world| world.line_order(order)),
+            Order::Unit(order) => self.then(step, |world| world.unit_order(order)),
+            Order::Cpu(order) => self.then(step, |world| world.cpu_order(order)),
+            Order::Line(order) => self.then(step, |world| world.line_order(order)),
             Order::Expect(expectation) => self.expect(step, expectation),
         }
     }
 
-    fn then(&mut self, act: impl FnOnce(&mut World)) -> Verdict {
+    fn tell(&mut self, step: &WrittenStep) {
+        let now = self.world.now();
+        self.world.recording().tell(now, "step", &step.text);
+    }
+
+    fn then(&mut self, step: &WrittenStep, act: impl FnOnce(&mut World)) -> Verdict {
+        self.tell(step);
         act(&mut self.world);
         self.look()
     }
 
     /// Until the step is due.
-    fn wait(&mut self, step: &'a Step) -> Verdict {
+    fn wait(&mut self, step: &'a WrittenStep) -> Verdict {
         let now = self.world.now();
-        match &step.trigger {
+        match &step.step.trigger {
             Trigger::AtOnce => Ok(()),
             Trigger::At(at) => self.run_until(Instant::ZERO + *at),
             Trigger::After(after) => self.run_until(now + *after),
-            Trigger::About(after, jitter) => {
-                let early = Duration::from_nanos(after.as_nanos().saturating_sub(jitter.as_nanos()));
-                let more = self.dice.below(jitter.as_nanos() * 2 + 1);
-                self.run_until(now + early + Duration::from_nanos(more))
-            }
             Trigger::When(condition) => loop {
-                let seen = match condition.check(&mut self.world) {
+                let seen = match check(condition, &mut self.world) {
                     Ok(()) => return Ok(()),
                     Err(seen) => seen,
                 };
@@ -105,27 +132,41 @@ impl<'a> Replay<'a> {
         }
     }
 
-    fn expect(&mut self, step: &'a Step, expectation: &'a Expectation) -> Verdict {
+    /// Until a step is due once more; the dice decide how much earlier or later.
+    fn wait_again(&mut self, Repetition { every, jitter, .. }: Repetition) -> Verdict {
         let now = self.world.now();
-        let until = match &expectation.mode {
-            Mode::Now => {
-                let checked = expectation.condition.check(&mut self.world);
-                return checked.map_err(|seen| failure(step, now, seen));
+        if jitter.is_zero() {
+            return self.run_until(now + every);
+        }
+        let early = Duration::from_nanos(every.as_nanos().saturating_sub(jitter.as_nanos()));
+        let more = self.dice.below(jitter.as_nanos() * 2 + 1);
+        self.run_until(now + early + Duration::from_nanos(more))
+    }
+
+    fn expect(&mut self, step: &'a WrittenStep, expectation: &'a Expectation) -> Verdict {
+        let now = self.world.now();
+        let condition = &expectation.condition;
+        match &expectation.mode {
+            Mode::Now => check(condition, &mut self.world).map_err(|seen| failure(step, now, seen)),
+            Mode::Within(limit) => self.expect_within(step, condition, now + *limit),
+            Mode::For(span) => {
+                let until = now + *span;
+                self.watches.push(Watch { step, condition, wanted: Wanted::Always, until });
+                self.run_until(until)
             }
-            Mode::Within(limit) => return self.expect_within(step, expectation, now + *limit),
-            Mode::For(span) => now + *span,
-            Mode::Never => Instant::NEVER,
-            Mode::Until(until) => return self.expect_until(step, &expectation.condition, until, true),
-            Mode::NeverUntil(until) => return self.expect_until(step, &expectation.condition, until, false),
-        };
-        self.watches.push(Watch { step, expectation, until });
-        if expectation.mode == Mode::Never { self.look() } else { self.run_until(until) }
+            Mode::Never => {
+                self.watches.push(Watch { step, condition, wanted: Wanted::Never, until: Instant::NEVER });
+                self.look()
+            }
+            Mode::Until(until) => self.expect_until(step, condition, until, Wanted::Always),
+            Mode::NeverUntil(until) => self.expect_until(step, condition, until, Wanted::Never),
+        }
     }
 
     /// Time passes until it holds.
-    fn expect_within(&mut self, step: &'a Step, expectation: &'a Expectation, until: Instant) -> Verdict {
+    fn expect_within(&mut self, step: &'a WrittenStep, condition: &Condition, until: Instant) -> Verdict {
         loop {
-            let Err(seen) = expectation.condition.check(&mut self.world) else { return Ok(()) };
+            let Err(seen) = check(condition, &mut self.world) else { return Ok(()) };
             if self.world.now() >= until {
                 return Err(failure(step, self.world.now(), seen));
             }
@@ -136,19 +177,16 @@ impl<'a> Replay<'a> {
     /// Time passes until `until` holds; so long the condition has to hold, or must not.
     fn expect_until(
         &mut self,
-        step: &'a Step,
+        step: &'a WrittenStep,
         condition: &Condition,
         until: &Condition,
-        wanted: bool,
+        wanted: Wanted,
     ) -> Verdict {
         loop {
-            let Err(waiting) = until.check(&mut self.world) else { return Ok(()) };
+            let Err(waiting) = check(until, &mut self.world) else { return Ok(()) };
             let now = self.world.now();
-            match (condition.check(&mut self.world), wanted) {
-                (Err(seen), true) => return Err(failure(step, now, seen)),
-                (Ok(()), false) => return Err(failure(step, now, "it does hold".to_owned())),
-                _ => {}
-            }
+            let judged = wanted.judge(check(condition, &mut self.world));
+            judged.map_err(|seen| failure(step, now, seen))?;
             if now >= self.limit {
                 return Err(failure(step, now, format!("`until` waits in vain until the limit: {waiting}")));
             }
@@ -201,15 +239,11 @@ impl Watch<'_> {
         if now >= self.until {
             return Ok(Watched::Satisfied);
         }
-        let holds = self.expectation.condition.check(world);
-        match (&self.expectation.mode, holds) {
-            (Mode::Never, Ok(())) => Err(failure(self.step, now, "it does hold".to_owned())),
-            (Mode::For(_), Err(seen)) => Err(failure(self.step, now, seen)),
-            _ => Ok(Watched::Open),
-        }
+        let judged = self.wanted.judge(check(self.condition, world));
+        judged.map(|()| Watched::Open).map_err(|seen| failure(self.step, now, seen))
     }
 }
 
-fn failure(step: &Step, at: Instant, seen: String) -> Failure {
+fn failure(step: &WrittenStep, at: Instant, seen: String) -> Failure {
     Failure { line: step.line, text: step.text.clone(), at: at.saturating_since(Instant::ZERO), seen }
 }

@@ -7,7 +7,7 @@ use time::Duration;
 use super::master::MasterProgram;
 use super::programs::{LoadedProgram, ProgramFile};
 use super::recorded::{NotReplayable, RecordedFrames};
-use crate::model::{Order, Trigger};
+use crate::model::Step;
 
 /// A scenario, ready to be replayed.
 #[derive(Clone, Debug)]
@@ -29,7 +29,7 @@ pub struct Scenario {
     /// Programs that steps load into CPU Units.
     pub(crate) programs: Vec<LoadedProgram>,
     /// What happens, in this order.
-    pub steps: Vec<Step>,
+    pub steps: Vec<WrittenStep>,
     /// The capture whose frames a recorded master sends, as the file names it.
     pub capture: Option<String>,
     /// Its frames, once [`Scenario::load_capture`] has read them.
@@ -99,15 +99,13 @@ impl UserProgram {
     }
 }
 
-/// One step.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// When it is due.
-    pub trigger: Trigger,
-    /// What it does.
-    pub order: Order,
-    /// Its line in the file, from 1.
+/// One step, and how it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenStep {
+    /// The step.
+    pub step: Step,
+    /// Its line in the file, from 1; of a script that is no file, its number.
     pub line: usize,
-    /// Its words.
+    /// The sentence of the order or of the condition, as it was written.
     pub text: String,
 }

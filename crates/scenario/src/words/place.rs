@@ -7,7 +7,7 @@ use time::Duration;
 use super::value::Value;
 use read::{
     bytes, choice, controller, entries, entry, event, fault, frames, indicator, limited, number, numbers,
-    one, pattern, percent, position, state, transition, unit, units,
+    one, pattern, percent, position, state, transition, unit, units, user_error,
 };
 
 /// A kind of place.
@@ -62,13 +62,11 @@ const fn place(
 const PLACES: &[Place] = &[
     place("units", "`all units`, or `unit` and its number", units),
     place("unit", "`unit` and its number, 1 for the one next to the master", |words| {
-        unit(words).map(|at| (Value::Unit(at), 2))
+        unit(words).map(|unit| (Value::Unit(unit), 2))
     }),
     place("state", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| one(words, state)),
     place("transition", "a transition by its letters, such as IP, PS or SO", |words| one(words, transition)),
-    place("number", "a number such as 12 or 0x0C", |words| {
-        one(words, |word| number(word).map(Value::Number))
-    }),
+    place("number", "a number such as 12 or 0x0C", |words| one(words, number)),
     place("byte", "a number from 0 to 255 such as 0x2A", |words| limited(words, 0, 0xFF)),
     place("word", "a number from 0 to 65535 such as 0x0120", |words| limited(words, 0, 0xFFFF)),
     place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),
@@ -84,9 +82,7 @@ const PLACES: &[Place] = &[
         one(words, |word| word.parse().ok().map(Value::Duration))
     }),
     place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
-    place("entry", "an entry of an object such as 10F3:05", |words| {
-        one(words, |word| entry(word).map(Value::Entry))
-    }),
+    place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),
     place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
     place("numbers", "PDO numbers such as 1601 1602, hexadecimal", numbers),
     place("event", "an event code of eight hexadecimal digits such as 85000000", |words| one(words, event)),
@@ -104,7 +100,7 @@ const PLACES: &[Place] = &[
         fitting: |words| choice(words).map_or(0, |(_, length)| length),
     },
     place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
-        one(words, |word| word.contains('_').then(|| Value::Variable(word.to_owned())))
+        one(words, |word| word.contains('_').then(|| Value::Text(word.to_owned())))
     }),
     place(
         "controller",
@@ -112,10 +108,10 @@ const PLACES: &[Place] = &[
         controller,
     ),
     place("name", "the name of a variable of a program, such as counter, Main.counter or timer.Q", |words| {
-        one(words, |word| Some(Value::Name(word.to_owned())))
+        one(words, |word| Some(Value::Text(word.to_owned())))
     }),
     place("program", "the path of a program, without spaces, such as programs/a-3-3.st", |words| {
-        one(words, |word| Some(Value::Name(word.to_owned())))
+        one(words, |word| Some(Value::Text(word.to_owned())))
     }),
     place(
         "value",
@@ -123,7 +119,7 @@ const PLACES: &[Place] = &[
         |words| (!words.is_empty()).then(|| (Value::Text(words.join(" ")), words.len())),
     ),
     place("error", "the code of a user-defined error from 1 to 40000, such as 16#101", |words| {
-        limited(words, 1, 40_000)
+        one(words, user_error)
     }),
     place("position", "line and column, both from 1, such as 5:9", |words| one(words, position)),
 ];

@@ -1,13 +1,13 @@
 //! Sentences: the one grammar of steps, as tables of patterns.
 //!
-//! A pattern is words and places, such as `take {units} to {state}`. A table of them reads text, gives the
-//! reference of the language, and names the nearest sentence when none fits.
+//! A pattern is words and places, such as `take {units} to {state}`. A table of them reads text, writes values, gives
+//! the reference of the language, and names the nearest sentence when none fits.
 
 use core::fmt;
 
 use super::place::Place;
 use super::value::Value;
-use crate::model;
+use crate::model::UnitSet;
 
 /// A row of a table: a sentence of the language.
 pub struct Sentence<T> {
@@ -17,23 +17,39 @@ pub struct Sentence<T> {
     pub example: &'static str,
     /// What it means.
     pub meaning: &'static str,
-    /// What it makes of the values of its places, in their order.
-    pub build: fn(&Values) -> T,
+    /// The typed value, of what its places have read, in their order.
+    pub(super) build: fn(&[Value]) -> Option<T>,
+    /// What its places have for a typed value; none if the value has another sentence.
+    pub(super) take_apart: fn(&T) -> Option<Vec<Value>>,
 }
 
-/// A row of a table.
-pub(crate) const fn row<T>(
-    pattern: &'static str,
-    example: &'static str,
-    meaning: &'static str,
-    build: fn(&Values) -> T,
-) -> Sentence<T> {
-    Sentence { pattern, example, meaning, build }
+/// A row of a table: pattern, example, meaning, and the typed value with the fields that the places have, in their
+/// order. The value is read by the row and written by it.
+macro_rules! row {
+    ($pattern:literal, $example:literal, $meaning:literal, || $($value:tt)+) => {
+        $crate::words::sentence::row!($pattern, $example, $meaning, | | $($value)+)
+    };
+    ($pattern:literal, $example:literal, $meaning:literal, |$($field:ident),*| $($value:tt)+) => {
+        $crate::words::sentence::Sentence {
+            pattern: $pattern,
+            example: $example,
+            meaning: $meaning,
+            build: |values| match values {
+                [$($field),*] => {
+                    $(let $field = $crate::words::value::Field::of($field)?;)*
+                    Some($($value)+)
+                }
+                _ => None,
+            },
+            take_apart: |value| match value {
+                $($value)+ => Some(vec![$($crate::words::value::Field::value($field)),*]),
+                _ => None,
+            },
+        }
+    };
 }
 
-/// The values of the places of one sentence.
-#[derive(Debug, Default)]
-pub struct Values(Vec<Value>);
+pub(super) use row;
 
 /// Why a text is no sentence of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,6 +64,9 @@ pub struct NoSentence {
 ///
 /// # Errors
 /// No row fits: what is wrong with the row that fits furthest.
+///
+/// # Panics
+/// If a row has other fields than its pattern has places: the tables are ours, and a test reads every example.
 pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
     try_read(table, text).map_err(|misfit| misfit.words())
 }
@@ -59,7 +78,10 @@ pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result
     let mut furthest_reached = 0;
     for sentence in table {
         match fit(sentence.pattern, &words) {
-            Ok(values) => return Ok((sentence.build)(&values)),
+            Ok(values) => match (sentence.build)(&values) {
+                Some(value) => return Ok(value),
+                None => panic!("`{}` has other places than its value", sentence.pattern),
+            },
             Err((reached, problem)) if reached > furthest_reached => {
                 (furthest, furthest_reached) = (Some((sentence, problem)), reached);
             }
@@ -67,6 +89,44 @@ pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result
         }
     }
     Err(Misfit { table, text, furthest })
+}
+
+/// The row that reads a sentence.
+#[must_use]
+pub fn row_of<'t, T>(table: &'t [Sentence<T>], text: &str) -> Option<&'t Sentence<T>> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    table.iter().find(|sentence| fit(sentence.pattern, &words).is_ok())
+}
+
+/// The sentence of a value. Of several that mean the same it is the one whose verb agrees with the units, else the
+/// first. None if the table has none, which a test rules out.
+pub(super) fn say<T>(table: &[Sentence<T>], value: &T) -> Option<String> {
+    let said = table.iter().filter_map(|row| (row.take_apart)(value).map(|values| (row.pattern, values)));
+    let said: Vec<_> = said.collect();
+    let agreeing = said.iter().find(|(pattern, values)| agrees(pattern, values));
+    agreeing.or(said.first()).map(|(pattern, values)| fill(pattern, values))
+}
+
+/// `unit 1 is`, `all units are`.
+fn agrees(pattern: &str, values: &[Value]) -> bool {
+    let subject = pattern.split_whitespace().next().filter(|first| *first == "{units}");
+    let (Some(_), Some(Value::Units(units))) = (subject, values.first()) else { return true };
+    let is_plural = pattern.split_whitespace().nth(1).is_some_and(|verb| ["are", "have"].contains(&verb));
+    is_plural == (*units == UnitSet::All)
+}
+
+fn fill(pattern: &str, values: &[Value]) -> String {
+    let mut values = values.iter();
+    let words = pattern.split_whitespace().map(|part| match place(part).and_then(|_| values.next()) {
+        Some(value) => value.to_string(),
+        None => part.to_owned(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// The name of the place that a part of a pattern is.
+fn place(part: &str) -> Option<&str> {
+    part.strip_prefix('{')?.strip_suffix('}')
 }
 
 /// A text that is no sentence of a table.
@@ -124,12 +184,12 @@ impl fmt::Display for Problem<'_> {
 }
 
 /// Reads words by a pattern; else how many words fitted, and what the next one lacks.
-pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Values, (usize, Problem<'a>)> {
+pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Vec<Value>, (usize, Problem<'a>)> {
     let mut values = Vec::new();
     let mut at = 0;
     for part in pattern.split_whitespace() {
         let rest = words.get(at..).unwrap_or_default();
-        match part.strip_prefix('{').and_then(|part| part.strip_suffix('}')) {
+        match place(part) {
             None if rest.first() == Some(&part) => at += 1,
             None => return Err((at, Problem::Expected { word: part, found: rest.first().copied() })),
             Some(name) => {
@@ -141,73 +201,7 @@ pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Values
         }
     }
     match words.get(at) {
-        None => Ok(Values(values)),
+        None => Ok(values),
         Some(word) => Err((at, Problem::More(word))),
     }
-}
-
-macro_rules! value {
-    ($(#[doc = $doc:literal] $name:ident: $variant:ident -> $type:ty;)*) => {
-        /// The values by place. A row asks for what its pattern has.
-        ///
-        /// # Panics
-        /// If it asks for another: the tables are ours, and a test reads every example.
-        impl Values {
-            $(
-                #[doc = $doc]
-                #[must_use]
-                pub fn $name(&self, at: usize) -> $type {
-                    match self.0.get(at) {
-                        Some(Value::$variant(value)) => value.clone(),
-                        other => panic!("place {at} of the pattern is {other:?}"),
-                    }
-                }
-            )*
-        }
-    };
-}
-
-value! {
-    /// Which units.
-    units: Units -> model::UnitSet;
-    /// One unit, counted from 0.
-    unit: Unit -> usize;
-    /// A state.
-    state: State -> wire::AlState;
-    /// The letters of a transition.
-    transition: Transition -> &'static str;
-    /// A number.
-    number: Number -> u64;
-    /// A span of time.
-    duration: Duration -> time::Duration;
-    /// Bytes.
-    bytes: Bytes -> Vec<u8>;
-    /// An entry of an object.
-    entry: Entry -> (u16, u8);
-    /// Entries of objects.
-    entries: Entries -> Vec<(u16, u8)>;
-    /// Numbers.
-    numbers: Numbers -> Vec<u64>;
-    /// An event.
-    event: Event -> nx_ect101::EventCode;
-    /// A fault.
-    fault: Fault -> nx_ect101::Fault;
-    /// A pattern of an indicator.
-    pattern: Pattern -> nx_ect101::Pattern;
-    /// An indicator.
-    indicator: Indicator -> model::IndicatorName;
-    /// Per cent.
-    percent: Percent -> u8;
-    /// Which frames, and of which kind.
-    frames: Frames -> (model::Choice, model::FrameKind);
-    /// The name of a device variable.
-    variable: Variable -> String;
-    /// Whose program.
-    controller: Controller -> model::Controller;
-    /// The name of a variable of a program, or of a file.
-    name: Name -> String;
-    /// All words to the end.
-    text: Text -> String;
-    /// Line and column, both from 1.
-    position: Position -> (usize, usize);
 }

@@ -1,32 +1,36 @@
-//! The grammar: every example is read by its own row, and what is wrong is told.
+//! The grammar: every example is read by its own row and written by it, and what is wrong is told.
 
 use super::sentence::fit;
 use super::*;
+use crate::model::{
+    Bytes, Choice, Condition, Controller, CpuOrder, Entry, FrameKind, Frames, LineOrder, MasterOrder,
+    Position, UnitNumber, UnitOrder, UserErrorCode,
+};
 
-/// The examples of a table are read, each as its own row means it.
-fn examples_are_read<T: core::fmt::Debug>(table: &[Sentence<T>]) {
-    for sentence in table {
+/// The examples of a table are read, each as its own row means it, and the value is the same sentence.
+fn examples_are_read_and_written<T: Spoken + PartialEq>() {
+    for sentence in T::SENTENCES {
         let words: Vec<&str> = sentence.example.split_whitespace().collect();
         let values = fit(sentence.pattern, &words).map_err(|(_, problem)| problem.to_string());
-        let alone = format!("{:?}", (sentence.build)(&values.expect(sentence.example)));
-        let read = read(table, sentence.example).map(|order| format!("{order:?}"));
-        assert_eq!(read, Ok(alone), "{}", sentence.example);
+        let alone = (sentence.build)(&values.expect(sentence.example)).expect(sentence.pattern);
+        assert_eq!(T::from_sentence(sentence.example).as_ref(), Ok(&alone), "{}", sentence.example);
+        assert_eq!(alone.sentence(), sentence.example);
         assert!(!sentence.meaning.is_empty());
     }
 }
 
 #[test]
-fn every_example_is_read_by_its_own_row() {
-    examples_are_read(MASTER);
-    examples_are_read(UNIT);
-    examples_are_read(CPU);
-    examples_are_read(LINE);
-    examples_are_read(CONDITIONS);
+fn every_example_is_read_and_written_by_its_own_row() {
+    examples_are_read_and_written::<MasterOrder>();
+    examples_are_read_and_written::<UnitOrder>();
+    examples_are_read_and_written::<CpuOrder>();
+    examples_are_read_and_written::<LineOrder>();
+    examples_are_read_and_written::<Condition>();
 }
 
 #[test]
 fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
-    let problem = |text: &str| match read(CONDITIONS, text) {
+    let problem = |text: &str| match Condition::from_sentence(text) {
         Err(NoSentence { message, help }) => format!("{message} / {help}"),
         Ok(condition) => panic!("{condition:?}"),
     };
@@ -46,12 +50,12 @@ fn places_read_what_they_name() {
     let one = |name, words: &[&str]| Place::named(name).read(words).map(|(value, _)| value);
     assert_eq!(
         one("entries", &["7000:01..03"]),
-        Ok(Value::Entries(vec![(0x7000, 1), (0x7000, 2), (0x7000, 3)]))
+        Ok(Value::Entries([1, 2, 3].map(|sub| Entry { index: 0x7000, sub }).to_vec()))
     );
     assert_eq!(one("percent", &["5", "%"]), Ok(Value::Percent(5)));
     assert_eq!(one("percent", &["5%"]), Ok(Value::Percent(5)));
     assert!(one("percent", &["0", "%"]).is_err() && one("percent", &["101%"]).is_err());
-    assert_eq!(one("bytes", &["01", "0xFF"]), Ok(Value::Bytes(vec![1, 255])));
+    assert_eq!(one("bytes", &["01", "0xFF"]), Ok(Value::Bytes(Bytes::from([1, 255]))));
     assert!(one("bytes", &["100"]).is_err() && one("bytes", &[]).is_err());
     assert_eq!(one("state", &["0x05"]), Ok(Value::State(wire::AlState::from_bits(5))));
     assert!(one("state", &["0x15"]).is_err());
@@ -60,14 +64,13 @@ fn places_read_what_they_name() {
 
 #[test]
 fn places_of_programs_read_what_they_name() {
-    use crate::model::Controller;
     let one = |name, words: &[&str]| Place::named(name).read(words).map(|(value, _)| value);
     assert_eq!(one("controller", &["the", "master", "is"]), Ok(Value::Controller(Controller::Master)));
-    assert_eq!(one("controller", &["unit", "2"]), Ok(Value::Controller(Controller::Unit(1))));
+    assert_eq!(one("controller", &["unit", "2"]), Ok(Value::Controller(Controller::Unit(UnitNumber::at(1)))));
     assert!(one("controller", &["all", "units"]).is_err(), "one of them");
-    assert_eq!(one("position", &["5:9"]), Ok(Value::Position((5, 9))));
+    assert_eq!(one("position", &["5:9"]), Ok(Value::Position(Position { line: 5, column: 9 })));
     assert!(one("position", &["0:9"]).is_err() && one("position", &["5"]).is_err());
-    assert_eq!(one("error", &["16#101"]), Ok(Value::Number(257)));
+    assert_eq!(one("error", &["16#101"]), Ok(Value::UserError(UserErrorCode(257))));
     assert!(one("error", &["40001"]).is_err(), "information from there on");
     assert_eq!(one("value", &["[1,", "2]"]), Ok(Value::Text("[1, 2]".to_owned())));
     assert!(one("value", &[]).is_err());
@@ -75,12 +78,11 @@ fn places_of_programs_read_what_they_name() {
 
 #[test]
 fn frames_are_chosen_in_five_ways() {
-    use crate::model::{Choice, FrameKind};
     let read = |text: &str| {
         let words: Vec<&str> = text.split_whitespace().collect();
         Place::named("frames").read(&words).map(|(value, _)| value)
     };
-    let frames = |choice, kind| Ok(Value::Frames((choice, kind)));
+    let frames = |choice, kind| Ok(Value::Frames(Frames { kind, choice }));
     assert_eq!(read("all frames"), frames(Choice::All, FrameKind::Any));
     assert_eq!(read("the next 3 mailbox frames"), frames(Choice::Next(3), FrameKind::Mailbox));
     assert_eq!(read("5 % of the process data frames"), frames(Choice::Percent(5), FrameKind::ProcessData));

@@ -1,10 +1,14 @@
-//! What stands in the places of a sentence.
+//! What stands in the places of a sentence, and how it is written there.
 
-use nx_ect101::{EventCode, Fault, Pattern};
+use core::fmt;
+
 use time::Duration;
 use wire::AlState;
 
-use crate::model::{Choice, Controller, FrameKind, IndicatorName, UnitSet};
+use crate::model::{
+    Bytes, CableNumber, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName,
+    Position, StateName, UnitNumber, UnitSet, UserErrorCode,
+};
 
 /// What stands in a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,43 +16,177 @@ pub enum Value {
     /// `unit 2`, `all units`.
     Units(UnitSet),
     /// `unit 2`.
-    Unit(usize),
+    Unit(UnitNumber),
     /// `SAFE-OP`.
     State(AlState),
-    /// `PS`, the letters of a transition.
-    Transition(&'static str),
     /// `12`, `0x0C`.
     Number(u64),
+    /// The same, written in hexadecimal with as many digits.
+    Hexadecimal(u64, usize),
     /// `1.5ms`.
     Duration(Duration),
     /// `01 02 0x03`.
-    Bytes(Vec<u8>),
+    Bytes(Bytes),
     /// `10F3:05`.
-    Entry((u16, u8)),
+    Entry(Entry),
     /// `7000:01 7000:02`, `7000:01..06`.
-    Entries(Vec<(u16, u8)>),
+    Entries(Vec<Entry>),
     /// `1601 1602`, hexadecimal.
-    Numbers(Vec<u64>),
+    Numbers(Vec<Hex<u16>>),
     /// `85000000`.
     Event(EventCode),
-    /// `Processing`.
-    Fault(Fault),
-    /// `blinking`.
-    Pattern(Pattern),
     /// `RUN`.
     Indicator(IndicatorName),
     /// `5 %`.
     Percent(u8),
     /// `the next 3 frames`, `5 % of the mailbox frames`.
-    Frames((Choice, FrameKind)),
-    /// `N1_UINTs_01_M_to_C`.
-    Variable(String),
+    Frames(Frames),
     /// `the master`, `unit 2`.
     Controller(Controller),
-    /// A word: the name of a variable of a program, or of a file.
-    Name(String),
-    /// All words to the end.
+    /// `16#101`, the code of a user-defined error.
+    UserError(UserErrorCode),
+    /// One word or all words to the end: the name of a fault or a variable, a value of a variable.
     Text(String),
     /// `5:9`, line and column.
-    Position((usize, usize)),
+    Position(Position),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Units(units) => units.fmt(formatter),
+            Self::Unit(unit) => unit.fmt(formatter),
+            Self::State(state) => StateName(*state).fmt(formatter),
+            Self::Number(number) => number.fmt(formatter),
+            Self::Hexadecimal(number, digits) => write!(formatter, "0x{number:0digits$X}"),
+            Self::Duration(duration) => duration.fmt(formatter),
+            Self::Bytes(bytes) => bytes.fmt(formatter),
+            Self::Entry(entry) => entry.fmt(formatter),
+            Self::Entries(entries) => formatter.write_str(&ranges(entries)),
+            Self::Numbers(numbers) => {
+                let words: Vec<String> = numbers.iter().map(|number| format!("{:04X}", number.0)).collect();
+                formatter.write_str(&words.join(" "))
+            }
+            Self::Event(event) => event.fmt(formatter),
+            Self::Indicator(indicator) => indicator.fmt(formatter),
+            Self::Percent(percent) => write!(formatter, "{percent} %"),
+            Self::Frames(frames) => write_frames(*frames, formatter),
+            Self::Controller(controller) => controller.fmt(formatter),
+            Self::UserError(code) => code.fmt(formatter),
+            Self::Text(text) => formatter.write_str(text),
+            Self::Position(position) => position.fmt(formatter),
+        }
+    }
+}
+
+/// Entries that follow each other become one range.
+fn ranges(entries: &[Entry]) -> String {
+    let follows = |before: &Entry, next: &Entry| {
+        before.index == next.index && before.sub.checked_add(1) == Some(next.sub)
+    };
+    let words = entries.chunk_by(follows).map(|run| match run {
+        [first, .., last] => format!("{first}..{:02X}", last.sub),
+        _ => run.iter().map(Entry::to_string).collect(),
+    });
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn write_frames(frames: Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+    match frames.choice {
+        Choice::All => formatter.write_str("all"),
+        Choice::Next(count) => write!(formatter, "the next {count}"),
+        Choice::Percent(percent) => write!(formatter, "{percent} % of the"),
+        Choice::Behind { skip, count: 1 } => write!(formatter, "number {} of the", skip.saturating_add(1)),
+        Choice::Behind { skip, count } => {
+            let first = skip.saturating_add(1);
+            write!(formatter, "numbers {first} to {} of the", skip.saturating_add(count))
+        }
+    }?;
+    formatter.write_str(match frames.kind {
+        FrameKind::Any => " frames",
+        FrameKind::ProcessData => " process data frames",
+        FrameKind::Mailbox => " mailbox frames",
+    })
+}
+
+/// A field of a typed value, as it stands in a place.
+pub(crate) trait Field: Sized {
+    /// The field that a place has read; none if the place reads another kind.
+    fn of(value: &Value) -> Option<Self>;
+    /// The value that is written into the place.
+    fn value(&self) -> Value;
+}
+
+macro_rules! fields {
+    ($($type:ty: $variant:ident;)*) => {$(
+        impl Field for $type {
+            fn of(value: &Value) -> Option<Self> {
+                match value {
+                    Value::$variant(field) => Some(field.clone()),
+                    _ => None,
+                }
+            }
+
+            fn value(&self) -> Value {
+                Value::$variant(self.clone())
+            }
+        }
+    )*};
+}
+
+fields! {
+    UnitSet: Units;
+    UnitNumber: Unit;
+    AlState: State;
+    Duration: Duration;
+    Bytes: Bytes;
+    Entry: Entry;
+    Vec<Entry>: Entries;
+    Vec<Hex<u16>>: Numbers;
+    EventCode: Event;
+    IndicatorName: Indicator;
+    Frames: Frames;
+    Controller: Controller;
+    UserErrorCode: UserError;
+    String: Text;
+    Position: Position;
+}
+
+macro_rules! numbers {
+    ($($type:ty)*) => {$(
+        impl Field for $type {
+            fn of(value: &Value) -> Option<Self> {
+                match value {
+                    Value::Number(number) => Self::try_from(*number).ok(),
+                    _ => None,
+                }
+            }
+
+            fn value(&self) -> Value {
+                Value::Number(u64::from(*self))
+            }
+        }
+
+        impl Field for Hex<$type> {
+            fn of(value: &Value) -> Option<Self> {
+                <$type>::of(value).map(Hex)
+            }
+
+            fn value(&self) -> Value {
+                Value::Hexadecimal(u64::from(self.0), 2 * size_of::<$type>())
+            }
+        }
+    )*};
+}
+
+numbers! { u8 u16 u32 u64 }
+
+impl Field for CableNumber {
+    fn of(value: &Value) -> Option<Self> {
+        u16::of(value).and_then(Self::new)
+    }
+
+    fn value(&self) -> Value {
+        self.number().value()
+    }
 }

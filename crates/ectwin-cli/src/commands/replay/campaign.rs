@@ -203,7 +203,7 @@ fn load(
     let parsed = Scenario::parse_with(&text, &mut named);
     let mut scenario = parsed.map_err(|errors| {
         let problem = |error: &scenario::ScenarioError| {
-            FileProblem::in_text(path, &text, error.span.clone(), &error.message, &error.help)
+            FileProblem::in_text(path, &text, error.span(), &error.message, &error.help)
         };
         FileProblems::new(errors.iter().map(problem), errors.more())
     })?;

@@ -1,40 +1,59 @@
-//! Conditions of user programs: their variables, and what they have told.
+//! Conditions of device variables and of user programs: their variables, and what they have reported.
 
-use super::{Seen, holds, is_text};
-use crate::model::{Condition, Controller};
+use super::seen::{Seen, holds, is_often_enough, is_text, lie_at};
+use crate::model::{Bytes, Controller, Position, UserErrorCode};
 use crate::run::story::Story;
 use crate::run::world::World;
 
-impl Condition {
-    pub(super) fn check_program(&self, of: Controller, world: &World) -> Result<(), Seen> {
-        if let Self::ProgramVariable { name, value, .. } = self {
-            return is_text(world.program_variable(of, name), value);
-        }
-        match world.told(of) {
-            Some(story) => self.check_story(story),
-            None => Err(format!("{of} is not there")),
-        }
-    }
+type Check = Result<(), Seen>;
 
-    fn check_story(&self, story: &Story) -> Result<(), Seen> {
-        match self {
-            Self::UserDefinedError { code, times, .. } => {
-                let (seen, stands) = story.alarm(*code);
-                holds(times.map_or(stands, |times| seen == times), || story.alarm_words())
-            }
-            Self::NoUserDefinedError(_) => holds(!story.has_alarms(), || story.alarm_words()),
-            Self::TaskOverrun { seen, .. } => {
-                let overruns = story.overruns();
-                holds((overruns > 0) == *seen, || format!("there were {overruns} overruns"))
-            }
-            Self::ProgramError { position, .. } => {
-                let is_there = story.errors().iter().any(|trouble| {
-                    position.is_none_or(|position| position == (trouble.line, trouble.column))
-                });
-                holds(is_there, || story.error_words())
-            }
-            Self::NoProgramError(_) => holds(story.errors().is_empty(), || story.error_words()),
-            _ => Ok(()),
-        }
-    }
+pub(super) fn variable_bytes(world: &World, variable: &str, bytes: &Bytes) -> Check {
+    lie_at(&world.variable(variable).unwrap_or_default(), 0, bytes)
+}
+
+pub(super) fn variable_value(world: &World, variable: &str, value: &str) -> Check {
+    is_text(world.variable_text(variable), value)
+}
+
+pub(super) fn variable_of(world: &World, controller: Controller, name: &str, value: &str) -> Check {
+    is_text(world.program_variable(controller, name), value)
+}
+
+pub(super) fn user_defined_error(
+    world: &World,
+    controller: Controller,
+    code: UserErrorCode,
+    times: Option<u64>,
+) -> Check {
+    let story = story(world, controller)?;
+    let (seen, stands) = story.alarm(code.0);
+    let is_so = if times.is_some() { is_often_enough(seen, times) } else { stands };
+    holds(is_so, || story.alarm_words())
+}
+
+pub(super) fn no_user_defined_error(world: &World, controller: Controller) -> Check {
+    let story = story(world, controller)?;
+    holds(!story.has_alarms(), || story.alarm_words())
+}
+
+pub(super) fn task_overrun(world: &World, controller: Controller, wanted: bool) -> Check {
+    let overruns = story(world, controller)?.overruns();
+    holds((overruns > 0) == wanted, || format!("there were {overruns} overruns"))
+}
+
+pub(super) fn error(world: &World, controller: Controller, position: Option<Position>) -> Check {
+    let story = story(world, controller)?;
+    let is_there = story.errors().iter().any(|trouble| {
+        position.is_none_or(|Position { line, column }| (line, column) == (trouble.line, trouble.column))
+    });
+    holds(is_there, || story.error_words())
+}
+
+pub(super) fn no_error(world: &World, controller: Controller) -> Check {
+    let story = story(world, controller)?;
+    holds(story.errors().is_empty(), || story.error_words())
+}
+
+fn story(world: &World, controller: Controller) -> Result<&Story, Seen> {
+    world.told(controller).ok_or_else(|| format!("{controller} is not there"))
 }

@@ -7,7 +7,7 @@ use ::master::{
 use wire::{AlState, Emergency, FrameBuilder};
 
 use super::last_sdo::SdoNumber;
-use crate::model::{FrameKind, StateName};
+use crate::model::{Entry, FrameKind, StateName};
 
 /// SyncManagers of the mailbox: from master to unit, and back.
 pub(super) type MailboxChannels = (SyncManagerSettings, SyncManagerSettings);
@@ -34,7 +34,7 @@ pub(super) enum What {
     /// Everything is set for the process data: they begin.
     Open(RegisterRead),
     /// An SDO.
-    Sdo { transfer: &'static str, entry: (u16, u8), mailbox: Box<MailboxDialogue>, is_begun: bool },
+    Sdo { transfer: &'static str, entry: Entry, mailbox: Box<MailboxDialogue>, is_begun: bool },
     /// Looks into the mailbox, once.
     Listen { mailbox: Box<MailboxDialogue>, is_begun: bool },
 }
@@ -65,20 +65,20 @@ impl Operation {
         Self::new(unit, What::Open(look()))
     }
 
-    pub(crate) fn download(unit: usize, channels: MailboxChannels, entry: (u16, u8), value: &[u8]) -> Self {
-        let transfer = SdoTransfer::download(wire::SdoTarget::entry(entry.0, entry.1), value);
+    pub(crate) fn download(unit: usize, channels: MailboxChannels, entry: Entry, value: &[u8]) -> Self {
+        let transfer = SdoTransfer::download(wire::SdoTarget::entry(entry.index, entry.sub), value);
         Self::sdo(unit, channels, ("download", entry), transfer)
     }
 
-    pub(crate) fn upload(unit: usize, channels: MailboxChannels, entry: (u16, u8)) -> Self {
-        let transfer = SdoTransfer::upload(wire::SdoTarget::entry(entry.0, entry.1));
+    pub(crate) fn upload(unit: usize, channels: MailboxChannels, entry: Entry) -> Self {
+        let transfer = SdoTransfer::upload(wire::SdoTarget::entry(entry.index, entry.sub));
         Self::sdo(unit, channels, ("upload", entry), transfer)
     }
 
     fn sdo(
         unit: usize,
         (out, inward): MailboxChannels,
-        (words, entry): (&'static str, (u16, u8)),
+        (words, entry): (&'static str, Entry),
         transfer: SdoTransfer,
     ) -> Self {
         let mailbox = Box::new(MailboxDialogue::new(out, inward, Service::Sdo(transfer)));
@@ -123,9 +123,7 @@ impl Operation {
             What::Take { target, .. } => format!("take {unit} to {}", StateName(*target)),
             What::Reach { request, .. } => format!("request {} of {unit}", StateName(request.state())),
             What::Open(_) => format!("process data of {unit}"),
-            What::Sdo { transfer, entry: (index, sub), .. } => {
-                format!("SDO {transfer} {index:04X}:{sub:02X} of {unit}")
-            }
+            What::Sdo { transfer, entry, .. } => format!("SDO {transfer} {entry} of {unit}"),
             What::Listen { .. } => format!("mailbox of {unit}"),
         }
     }

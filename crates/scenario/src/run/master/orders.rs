@@ -1,4 +1,6 @@
-//! What the scripted master makes of an order.
+//! What the scripted master makes of an order. Every order has its arm: a forgotten one would do nothing.
+
+#![deny(clippy::wildcard_enum_match_arm)]
 
 use ::master::Reading;
 use time::Instant;
@@ -6,13 +8,13 @@ use time::Instant;
 use super::Master;
 use super::operation::{MailboxChannels, Operation};
 use super::slave::Slave;
-use crate::model::{MasterOrder, UnitSet};
+use crate::model::{MasterOrder, UnitNumber, UnitSet};
 
 impl Master {
     /// Takes an order.
     pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
         match order {
-            MasterOrder::Take(units, state) => {
+            MasterOrder::Take { units, state } => {
                 self.process_data.allow();
                 self.queue_for(units, now, |unit| Operation::take(unit, state))
             }
@@ -22,45 +24,50 @@ impl Master {
                     Operation::write(unit, 0x0120, bits.to_le_bytes().to_vec())
                 });
             }
-            MasterOrder::WriteRegister(unit, offset, bytes) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| Operation::write(unit, offset, bytes.clone()));
+            MasterOrder::WriteRegister { unit, register, bytes } => {
+                let write = |unit| Operation::write(unit, register.0, bytes.0.clone());
+                self.queue_for(UnitSet::One(unit), now, write);
             }
-            MasterOrder::WriteInHalves(unit, offset, bytes) => {
-                let (first, second) = bytes.split_at(bytes.len().div_ceil(2));
-                let behind = offset.wrapping_add(first.len() as u16);
-                for (offset, half) in [(offset, first), (behind, second)] {
+            MasterOrder::WriteRegisterInHalves { unit, register, bytes } => {
+                let (first, second) = bytes.0.split_at(bytes.0.len().div_ceil(2));
+                let behind = register.0.wrapping_add(first.len() as u16);
+                for (offset, half) in [(register.0, first), (behind, second)] {
                     let half = half.to_vec();
                     self.queue_for(UnitSet::One(unit), now, |unit| {
                         Operation::write(unit, offset, half.clone())
                     });
                 }
             }
-            MasterOrder::WriteSdo(unit, entry, bytes) => {
+            MasterOrder::WriteSdo { unit, entry, value } => {
                 let number = self.last_sdo.order();
                 let channels = self.channels(unit);
-                let order = |unit| Operation::download(unit, channels, entry, &bytes).ordered_as(number);
+                let order = |unit| Operation::download(unit, channels, entry, &value.0).ordered_as(number);
                 self.queue_for(UnitSet::One(unit), now, order);
             }
-            MasterOrder::ReadSdo(unit, entry) => {
+            MasterOrder::ReadSdo { unit, entry } => {
                 let number = self.last_sdo.order();
                 let channels = self.channels(unit);
                 let order = |unit| Operation::upload(unit, channels, entry).ordered_as(number);
                 self.queue_for(UnitSet::One(unit), now, order);
             }
-            MasterOrder::Exchange(cycle) => self.process_data.exchange(cycle, now),
-            MasterOrder::StopExchange => self.process_data.stop(),
-            MasterOrder::SetOutputs(unit, at, bytes) => self.process_data.set_outputs(unit, at, &bytes),
-            MasterOrder::Map(unit, pdo, entries) => self.with_slave(unit, |slave| slave.map(pdo, &entries)),
-            MasterOrder::Assign(unit, index, pdos) => {
-                self.with_slave(unit, |slave| slave.assign(index, &pdos))
+            MasterOrder::ExchangeProcessData { every } => self.process_data.exchange(every, now),
+            MasterOrder::StopProcessData => self.process_data.stop(),
+            MasterOrder::SetOutputs { unit, at, bytes } => {
+                self.process_data.set_outputs(unit.position(), at.into(), &bytes.0);
             }
-            MasterOrder::SyncManagerLength { unit, number, length_bytes } => {
+            MasterOrder::MapPdo { unit, pdo, entries } => {
+                self.with_slave(unit, |slave| slave.map(pdo.0, &entries));
+            }
+            MasterOrder::AssignPdos { unit, object, pdos } => {
+                self.with_slave(unit, |slave| slave.assign(object.0, &pdos));
+            }
+            MasterOrder::SetSyncManagerLength { unit, number, length_bytes } => {
                 self.with_slave(unit, |slave| slave.wrong_length(number, length_bytes));
             }
-            MasterOrder::SyncManagerControl { unit, number, control } => {
-                self.with_slave(unit, |slave| slave.wrong_control(number, control));
+            MasterOrder::SetSyncManagerControl { unit, number, control } => {
+                self.with_slave(unit, |slave| slave.wrong_control(number, control.0));
             }
-            MasterOrder::MailboxCounter(counter) => {
+            MasterOrder::UseMailboxCounter { counter } => {
                 self.change_mailbox(|conduct| conduct.counter.fixed = Some(counter));
             }
             MasterOrder::ReadNoMailbox => self.change_mailbox(|conduct| conduct.reading = Reading::Never),
@@ -82,12 +89,12 @@ impl Master {
     }
 
     /// The SyncManagers of a unit's mailbox.
-    fn channels(&self, unit: usize) -> MailboxChannels {
-        self.slaves.get(unit).map(Slave::mailbox).unwrap_or_default()
+    fn channels(&self, unit: UnitNumber) -> MailboxChannels {
+        self.slaves.get(unit.position()).map(Slave::mailbox).unwrap_or_default()
     }
 
-    fn with_slave(&mut self, unit: usize, change: impl FnOnce(&mut Slave)) {
-        if let Some(slave) = self.slaves.get_mut(unit) {
+    fn with_slave(&mut self, unit: UnitNumber, change: impl FnOnce(&mut Slave)) {
+        if let Some(slave) = self.slaves.get_mut(unit.position()) {
             change(slave);
         }
     }

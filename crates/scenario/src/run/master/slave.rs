@@ -6,7 +6,7 @@ use nx_ect101::{Assignment, Direction, ObjectIndex, PdoEntry, PdoSettings, SubIn
 
 use super::operation::{MailboxChannels, Operation};
 use super::process_data::ProcessData;
-use crate::model::MasterOrder;
+use crate::model::{Entry, Hex, MasterOrder};
 
 /// One unit as its master sees it.
 #[derive(Debug)]
@@ -76,12 +76,12 @@ impl Slave {
         !core::mem::replace(&mut self.is_reset, true)
     }
 
-    pub(crate) fn map(&mut self, pdo: u16, entries: &[(u16, u8)]) {
+    pub(crate) fn map(&mut self, pdo: u16, entries: &[Entry]) {
         map(&mut self.pdo, pdo, entries);
         self.startup.push(Startup::Mapping(pdo));
     }
 
-    pub(crate) fn assign(&mut self, index: u16, pdos: &[u16]) {
+    pub(crate) fn assign(&mut self, index: u16, pdos: &[Hex<u16>]) {
         if let Some(direction) = assign(&mut self.pdo, index, pdos) {
             self.startup.push(Startup::Assignment(direction, index));
         }
@@ -137,11 +137,11 @@ impl Slave {
     pub(crate) fn startup_sdos(&self) -> Vec<Operation> {
         let mut operations: Vec<_> =
             self.startup.iter().flat_map(|startup| self.startup_sdo(startup)).collect();
-        operations.push(self.download((0x2002, 2), &[1]));
+        operations.push(self.download(Entry { index: 0x2002, sub: 2 }, &[1]));
         operations
     }
 
-    fn download(&self, entry: (u16, u8), value: &[u8]) -> Operation {
+    fn download(&self, entry: Entry, value: &[u8]) -> Operation {
         Operation::download(self.unit, self.mailbox(), entry, value).within_an_order()
     }
 
@@ -165,7 +165,7 @@ impl Slave {
 
     /// Subindex 0 to 0, the elements, subindex 0 to their number.
     fn write_list(&self, index: u16, elements: Vec<Vec<u8>>) -> Vec<Operation> {
-        let download = |sub, value: &[u8]| self.download((index, sub), value);
+        let download = |sub, value: &[u8]| self.download(Entry { index, sub }, value);
         let count = elements.len() as u8;
         let mut operations = vec![download(0, &[0])];
         operations.extend((1..).zip(&elements).map(|(sub, element)| download(sub, element)));
@@ -213,21 +213,21 @@ fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
 
 /// The PDO settings behind an order that maps or assigns.
 pub(crate) fn changed_settings(settings: &mut PdoSettings, order: &MasterOrder) {
-    match order {
-        MasterOrder::Map(_, pdo, entries) => map(settings, *pdo, entries),
-        MasterOrder::Assign(_, index, pdos) => drop(assign(settings, *index, pdos)),
-        _ => {}
+    if let MasterOrder::MapPdo { pdo, entries, .. } = order {
+        map(settings, pdo.0, entries);
+    } else if let MasterOrder::AssignPdos { object, pdos, .. } = order {
+        assign(settings, object.0, pdos);
     }
 }
 
-fn map(settings: &mut PdoSettings, pdo: u16, entries: &[(u16, u8)]) {
-    let address = |&(index, sub): &(u16, u8)| EntryAddress { index: ObjectIndex(index), sub: SubIndex(sub) };
+fn map(settings: &mut PdoSettings, pdo: u16, entries: &[Entry]) {
+    let address = |entry: &Entry| EntryAddress { index: ObjectIndex(entry.index), sub: SubIndex(entry.sub) };
     settings.map(ObjectIndex(pdo), entries.iter().map(address).map(PdoEntry::at));
 }
 
 /// The direction of the assignment object; none if it is none.
-fn assign(settings: &mut PdoSettings, index: u16, pdos: &[u16]) -> Option<Direction> {
+fn assign(settings: &mut PdoSettings, index: u16, pdos: &[Hex<u16>]) -> Option<Direction> {
     let direction = Direction::ALL.into_iter().find(|&way| Assignment::of(way).object.0 == index)?;
-    settings.assign(direction, pdos.iter().copied().map(ObjectIndex));
+    settings.assign(direction, pdos.iter().map(|pdo| ObjectIndex(pdo.0)));
     Some(direction)
 }

@@ -1,5 +1,7 @@
 //! The way of a frame: what the line does to it, the units, and its answer.
 
+#![deny(clippy::wildcard_enum_match_arm)]
+
 use capture::Direction;
 use segment::FrameFate;
 use wire::FrameKind;
@@ -16,7 +18,7 @@ impl World {
         let mut faults = self.line.faults(kind);
         // A frame that is short enough is not cut.
         faults.retain(
-            |fault| !matches!(fault, FrameFault::Truncate(length_bytes) if *length_bytes >= frame.len()),
+            |fault| !matches!(fault, FrameFault::Cut { length_bytes } if usize::from(*length_bytes) >= frame.len()),
         );
         let mut delay = None;
         for fault in &faults {
@@ -24,9 +26,13 @@ impl World {
                 FrameFault::Lose => {
                     return self.recording.lost(self.now, Direction::Inbound, &frame, fault.words());
                 }
-                FrameFault::Delay(duration) => delay = Some(duration),
-                FrameFault::Truncate(length_bytes) => frame.truncate(length_bytes.max(14)),
-                _ => {}
+                FrameFault::Delay { by } => delay = Some(by),
+                FrameFault::Cut { length_bytes } => frame.truncate(usize::from(length_bytes).max(14)),
+                // What these do is done when the frame passes the units.
+                FrameFault::LoseAnswer
+                | FrameFault::Duplicate
+                | FrameFault::Corrupt { .. }
+                | FrameFault::LowerWorkingCounter => {}
             }
         }
         match delay {
@@ -49,9 +55,8 @@ impl World {
     fn pass_once(&mut self, ticket: Ticket, mut frame: Vec<u8>, faults: &[FrameFault]) {
         let comment = comment(faults);
         self.recording.sent(self.now, &frame, comment.as_deref());
-        let corrupted = faults.iter().find_map(|fault| match fault {
-            FrameFault::Corrupt(cable) => Some(*cable),
-            _ => None,
+        let corrupted = faults.iter().find_map(|fault| {
+            if let FrameFault::Corrupt { cable } = fault { Some(cable.position()) } else { None }
         });
         let fate = match corrupted {
             Some(cable) => self.network.segment_mut().corrupted_frame(self.now, &mut frame, cable),
@@ -69,7 +74,7 @@ impl World {
                 FrameFault::LoseAnswer.words(),
             );
         }
-        if faults.contains(&FrameFault::WorkingCounter) {
+        if faults.contains(&FrameFault::LowerWorkingCounter) {
             lower_working_counters(&mut frame);
         }
         self.recording.returned(self.now, &frame, comment.as_deref());
@@ -86,11 +91,11 @@ impl FrameFault {
         match self {
             Self::Lose => "a frame is lost on the way to the units",
             Self::LoseAnswer => "the answer of a frame is lost on the way to the master",
-            Self::Delay(_) => "a frame comes late",
+            Self::Delay { .. } => "a frame comes late",
             Self::Duplicate => "a frame comes twice",
-            Self::Truncate(_) => "a frame is cut short",
-            Self::Corrupt(_) => "a frame has a bit error on its way",
-            Self::WorkingCounter => "the working counters of an answer are one too low",
+            Self::Cut { .. } => "a frame is cut short",
+            Self::Corrupt { .. } => "a frame has a bit error on its way",
+            Self::LowerWorkingCounter => "the working counters of an answer are one too low",
         }
     }
 }

@@ -1,14 +1,16 @@
-//! What steps do to units, CPU Units and the line.
+//! What steps do to units, CPU Units and the line. Every order has its arm: a forgotten one would do nothing.
+
+#![deny(clippy::wildcard_enum_match_arm)]
 
 use device::{Device, SiiTiming, Start, TransitionTimes};
 use esc::Esc;
-use nx_ect101::NxEct101;
-use plc::Io;
+use nx_ect101::{Fault, NxEct101};
+use plc::{Io, OperatingMode};
 use time::Instant;
 use wire::AlStatusCode;
 
 use super::{Cpu, World};
-use crate::model::{ConductOrder, CpuOrder, LineOrder, UnitOrder, UnitSet};
+use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, LineOrder, UnitOrder, UnitSet};
 use crate::run::master::Master;
 
 /// A byte of an EEPROM that nobody has written.
@@ -20,24 +22,28 @@ impl World {
     }
 
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
-        match *order {
-            UnitOrder::Restart(units) => self.each(units, |world, at| world.start(at, Start::Restart)),
-            UnitOrder::CyclePower(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
-            UnitOrder::PowerOff(units) => self.each(units, Self::power_off),
-            UnitOrder::PowerOn(units) => self.each(units, |world, at| world.start(at, Start::PowerOn)),
-            UnitOrder::ResetErrors(units) => self.each_unit(units, NxEct101::reset_errors),
-            UnitOrder::ClearLog(units, log) => self.each_unit(units, |unit| unit.clear_event_log(log)),
-            UnitOrder::SetIdSwitch(at, id) => {
-                self.each_unit(UnitSet::One(at), |unit| unit.set_id_switch(id));
+        match order {
+            UnitOrder::Restart { units } => self.each(*units, |world, at| world.start(at, Start::Restart)),
+            UnitOrder::CyclePower { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::PowerOff { units } => self.each(*units, Self::power_off),
+            UnitOrder::PowerOn { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
+            UnitOrder::ResetErrors { units } => self.each_unit(*units, NxEct101::reset_errors),
+            UnitOrder::ClearEventLog { units, log } => {
+                self.each_unit(*units, |unit| unit.clear_event_log(event_log(*log)));
             }
-            UnitOrder::SpoilSii(at, word) => self.spoil_sii(at, word),
-            UnitOrder::EraseSii(units) => self.each_slave(units, |_, esc| esc.sii_image_mut().fill(ERASED)),
-            UnitOrder::Conduct(units, order) => {
+            UnitOrder::SetIdSwitch { unit, id } => {
+                self.each_unit(UnitSet::One(*unit), |unit| unit.set_id_switch(id.0));
+            }
+            UnitOrder::InvertSiiWord { unit, word } => self.invert_sii_word(unit.position(), *word),
+            UnitOrder::EraseSii { units } => {
+                self.each_slave(*units, |_, esc| esc.sii_image_mut().fill(ERASED));
+            }
+            UnitOrder::Conduct { units, conduct: order } => {
                 let now = self.now;
-                self.each_slave(units, |device, esc| conduct(device, esc, order, now));
+                self.each_slave(*units, |device, esc| conduct(device, esc, order, now));
             }
-            UnitOrder::Inject(units, fault) => self.each_unit(units, |unit| unit.inject(fault)),
-            UnitOrder::Remove(units, fault) => self.each_unit(units, |unit| unit.remove(fault)),
+            UnitOrder::InjectFault { units, fault } => self.each_fault(*units, fault, NxEct101::inject),
+            UnitOrder::RemoveFault { units, fault } => self.each_fault(*units, fault, NxEct101::remove),
         }
         self.happen();
     }
@@ -45,29 +51,33 @@ impl World {
     pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
         let now = self.now;
         match order {
-            CpuOrder::SetMode(units, mode) => {
-                self.each_cpu(*units, |cpu| cpu.unit.set_mode(*mode));
+            CpuOrder::SetMode { units, mode } => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_mode(operating_mode(*mode)));
                 self.tell_of_cpus();
             }
-            CpuOrder::SetIoRefreshing(units, on) => {
-                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(*on));
+            CpuOrder::StopIoRefreshing { units } => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(false));
             }
-            CpuOrder::SetTaskRunning(units, on) => self.each_cpu(*units, |cpu| cpu.is_running = *on),
-            CpuOrder::ResetNxBus(units) => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
-            CpuOrder::CycleRackPower(units) => self.each(*units, Self::cycle_rack_power),
-            CpuOrder::JumpTime(units, ahead) => {
-                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*ahead))
+            CpuOrder::StartIoRefreshing { units } => {
+                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(true));
             }
-            CpuOrder::SetInputs(at, bytes) => self.each_cpu(UnitSet::One(*at), |cpu| {
-                for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
+            CpuOrder::StopTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = false),
+            CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = true),
+            CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
+            CpuOrder::CycleRackPower { units } => self.each(*units, Self::cycle_rack_power),
+            CpuOrder::JumpSystemTime { units, by } => {
+                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*by));
+            }
+            CpuOrder::SetInputs { unit, bytes } => self.each_cpu(UnitSet::One(*unit), |cpu| {
+                for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(&bytes.0) {
                     *input = *byte;
                 }
             }),
             CpuOrder::Force { variable, value } => self.set_variable(variable, value, Io::force),
             CpuOrder::Write { variable, value } => self.set_variable(variable, value, Io::write),
-            CpuOrder::Release(variable) => self.release(variable),
-            CpuOrder::ReleaseAll(units) => self.each_cpu(*units, |cpu| cpu.unit.io_mut().release_all()),
-            CpuOrder::Load { unit, file } => self.load(*unit, file),
+            CpuOrder::Release { variable } => self.release(variable),
+            CpuOrder::ReleaseAll { units } => self.each_cpu(*units, |cpu| cpu.unit.io_mut().release_all()),
+            CpuOrder::Load { unit, program } => self.load(unit.position(), program),
         }
         self.advance(now);
     }
@@ -94,9 +104,10 @@ impl World {
 
     pub(crate) fn line_order(&mut self, order: &LineOrder) {
         match *order {
+            LineOrder::Unplug { cable } => self.network.set_cable(cable.position(), false),
+            LineOrder::Plug { cable } => self.network.set_cable(cable.position(), true),
             LineOrder::Disturb(disturbance) => self.line.disturb(disturbance),
-            LineOrder::Quiet => self.line.quiet(),
-            LineOrder::Cable { number, plugged } => self.network.set_cable(number, plugged),
+            LineOrder::BeQuiet => self.line.quiet(),
         }
     }
 
@@ -109,6 +120,13 @@ impl World {
             if let Some(device) = self.network.device_mut(at) {
                 order(device.unit_mut());
             }
+        }
+    }
+
+    /// Does something with a fault of each unit. The name was checked when the scenario was read.
+    fn each_fault(&mut self, units: UnitSet, name: &str, order: impl Fn(&mut NxEct101, Fault)) {
+        if let Some(fault) = Fault::named(name) {
+            self.each_unit(units, |unit| order(unit, fault));
         }
     }
 
@@ -125,7 +143,7 @@ impl World {
         self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
     }
 
-    fn spoil_sii(&mut self, at: usize, word: u16) {
+    fn invert_sii_word(&mut self, at: usize, word: u16) {
         let Some((_, esc)) = self.network.slave_mut(at) else { return };
         let first = usize::from(word) * 2;
         if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
@@ -151,22 +169,36 @@ impl World {
     }
 }
 
-fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: ConductOrder, now: Instant) {
+fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: &ConductOrder, now: Instant) {
     match order {
-        ConductOrder::EveryTransition(time) => {
-            device.conduct_mut().transition_times = TransitionTimes::every(time);
+        ConductOrder::EveryTransition { time } => {
+            device.conduct_mut().transition_times = TransitionTimes::every(*time);
         }
-        ConductOrder::Transition(letters, time) => {
-            device.conduct_mut().transition_times.set(letters, time);
+        ConductOrder::Transition { transition, time } => {
+            device.conduct_mut().transition_times.set(transition, *time);
         }
-        ConductOrder::SiiTime(time) if time.is_zero() => esc.set_sii_timing(SiiTiming::Immediate),
-        ConductOrder::SiiTime(time) => esc.set_sii_timing(SiiTiming::Busy(time)),
-        ConductOrder::SiiBusy(time) => esc.keep_sii_busy(now, now + time),
-        ConductOrder::SdoTime(time) => device.set_response_time(time),
-        ConductOrder::Refuse(state, code) => {
-            device.conduct_mut().refusals.set(state, Some(AlStatusCode(code)));
+        ConductOrder::SiiCommands { time } if time.is_zero() => esc.set_sii_timing(SiiTiming::Immediate),
+        ConductOrder::SiiCommands { time } => esc.set_sii_timing(SiiTiming::Busy(*time)),
+        ConductOrder::SiiBusy { time } => esc.keep_sii_busy(now, now + *time),
+        ConductOrder::Sdos { time } => device.set_response_time(*time),
+        ConductOrder::Refuse { state, al_status_code } => {
+            device.conduct_mut().refusals.set(*state, Some(AlStatusCode(al_status_code.0)));
         }
-        ConductOrder::IgnoreAcknowledge => device.conduct_mut().ignores_acknowledge = true,
+        ConductOrder::IgnoreAcknowledges => device.conduct_mut().ignores_acknowledge = true,
         ConductOrder::Behave => device.behave(esc),
+    }
+}
+
+const fn event_log(log: EventLog) -> nx_ect101::EventLog {
+    match log {
+        EventLog::System => nx_ect101::EventLog::System,
+        EventLog::Access => nx_ect101::EventLog::Access,
+    }
+}
+
+const fn operating_mode(mode: CpuMode) -> OperatingMode {
+    match mode {
+        CpuMode::Run => OperatingMode::Run,
+        CpuMode::Program => OperatingMode::Program,
     }
 }

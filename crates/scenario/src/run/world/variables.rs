@@ -25,7 +25,7 @@ impl World {
     pub(crate) fn program_variable(&self, of: Controller, name: &str) -> Option<String> {
         match of {
             Controller::Master => self.master.program_variable(name),
-            Controller::Unit(at) => self.cpus.get(at)?.unit.program_variable(name),
+            Controller::Unit(unit) => self.cpus.get(unit.position())?.unit.program_variable(name),
         }
     }
 
@@ -33,7 +33,7 @@ impl World {
     pub(crate) fn told(&self, by: Controller) -> Option<&Story> {
         match by {
             Controller::Master => Some(self.master.told()),
-            Controller::Unit(at) => self.cpus.get(at).map(|cpu| &cpu.told),
+            Controller::Unit(unit) => self.cpus.get(unit.position()).map(|cpu| &cpu.told),
         }
     }
 

@@ -1,25 +1,25 @@
 //! How words are read: each function takes what fits, and how many words it is.
 
-use nx_ect101::{EventCode, Fault, Pattern};
-use wire::AlState;
-
-use crate::model::{Choice, Controller, FrameKind, IndicatorName, UnitSet};
+use crate::model::{
+    Bytes, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName, Position, StateName,
+    UnitNumber, UnitSet, UserErrorCode, hexadecimal, number as number_of,
+};
 use crate::words::value::Value;
 
 pub(super) fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
     read(words.first()?).map(|value| (value, 1))
 }
 
-pub(super) fn unit(words: &[&str]) -> Option<usize> {
+pub(super) fn unit(words: &[&str]) -> Option<UnitNumber> {
     let [name, number, ..] = words else { return None };
     (*name == "unit").then_some(())?;
-    number.parse::<usize>().ok()?.checked_sub(1)
+    UnitNumber::new(number.parse().ok()?)
 }
 
 pub(super) fn units(words: &[&str]) -> Option<(Value, usize)> {
     match words {
         ["all", "units", ..] => Some((Value::Units(UnitSet::All), 2)),
-        _ => unit(words).map(|at| (Value::Units(UnitSet::One(at)), 2)),
+        _ => unit(words).map(|unit| (Value::Units(UnitSet::One(unit)), 2)),
     }
 }
 
@@ -32,42 +32,31 @@ pub(super) fn controller(words: &[&str]) -> Option<(Value, usize)> {
 }
 
 pub(super) fn position(word: &str) -> Option<Value> {
-    let (line, column) = word.split_once(':')?;
-    let from_1 = |digits: &str| digits.parse::<usize>().ok().filter(|&number| number > 0);
-    Some(Value::Position((from_1(line)?, from_1(column)?)))
+    word.parse::<Position>().ok().map(Value::Position)
 }
 
 pub(super) fn state(word: &str) -> Option<Value> {
-    let state = match word {
-        "INIT" => AlState::Init,
-        "PRE-OP" => AlState::PreOp,
-        "SAFE-OP" => AlState::SafeOp,
-        "OP" => AlState::Op,
-        "BOOT" => AlState::Boot,
-        _ => AlState::from_bits(u16::try_from(number(word)?).ok().filter(|&bits| bits < 16)?),
-    };
-    Some(Value::State(state))
+    word.parse::<StateName>().ok().map(|name| Value::State(name.0))
 }
 
 pub(super) fn transition(word: &str) -> Option<Value> {
     let mut rows = device::TRANSITIONS.iter().filter(|row| !row.needs_boot());
-    rows.find(|row| row.letters == word).map(|row| Value::Transition(row.letters))
+    rows.find(|row| row.letters == word).map(|row| Value::Text(row.letters.to_owned()))
 }
 
-pub(super) fn number(word: &str) -> Option<u64> {
-    match word.strip_prefix("0x").or_else(|| word.strip_prefix("16#")) {
-        Some(digits) => u64::from_str_radix(digits, 16).ok(),
-        None => word.parse().ok(),
-    }
+pub(super) fn number(word: &str) -> Option<Value> {
+    number_of(word).map(Value::Number)
+}
+
+/// From 40001 on they are information, not errors.
+pub(super) fn user_error(word: &str) -> Option<Value> {
+    let code = number_of(word).filter(|code| (1..=40_000).contains(code))?;
+    Some(Value::UserError(UserErrorCode(u16::try_from(code).ok()?)))
 }
 
 pub(super) fn limited(words: &[&str], least: u64, most: u64) -> Option<(Value, usize)> {
-    one(words, |word| number(word).filter(|number| (least..=most).contains(number)).map(Value::Number))
-}
-
-fn hexadecimal(word: &str, digits: usize) -> Option<u64> {
-    let bare = word.strip_prefix("0x").unwrap_or(word);
-    (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
+    let is_within = |number: &u64| (least..=most).contains(number);
+    one(words, |word| number_of(word).filter(is_within).map(Value::Number))
 }
 
 fn all<T>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<Vec<T>> {
@@ -75,55 +64,51 @@ fn all<T>(words: &[&str], read: impl Fn(&str) -> Option<T>) -> Option<Vec<T>> {
 }
 
 pub(super) fn bytes(words: &[&str]) -> Option<(Value, usize)> {
-    let bytes = all(words, |word| hexadecimal(word, 2).map(|byte| byte as u8))?;
+    let bytes = words.join(" ").parse::<Bytes>().ok()?;
     Some((Value::Bytes(bytes), words.len()))
 }
 
 pub(super) fn numbers(words: &[&str]) -> Option<(Value, usize)> {
-    Some((Value::Numbers(all(words, |word| hexadecimal(word, 4))?), words.len()))
+    let numbers = all(words, |word| hexadecimal(word, 4).map(|number| Hex(number as u16)))?;
+    Some((Value::Numbers(numbers), words.len()))
 }
 
-pub(super) fn entry(word: &str) -> Option<(u16, u8)> {
-    let (index, sub) = word.split_once(':')?;
-    Some((hexadecimal(index, 4)? as u16, hexadecimal(sub, 2)? as u8))
+pub(super) fn entry(word: &str) -> Option<Value> {
+    word.parse::<Entry>().ok().map(Value::Entry)
 }
 
 pub(super) fn entries(words: &[&str]) -> Option<(Value, usize)> {
     let lists = all(words, |word| match word.split_once("..") {
-        None => entry(word).map(|entry| vec![entry]),
+        None => word.parse().ok().map(|entry: Entry| vec![entry]),
         Some((first, last)) => {
-            let (index, first) = entry(first)?;
+            let Entry { index, sub: first } = first.parse().ok()?;
             let last = hexadecimal(last, 2)? as u8;
-            (first <= last).then(|| (first..=last).map(|sub| (index, sub)).collect())
+            (first <= last).then(|| (first..=last).map(|sub| Entry { index, sub }).collect())
         }
     })?;
     Some((Value::Entries(lists.concat()), words.len()))
 }
 
+/// An event of the table.
 pub(super) fn event(word: &str) -> Option<Value> {
-    let code = (word.len() == 8).then(|| u32::from_str_radix(word, 16).ok())??;
-    nx_ect101::Event::find(EventCode(code)).map(|event| Value::Event(event.code))
+    let code: EventCode = word.parse().ok()?;
+    nx_ect101::Event::find(nx_ect101::EventCode(code.0)).map(|_| Value::Event(code))
 }
 
 pub(super) fn fault(word: &str) -> Option<Value> {
-    Fault::ALL.into_iter().find(|fault| format!("{fault:?}") == word).map(Value::Fault)
+    nx_ect101::Fault::named(word).map(|_| Value::Text(word.to_owned()))
 }
 
 pub(super) fn pattern(word: &str) -> Option<Value> {
-    Pattern::ALL.into_iter().find(|pattern| pattern.id() == word).map(Value::Pattern)
+    nx_ect101::Pattern::ALL.iter().find(|pattern| pattern.id() == word).map(|_| Value::Text(word.to_owned()))
 }
 
+/// An indicator has one word or two.
 pub(super) fn indicator(words: &[&str]) -> Option<(Value, usize)> {
-    let (name, length) = match words {
-        ["RUN", ..] => (IndicatorName::Run, 1),
-        ["ERR", ..] => (IndicatorName::Err, 1),
-        ["L/A", "IN", ..] => (IndicatorName::LinkIn, 2),
-        ["L/A", "OUT", ..] => (IndicatorName::LinkOut, 2),
-        ["TS", "green", ..] => (IndicatorName::TsGreen, 2),
-        ["TS", "red", ..] => (IndicatorName::TsRed, 2),
-        _ => return None,
-    };
-    Some((Value::Indicator(name), length))
+    (1..=words.len().min(2)).find_map(|length| {
+        let name = words.get(..length)?.join(" ").parse::<IndicatorName>().ok()?;
+        Some((Value::Indicator(name), length))
+    })
 }
 
 pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
@@ -145,19 +130,19 @@ pub(super) fn frames(words: &[&str]) -> Option<(Value, usize)> {
         ["mailbox", "frames" | "frame", ..] => (FrameKind::Mailbox, 2),
         _ => return None,
     };
-    Some((Value::Frames((choice, kind)), length + more))
+    Some((Value::Frames(Frames { kind, choice }), length + more))
 }
 
 /// Numbers count from 1, the next frame.
 pub(super) fn choice(words: &[&str]) -> Option<(Choice, usize)> {
     match words {
         ["all", ..] => Some((Choice::All, 1)),
-        ["the", "next", count, ..] => Some((Choice::Next(number(count)?), 3)),
+        ["the", "next", count, ..] => Some((Choice::Next(number_of(count)?), 3)),
         ["number", nth, "of", "the", ..] => {
-            Some((Choice::Behind { skip: number(nth)?.checked_sub(1)?, count: 1 }, 4))
+            Some((Choice::Behind { skip: number_of(nth)?.checked_sub(1)?, count: 1 }, 4))
         }
         ["numbers", first, "to", last, "of", "the", ..] => {
-            let (first, last) = (number(first)?, number(last)?);
+            let (first, last) = (number_of(first)?, number_of(last)?);
             let count = last.checked_sub(first)? + 1;
             Some((Choice::Behind { skip: first.checked_sub(1)?, count }, 6))
         }

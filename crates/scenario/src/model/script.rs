@@ -1,0 +1,131 @@
+//! A whole scenario as somebody writes it: units and programs by their files, and steps.
+
+use serde::{Deserialize, Serialize};
+use time::Duration;
+
+use super::spelling::{optional_text, text};
+use super::step::ScriptStep;
+
+/// Seed of a scenario that names none.
+const DEFAULT_SEED: u64 = 1;
+const DEFAULT_LIMIT: Duration = Duration::from_secs(60);
+const DEFAULT_CYCLE: Duration = Duration::from_millis(1);
+
+/// A scenario, to be written in JSON, or built in code. [`Scenario::of`](crate::Scenario::of) makes one of it that can run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Script {
+    /// What it shows, in one sentence.
+    pub title: String,
+    /// The seed of its dice.
+    #[serde(default = "default_seed")]
+    pub seed: u64,
+    /// The moment at which it is over, whatever waits.
+    #[serde(default = "default_limit", with = "text")]
+    pub limit: Duration,
+    /// Cycle of the process data, above 0.
+    #[serde(default = "default_cycle", with = "text")]
+    pub cycle: Duration,
+    /// Where in its period the cycle lies, from the beginning; none: the seed decides.
+    #[serde(default, with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub cycle_phase: Option<Duration>,
+    /// A capture whose frames a recorded master sends; none: the scripted master alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub capture: Option<String>,
+    /// The user program of the master; none: it only does what steps order.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub master: Option<ScriptMaster>,
+    /// The units of the line, the one next to the master first; none: one unit at its factory setting.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub units: Vec<ScriptUnit>,
+    /// What happens, in this order.
+    pub steps: Vec<ScriptStep>,
+}
+
+const fn default_seed() -> u64 {
+    DEFAULT_SEED
+}
+
+const fn default_limit() -> Duration {
+    DEFAULT_LIMIT
+}
+
+const fn default_cycle() -> Duration {
+    DEFAULT_CYCLE
+}
+
+impl Script {
+    /// A scenario with this title and nothing else: one unit at its factory setting, no steps.
+    #[must_use]
+    pub fn new(title: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            seed: DEFAULT_SEED,
+            limit: DEFAULT_LIMIT,
+            cycle: DEFAULT_CYCLE,
+            cycle_phase: None,
+            capture: None,
+            master: None,
+            units: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+}
+
+/// A unit, and what its CPU Unit runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum ScriptUnit {
+    /// A unit file, by its path as it is seen from the scenario.
+    File(String),
+    /// A unit file, and another program than its own.
+    FileWithProgram(FileWithProgram),
+    /// The keys of a unit file.
+    Keys(toml::Table),
+}
+
+/// A unit file, and another program than its own; paths are seen from the scenario.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FileWithProgram {
+    /// The unit file.
+    pub file: String,
+    /// The files of the program; none: that of the unit file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub program: Option<Paths>,
+}
+
+/// The user program of the master.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScriptMaster {
+    /// Its files, as they are seen from the scenario.
+    pub program: Paths,
+    /// Names of the units as EtherCAT slaves, in the order of the line; those that are left out follow the node address.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub device_names: Vec<String>,
+    /// Period of its task; none: that of the process data, in step with them.
+    #[serde(default, with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub task_period: Option<Duration>,
+}
+
+/// One path, or several that belong together.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Paths {
+    /// A file or a folder.
+    One(String),
+    /// Files or folders.
+    Several(Vec<String>),
+}
+
+impl Paths {
+    /// All of them, in their order.
+    #[must_use]
+    pub fn list(&self) -> &[String] {
+        match self {
+            Self::One(path) => core::slice::from_ref(path),
+            Self::Several(paths) => paths,
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! A step as a file has it: a table of keys, one spelling of moments, orders and expectations.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use time::Duration;
+
+use super::condition::Condition;
+use super::cpu::CpuOrder;
+use super::line::LineOrder;
+use super::master::MasterOrder;
+use super::spelling::optional_text;
+use super::step::{Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
+use super::unit::UnitOrder;
+
+/// The keys of a step.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct StepForm {
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) at: Option<Duration>,
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) after: Option<Duration>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) when: Option<Condition>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) master: Option<MasterOrder>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) unit: Option<UnitOrder>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) cpu: Option<CpuOrder>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) line: Option<LineOrder>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) expect: Option<Condition>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) never: Option<Condition>,
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) within: Option<Duration>,
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) r#for: Option<Duration>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) until: Option<Condition>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) repeat: Option<u64>,
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) every: Option<Duration>,
+    #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
+    pub(crate) jitter: Option<Duration>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) random: Option<u64>,
+}
+
+/// Keys that do not belong together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Contradiction {
+    /// What is wrong.
+    pub(crate) message: String,
+    /// The way out; empty if the message says it.
+    pub(crate) help: &'static str,
+}
+
+impl Contradiction {
+    fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), help: "" }
+    }
+}
+
+impl StepForm {
+    /// What the keys say together.
+    pub(crate) fn read(self) -> Result<ScriptStep, Contradiction> {
+        if let Some(count) = self.random {
+            return self.random_steps(count).map(ScriptStep::Random);
+        }
+        let mode = self.mode()?;
+        let repetition = self.repetition()?;
+        let trigger = self.trigger()?;
+        let order = self.order(mode)?;
+        Ok(ScriptStep::Step(Step { trigger, order, repetition }))
+    }
+
+    fn random_steps(&self, count: u64) -> Result<RandomSteps, Contradiction> {
+        match self.within {
+            Some(within) => Ok(RandomSteps { count, within }),
+            None => Err(Contradiction {
+                message: "`random` needs the time that its steps take together".to_owned(),
+                help: "such as `within = \"1s\"`",
+            }),
+        }
+    }
+
+    fn trigger(&self) -> Result<Trigger, Contradiction> {
+        match (self.at, self.after, &self.when) {
+            (None, None, None) => Ok(Trigger::AtOnce),
+            (Some(at), None, None) => Ok(Trigger::At(at)),
+            (None, Some(after), None) => Ok(Trigger::After(after)),
+            (None, None, Some(when)) => Ok(Trigger::When(when.clone())),
+            _ => Err(Contradiction::new("a step has one of at, after and when")),
+        }
+    }
+
+    /// When an expectation has to hold; none: the keys leave it out.
+    fn mode(&self) -> Result<Option<Mode>, Contradiction> {
+        match (self.within, self.r#for, &self.until) {
+            (None, None, None) => Ok(None),
+            (Some(within), None, None) => Ok(Some(Mode::Within(within))),
+            (None, Some(span), None) => Ok(Some(Mode::For(span))),
+            (None, None, Some(until)) => Ok(Some(Mode::Until(until.clone()))),
+            _ => Err(Contradiction::new("`within`, `for` and `until` contradict each other")),
+        }
+    }
+
+    fn repetition(&self) -> Result<Option<Repetition>, Contradiction> {
+        match (self.repeat, self.every, self.jitter) {
+            (None, None, None) => Ok(None),
+            (Some(times), Some(every), jitter) => {
+                Ok(Some(Repetition { times, every, jitter: jitter.unwrap_or(Duration::ZERO) }))
+            }
+            _ => Err(Contradiction::new("`repeat` and `every` belong together, and `jitter` to both")),
+        }
+    }
+
+    fn order(self, mode: Option<Mode>) -> Result<Order, Contradiction> {
+        let orders = [
+            self.master.map(Order::Master),
+            self.unit.map(Order::Unit),
+            self.cpu.map(Order::Cpu),
+            self.line.map(Order::Line),
+        ];
+        let orders: Vec<Order> = orders.into_iter().flatten().collect();
+        let misplaced =
+            || Contradiction::new("`within` and `for` belong to `expect`, `until` to `expect` and `never`");
+        match (orders.as_slice(), self.expect, self.never) {
+            ([order], None, None) => mode.map_or_else(|| Ok(order.clone()), |_| Err(misplaced())),
+            ([], Some(condition), None) => {
+                Ok(Order::Expect(Expectation { condition, mode: mode.unwrap_or(Mode::Now) }))
+            }
+            ([], None, Some(condition)) => {
+                let mode = match mode {
+                    None => Mode::Never,
+                    Some(Mode::Until(until)) => Mode::NeverUntil(until),
+                    Some(_) => return Err(misplaced()),
+                };
+                Ok(Order::Expect(Expectation { condition, mode }))
+            }
+            (orders, expect, never) => {
+                let count = orders.len() + usize::from(expect.is_some()) + usize::from(never.is_some());
+                Err(Contradiction::new(format!(
+                    "a step tells one of master, unit, cpu, line, expect or never; this one {count}"
+                )))
+            }
+        }
+    }
+
+    fn of(step: Step) -> Self {
+        let mut form = Self::default();
+        match step.trigger {
+            Trigger::AtOnce => {}
+            Trigger::At(at) => form.at = Some(at),
+            Trigger::After(after) => form.after = Some(after),
+            Trigger::When(when) => form.when = Some(when),
+        }
+        match step.order {
+            Order::Master(order) => form.master = Some(order),
+            Order::Unit(order) => form.unit = Some(order),
+            Order::Cpu(order) => form.cpu = Some(order),
+            Order::Line(order) => form.line = Some(order),
+            Order::Expect(expectation) => form.expect(expectation),
+        }
+        if let Some(Repetition { times, every, jitter }) = step.repetition {
+            (form.repeat, form.every) = (Some(times), Some(every));
+            form.jitter = Some(jitter).filter(|jitter| !jitter.is_zero());
+        }
+        form
+    }
+
+    fn expect(&mut self, Expectation { condition, mode }: Expectation) {
+        let is_unwanted = matches!(mode, Mode::Never | Mode::NeverUntil(_));
+        *(if is_unwanted { &mut self.never } else { &mut self.expect }) = Some(condition);
+        match mode {
+            Mode::Now | Mode::Never => {}
+            Mode::Within(within) => self.within = Some(within),
+            Mode::For(span) => self.r#for = Some(span),
+            Mode::Until(until) | Mode::NeverUntil(until) => self.until = Some(until),
+        }
+    }
+}
+
+impl Serialize for Step {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        StepForm::of(self.clone()).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Step {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        match ScriptStep::deserialize(deserializer)? {
+            ScriptStep::Step(step) => Ok(step),
+            ScriptStep::Random(_) => Err(de::Error::custom("`random` is no step of its own")),
+        }
+    }
+}
+
+impl Serialize for ScriptStep {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let form = match self {
+            Self::Step(step) => StepForm::of(step.clone()),
+            Self::Random(random) => {
+                StepForm { random: Some(random.count), within: Some(random.within), ..StepForm::default() }
+            }
+        };
+        form.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for ScriptStep {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        StepForm::deserialize(deserializer)?.read().map_err(|wrong| de::Error::custom(wrong.message))
+    }
+}

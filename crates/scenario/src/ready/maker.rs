@@ -1,0 +1,38 @@
+//! What of a scenario is ready so far, and what is wrong with it.
+
+use plc::DeviceVariables;
+
+use super::files::Files;
+use super::problem::{Part, Problem};
+use crate::run::{LoadedProgram, MasterProgram, UnitSource};
+
+/// Makes a scenario ready.
+pub(super) struct Maker<'f> {
+    /// Gives the texts of files.
+    pub(super) files: &'f mut dyn Files,
+    pub(super) units: Vec<UnitSource>,
+    /// The device variables of the units.
+    pub(super) variables: Vec<DeviceVariables>,
+    /// The master's own program.
+    pub(super) master: Option<MasterProgram>,
+    /// Programs that steps load.
+    pub(super) programs: Vec<LoadedProgram>,
+    pub(super) problems: Vec<Problem>,
+}
+
+impl<'f> Maker<'f> {
+    pub(super) fn new(files: &'f mut dyn Files) -> Self {
+        Self {
+            files,
+            units: Vec::new(),
+            variables: Vec::new(),
+            master: None,
+            programs: Vec::new(),
+            problems: Vec::new(),
+        }
+    }
+
+    pub(super) fn refuse(&mut self, part: Part, message: impl Into<String>, help: impl Into<String>) {
+        self.problems.push(Problem { part, message: message.into(), help: help.into() });
+    }
+}

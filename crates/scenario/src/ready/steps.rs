@@ -1,0 +1,184 @@
+//! Steps: whether they can be, one after the other, and name what is there.
+
+use time::Duration;
+
+use super::maker::Maker;
+use super::problem::{Part, StepPart};
+use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master, unit_of_unit};
+use super::written::Written;
+use crate::model::{Condition, Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
+use crate::run::{RandomPart, WrittenStep};
+use crate::words::Spoken;
+
+/// Most repetitions of a step, and most steps of the dice.
+const STEPS_MAX: u64 = 10_000;
+
+/// The steps that can be run, and where the dice add theirs.
+#[derive(Default)]
+pub(super) struct ReadySteps {
+    pub(super) steps: Vec<WrittenStep>,
+    pub(super) random: Option<RandomPart>,
+    /// The earliest moment of the next step.
+    reached: Duration,
+}
+
+/// Whether steps can be held against units and programs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Ground {
+    /// All of them are right.
+    Firm,
+    /// A unit or a program is wrong, so that nobody knows what steps may name.
+    Missing,
+}
+
+impl Maker<'_> {
+    pub(super) fn steps(
+        &mut self,
+        steps: Vec<ScriptStep>,
+        written: Vec<Written>,
+        limit: Duration,
+        ground: Ground,
+    ) -> ReadySteps {
+        let mut ready = ReadySteps::default();
+        for (at, (step, written)) in steps.into_iter().zip(written).enumerate() {
+            match step {
+                ScriptStep::Random(random) => self.random(at, random, written, &mut ready),
+                ScriptStep::Step(mut step) => {
+                    self.check_moment(at, &step.trigger, &mut ready.reached, limit);
+                    if let Some(repetition) = step.repetition {
+                        self.check_repetition(at, repetition);
+                    }
+                    self.check_step(at, &mut step, ground);
+                    let Written { line, text, .. } = written;
+                    ready.steps.push(WrittenStep { step, line, text });
+                }
+            }
+        }
+        ready
+    }
+
+    /// Times from the beginning that run backwards, or behind the limit, can never be.
+    fn check_moment(&mut self, at: usize, trigger: &Trigger, reached: &mut Duration, limit: Duration) {
+        let part = Part::Step(at, StepPart::Whole);
+        let moment = match trigger {
+            Trigger::At(moment) if *moment < *reached => {
+                let message =
+                    format!("{moment} lies before the step in front of it, which is not before {reached}");
+                return self.refuse(part, message, "steps happen in the order of the file");
+            }
+            Trigger::At(moment) => *moment,
+            Trigger::After(after) => *reached + *after,
+            Trigger::AtOnce | Trigger::When(_) => *reached,
+        };
+        *reached = moment;
+        if moment > limit {
+            let message = format!("{moment} lies behind the limit of {limit}");
+            self.refuse(part, message, "set `limit = \"…\"` higher");
+        }
+    }
+
+    fn check_repetition(&mut self, at: usize, Repetition { times, every, jitter }: Repetition) {
+        if !(1..=STEPS_MAX).contains(&times) {
+            let message = format!("`repeat` is 1 to {STEPS_MAX} times");
+            self.refuse(Part::Step(at, StepPart::Count), message, "");
+        }
+        if jitter > every {
+            let message = format!("a jitter of {jitter} is more than the period of {every}");
+            self.refuse(Part::Step(at, StepPart::Whole), message, "");
+        }
+    }
+
+    fn random(&mut self, at: usize, random: RandomSteps, written: Written, ready: &mut ReadySteps) {
+        if ready.random.is_some() {
+            return self.refuse(Part::Step(at, StepPart::Whole), "a scenario has one `random` step", "");
+        }
+        if !(1..=STEPS_MAX).contains(&random.count) {
+            let message = format!("`random` is 1 to {STEPS_MAX} steps");
+            return self.refuse(Part::Step(at, StepPart::Count), message, "");
+        }
+        ready.random = Some(RandomPart {
+            place: ready.steps.len(),
+            count: random.count as usize,
+            span: random.within,
+            line: written.line,
+            bytes: written.bytes,
+        });
+    }
+
+    fn check_step(&mut self, at: usize, step: &mut Step, ground: Ground) {
+        if let Trigger::When(condition) = &mut step.trigger {
+            self.condition(condition, Part::Step(at, StepPart::When), ground);
+        }
+        let part = Part::Step(at, StepPart::Order);
+        match &mut step.order {
+            Order::Expect(Expectation { condition, mode }) => {
+                self.condition(condition, part, ground);
+                if let Mode::Until(until) | Mode::NeverUntil(until) = mode {
+                    self.condition(until, Part::Step(at, StepPart::Until), ground);
+                }
+            }
+            order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
+                self.order(order, part, ground);
+            }
+        }
+    }
+
+    fn order(&mut self, order: &Order, part: Part, ground: Ground) -> Option<()> {
+        let units = self.units.len();
+        let is_there = match order {
+            Order::Master(order) => {
+                self.said(order, part)?;
+                unit_of_master(order).is_none_or(|set| set.exists(units))
+            }
+            Order::Unit(order) => {
+                self.said(order, part)?;
+                unit_of_unit(order).exists(units)
+            }
+            Order::Cpu(order) => {
+                self.said(order, part)?;
+                unit_of_cpu(order).is_none_or(|set| set.exists(units))
+            }
+            Order::Line(order) => {
+                self.said(order, part)?;
+                is_cable_there(order, units)
+            }
+            Order::Expect(_) => true,
+        };
+        if ground == Ground::Missing {
+            return None;
+        }
+        if !is_there {
+            self.refuse(part, "it names a unit or a cable that is not there", line_of(units));
+            return None;
+        }
+        if let Order::Cpu(order) = order { self.check_variables(order, part) } else { Some(()) }
+    }
+
+    fn condition(&mut self, condition: &mut Condition, part: Part, ground: Ground) -> Option<()> {
+        self.said(condition, part)?;
+        if ground == Ground::Missing {
+            return None;
+        }
+        let units = self.units.len();
+        match subject(condition) {
+            Subject::Units(set) if !set.exists(units) => {
+                self.refuse(part, "it names a unit that is not there", line_of(units));
+                return None;
+            }
+            Subject::Controller(controller) => self.check_controller(controller, part)?,
+            Subject::Units(_) | Subject::Variable | Subject::Masters => {}
+        }
+        self.resolve(condition, part)
+    }
+
+    /// Refuses what no sentence can say: a byte beyond 255, a fault that no unit has, an empty list.
+    fn said<T: Spoken>(&mut self, value: &T, part: Part) -> Option<()> {
+        match T::from_sentence(&value.sentence()) {
+            Ok(_) => Some(()),
+            Err(problem) => {
+                self.refuse(part, problem.message, problem.help);
+                None
+            }
+        }
+    }
+}

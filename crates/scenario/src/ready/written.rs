@@ -1,0 +1,36 @@
+//! How a step was written, and where: it travels beside the typed step, for messages and the trace.
+
+use core::ops::Range;
+
+use crate::model::{Expectation, Order, ScriptStep, Step};
+
+/// The words of a step and their place.
+pub(crate) struct Written {
+    /// Line, from 1; of a script that is no file, the number of the step.
+    pub(crate) line: usize,
+    /// The bytes of the step in the file.
+    pub(crate) bytes: Range<usize>,
+    /// The sentence of the order or of the condition.
+    pub(crate) text: String,
+}
+
+impl Written {
+    /// Of the step at this position of a script that is no file.
+    pub(super) fn of_script(at: usize, step: &ScriptStep) -> Self {
+        let text = match step {
+            ScriptStep::Step(Step { order, .. }) => sentence(order),
+            ScriptStep::Random(_) => String::new(),
+        };
+        Self { line: at + 1, bytes: 0..0, text }
+    }
+}
+
+fn sentence(order: &Order) -> String {
+    match order {
+        Order::Master(order) => order.to_string(),
+        Order::Unit(order) => order.to_string(),
+        Order::Cpu(order) => order.to_string(),
+        Order::Line(order) => order.to_string(),
+        Order::Expect(Expectation { condition, .. }) => condition.to_string(),
+    }
+}

@@ -1,0 +1,110 @@
+//! Conditions of one unit, the one at a position of the line.
+
+use wire::{AlState, ObjectIndex, SubIndex};
+
+use super::seen::{Seen, holds, is_often_enough, lie_at, truth};
+use crate::model::{Bytes, DataDirection, Entry, EventCode, Hex, IndicatorName, hex};
+use crate::run::world::World;
+
+type Check = Result<(), Seen>;
+
+fn name(at: usize) -> String {
+    format!("unit {}", at + 1)
+}
+
+pub(super) fn state(world: &mut World, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
+    let (status, shown) = world.al_status(at);
+    let shown_code = status.error.then_some(Hex(shown.0));
+    let is_there = (status.state, shown_code) == (state, code);
+    holds(is_there, || format!("{} is in {}", name(at), world.state_words(at)))
+}
+
+pub(super) fn recorded(world: &mut World, at: usize, event: EventCode, times: Option<u64>) -> Check {
+    let seen = world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64;
+    holds(is_often_enough(seen, times), || {
+        format!("{} has recorded it {seen} times; {}", name(at), world.recorded_words(at))
+    })
+}
+
+pub(super) fn recorded_nothing(world: &mut World, at: usize) -> Check {
+    holds(world.recorded(at).is_empty(), || format!("{}: {}", name(at), world.recorded_words(at)))
+}
+
+pub(super) fn has_error(world: &mut World, at: usize, event: EventCode) -> Check {
+    let is_there = world.current_errors(at).iter().any(|code| code.0 == event.0);
+    holds(is_there, || format!("{} has {}", name(at), world.current_error_words(at)))
+}
+
+pub(super) fn has_no_error(world: &mut World, at: usize) -> Check {
+    let status = world.unit(at).error_status();
+    holds(status == 0, || {
+        format!("{} has {}, error status {status:#04X}", name(at), world.current_error_words(at))
+    })
+}
+
+pub(super) fn new_messages(world: &mut World, at: usize, available: bool) -> Check {
+    let seen = world.unit(at).has_new_messages();
+    holds(seen == available, || format!("{}: New Messages Available is {}", name(at), truth(seen)))
+}
+
+pub(super) fn object(world: &mut World, at: usize, entry: Entry, value: &Bytes) -> Check {
+    let seen = world.object(at, ObjectIndex(entry.index), SubIndex(entry.sub));
+    holds(seen.as_ref() == Ok(&value.0), || match &seen {
+        Ok(seen) => format!("it is {}", hex(seen)),
+        Err(code) => format!("it is refused with {:#010X}", code.0),
+    })
+}
+
+pub(super) fn register(world: &mut World, at: usize, register: u16, value: &Bytes) -> Check {
+    let seen = world.registers(at, register, value.0.len());
+    holds(seen == value.0, || format!("it is {}", hex(&seen)))
+}
+
+pub(super) fn outputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) -> Check {
+    lie_at(world.io(at).m_to_c(), first.into(), bytes)
+}
+
+pub(super) fn inputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) -> Check {
+    lie_at(world.inputs(at), first.into(), bytes)
+}
+
+pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
+    let status = world.unit(at).slave_status();
+    let seen = [status.m_to_c_valid, status.c_to_m_valid];
+    holds(seen == [valid; 2], || {
+        let [m_to_c, c_to_m] = seen.map(truth);
+        format!("{}: M to C valid is {m_to_c}, C to M valid is {c_to_m}", name(at))
+    })
+}
+
+pub(super) fn direction_valid(world: &mut World, at: usize, direction: DataDirection, valid: bool) -> Check {
+    let status = world.unit(at).slave_status();
+    let seen = match direction {
+        DataDirection::MToC => status.m_to_c_valid,
+        DataDirection::CToM => status.c_to_m_valid,
+    };
+    holds(seen == valid, || format!("{}: it is {}", name(at), truth(seen)))
+}
+
+pub(super) fn io_data_active(world: &mut World, at: usize, active: bool) -> Check {
+    let seen = world.io(at).io_data_active();
+    holds(seen == active, || format!("{}: NX Unit I/O Data Active Status is {}", name(at), truth(seen)))
+}
+
+pub(super) fn error(world: &mut World, at: usize, error: bool) -> Check {
+    let seen = world.io(at).unit_error();
+    holds(seen == error, || format!("{}: NX Unit Error Status is {}", name(at), truth(seen)))
+}
+
+pub(super) fn indicator(world: &mut World, at: usize, indicator: IndicatorName, pattern: &str) -> Check {
+    let seen = world.indicator(at, indicator).id();
+    holds(seen == pattern, || format!("{}: it is {seen}", name(at)))
+}
+
+pub(super) fn working_counter(world: &mut World, at: usize, value: u16) -> Check {
+    let seen = world.working_counter(at);
+    holds(seen == Some(value), || match seen {
+        Some(seen) => format!("it is {seen}"),
+        None => "no process data came back".to_owned(),
+    })
+}

@@ -1,0 +1,108 @@
+//! docs/user/scenario-values.md is what the types and the tables of sentences say.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Sentence, Spoken, UNIT};
+use serde::Serialize;
+
+/// If this variable is set, the test writes the page instead of comparing it.
+const BLESS: &str = "ECTWIN_BLESS";
+
+const HEAD: &str = r##"<!-- Generated: cargo xtask bless -->
+# Typed values of scenarios
+
+Programs build steps as data: the order or the condition of a step is a typed value, and its sentence is one spelling of it.
+[Scenario files](scenario-reference.md) has the sentences.
+
+## In a file
+Where a text is a sentence, a table is a typed value. Both can stand in one list of steps:
+
+```toml typed.toml
+title = "a unit reaches OP, and the cable is unplugged"
+steps = [
+  { master = { take = { units = "all", state = "OP" } } },
+  { expect = "unit 1 is in OP", within = "100ms" },
+  { line = { unplug = { cable = 1 } } },
+  { expect = { state = { units = 1, state = "SAFE-OP", al_status_code = 0x001B } }, within = "110ms" },
+]
+```
+
+```console
+$ ectwin replay typed.toml
+ok      typed.toml: a unit reaches OP, and the cable is unplugged (…ms)
+1 case: 1 ok, 0 failed
+```
+
+Messages and the trace show a typed value as its sentence. A value that no sentence can say, such as mailbox counter 8, is refused.
+
+## In JSON
+The keys are the same. `Script` is a whole scenario, `Step` one step:
+
+```json
+{
+  "title": "a unit reaches OP",
+  "units": ["units/nx-ect101.toml"],
+  "steps": [
+    { "master": { "take": { "units": "all", "state": "OP" } } },
+    { "expect": { "state": { "units": 1, "state": "OP" } }, "within": "100ms" }
+  ]
+}
+```
+
+## In Rust
+`ScenarioBuilder` takes sentences and typed values. `Scenario::of` takes a `Script`, whose types implement serde:
+
+"##;
+
+/// The example in Rust, which is a test of its own.
+const IN_RUST: &str = include_str!("../../ectwin/tests/guide/scenario_values.rs");
+
+const VALUES: &str = r##"
+## Values
+| value | written as |
+|---|---|
+| `units` | `"all"`, or the number of a unit, 1 for the one next to the master |
+| `unit`, `cable` | a number from 1 |
+| `controller` | `"master"`, or `{ "unit": 1 }` |
+| a state | `"INIT"`, `"PRE-OP"`, `"SAFE-OP"`, `"OP"`, `"BOOT"`, or a number as a text: `"0x05"` |
+| a code, a register, a PDO | a text in hexadecimal such as `"0x001B"`, or a number |
+| bytes | a text in hexadecimal: `"01 FF"` |
+| an entry of an object | `"10F3:05"` |
+| a time | a text with a unit: `"1.5ms"` |
+| `choice` of frames | `"all"`, `{ "next": 3 }`, `{ "percent": 5 }`, `{ "behind": { "skip": 2, "count": 7 } }` |
+| `kind` of frames | `"any"` (the default), `"process_data"`, `"mailbox"` |
+
+A value without fields has an empty table, such as `{ "behave": {} }`: a text is always a sentence.
+"##;
+
+fn page() -> String {
+    let mut page = format!("{HEAD}```rust\n{IN_RUST}```\n{VALUES}");
+    values(&mut page, "master", MASTER);
+    values(&mut page, "unit", UNIT);
+    values(&mut page, "cpu", CPU);
+    values(&mut page, "line", LINE);
+    values(&mut page, "conditions", CONDITIONS);
+    page
+}
+
+fn values<T: Spoken + Serialize>(page: &mut String, heading: &str, table: &[Sentence<T>]) {
+    page.push_str(&format!("\n## {heading}\n| sentence | typed value |\n|---|---|\n"));
+    for Sentence { example, .. } in table {
+        let json = T::from_sentence(example).ok().and_then(|value| serde_json::to_string(&value).ok());
+        page.push_str(&format!("| `{example}` | `{}` |\n", json.unwrap_or_default()));
+    }
+}
+
+fn path() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user/scenario-values.md")
+}
+
+#[test]
+fn the_page_is_what_the_types_say() {
+    if std::env::var_os(BLESS).is_some() {
+        fs::write(path(), page()).unwrap_or_else(|error| panic!("{error}"));
+    }
+    let written = fs::read_to_string(path()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(written == page(), "cargo xtask bless");
+}
