@@ -192,6 +192,8 @@ fn an_sm_synchronous_slave_needs_the_interrupt() {
     to_op(&mut bench);
     bench.unit().refreshes.clear();
     bench.write(0x1000, &[0x55]);
+    bench.request(Op.bits());
+    assert_eq!(bench.unit().refreshes, [], "nor when it is looked at for another reason");
     bench.run_for(Duration::from_millis(1));
     assert_eq!(bench.unit().refreshes, [RefreshCause::Period]);
 }
