@@ -71,7 +71,7 @@ impl Esc {
         now: Instant,
         mut sink: impl FnMut(usize, &[u8]),
     ) -> bool {
-        if offset >= PROCESS_RAM_START || are_digital_outputs(offset, length_bytes) {
+        if offset >= PROCESS_RAM_START {
             return self.read_ram(u32::from(offset), 0, length_bytes, &mut sink);
         }
         let registers_bytes = length_bytes.min(usize::from(PROCESS_RAM_START - offset));
