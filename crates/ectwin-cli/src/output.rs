@@ -4,9 +4,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tracing_subscriber::EnvFilter;
+use user_file::escaped;
 
 use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
+
+/// Longer lines are cut. The longest that is of use has the bytes of a whole SyncManager.
+const LINE_CHARACTERS_MAX: usize = 8_000;
 
 /// Sends logs to stderr; `RUST_LOG` overrules the level that `-v` asks for.
 pub(crate) fn start_logging(verbose: u8) {
@@ -43,13 +47,47 @@ pub(crate) fn print(result: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Prints a line at once.
+/// Prints a text for people at once. What files and names bring into it is harmless to a terminal: control characters
+/// are written out, and lines without end are cut.
+pub(crate) fn print_text(text: &str) -> Result<(), Failure> {
+    print(for_terminals(text).as_bytes())
+}
+
+/// Prints a line for people at once.
 pub(crate) fn print_line(line: impl std::fmt::Display) -> Result<(), Failure> {
-    print(format!("{line}\n").as_bytes())
+    print_text(&format!("{line}\n"))
+}
+
+fn for_terminals(text: &str) -> String {
+    text.split_inclusive('\n').map(|line| cut(&escaped(line))).collect()
+}
+
+fn cut(line: &str) -> String {
+    match line.char_indices().nth(LINE_CHARACTERS_MAX) {
+        None => line.to_owned(),
+        Some((end, _)) => {
+            let more = line[end..].trim_end_matches('\n').chars().count();
+            format!("{}… and {more} characters more\n", &line[..end])
+        }
+    }
 }
 
 /// Writes a result to `path`, or to stdout without one.
 pub(crate) fn write(path: Option<&Path>, result: &[u8]) -> Result<(), Failure> {
     let Some(path) = path else { return print(result) };
     std::fs::write(path, result).map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_terminal_obeys_nothing_that_is_printed_for_people() {
+        assert_eq!(for_terminals("a\u{1b}[31m\n\u{7}b\r\n"), "a\\u{1b}[31m\n\\u{7}b\\r\n");
+        let long = "ä".repeat(LINE_CHARACTERS_MAX + 5) + "\nb\n";
+        let kept = "ä".repeat(LINE_CHARACTERS_MAX);
+        assert_eq!(for_terminals(&long), format!("{kept}… and 5 characters more\nb\n"));
+        assert_eq!(for_terminals("no end"), "no end");
+    }
 }

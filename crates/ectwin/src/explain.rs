@@ -35,6 +35,8 @@ pub use pages::{Page, event_pages};
 pub use subject::Subject;
 pub use unexplained::Unexplained;
 
+/// Longer than every name of the tables.
+const TEXT_BYTES_MAX: usize = 200;
 /// So many meanings of one name are explained in whole.
 const WHOLE_MAX: usize = 3;
 /// So many names that share a part are shown.
@@ -47,6 +49,9 @@ const PARTS_MAX: usize = 20;
 /// # Errors
 /// No table has it.
 pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
+    if text.len() > TEXT_BYTES_MAX {
+        return Err(unknown::too_long(text));
+    }
     if let Some(entry) = object::EntryNumber::parse(text) {
         return entry.explanations();
     }

@@ -25,7 +25,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
         output::print(document::of(&configuration, levels, &verdict)?.as_bytes())?;
     } else {
         let level = |finding: &Finding| finding.level(levels);
-        output::print(for_people(&args.unit, &file, &text, &configuration, &verdict, level).as_bytes())?;
+        output::print_text(&for_people(&args.unit, &file, &text, &configuration, &verdict, level))?;
     }
     let is_broken = verdict.findings.iter().any(|finding| finding.level(levels) == EventLevel::MinorFault);
     if is_broken { Err(Failure::RulesBroken) } else { Ok(()) }

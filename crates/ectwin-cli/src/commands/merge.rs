@@ -26,7 +26,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);
     for result in failed.clone() {
         let told = format!("FAILED  {}: {}\n{}", result.file, result.title, failure_story(result));
-        output::print(told.as_bytes())?;
+        output::print_text(&told)?;
     }
     if let Some(path) = &args.junit {
         output::write(Some(path), junit_report(&results)?.as_bytes())?;

@@ -77,7 +77,7 @@ fn words(text: &str) -> Vec<String> {
     words.map(str::to_lowercase).collect()
 }
 
-fn all() -> impl Iterator<Item = (String, Subject)> {
+pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
     let words = glossary::words().map(|(word, row)| (word.to_owned(), Subject::Word(row)));
     let patterns = Pattern::ALL.map(|pattern| (pattern.id().to_owned(), Subject::Pattern(pattern)));
     let events = Event::all().iter().map(|event| (event.name.clone(), Subject::Event(event.code)));

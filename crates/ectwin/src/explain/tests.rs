@@ -410,3 +410,11 @@ fn every_fault_is_named_where_its_event_is_told() {
         assert!(event.in_ectwin.contains(&format!("`{fault:?}`")), "{fault:?}: {}", event.in_ectwin);
     }
 }
+
+#[test]
+fn a_text_longer_than_every_name_is_repeated_in_part() {
+    let message = explain(&"a".repeat(100_000)).unwrap_err().to_string();
+    assert_eq!(message, format!("`{}...` is not known", "a".repeat(40)));
+    let longest = names::all().map(|(name, _)| name.len()).max();
+    assert!(longest <= Some(TEXT_BYTES_MAX), "{longest:?}");
+}

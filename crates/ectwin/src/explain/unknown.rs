@@ -23,6 +23,11 @@ pub(super) fn name(text: &str) -> Unexplained {
     Unexplained::new(format!("`{}` is not known{near}", text.escape_debug()), KNOWN)
 }
 
+/// A text that no name is as long as.
+pub(super) fn too_long(text: &str) -> Unexplained {
+    Unexplained::new(format!("`{}` is not known", user_file::shown(text)), KNOWN)
+}
+
 /// Words that are a part of more names than can be shown.
 pub(super) fn part(text: &str, meanings: &[Explanation]) -> Unexplained {
     let message = format!("`{}` is a part of {} names", text.escape_debug(), meanings.len());

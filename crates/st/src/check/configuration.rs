@@ -6,14 +6,16 @@ use super::scope::{Scope, key};
 use super::{Checker, Origin, Pending};
 use crate::problem::{Problem, Span};
 use crate::program::Task;
-use crate::syntax::ast::{Configuration, File, Name, Pou, PouKind, ProgramInstance, TaskDeclaration};
+use crate::syntax::ast::{
+    Configuration, Expression, File, Name, Pou, PouKind, ProgramInstance, TaskDeclaration,
+};
 use crate::task_period::{TASK_PERIODS, is_task_period};
 
 /// A PRIORITY that is left out comes behind all others.
 const PRIORITY_LAST: i128 = i128::MAX;
 
 /// The shortest task period of a CPU Unit.
-const INTERVAL_MIN_NS: i64 = 125_000;
+const INTERVAL_MIN_NS: u64 = 125_000;
 
 /// A task of a CONFIGURATION.
 struct Planned<'t> {
@@ -80,22 +82,33 @@ impl<'t> Checker<'t> {
 
     fn task(&mut self, declaration: &'t TaskDeclaration) -> Option<Planned<'t>> {
         let scope = Scope::default();
-        let priority = match &declaration.priority {
-            Some(priority) => self.constant_integer(priority, &scope)?,
-            None => PRIORITY_LAST,
-        };
-        let interval = match &declaration.interval {
-            Some(interval) => {
-                let duration_ns = Constants::new(self, &scope).duration(interval)?;
-                if duration_ns < INTERVAL_MIN_NS {
-                    let message = "an INTERVAL is T#125us at least";
-                    return self.refuse(Problem::new(interval.span, message));
-                }
-                Some((duration_ns.unsigned_abs(), interval.span))
-            }
-            None => None,
-        };
+        let priority = declaration.priority.as_ref().and_then(|priority| self.priority(priority, &scope));
+        let priority = priority.unwrap_or(PRIORITY_LAST);
+        let interval = declaration.interval.as_ref().and_then(|interval| self.interval(interval, &scope));
         Some(Planned { name: &declaration.name, interval, priority, programs: Vec::new() })
+    }
+
+    /// The priority, a UINT.
+    fn priority(&mut self, priority: &'t Expression, scope: &Scope) -> Option<i128> {
+        let number = self.constant_integer(priority, scope)?;
+        if u16::try_from(number).is_ok() {
+            return Some(number);
+        }
+        self.refuse(Problem::new(priority.span, "a PRIORITY is 0 to 65535, and 0 is the highest"))
+    }
+
+    /// How long a period is. What is wrong with it has been reported, and the task is known all the same.
+    fn interval(&mut self, interval: &'t Expression, scope: &Scope) -> Option<(u64, Span)> {
+        let duration_ns = Constants::new(self, scope).duration(interval)?;
+        match u64::try_from(duration_ns) {
+            Ok(interval_ns) if interval_ns >= INTERVAL_MIN_NS => Some((interval_ns, interval.span)),
+            _ => self.refuse_period(interval.span),
+        }
+    }
+
+    fn refuse_period<T>(&mut self, span: Span) -> Option<T> {
+        let problem = Problem::new(span, "no CPU Unit has this task period");
+        self.refuse(problem.help(format!("the shortest INTERVAL is {TASK_PERIODS}")))
     }
 
     fn program_of_configuration(
@@ -137,8 +150,7 @@ impl<'t> Checker<'t> {
         if let Some((interval_ns, span)) = shortest
             && !is_task_period(interval_ns)
         {
-            let problem = Problem::new(span, "no CPU Unit has this task period");
-            self.refuse::<()>(problem.help(format!("the shortest INTERVAL is {TASK_PERIODS}")));
+            self.refuse_period::<()>(span);
         }
         let shortest = shortest.map(|(interval_ns, _)| interval_ns);
         for Planned { interval, programs, .. } in tasks {

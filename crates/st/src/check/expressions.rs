@@ -80,6 +80,13 @@ impl Value {
     const fn untyped(kind: Kind, span: Span) -> Self {
         Self { kind, code: Code::Constant(0), span }
     }
+
+    fn type_if_elementary(&self) -> Option<Elementary> {
+        match &self.kind {
+            Kind::Type(type_) => type_.elementary(),
+            Kind::Integer(_) | Kind::Real(_) | Kind::Nothing => None,
+        }
+    }
 }
 
 impl<'c, 't> Body<'c, 't> {
@@ -115,6 +122,11 @@ impl<'c, 't> Body<'c, 't> {
         self.expression(expression)
     }
 
+    fn expression_wanted(&mut self, expression: &Expression, wanted: Option<Elementary>) -> Option<Value> {
+        self.wanted = wanted;
+        self.expression(expression)
+    }
+
     fn expression_here(&mut self, expression: &Expression) -> Option<Value> {
         let span = expression.span;
         let wanted = self.wanted.take();
@@ -127,17 +139,18 @@ impl<'c, 't> Body<'c, 't> {
             }
             ExpressionKind::EnumValue { type_name, value } => self.enum_value(type_name, value, span),
             ExpressionKind::Unary { operator, operand } => {
-                let operand = self.expression(operand)?;
+                let operand = self.expression_wanted(operand, wanted)?;
                 self.unary(*operator, operand, span)
             }
-            ExpressionKind::Binary { .. } => self.chain(expression),
+            ExpressionKind::Binary { .. } => self.chain(expression, wanted),
             ExpressionKind::Call(call) => self.call(call, wanted),
         }
     }
 
     /// Operators one behind the other, `a + b + c`: a loop, because there may be hundreds. The first two operands lie
-    /// deepest. All operands are looked at, so that each tells what is wrong with it.
-    fn chain(&mut self, expression: &Expression) -> Option<Value> {
+    /// deepest. All operands are looked at, so that each tells what is wrong with it. A function that has only numbers
+    /// without a type gets the type of what is on its left, or else the wanted one.
+    fn chain(&mut self, expression: &Expression, wanted: Option<Elementary>) -> Option<Value> {
         let mut operations = Vec::new();
         let mut first = expression;
         while let ExpressionKind::Binary { operator, left, right } = &first.kind {
@@ -146,9 +159,10 @@ impl<'c, 't> Body<'c, 't> {
         }
         let own_depth = self.depth;
         self.depth += operations.len().saturating_sub(1) as u32;
-        let mut value = self.expression(first);
+        let mut value = self.expression_wanted(first, wanted);
         for (operator, right, span) in operations.into_iter().rev() {
-            let operands = value.zip(self.expression(right));
+            let on_the_left = value.as_ref().and_then(Value::type_if_elementary);
+            let operands = value.zip(self.expression_wanted(right, on_the_left.or(wanted)));
             value = operands.and_then(|(left, right)| self.binary(operator, left, right, span));
             self.depth = self.depth.saturating_sub(1).max(own_depth);
         }

@@ -36,7 +36,7 @@ impl Results {
     /// The next case.
     pub(super) fn take(&mut self, ended: Ended) -> Result<(), Failure> {
         let Ended { result, trace, capture } = ended;
-        output::print(story::case(&result, trace.as_deref()).as_bytes())?;
+        output::print_text(&story::case(&result, trace.as_deref()))?;
         self.captures.write(&result, capture.as_deref())?;
         if let Some((path, file)) = &mut self.lines {
             let line = serde_json::to_string(&result).map_err(std::io::Error::from);
