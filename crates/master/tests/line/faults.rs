@@ -45,6 +45,8 @@ struct BadLine {
     now: Instant,
     /// Slaves that have shown an error to the master, and no state without one since.
     refused: [bool; 2],
+    /// A damaged answer has come: from then on the master may believe of a slave what was never so.
+    is_deceived: bool,
 }
 
 impl BadLine {
@@ -54,7 +56,7 @@ impl BadLine {
         let bench = connected_with(Master::new(habits), 2, |_, _| {});
         let now = bench.now();
         let (master, slaves) = (bench.master, bench.line);
-        Self { master, slaves, fates, next: 0, late: Vec::new(), now, refused: [false; 2] }
+        Self { master, slaves, fates, next: 0, late: Vec::new(), now, refused: [false; 2], is_deceived: false }
     }
 
     /// Runs until an order is done; how it ended at each slave.
@@ -116,6 +118,7 @@ impl BadLine {
                 if let Some(byte) = frame.get_mut(usize::from(at)) {
                     *byte ^= bits;
                 }
+                self.is_deceived = true;
                 self.master.receive(self.now, ticket, &frame);
             }
         }
@@ -143,8 +146,10 @@ impl BadLine {
             if let (Command::Fpwr, Some(bits)) = (datagram.header.command, datagram.data.first_chunk()) {
                 let control = AlControl::from_bits(u16::from_le_bytes(*bits));
                 let slave = usize::from(datagram.header.address - 0x1001);
-                let is_allowed =
-                    control.acknowledge || control.state == AlState::Init || !self.refused[slave];
+                let is_allowed = control.acknowledge
+                    || control.state == AlState::Init
+                    || !self.refused[slave]
+                    || self.is_deceived;
                 assert!(is_allowed, "{control:?} to a slave that shows an error");
             }
         }
