@@ -56,7 +56,16 @@ impl BadLine {
         let bench = connected_with(Master::new(habits), 2, |_, _| {});
         let now = bench.now();
         let (master, slaves) = (bench.master, bench.line);
-        Self { master, slaves, fates, next: 0, late: Vec::new(), now, refused: [false; 2], is_deceived: false }
+        Self {
+            master,
+            slaves,
+            fates,
+            next: 0,
+            late: Vec::new(),
+            now,
+            refused: [false; 2],
+            is_deceived: false,
+        }
     }
 
     /// Runs until an order is done; how it ended at each slave.
