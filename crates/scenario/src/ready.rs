@@ -48,7 +48,7 @@ impl Scenario {
 /// A scenario, and what is wrong with it: it can run if nothing is.
 pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Problem>) {
     let Draft { script, written, is_whole } = draft;
-    let mut maker = Maker::new(files);
+    let mut maker = Maker::new(files, script.capture.is_some());
     maker.units(&script.units);
     maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));
     let ground = if is_whole && maker.problems.is_empty() { Ground::Firm } else { Ground::Missing };

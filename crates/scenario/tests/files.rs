@@ -97,9 +97,22 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ never = \"user-defined error 0 at the master\" }", "from 1 to 40000", ""),
         ("{ never = \"program error of unit 1 at 5:0\" }", "line and column, both from 1", ""),
         ("{ random = 3 }", "needs the time", "within = \"1s\""),
+        ("{ expect = \"the capture is replayed\" }", "the scenario has no capture", "capture = "),
+        ("{ never = \"at most 3 answers differ\" }", "the scenario has no capture", "capture = "),
+        ("{ unit = { restrat = { units = 1 } } }", "unknown variant `restrat`", "did you mean `restart`?"),
+        ("{ unit = { restart = { unit = 1 } } }", "unknown field `unit`", "did you mean `units`?"),
+        ("{ unit = { restart = { units = 1 }, cycle_power = { units = 1 } } }", "has one key", ""),
+        ("{ unit = { restart = { units = 2 } } }", "not there", "1 unit"),
+        ("{ line = { unplug = { cable = 0 } } }", "nonzero", ""),
+        ("{ unit = 5 }", "a sentence, or a table with one key", ""),
+        (
+            "{ unit = { inject_fault = { units = 1, fault = \"No\" } } }",
+            "expected a fault of a unit",
+            "break",
+        ),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
         ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
-        ("{ lines = \"be quiet\" }", "unknown field `lines`", "expected one of"),
+        ("{ lines = \"be quiet\" }", "unknown field `lines`", "did you mean `line`?"),
     ];
     for (text, message, help) in cases {
         let errors = step(text);
@@ -143,6 +156,30 @@ fn until_holds_as_long_as_it_takes() {
     assert!(early.as_ref().is_err_and(|failure| failure.contains("it does hold")), "{early:?}");
     let vain = verdict("{ expect = \"unit 1 has no error\", until = \"unit 1 has recorded 85000000\" }");
     assert!(vain.as_ref().is_err_and(|failure| failure.contains("waits in vain")), "{vain:?}");
+}
+
+/// An expectation that was never looked at would hold whatever happens.
+#[test]
+fn what_has_to_hold_for_a_time_has_to_hold_at_once() {
+    for span in ["0s", "1ns", "1ms"] {
+        let text = format!(
+            "title = \"t\"\nsteps = [\n{{ master = \"take unit 1 to OP\" }},\n\
+             {{ expect = \"unit 1 is in OP\", for = \"{span}\" }}\n]"
+        );
+        let scenario =
+            Scenario::parse(&text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+        let failure = scenario.replay(1, Recording::new(false, false)).failure;
+        assert!(failure.is_some_and(|failure| failure.line == 4), "{span}");
+    }
+}
+
+#[test]
+fn a_unit_without_power_is_in_no_state() {
+    let text =
+        "title = \"t\"\nsteps = [\n{ unit = \"power off unit 1\" },\n{ expect = \"unit 1 is in INIT\" }\n]";
+    let scenario = Scenario::parse(text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+    let failure = scenario.replay(1, Recording::new(false, false)).failure;
+    assert_eq!(failure.map(|failure| failure.seen).as_deref(), Some("unit 1 is off"));
 }
 
 #[test]

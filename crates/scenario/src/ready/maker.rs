@@ -15,15 +15,18 @@ pub(super) struct Maker<'f> {
     pub(super) variables: Vec<DeviceVariables>,
     /// The master's own program.
     pub(super) master: Option<MasterProgram>,
+    /// It names a capture.
+    pub(super) has_capture: bool,
     /// Programs that steps load.
     pub(super) programs: Vec<LoadedProgram>,
     pub(super) problems: Vec<Problem>,
 }
 
 impl<'f> Maker<'f> {
-    pub(super) fn new(files: &'f mut dyn Files) -> Self {
+    pub(super) fn new(files: &'f mut dyn Files, has_capture: bool) -> Self {
         Self {
             files,
+            has_capture,
             units: Vec::new(),
             variables: Vec::new(),
             master: None,

@@ -91,7 +91,9 @@ pub(super) enum Subject {
     Units(UnitSet),
     Controller(Controller),
     Variable,
-    Masters,
+    Master,
+    /// The frames of a capture.
+    Capture,
 }
 
 pub(super) fn subject(condition: &Condition) -> Subject {
@@ -126,8 +128,7 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::SdoRefused { .. }
         | Condition::SdoGave { .. }
         | Condition::SdoTaken
-        | Condition::Emergency { .. }
-        | Condition::CaptureReplayed
-        | Condition::AnswersDiffer { .. } => Subject::Masters,
+        | Condition::Emergency { .. } => Subject::Master,
+        Condition::CaptureReplayed | Condition::AnswersDiffer { .. } => Subject::Capture,
     }
 }

@@ -166,7 +166,13 @@ impl Maker<'_> {
                 return None;
             }
             Subject::Controller(controller) => self.check_controller(controller, part)?,
-            Subject::Units(_) | Subject::Variable | Subject::Masters => {}
+            // Without frames all of them are sent, and no answer differs.
+            Subject::Capture if !self.has_capture => {
+                let help = "name one: `capture = \"….pcapng\"`";
+                self.refuse(part, "the scenario has no capture", help);
+                return None;
+            }
+            Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture => {}
         }
         self.resolve(condition, part)
     }

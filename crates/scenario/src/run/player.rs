@@ -150,6 +150,7 @@ impl<'a> Replay<'a> {
             Mode::Now => check(condition, &mut self.world).map_err(|seen| failure(step, now, seen)),
             Mode::Within(limit) => self.expect_within(step, condition, now + *limit),
             Mode::For(span) => {
+                check(condition, &mut self.world).map_err(|seen| failure(step, now, seen))?;
                 let until = now + *span;
                 self.watches.push(Watch { step, condition, wanted: Wanted::Always, until });
                 self.run_until(until)

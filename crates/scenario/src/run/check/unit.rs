@@ -12,7 +12,9 @@ fn name(at: usize) -> String {
     format!("unit {}", at + 1)
 }
 
+/// A unit without power is in no state.
 pub(super) fn state(world: &mut World, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
+    holds(!world.is_off(at), || format!("{} is off", name(at)))?;
     let (status, shown) = world.al_status(at);
     let shown_code = status.error.then_some(Hex(shown.0));
     let is_there = (status.state, shown_code) == (state, code);

@@ -25,6 +25,10 @@ impl World {
         }
     }
 
+    pub(crate) fn is_off(&self, at: usize) -> bool {
+        self.device(at).is_off()
+    }
+
     pub(crate) fn io(&self, at: usize) -> &Io {
         self.cpus[at].unit.io()
     }
