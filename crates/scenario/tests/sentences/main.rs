@@ -1,0 +1,65 @@
+//! Every sentence of the public tables stands in a scenario that passes and in one that must fail.
+//!
+//! The tables come first: a sentence without a row here fails this test.
+
+mod conditions;
+mod cpu;
+mod line;
+mod master;
+mod rows;
+mod unit;
+
+use rows::{ConditionRow, OrderRow};
+use scenario::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
+use scenario::words::{Spoken, row_of};
+
+/// The sentences of a table that no row stands for.
+fn missing<T: Spoken>(rows: &[&str]) -> Vec<&'static str> {
+    let patterns: Vec<&str> = rows
+        .iter()
+        .map(|text| match row_of(T::SENTENCES, text) {
+            Some(sentence) => sentence.pattern,
+            None => panic!("`{text}` is no sentence of its table"),
+        })
+        .collect();
+    T::SENTENCES.iter().map(|sentence| sentence.pattern).filter(|known| !patterns.contains(known)).collect()
+}
+
+fn all_are_right(outcomes: impl Iterator<Item = Result<(), String>>) {
+    let wrong: Vec<String> = outcomes.filter_map(Result::err).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+fn orders<T: Spoken>(key: &str, rows: &[OrderRow]) {
+    let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).collect();
+    assert_eq!(missing::<T>(&sentences), [""; 0], "sentences of `{key}` without a row");
+    all_are_right(rows.iter().map(|row| row.try_out(key)));
+}
+
+#[test]
+fn each_order_of_the_master_does_what_it_says() {
+    orders::<MasterOrder>("master", &master::rows());
+}
+
+#[test]
+fn each_order_to_a_unit_does_what_it_says() {
+    orders::<UnitOrder>("unit", &unit::rows());
+}
+
+#[test]
+fn each_order_to_a_cpu_unit_does_what_it_says() {
+    orders::<CpuOrder>("cpu", &cpu::rows());
+}
+
+#[test]
+fn each_order_to_the_line_does_what_it_says() {
+    orders::<LineOrder>("line", &line::rows());
+}
+
+#[test]
+fn each_condition_holds_and_fails() {
+    let rows = conditions::rows();
+    let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).collect();
+    assert_eq!(missing::<Condition>(&sentences), [""; 0], "conditions without a row");
+    all_are_right(rows.iter().map(ConditionRow::try_out));
+}

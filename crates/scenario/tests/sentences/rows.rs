@@ -1,0 +1,176 @@
+//! Rows: a sentence with the steps around it, and what their replays must come to.
+
+use scenario::{Recording, Scenario};
+
+/// Steps of a scenario, each as its table in a file.
+pub(crate) type Steps = &'static [&'static str];
+
+/// All units in OP.
+pub(crate) const OP: &str = r#"{ master = "take all units to OP" }"#;
+pub(crate) const IN_OP: &str = r#"{ expect = "all units are in OP", within = "1s" }"#;
+/// Unit 1 in PRE-OP.
+pub(crate) const PRE_OP: &str = r#"{ master = "take unit 1 to PRE-OP" }"#;
+pub(crate) const IN_PRE_OP: &str = r#"{ expect = "the master has nothing to do", within = "1s" }"#;
+
+/// What stands beside title and steps in a file.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Around {
+    pub(crate) head: &'static str,
+    /// User programs by their names.
+    pub(crate) programs: &'static [(&'static str, &'static str)],
+    /// The frames of a recorded master: those of [`captured`].
+    pub(crate) has_capture: bool,
+}
+
+impl Around {
+    /// The failing step, if one fails.
+    fn failure(&self, steps: &[String]) -> Option<Failed> {
+        let Self { head, programs, has_capture } = self;
+        let capture = if *has_capture { "capture = \"a.pcapng\"\n" } else { "" };
+        let text = format!("title = \"t\"\n{capture}{head}\nsteps = [\n{}\n]\n", steps.join(",\n"));
+        let program = |path: &str| {
+            let program = programs.iter().find(|(name, _)| *name == path);
+            program.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("no {path}"))
+        };
+        let mut scenario =
+            Scenario::parse(&text, program).unwrap_or_else(|errors| panic!("{text}\n{errors}"));
+        if *has_capture {
+            scenario.load_capture(&captured()).unwrap_or_else(|reason| panic!("{reason}"));
+        }
+        let report = scenario.replay(1, Recording::new(false, false));
+        report.failure.map(|failure| Failed { text: failure.text, seen: failure.seen })
+    }
+}
+
+/// The words of a failing step, and what was seen there.
+struct Failed {
+    text: String,
+    seen: String,
+}
+
+/// A capture: the way to OP, and a read of the serial number.
+fn captured() -> Vec<u8> {
+    let text = format!(
+        "title = \"t\"\nsteps = [\n{OP},\n{IN_OP},\n{{ master = \"read SDO 1018:04 of unit 1\" }},\n\
+         {{ expect = \"the last SDO was taken\", within = \"20ms\" }}\n]\n"
+    );
+    let scenario = Scenario::parse(&text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+    scenario.replay(1, Recording::new(false, true)).recording.into_capture().unwrap_or_default()
+}
+
+fn expect(condition: &str, within: &str) -> Vec<String> {
+    vec![format!("{{ expect = \"{condition}\", within = \"{within}\" }}")]
+}
+
+/// Must not hold for this time.
+fn never(condition: &str, within: &str) -> Vec<String> {
+    let wait = format!("{{ after = \"{within}\", expect = \"0 cycles are done\" }}");
+    vec![format!("{{ never = \"{condition}\" }}"), wait]
+}
+
+fn texts(steps: Steps) -> Vec<String> {
+    steps.iter().map(|step| (*step).to_owned()).collect()
+}
+
+/// An order, and a condition that holds behind it and only behind it.
+pub(crate) struct OrderRow {
+    pub(crate) sentence: &'static str,
+    around: Around,
+    before: Steps,
+    /// Steps between the order and the condition.
+    behind: Steps,
+    condition: &'static str,
+    within: &'static str,
+}
+
+pub(crate) const fn order(
+    sentence: &'static str,
+    before: Steps,
+    behind: Steps,
+    condition: &'static str,
+    within: &'static str,
+) -> OrderRow {
+    let around = Around { head: "", programs: &[], has_capture: false };
+    OrderRow { sentence, around, before, behind, condition, within }
+}
+
+impl OrderRow {
+    pub(crate) const fn with(self, around: Around) -> Self {
+        Self { around, ..self }
+    }
+
+    /// The condition holds behind the order; that it never does fails; and without the order it does not hold.
+    pub(crate) fn try_out(&self, key: &str) -> Result<(), String> {
+        let Self { sentence, around, condition, within, .. } = self;
+        let (before, behind) = (texts(self.before), texts(self.behind));
+        let order = vec![format!("{{ {key} = \"{sentence}\" }}")];
+        let steps =
+            |parts: &[&Vec<String>]| parts.iter().flat_map(|part| (*part).clone()).collect::<Vec<_>>();
+        let expected = expect(condition, within);
+
+        let passes = around.failure(&steps(&[&before, &order, &behind, &expected]));
+        is_passed(passes).map_err(|failure| format!("`{sentence}`: {failure}"))?;
+        let fails = around.failure(&steps(&[&before, &order, &behind, &never(condition, within)]));
+        is_failed(fails, condition).map_err(|outcome| format!("`{sentence}`, and never: {outcome}"))?;
+        let without = around.failure(&steps(&[&before, &behind, &expected]));
+        is_failed(without, condition).map_err(|outcome| format!("without `{sentence}`: {outcome}"))
+    }
+}
+
+/// A condition, steps behind which it holds, and others behind which it does not.
+pub(crate) struct ConditionRow {
+    pub(crate) sentence: &'static str,
+    around: Around,
+    holds: Steps,
+    /// What stands around the steps behind which it does not hold.
+    other: Around,
+    fails: Steps,
+    within: &'static str,
+}
+
+pub(crate) const fn condition(
+    sentence: &'static str,
+    holds: Steps,
+    fails: Steps,
+    within: &'static str,
+) -> ConditionRow {
+    let around = Around { head: "", programs: &[], has_capture: false };
+    ConditionRow { sentence, around, holds, other: around, fails, within }
+}
+
+impl ConditionRow {
+    pub(crate) const fn with(self, around: Around) -> Self {
+        Self { around, other: around, ..self }
+    }
+
+    pub(crate) const fn failing_with(self, other: Around) -> Self {
+        Self { other, ..self }
+    }
+
+    /// It holds behind the first steps, where `never` fails; behind the others it fails, and says what is seen.
+    pub(crate) fn try_out(&self) -> Result<(), String> {
+        let Self { sentence, around, other, within, .. } = self;
+        let (holds, fails) = (texts(self.holds), texts(self.fails));
+        let expected = expect(sentence, within);
+
+        let passes = around.failure(&[holds.clone(), expected.clone()].concat());
+        is_passed(passes).map_err(|failure| format!("`{sentence}`: {failure}"))?;
+        let unwanted = around.failure(&[holds, never(sentence, within)].concat());
+        is_failed(unwanted, sentence).map_err(|outcome| format!("never `{sentence}`: {outcome}"))?;
+        let failure = other.failure(&[fails, expected].concat());
+        is_failed(failure, sentence).map_err(|outcome| format!("`{sentence}` must fail: {outcome}"))
+    }
+}
+
+fn is_passed(failure: Option<Failed>) -> Result<(), String> {
+    failure.map_or(Ok(()), |Failed { text, seen }| Err(format!("`{text}` fails: {seen}")))
+}
+
+/// Whether this condition has failed, with what is seen.
+fn is_failed(failure: Option<Failed>, condition: &str) -> Result<(), String> {
+    match failure {
+        None => Err("it passes".to_owned()),
+        Some(Failed { text, seen }) if text == condition && !seen.is_empty() => Ok(()),
+        Some(Failed { text, seen }) => Err(format!("`{text}` fails: {seen}")),
+    }
+}
