@@ -25,7 +25,7 @@ impl Judge {
         if access.readable_in(self.state) { Ok(()) } else { Err(SdoAbort::DEVICE_STATE) }
     }
 
-    /// Whether `length_bytes` octets may be downloaded to `target`.
+    /// Whether `length_bytes` bytes may be downloaded to `target`.
     pub(crate) fn check_download(
         self,
         table: &ObjectTable,
@@ -131,14 +131,14 @@ impl Judge {
         Ok(())
     }
 
-    /// Where the master sets the number of entries, the octets hold at least that many.
+    /// Where the master sets the number of entries, the bytes hold at least that many.
     fn check_counted(self, object: &Object, first: SubIndex, octets: &[u8]) -> Result<(), SdoAbort> {
         if !object.is_counted_by_master() || first != SubIndex::ZERO {
             return Ok(());
         }
         let last = SubIndex(octets.first().copied().unwrap_or_default());
         let needed_bytes = object.layout(first).length_bytes_to(last);
-        // Without entries the octet that pads subindex 0 is not missed.
+        // Without entries the byte that pads subindex 0 is not missed.
         if last == SubIndex::ZERO || octets.len() >= needed_bytes {
             Ok(())
         } else {

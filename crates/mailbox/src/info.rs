@@ -33,7 +33,7 @@ impl InfoServer {
         self.next = 0;
     }
 
-    /// Serves a request; the octets of the answer in `room`, behind the CoE header.
+    /// Serves a request; the bytes of the answer in `room`, behind the CoE header.
     pub(crate) fn request(
         &mut self,
         request: &[u8],

@@ -13,7 +13,7 @@ use crate::info::InfoServer;
 use crate::outbox::Outbox;
 use crate::sdo::SdoServer;
 
-/// Lengths of the two mailboxes, 34 to 1,486 octets.
+/// Lengths of the two mailboxes, 34 to 1,486 bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MailboxSizes {
     /// SyncManager 0, master to slave.
@@ -36,7 +36,7 @@ impl MailboxSizes {
 
 /// The mailbox of one slave.
 ///
-/// Its owner moves the octets: what the master has written goes to [`Mailbox::request`] as soon as the
+/// Its owner moves the bytes: what the master has written goes to [`Mailbox::request`] as soon as the
 /// master's mailbox is free for an answer; whenever it is free, [`Mailbox::next_unsolicited`] may have
 /// something too. When the master has read its mailbox, [`Mailbox::confirm_read`] is to be told.
 #[derive(Debug)]
@@ -60,7 +60,7 @@ impl Mailbox {
     /// A mailbox for the objects of `table`. Everything it ever needs is allocated here.
     ///
     /// # Panics
-    /// If a size is below 34 or above 1,486 octets: the sizes are ours.
+    /// If a size is below 34 or above 1,486 bytes: the sizes are ours.
     #[must_use]
     pub fn new(sizes: MailboxSizes, aborts: AbortProfile, table: &ObjectTable) -> Self {
         assert!(sizes.are_valid(), "{sizes:?}: a mailbox has 34 to 1,486 octets");
@@ -93,7 +93,7 @@ impl Mailbox {
         self.sizes
     }
 
-    /// Serves what lies in SyncManager 0; `reply` is as long as SyncManager 1. The octets of the reply;
+    /// Serves what lies in SyncManager 0; `reply` is as long as SyncManager 1. The bytes of the reply;
     /// none if there is nothing to say (a message that came twice, an SDO abort, a state without mailbox).
     pub fn request(
         &mut self,
@@ -127,7 +127,7 @@ impl Mailbox {
     }
 
     /// What goes to the master without a further request: a message that made room for a repeated one, the
-    /// next fragment of a list, the oldest emergency. `reply` is as long as SyncManager 1. The octets of the
+    /// next fragment of a list, the oldest emergency. `reply` is as long as SyncManager 1. The bytes of the
     /// message; none if nothing waits. Only for states with CoE (PRE-OP, SAFE-OP, OP).
     pub fn next_unsolicited(&mut self, reply: &mut [u8]) -> Option<usize> {
         let reply = reply.get_mut(..usize::from(self.sizes.send_bytes))?;
@@ -162,12 +162,12 @@ impl Mailbox {
         self.emergencies.lost()
     }
 
-    /// The master has read SyncManager 1 to its last octet.
+    /// The master has read SyncManager 1 to its last byte.
     pub fn confirm_read(&mut self) {
         self.outbox.confirm_read();
     }
 
-    /// The master asks by register 0x080E bit 1 for the message that it read last: the same octets again,
+    /// The master asks by register 0x080E bit 1 for the message that it read last: the same bytes again,
     /// which then replace what lies in SyncManager 1. None if it has read none since [`Mailbox::reset`];
     /// SyncManager 1 stays as it is then.
     pub fn repeat(&mut self, reply: &mut [u8]) -> Option<usize> {
@@ -184,7 +184,7 @@ impl Mailbox {
         again
     }
 
-    /// Serves a message; the octets of the answer in `room`, behind the mailbox header.
+    /// Serves a message; the bytes of the answer in `room`, behind the mailbox header.
     fn serve(
         &mut self,
         header: Option<MailboxHeader>,

@@ -41,7 +41,7 @@ pub(crate) struct SdoServer {
     buffer: Vec<u8>,
     /// Room for old values while complete access writes new ones.
     undo: Vec<u8>,
-    /// Octets of one SDO, behind the CoE header.
+    /// Bytes of one SDO, behind the CoE header.
     sdo_bytes_max: usize,
 }
 
@@ -204,7 +204,7 @@ impl SdoServer {
         Ok(SdoResponse::DownloadSegment { toggle })
     }
 
-    /// Reads the target into the buffer; the octets read.
+    /// Reads the target into the buffer; the bytes read.
     fn read(
         &mut self,
         target: SdoTarget,

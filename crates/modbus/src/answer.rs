@@ -1,4 +1,4 @@
-//! From the octets of a request to those of its response.
+//! From the bytes of a request to those of its response.
 
 use crate::exception::Exception;
 use crate::request::Request;
@@ -25,7 +25,7 @@ async fn respond(
         Request::ReadRegisters(table, addresses) => {
             Ok(packed_registers(function, &unit.registers(table, addresses)?))
         }
-        // A request that writes is answered by its own first octets: address and value, or address and quantity.
+        // A request that writes is answered by its own first bytes: address and value, or address and quantity.
         Request::WriteCoils(addresses, values) => {
             unit.write_coils(addresses, &values).await.map(|()| head(4))
         }
@@ -55,20 +55,20 @@ fn unit_at(units: &[Unit], unit_identifier: u8) -> Result<&Unit, Exception> {
     units.get(position).ok_or(Exception::GatewayTargetDeviceFailedToRespond)
 }
 
-/// Eight bits an octet, the first in the least significant place.
+/// Eight bits a byte, the first in the least significant place.
 fn packed_bits(function: u8, bits: &[bool]) -> Vec<u8> {
     let octets =
         bits.chunks(8).map(|chunk| chunk.iter().rev().fold(0_u8, |octet, &bit| octet << 1 | u8::from(bit)));
     counted(function, octets.collect())
 }
 
-/// The high octet first.
+/// The high byte first.
 fn packed_registers(function: u8, registers: &[u16]) -> Vec<u8> {
     counted(function, registers.iter().flat_map(|register| register.to_be_bytes()).collect())
 }
 
 fn counted(function: u8, octets: Vec<u8>) -> Vec<u8> {
-    // At most 250 octets: requests ask for no more.
+    // At most 250 bytes: requests ask for no more.
     let length_bytes = octets.len() as u8;
     [vec![function, length_bytes], octets].concat()
 }

@@ -11,12 +11,12 @@ use crate::unit::Unit;
 
 /// How long a client may be silent between two requests.
 const IDLE: Duration = Duration::from_secs(300);
-/// How long a frame may take from its first octet to its last, and an answer to be taken.
+/// How long a frame may take from its first byte to its last, and an answer to be taken.
 const FRAME: Duration = Duration::from_secs(3);
 
 /// MBAP header: transaction identifier, protocol identifier, length, unit identifier.
 const HEADER_BYTES: usize = 7;
-/// What the length may count: unit identifier and function code at least, and a PDU of 253 octets at most.
+/// What the length may count: unit identifier and function code at least, and a PDU of 253 bytes at most.
 const LENGTHS: core::ops::RangeInclusive<u16> = 2..=254;
 
 /// A frame of a request.
@@ -69,7 +69,7 @@ async fn next_frame(stream: &mut (impl AsyncRead + Unpin)) -> io::Result<Option<
 }
 
 fn pack(frame: &Frame, response: &[u8]) -> Vec<u8> {
-    // A response has 253 octets at most.
+    // A response has 253 bytes at most.
     let length = (response.len() + 1) as u16;
     let mut packed = Vec::with_capacity(HEADER_BYTES + response.len());
     packed.extend(frame.transaction_identifier);

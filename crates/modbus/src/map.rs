@@ -1,6 +1,6 @@
 //! Which variable has which addresses.
 //!
-//! One element of an array is one register, a BYTE in the low octet; a UDINT is two, the low word first. Each data set
+//! One element of an array is one register, a BYTE in the low byte; a UDINT is two, the low word first. Each data set
 //! has its place whatever is allocated, so that another entry moves nothing.
 
 mod bases;
@@ -31,7 +31,7 @@ pub struct ModbusMap {
     coils: Vec<Bit>,
 }
 
-/// A register: an element, or two octets of it.
+/// A register: an element, or two bytes of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Register {
     pub(crate) address: u16,

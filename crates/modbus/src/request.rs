@@ -1,4 +1,4 @@
-//! Requests: function code and octets in, a request that is well formed out.
+//! Requests: function code and bytes in, a request that is well formed out.
 
 use crate::addresses::Addresses;
 use crate::exception::Exception;
@@ -33,7 +33,7 @@ pub(crate) enum Request {
 }
 
 impl Request {
-    /// A request of its function code and the octets behind it.
+    /// A request of its function code and the bytes behind it.
     pub(crate) fn parse(function: u8, octets: &[u8]) -> Result<Self, Exception> {
         match function {
             0x01 => Ok(Self::ReadBits(Table::Coils, addresses(octets, READ_BITS_MAX)?)),
@@ -66,7 +66,7 @@ fn words<const N: usize>(octets: &[u8]) -> Result<[u16; N], Exception> {
     })
 }
 
-/// The high octet comes first.
+/// The high byte comes first.
 fn registers_of(octets: &[u8]) -> Vec<u16> {
     octets.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect()
 }
@@ -86,7 +86,7 @@ fn single_coil(octets: &[u8]) -> Result<Request, Exception> {
     Ok(Request::WriteCoils(Addresses::one(address), vec![value]))
 }
 
-/// The octets behind `head` octets of words and the number of octets: as many as that number says.
+/// The bytes behind `head` bytes of words and the number of bytes: as many as that number says.
 fn counted(octets: &[u8], head: usize) -> Result<(&[u8], &[u8]), Exception> {
     let (head, rest) = octets.split_at_checked(head).ok_or(Exception::IllegalDataValue)?;
     match rest.split_first() {

@@ -10,10 +10,10 @@ use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 use crate::layout::Cursor;
 use crate::{AccessRights, ObjectServer, Slot};
 
-/// Most octets of a value that is packed bitwise.
+/// Most bytes of a value that is packed bitwise.
 const PACKED_BYTES_MAX: usize = 8;
 
-/// Reads an object from subindex `first` on (0 or 1) into `octets`; the octets filled. Entries that
+/// Reads an object from subindex `first` on (0 or 1) into `octets`; the bytes filled. Entries that
 /// `state` does not let a master read are 0.
 ///
 /// # Errors
@@ -84,7 +84,7 @@ pub fn write<S: ObjectServer + ?Sized>(
 #[derive(Clone, Copy)]
 struct Writes {
     index: ObjectIndex,
-    /// Where the octets begin.
+    /// Where the bytes begin.
     first: SubIndex,
     /// The first subindex to write here: 1 where subindex 0 is written on its own.
     values: SubIndex,

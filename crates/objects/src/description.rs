@@ -130,7 +130,7 @@ impl Entry {
     }
 
     /// Whether complete access packs it bit by bit behind its neighbour: booleans, BIT1 to BIT8, bit
-    /// arrays, and whatever else is no whole number of octets.
+    /// arrays, and whatever else is no whole number of bytes.
     #[must_use]
     pub fn is_bit_packed(&self) -> bool {
         const BIT_LENGTH_MAX: u16 = 64;

@@ -63,7 +63,7 @@ impl Dictionary {
         unsigned(self.value(index, sub)?)
     }
 
-    /// Sets an entry of up to 64 bits to the low octets of `value`; false if there is no such entry or it
+    /// Sets an entry of up to 64 bits to the low bytes of `value`; false if there is no such entry or it
     /// is longer.
     pub fn set_unsigned(&mut self, index: ObjectIndex, sub: SubIndex, value: u64) -> bool {
         let octets = value.to_le_bytes();

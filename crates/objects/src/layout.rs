@@ -1,8 +1,8 @@
 //! Where complete access puts the entries of an object (ETG.1000.6, complete access).
 //!
-//! Subindex 0 of an array or record takes 16 bits when the access begins there, the value and an octet 0.
+//! Subindex 0 of an array or record takes 16 bits when the access begins there, the value and a byte 0.
 //! Entries follow in the order of their subindexes, gaps take no place. Bit types follow each other
-//! bitwise; every other entry begins at a whole octet.
+//! bitwise; every other entry begins at a whole byte.
 
 use core::ops::Range;
 
@@ -10,7 +10,7 @@ use wire::SubIndex;
 
 use crate::{AccessRights, Object, ObjectCode};
 
-/// One entry's place in the octets of a complete access.
+/// One entry's place in the bytes of a complete access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
     /// The entry's subindex.
@@ -19,14 +19,14 @@ pub struct Slot {
     pub bit_offset: usize,
     /// Its length in bits, without padding.
     pub bit_length: usize,
-    /// Whether it follows its neighbour bitwise; if not, it takes whole octets.
+    /// Whether it follows its neighbour bitwise; if not, it takes whole bytes.
     pub bit_packed: bool,
     /// Who may touch it.
     pub access: AccessRights,
 }
 
 impl Slot {
-    /// Length of the value in octets, as an SDO to the entry alone carries it.
+    /// Length of the value in bytes, as an SDO to the entry alone carries it.
     #[must_use]
     pub const fn size_bytes(self) -> usize {
         self.bit_length.div_ceil(8)
@@ -38,7 +38,7 @@ impl Slot {
         self.bit_offset + if self.bit_packed { self.bit_length } else { self.size_bytes() * 8 }
     }
 
-    /// Whether `length_bytes` octets hold the whole value.
+    /// Whether `length_bytes` bytes hold the whole value.
     #[must_use]
     pub const fn is_within(self, length_bytes: usize) -> bool {
         self.bit_end() <= length_bytes * 8
@@ -55,7 +55,7 @@ impl Slot {
         copy_bits(value, 0, octets, self.bit_offset, self.bit_end() - self.bit_offset);
     }
 
-    /// The octets that hold the value, when it takes whole ones.
+    /// The bytes that hold the value, when it takes whole ones.
     pub(crate) fn whole_octets(self) -> Option<Range<usize>> {
         (!self.bit_packed).then(|| self.bit_offset / 8..self.bit_end() / 8)
     }
@@ -91,7 +91,7 @@ impl Cursor {
     }
 }
 
-/// The slots of one object, in the order of the octets.
+/// The slots of one object, in the order of the bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Layout<'a> {
     object: &'a Object,
@@ -107,7 +107,7 @@ impl Object {
 }
 
 impl Layout<'_> {
-    /// Octets of the entries up to subindex `last`, the last bits rounded up.
+    /// Bytes of the entries up to subindex `last`, the last bits rounded up.
     #[must_use]
     pub fn length_bytes_to(mut self, last: SubIndex) -> usize {
         let mut length_bits = 0;
@@ -120,7 +120,7 @@ impl Layout<'_> {
         length_bits.div_ceil(8)
     }
 
-    /// Octets of all entries.
+    /// Bytes of all entries.
     #[must_use]
     pub fn length_bytes(self) -> usize {
         self.length_bytes_to(SubIndex(u8::MAX))

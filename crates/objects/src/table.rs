@@ -86,7 +86,7 @@ impl ObjectTable {
         self.value_offsets.last().and_then(|offsets| offsets.last()).copied().unwrap_or(0)
     }
 
-    /// Octets of the longest SDO transfer: the largest entry, or the largest object by complete access.
+    /// Bytes of the longest SDO transfer: the largest entry, or the largest object by complete access.
     #[must_use]
     pub fn longest_transfer_bytes(&self) -> usize {
         let entry_bytes = |object: &Object| object.entries.iter().map(Entry::size_bytes).max().unwrap_or(0);

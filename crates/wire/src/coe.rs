@@ -1,4 +1,4 @@
-//! CoE header: the two octets that stand before every CoE service (ETG.1000.6, CoE).
+//! CoE header: the two bytes that stand before every CoE service (ETG.1000.6, CoE).
 
 /// Service of CANopen over EtherCAT, header bits 15:12.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -91,7 +91,7 @@ impl CoeHeader {
         Some((header, data))
     }
 
-    /// The octets of the header.
+    /// The bytes of the header.
     #[must_use]
     pub fn pack(self) -> [u8; Self::LENGTH_BYTES] {
         let reserved = u16::from(self.reserved & 0x07) << 9;

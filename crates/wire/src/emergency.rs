@@ -7,7 +7,7 @@ pub struct Emergency {
     pub code: u16,
     /// Error register, as object 0x1001 has it.
     pub error_register: u8,
-    /// Manufacturer's own octets.
+    /// Manufacturer's own bytes.
     pub manufacturer: [u8; 5],
 }
 
@@ -15,7 +15,7 @@ impl Emergency {
     /// Length of the message after the CoE header.
     pub const LENGTH_BYTES: usize = 8;
 
-    /// The emergency at the start of `bytes`, the octets after the CoE header; none if they are fewer than eight.
+    /// The emergency at the start of `bytes`, the bytes after the CoE header; none if they are fewer than eight.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<Self> {
         let [code_0, code_1, error_register, m0, m1, m2, m3, m4, ..] = *bytes else { return None };
@@ -23,7 +23,7 @@ impl Emergency {
         Some(Self { code, error_register, manufacturer: [m0, m1, m2, m3, m4] })
     }
 
-    /// The octets after the CoE header.
+    /// The bytes after the CoE header.
     #[must_use]
     pub fn pack(self) -> [u8; Self::LENGTH_BYTES] {
         let [code_0, code_1] = self.code.to_le_bytes();

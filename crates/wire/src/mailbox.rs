@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::mailbox_writer::Writer;
 
-/// Protocol in a mailbox, header octet 5 bits 3:0.
+/// Protocol in a mailbox, header byte 5 bits 3:0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MailboxType {
     /// Error reply, 0.
@@ -57,22 +57,22 @@ impl MailboxType {
     }
 }
 
-/// The six octets before every mailbox service.
+/// The six bytes before every mailbox service.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MailboxHeader {
     /// Length of the service data after this header.
     pub length_bytes: u16,
     /// Station address of the source; 0 in requests of a master.
     pub address: u16,
-    /// Octet 4 bits 5:0, reserved for channels, 0.
+    /// Byte 4 bits 5:0, reserved for channels, 0.
     pub channel: u8,
-    /// Octet 4 bits 7:6, 0 (lowest) to 3.
+    /// Byte 4 bits 7:6, 0 (lowest) to 3.
     pub priority: u8,
-    /// Octet 5 bits 3:0.
+    /// Byte 5 bits 3:0.
     pub mailbox_type: MailboxType,
-    /// Octet 5 bits 6:4: 1 to 7, or 0 for a message that is not counted.
+    /// Byte 5 bits 6:4: 1 to 7, or 0 for a message that is not counted.
     pub counter: u8,
-    /// Octet 5 bit 7, kept as it came.
+    /// Byte 5 bit 7, kept as it came.
     pub reserved: bool,
 }
 
@@ -95,7 +95,7 @@ impl MailboxHeader {
         })
     }
 
-    /// The octets of the header.
+    /// The bytes of the header.
     #[must_use]
     pub fn pack(self) -> [u8; Self::LENGTH_BYTES] {
         let [length_0, length_1] = self.length_bytes.to_le_bytes();
@@ -173,7 +173,7 @@ impl MailboxErrorReply {
             .then(|| Self { detail: MailboxErrorCode(u16::from_le_bytes([detail_0, detail_1])) })
     }
 
-    /// Writes the reply to the start of `body`; the octets written, none if they do not fit.
+    /// Writes the reply to the start of `body`; the bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(self, body: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(body);

@@ -52,7 +52,7 @@ impl SdoTarget {
     }
 }
 
-/// Why octets are no SDO.
+/// Why bytes are no SDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoSyntaxError {
     /// They are fewer than the command needs (mailbox error 6).
@@ -71,13 +71,13 @@ pub enum SdoSyntaxError {
 /// A well-formed SDO of CoE service 2.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoRequest<'a> {
-    /// Download with up to four octets of data in the header.
+    /// Download with up to four bytes of data in the header.
     DownloadExpedited {
         /// Where to.
         target: SdoTarget,
         /// The data field, used or not.
         field: [u8; 4],
-        /// How many octets of it are data, 1 to 4; none if the size is not indicated.
+        /// How many bytes of it are data, 1 to 4; none if the size is not indicated.
         length_bytes: Option<u8>,
     },
     /// Download with its size, and the first or only part of the data.
@@ -119,16 +119,16 @@ pub enum SdoRequest<'a> {
     },
 }
 
-/// Fewest data octets of a segment; shorter parts are padded and the rest counted as unused.
+/// Fewest data bytes of a segment; shorter parts are padded and the rest counted as unused.
 pub(crate) const SEGMENT_MIN_BYTES: usize = 7;
 
 const TOGGLE: u8 = 0x10;
 
 impl<'a> SdoRequest<'a> {
-    /// Takes apart `bytes`, the octets after the CoE header. Reserved bits are ignored.
+    /// Takes apart `bytes`, the bytes after the CoE header. Reserved bits are ignored.
     ///
     /// # Errors
-    /// What is wrong with the octets.
+    /// What is wrong with the bytes.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SdoSyntaxError> {
         let &[command, ref rest @ ..] = bytes else { return Err(SdoSyntaxError::TooShort) };
         match command >> 5 {
@@ -137,7 +137,7 @@ impl<'a> SdoRequest<'a> {
                 last,
                 data,
             }),
-            // Masters send ten octets here, but the command octet alone says it all.
+            // Masters send ten bytes here, but the command byte alone says it all.
             3 => Ok(Self::UploadSegment { toggle: command & TOGGLE != 0 }),
             specifier => {
                 let (index, sub, field, data) = split_initiate(rest).ok_or(SdoSyntaxError::TooShort)?;
@@ -152,7 +152,7 @@ impl<'a> SdoRequest<'a> {
         }
     }
 
-    /// Writes the SDO to the start of `bytes`; the octets written, none if they do not fit.
+    /// Writes the SDO to the start of `bytes`; the bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -190,14 +190,14 @@ fn parse_download<'a>(
     Ok(SdoRequest::DownloadExpedited { target, field, length_bytes })
 }
 
-/// Index, subindex, the four-octet field, and what follows; none if the octets after the command are too few.
+/// Index, subindex, the four-byte field, and what follows; none if the bytes after the command are too few.
 pub(crate) fn split_initiate(rest: &[u8]) -> Option<(ObjectIndex, SubIndex, [u8; 4], &[u8])> {
     let &[index_0, index_1, sub, f0, f1, f2, f3, ref data @ ..] = rest else { return None };
     let index = ObjectIndex(u16::from_le_bytes([index_0, index_1]));
     Some((index, SubIndex(sub), [f0, f1, f2, f3], data))
 }
 
-/// Toggle, last, data of a segment: bits 3:1 count unused octets when the segment has its least length.
+/// Toggle, last, data of a segment: bits 3:1 count unused bytes when the segment has its least length.
 pub(crate) fn parse_segment(command: u8, rest: &[u8]) -> Result<(bool, bool, &[u8]), SdoSyntaxError> {
     if rest.len() < SEGMENT_MIN_BYTES {
         return Err(SdoSyntaxError::TooShort);

@@ -5,7 +5,7 @@ use bitflags::bitflags;
 use crate::mailbox_writer::Writer;
 use crate::{ObjectIndex, SdoAbort, SubIndex};
 
-/// What an SDO information message is, header octet 0 bits 6:0.
+/// What an SDO information message is, header byte 0 bits 6:0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SdoInfoOpcode {
     /// Asks for a list of indexes, 1.
@@ -58,14 +58,14 @@ impl SdoInfoOpcode {
     }
 }
 
-/// The four octets after the CoE header.
+/// The four bytes after the CoE header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SdoInfoHeader {
-    /// Octet 0 bits 6:0.
+    /// Byte 0 bits 6:0.
     pub opcode: SdoInfoOpcode,
-    /// Octet 0 bit 7: further fragments follow.
+    /// Byte 0 bit 7: further fragments follow.
     pub incomplete: bool,
-    /// Octets 3:2: how many fragments follow.
+    /// Bytes 3:2: how many fragments follow.
     pub fragments_left: u16,
 }
 
@@ -79,7 +79,7 @@ impl SdoInfoHeader {
         Self { opcode, incomplete: fragments_left != 0, fragments_left }
     }
 
-    /// The header at the start of `bytes`, the octets after the CoE header, and what follows it; none if
+    /// The header at the start of `bytes`, the bytes after the CoE header, and what follows it; none if
     /// they are too few.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<(Self, &[u8])> {
@@ -92,7 +92,7 @@ impl SdoInfoHeader {
         Some((header, data))
     }
 
-    /// The octets of the header.
+    /// The bytes of the header.
     #[must_use]
     pub fn pack(self) -> [u8; Self::LENGTH_BYTES] {
         let [left_0, left_1] = self.fragments_left.to_le_bytes();
@@ -175,7 +175,7 @@ bitflags! {
     }
 }
 
-/// Why octets are no SDO information request.
+/// Why bytes are no SDO information request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoInfoSyntaxError {
     /// They are fewer than the opcode needs (mailbox error 6).
@@ -203,10 +203,10 @@ pub enum SdoInfoRequest {
 }
 
 impl SdoInfoRequest {
-    /// Takes apart `bytes`, the octets after the CoE header.
+    /// Takes apart `bytes`, the bytes after the CoE header.
     ///
     /// # Errors
-    /// What is wrong with the octets.
+    /// What is wrong with the bytes.
     pub fn parse(bytes: &[u8]) -> Result<Self, SdoInfoSyntaxError> {
         let (header, data) = SdoInfoHeader::parse(bytes).ok_or(SdoInfoSyntaxError::TooShort)?;
         match (header.opcode, data) {
@@ -228,7 +228,7 @@ impl SdoInfoRequest {
         }
     }
 
-    /// Writes the request to the start of `bytes`; the octets written, none if they do not fit.
+    /// Writes the request to the start of `bytes`; the bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -251,8 +251,8 @@ impl SdoInfoRequest {
     }
 }
 
-/// Writes the refusal of an SDO information request to the start of `bytes`, the octets after the CoE
-/// header; the octets written, none if they do not fit.
+/// Writes the refusal of an SDO information request to the start of `bytes`, the bytes after the CoE
+/// header; the bytes written, none if they do not fit.
 #[must_use]
 pub fn pack_sdo_info_error(code: SdoAbort, bytes: &mut [u8]) -> Option<usize> {
     let mut writer = Writer::new(bytes);

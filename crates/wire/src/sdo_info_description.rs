@@ -19,10 +19,10 @@ pub struct ObjectDescription<'a> {
 }
 
 impl<'a> ObjectDescription<'a> {
-    /// Octets before the name.
+    /// Bytes before the name.
     pub const FIXED_BYTES: usize = 6;
 
-    /// Takes a description apart; none if the octets are too few.
+    /// Takes a description apart; none if the bytes are too few.
     #[must_use]
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let &[index_0, index_1, type_0, type_1, max_sub, object_code, ref name @ ..] = bytes else {
@@ -37,7 +37,7 @@ impl<'a> ObjectDescription<'a> {
         })
     }
 
-    /// Writes the description to the start of `bytes`; the octets written, none if they do not fit.
+    /// Writes the description to the start of `bytes`; the bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -71,10 +71,10 @@ pub struct EntryDescription<'a> {
 }
 
 impl<'a> EntryDescription<'a> {
-    /// Octets before the values.
+    /// Bytes before the values.
     pub const FIXED_BYTES: usize = 10;
 
-    /// Takes a description apart; none if the octets are too few.
+    /// Takes a description apart; none if the bytes are too few.
     #[must_use]
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let &[i0, i1, sub, info, t0, t1, l0, l1, a0, a1, ref rest @ ..] = bytes else { return None };
@@ -93,7 +93,7 @@ impl<'a> EntryDescription<'a> {
         })
     }
 
-    /// Writes the description to the start of `bytes`; the octets written, none if they do not fit or if
+    /// Writes the description to the start of `bytes`; the bytes written, none if they do not fit or if
     /// `values` is not as long as `value_info` says.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {

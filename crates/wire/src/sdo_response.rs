@@ -21,9 +21,9 @@ pub enum SdoResponse<'a> {
     UploadExpedited {
         /// The request's target.
         target: SdoTarget,
-        /// The data field; octets beyond the length are 0.
+        /// The data field; bytes beyond the length are 0.
         field: [u8; 4],
-        /// How many octets of it are the value, 1 to 4.
+        /// How many bytes of it are the value, 1 to 4.
         length_bytes: u8,
     },
     /// The value's size and the first or only part of it.
@@ -56,9 +56,9 @@ pub enum SdoResponse<'a> {
 }
 
 impl<'a> SdoResponse<'a> {
-    /// Octets before the data of a normal upload response.
+    /// Bytes before the data of a normal upload response.
     pub const UPLOAD_OVERHEAD_BYTES: usize = 8;
-    /// Octets before the data of a segment.
+    /// Bytes before the data of a segment.
     pub const SEGMENT_OVERHEAD_BYTES: usize = 1;
 
     /// The CoE service that carries it: an abort is an SDO request by definition, all else a response.
@@ -70,10 +70,10 @@ impl<'a> SdoResponse<'a> {
         }
     }
 
-    /// Takes apart `bytes`, the octets after the CoE header.
+    /// Takes apart `bytes`, the bytes after the CoE header.
     ///
     /// # Errors
-    /// What is wrong with the octets.
+    /// What is wrong with the bytes.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SdoSyntaxError> {
         let &[command, ref rest @ ..] = bytes else { return Err(SdoSyntaxError::TooShort) };
         match command >> 5 {
@@ -100,7 +100,7 @@ impl<'a> SdoResponse<'a> {
         }
     }
 
-    /// Writes the SDO to the start of `bytes`; the octets written, none if they do not fit.
+    /// Writes the SDO to the start of `bytes`; the bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);

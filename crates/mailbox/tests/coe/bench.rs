@@ -14,7 +14,7 @@ pub(crate) const RO: AccessRights = AccessRights::READ;
 pub(crate) const RW: AccessRights = AccessRights::READ.union(AccessRights::WRITE);
 pub(crate) const RW_PRE_OP: AccessRights = AccessRights::READ.union(AccessRights::WRITE_PRE_OP);
 
-/// Octets of the long text 0x1008 and of the long entry 0x3001:01.
+/// Bytes of the long text 0x1008 and of the long entry 0x3001:01.
 pub(crate) const TEXT_BYTES: usize = 100;
 pub(crate) const LONG_BYTES: usize = 2000;
 
@@ -43,7 +43,7 @@ impl<S: ObjectServer> Bench<S> {
         Self { mailbox, objects, state: AlState::PreOp, counter: 0 }
     }
 
-    /// Sends whole octets and returns the whole reply.
+    /// Sends whole bytes and returns the whole reply.
     pub(crate) fn raw(&mut self, request: &[u8]) -> Option<Vec<u8>> {
         let mut reply = vec![0xEE; usize::from(self.mailbox.sizes().send_bytes)];
         let length_bytes = self.mailbox.request(request, self.state, &mut self.objects, &mut reply)?;
@@ -52,7 +52,7 @@ impl<S: ObjectServer> Bench<S> {
         Some(reply)
     }
 
-    /// The octets of a CoE request, counted unless the bench's counter is 0.
+    /// The bytes of a CoE request, counted unless the bench's counter is 0.
     pub(crate) fn pack_request(&self, service: CoeService, data: &[u8]) -> Vec<u8> {
         let header = MailboxHeader {
             length_bytes: (CoeHeader::LENGTH_BYTES + data.len()) as u16,
@@ -108,7 +108,7 @@ impl<S: ObjectServer> Bench<S> {
         Ok(value)
     }
 
-    /// Downloads expedited up to four octets, else normally, by as many segments as it takes.
+    /// Downloads expedited up to four bytes, else normally, by as many segments as it takes.
     pub(crate) fn download(&mut self, target: SdoTarget, value: &[u8]) -> Result<(), SdoAbort> {
         if (1..=4).contains(&value.len()) {
             let mut field = [0; 4];

@@ -1,4 +1,4 @@
-//! What holds for any octets, any length, any mailbox, any object.
+//! What holds for any bytes, any length, any mailbox, any object.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ fn states() -> impl Strategy<Value = AlState> {
     prop::sample::select(vec![AlState::Init, AlState::PreOp, AlState::Boot, AlState::SafeOp, AlState::Op])
 }
 
-/// Octets near enough to a request to reach every corner.
+/// Bytes near enough to a request to reach every corner.
 fn requests() -> impl Strategy<Value = Vec<u8>> {
     let indexes = vec![0x1000_u16, 0x1008, 0x1018, 0x1601, 0x1C12, 0x1C13, 0x2000, 0x2003, 0x3001, 0x9999];
     let near = (
@@ -106,7 +106,7 @@ proptest! {
     }
 }
 
-/// Records of bits and octets in any order, with gaps.
+/// Records of bits and bytes in any order, with gaps.
 fn records() -> impl Strategy<Value = Object> {
     let kinds = vec![
         (DataType::BOOLEAN, 1_u16),
@@ -128,7 +128,7 @@ fn records() -> impl Strategy<Value = Object> {
     })
 }
 
-/// The model: one bit after the other, and whole octets for what is not a bit type.
+/// The model: one bit after the other, and whole bytes for what is not a bit type.
 fn concatenation(object: &Object, first: u8) -> Vec<u8> {
     let bits_of = |entry: &Entry| {
         let octets = entry.default.iter();

@@ -123,7 +123,7 @@ fn packed(call: &Call<'_, '_>, place: usize) -> Option<Octets> {
     Some(octets)
 }
 
-/// Puts the octets of an NX object into the variable; it stays as it is if it is not as long.
+/// Puts the bytes of an NX object into the variable; it stays as it is if it is not as long.
 fn unpack(call: &mut Call<'_, '_>, place: usize, mut octets: &[u8]) -> bool {
     let Some((slot, layout)) = referred(call, place) else { return false };
     let size_bytes: usize = layout.values.iter().map(|(_, elementary)| elementary.size_bytes()).sum();
