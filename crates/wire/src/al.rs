@@ -17,7 +17,7 @@ pub enum AlState {
     SafeOp,
     /// OP, 8: inputs and outputs are valid.
     Op,
-    /// A value that names no state, kept as it came (0 to 15).
+    /// A value that is not a state, kept as received (0 to 15).
     Other(u8),
 }
 
@@ -25,7 +25,7 @@ impl AlState {
     /// The five states of the standard, in the order of their codes.
     pub const ALL: [Self; 5] = [Self::Init, Self::PreOp, Self::Boot, Self::SafeOp, Self::Op];
 
-    /// The state that bits 3:0 name.
+    /// The state in bits 3:0.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         match bits & 0x0F {
@@ -65,21 +65,21 @@ impl fmt::Display for AlState {
     }
 }
 
-/// AL control, register 0x0120: what the master asks for.
+/// AL control, register 0x0120: the state that the master requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct AlControl {
     /// Bits 3:0: the requested state.
     pub state: AlState,
     /// Bit 4: acknowledges an error that AL status shows.
     pub acknowledge: bool,
-    /// Bit 5: asks for the Explicit Device ID in the AL status code.
+    /// Bit 5: requests the Explicit Device ID in the AL status code.
     pub device_id_request: bool,
     /// Bits 15:6, reserved, kept as written.
     pub reserved: u16,
 }
 
 impl AlControl {
-    /// Takes the register apart.
+    /// Decodes the register.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self {
@@ -90,7 +90,7 @@ impl AlControl {
         }
     }
 
-    /// Puts the register together.
+    /// Encodes the register.
     #[must_use]
     pub const fn bits(self) -> u16 {
         self.state.bits()
@@ -105,20 +105,20 @@ impl AlControl {
 pub struct AlStatus {
     /// Bits 3:0: the actual state.
     pub state: AlState,
-    /// Bit 4: an error is indicated; the AL status code tells which.
+    /// Bit 4: an error is indicated; the AL status code shows which.
     pub error: bool,
     /// Bit 5: the AL status code holds the Explicit Device ID.
     pub device_id_loaded: bool,
 }
 
 impl AlStatus {
-    /// Takes the register apart; reserved bits are dropped, a slave shows them as 0.
+    /// Decodes the register; reserved bits are dropped, because a slave shows them as 0.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self { state: AlState::from_bits(bits), error: bits & 0x10 != 0, device_id_loaded: bits & 0x20 != 0 }
     }
 
-    /// Puts the register together.
+    /// Encodes the register.
     #[must_use]
     pub const fn bits(self) -> u16 {
         self.state.bits() | (self.error as u16) << 4 | (self.device_id_loaded as u16) << 5
@@ -226,7 +226,7 @@ al_status_codes! {
 }
 
 impl AlStatusCode {
-    /// What the standard says of this code; nothing for vendor-specific codes (0x8000 and above).
+    /// The standard's meaning of this code; nothing for vendor-specific codes (0x8000 and above).
     #[must_use]
     pub fn row(self) -> Option<&'static AlStatusCodeRow> {
         Self::TABLE.iter().find(|row| row.code == self)

@@ -22,13 +22,14 @@ pub struct FrameBuilder {
 }
 
 impl FrameBuilder {
-    /// An empty frame: to everybody, from 10:10:10:10:10:10.
+    /// An empty frame: broadcast destination, source 10:10:10:10:10:10.
     #[must_use]
     pub fn new() -> Self {
         Self::reusing(Vec::with_capacity(FRAME_BYTES_MAX))
     }
 
-    /// An empty frame in the memory of an old one. Nothing is allocated if that has room for [`FRAME_BYTES_MAX`].
+    /// An empty frame that reuses the memory of an old one. Allocates nothing if that memory has room for
+    /// [`FRAME_BYTES_MAX`].
     #[must_use]
     pub fn reusing(mut bytes: Vec<u8>) -> Self {
         bytes.clear();
@@ -39,14 +40,14 @@ impl FrameBuilder {
         Self { bytes, last_at: None, index: 0 }
     }
 
-    /// The same with this index on the next datagram; those behind it count on. Without it the first is 0.
+    /// Sets the index of the next datagram; the following datagrams count up from it. The default is 0.
     #[must_use]
     pub const fn indexed_from(mut self, index: u8) -> Self {
         self.index = index;
         self
     }
 
-    /// Most data bytes of one more datagram; none if the frame has no room for another one.
+    /// The maximum number of data bytes of one more datagram; none if the frame has no room for another one.
     #[must_use]
     pub fn room_bytes(&self) -> Option<usize> {
         SENT_BYTES_MAX.checked_sub(self.bytes.len() + DATAGRAM_OVERHEAD_BYTES)
@@ -73,7 +74,7 @@ impl FrameBuilder {
         self.bytes.extend([0, 0]);
     }
 
-    /// Adds a datagram whose data are zeros: a read, or data that are filled in now.
+    /// Adds a datagram whose data are zeros: a read, or data that the caller fills in now.
     pub fn add_zeros(&mut self, command: Command, address: u16, offset: u16, length_bytes: u16) -> &mut [u8] {
         let length_bytes = usize::from(length_bytes);
         self.add_header(command, address, offset, length_bytes);
@@ -118,12 +119,12 @@ impl Default for FrameBuilder {
     }
 }
 
-/// What came back for one datagram, copied out of a frame.
+/// The result of one datagram, copied out of a returned frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Returned {
-    /// The header as it came back.
+    /// The header as returned.
     pub header: DatagramHeader,
-    /// The data as they came back.
+    /// The data as returned.
     pub data: Vec<u8>,
     /// The working counter.
     pub working_counter: u16,

@@ -1,4 +1,4 @@
-//! CoE header: the two bytes that stand before every CoE service (ETG.1000.6, CoE).
+//! CoE header: the two bytes before every CoE service (ETG.1000.6, CoE).
 
 /// Service of CANopen over EtherCAT, header bits 15:12.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -19,7 +19,7 @@ pub enum CoeService {
     RxPdoRemoteRequest,
     /// SDO information, 8.
     SdoInformation,
-    /// A number that names no service, kept as it came (0 and 9 to 15).
+    /// A number that is not a service, kept as received (0 and 9 to 15).
     Other(u8),
 }
 
@@ -62,7 +62,7 @@ impl CoeService {
 pub struct CoeHeader {
     /// Bits 8:0: number of the PDO, 0 for SDO services and emergencies.
     pub number: u16,
-    /// Bits 11:9, reserved, kept as they came.
+    /// Bits 11:9, reserved, kept as received.
     pub reserved: u8,
     /// Bits 15:12.
     pub service: CoeService,

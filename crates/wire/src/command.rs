@@ -33,7 +33,7 @@ pub enum Command {
     Armw,
     /// 14: configured address physical read, multiple write.
     Frmw,
-    /// A value that is no command: the datagram passes untouched.
+    /// A value that is not a command: the datagram passes unchanged.
     Other(u8),
 }
 

@@ -4,19 +4,19 @@ use crate::Command;
 
 /// Bytes of a datagram header.
 pub const DATAGRAM_HEADER_BYTES: usize = 10;
-/// Bytes of the working counter behind the data.
+/// Bytes of the working counter after the data.
 pub const WORKING_COUNTER_BYTES: usize = 2;
-/// Bytes of a datagram beside its data.
+/// Bytes of a datagram in addition to its data.
 pub const DATAGRAM_OVERHEAD_BYTES: usize = DATAGRAM_HEADER_BYTES + WORKING_COUNTER_BYTES;
 
 const LENGTH_MASK: u16 = 0x07FF;
 const CIRCULATING: u16 = 0x4000;
 const MORE_FOLLOW: u16 = 0x8000;
 
-/// A datagram header, taken apart (ETG.1000.4, DL PDU).
+/// A decoded datagram header (ETG.1000.4, DL PDU).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DatagramHeader {
-    /// What to do.
+    /// The command.
     pub command: Command,
     /// The master's tag, returned unchanged.
     pub index: u8,
@@ -26,7 +26,7 @@ pub struct DatagramHeader {
     pub offset: u16,
     /// Bits 10:0: length of the data in bytes, 0 to 2,047.
     pub length_bytes: u16,
-    /// Bits 13:11, reserved, kept as they came.
+    /// Bits 13:11, reserved, kept as received.
     pub reserved: u16,
     /// Bit 14: the datagram has circulated through a closed port 0.
     pub circulating: bool,
@@ -37,7 +37,7 @@ pub struct DatagramHeader {
 }
 
 impl DatagramHeader {
-    /// Takes ten bytes apart.
+    /// Decodes the ten bytes of a header.
     #[must_use]
     pub const fn unpack(bytes: &[u8; DATAGRAM_HEADER_BYTES]) -> Self {
         let flags = u16::from_le_bytes([bytes[6], bytes[7]]);
@@ -54,7 +54,7 @@ impl DatagramHeader {
         }
     }
 
-    /// Puts ten bytes together.
+    /// Encodes the header as ten bytes.
     #[must_use]
     pub const fn pack(&self) -> [u8; DATAGRAM_HEADER_BYTES] {
         let flags = (self.length_bytes & LENGTH_MASK)
@@ -86,8 +86,8 @@ impl DatagramHeader {
     }
 }
 
-/// A datagram opened for editing in place. What slaves change in header and working counter is kept here
-/// and goes back into the frame by [`Datagram::close`].
+/// A datagram opened for editing in place. [`Datagram::close`] writes the changes of header and working counter
+/// back to the frame.
 pub struct Datagram<'a> {
     /// The header.
     pub header: DatagramHeader,
@@ -100,7 +100,7 @@ pub struct Datagram<'a> {
 }
 
 impl<'a> Datagram<'a> {
-    /// Opens the datagram at the start of `bytes`; also gives the bytes behind it. None if it does not fit.
+    /// Opens the datagram at the start of `bytes`; also returns the bytes after it. None if it does not fit.
     #[must_use]
     pub fn open(bytes: &'a mut [u8]) -> Option<(Self, &'a mut [u8])> {
         let (head, rest) = bytes.split_first_chunk_mut::<DATAGRAM_HEADER_BYTES>()?;
@@ -118,7 +118,7 @@ impl<'a> Datagram<'a> {
     }
 }
 
-/// A datagram that is only looked at.
+/// A datagram opened for reading only.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DatagramView<'a> {
     /// The header.
@@ -130,7 +130,7 @@ pub struct DatagramView<'a> {
 }
 
 impl<'a> DatagramView<'a> {
-    /// The datagram at the start of `bytes`, and the bytes behind it. None if it does not fit.
+    /// The datagram at the start of `bytes`, and the bytes after it. None if it does not fit.
     pub(crate) fn of(bytes: &'a [u8]) -> Option<(Self, &'a [u8])> {
         let (head, rest) = bytes.split_first_chunk::<DATAGRAM_HEADER_BYTES>()?;
         let header = DatagramHeader::unpack(head);

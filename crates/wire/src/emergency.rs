@@ -1,13 +1,13 @@
-//! Emergency: what a slave tells on its own when something goes wrong (ETG.1000.6, emergency; CiA 301).
+//! Emergency: the message that a slave sends without a request when an error occurs (ETG.1000.6, emergency; CiA 301).
 
 /// An emergency message, CoE service 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Emergency {
-    /// Emergency error code; 0x0000 says that the error is gone.
+    /// Emergency error code; 0x0000 means that the error is gone.
     pub code: u16,
-    /// Error register, as object 0x1001 has it.
+    /// Error register, as in object 0x1001.
     pub error_register: u8,
-    /// Manufacturer's own bytes.
+    /// Manufacturer-specific bytes.
     pub manufacturer: [u8; 5],
 }
 

@@ -1,4 +1,4 @@
-//! The way from an Ethernet frame to its datagrams.
+//! From an Ethernet frame to its datagrams.
 
 use crate::datagram::{
     DATAGRAM_HEADER_BYTES, DATAGRAM_OVERHEAD_BYTES, Datagram, DatagramHeader, DatagramView,
@@ -8,9 +8,9 @@ use crate::datagram::{
 pub const ETHERTYPE_ETHERCAT: u16 = 0x88A4;
 /// UDP destination port of EtherCAT in UDP, 34980.
 pub const UDP_PORT_ETHERCAT: u16 = 0x88A4;
-/// Longest Ethernet frame that an ESC takes, without FCS, with one VLAN tag.
+/// Longest Ethernet frame that an ESC accepts, without FCS, with one VLAN tag.
 pub const FRAME_BYTES_MAX: usize = 1518;
-/// Bytes of the EtherCAT header in front of the datagrams.
+/// Bytes of the EtherCAT header before the datagrams.
 pub const ETHERCAT_HEADER_BYTES: usize = 2;
 
 const ETHERTYPE_VLAN: u16 = 0x8100;
@@ -20,20 +20,20 @@ const MAC_BYTES: usize = 12;
 const UDP_HEADER_BYTES: usize = 8;
 const TYPE_DATAGRAMS: u16 = 1;
 
-/// What an ESC makes of a frame (ETG.1000.4; reference 1.1, 1.2, 1.7).
+/// How an ESC classifies a frame (ETG.1000.4; reference 1.1, 1.2, 1.7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameKind {
     /// Datagrams to process.
     Datagrams(Layout),
-    /// EtherCAT of another type than datagrams: forwarded untouched.
+    /// EtherCAT of another type than datagrams: forwarded unchanged.
     OtherType,
     /// Not EtherCAT: forwarded or destroyed by the forwarding rule.
     NotEtherCat,
-    /// Broken: nothing of it takes effect, and it is counted.
+    /// Broken: nothing in it takes effect, and it is counted.
     Defective(Defect),
 }
 
-/// Where the datagrams of a checked frame stand.
+/// The positions of the datagrams in a checked frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     start: usize,
@@ -49,15 +49,15 @@ pub enum Defect {
     TooShort,
     /// It is longer than [`FRAME_BYTES_MAX`].
     TooLong,
-    /// Its EtherCAT header promises more bytes than came, and its chain of datagrams does not end before.
+    /// Its EtherCAT header announces more bytes than were received, and its chain of datagrams does not end before.
     Truncated,
-    /// A datagram does not fit into the length that the EtherCAT header tells.
+    /// A datagram exceeds the length in the EtherCAT header.
     DatagramBeyondEnd,
 }
 
 impl FrameKind {
-    /// Looks at a frame from its destination address on, without FCS. What lies behind the last datagram is
-    /// ignored, whatever the EtherCAT length says: frames of 29 bytes, as they come over veth, are fine.
+    /// Checks a frame from its destination address on, without FCS. Bytes after the last datagram are ignored,
+    /// whatever the EtherCAT length is: frames of 29 bytes, as they arrive over veth, are valid.
     #[must_use]
     pub fn of(frame: &[u8]) -> Self {
         if frame.len() > FRAME_BYTES_MAX {
@@ -72,7 +72,7 @@ impl FrameKind {
 }
 
 impl Layout {
-    /// Whether the EtherCAT header promises more bytes than the frame has. Its datagrams are all there.
+    /// Whether the EtherCAT header announces more bytes than the frame has. All its datagrams are complete.
     #[must_use]
     pub const fn is_overlong(&self) -> bool {
         self.is_overlong
@@ -84,8 +84,8 @@ impl Layout {
         Datagrams { rest: frame.get_mut(self.start..self.end) }
     }
 
-    /// Marks the frame as having passed a slave: the locally administered bit of the source address, and
-    /// no UDP checksum, since the data under it have changed.
+    /// Marks the frame as having passed a slave: sets the locally administered bit of the source address, and
+    /// clears the UDP checksum, because the data that it covers have changed.
     pub fn mark_passed(&self, frame: &mut [u8]) {
         mark_source_address(frame);
         if let Some(checksum) = self.udp_checksum_at.and_then(|at| frame.get_mut(at..at + 2)) {
@@ -94,8 +94,8 @@ impl Layout {
     }
 }
 
-/// Sets the locally administered bit of the source address, as every ESC does in every frame that passes
-/// its processing unit; the rest of the address stays.
+/// Sets the locally administered bit of the source address, as every ESC does in every frame that passes its
+/// processing unit; the rest of the address is unchanged.
 pub fn mark_source_address(frame: &mut [u8]) {
     if let Some(first) = frame.get_mut(6) {
         *first |= 0x02;
@@ -118,7 +118,7 @@ impl<'a> Iterator for Datagrams<'a> {
     }
 }
 
-/// The datagrams of a frame in order, to look at; none if the frame holds none or is broken.
+/// The datagrams of a frame in order, for reading; empty if the frame holds none or is broken.
 pub fn datagrams(frame: &[u8]) -> impl Iterator<Item = DatagramView<'_>> {
     let mut rest = match FrameKind::of(frame) {
         FrameKind::Datagrams(layout) => frame.get(layout.start..layout.end),
@@ -131,7 +131,7 @@ pub fn datagrams(frame: &[u8]) -> impl Iterator<Item = DatagramView<'_>> {
     })
 }
 
-/// Where the EtherCAT header stands, before its length is believed.
+/// The position of the EtherCAT header, before its length is checked.
 struct Located {
     header_at: usize,
     udp_checksum_at: Option<usize>,
@@ -152,7 +152,7 @@ fn locate(frame: &[u8]) -> Result<Option<Located>, Defect> {
     }
 }
 
-/// EtherCAT in UDP: the ESC looks at protocol and destination port, not at IP addresses.
+/// EtherCAT in UDP: the ESC checks protocol and destination port, not IP addresses.
 fn locate_in_udp(frame: &[u8], ip_at: usize) -> Option<Located> {
     let version_and_length = *frame.get(ip_at)?;
     let ip_header_bytes = usize::from(version_and_length & 0x0F) * 4;
@@ -188,9 +188,9 @@ impl Located {
 
 /// How a chain of datagrams ends.
 enum ChainEnd {
-    /// With a datagram that has no more flag.
+    /// With a datagram without the more flag.
     LastDatagram,
-    /// Behind a datagram with the more flag, or before the first.
+    /// After a datagram with the more flag, or before the first.
     LengthUsedUp,
     /// A datagram does not fit.
     Missing,

@@ -1,7 +1,7 @@
 //! The bytes of EtherCAT: frames, datagrams, mailbox, CoE and SDO headers, states and codes.
 //!
-//! Frames are edited in place and never copied. Unknown values survive as `Other`: a master may write
-//! anything, and a rule further up objects to it.
+//! Frames are edited in place and never copied. Unknown values are kept as `Other`: a master may write
+//! anything, and a rule in a higher layer reports it.
 
 mod al;
 mod build;

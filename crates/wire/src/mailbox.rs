@@ -1,4 +1,4 @@
-//! Mailbox header and error reply: what stands before every mailbox service (ETG.1000.4, mailbox).
+//! Mailbox header and error reply: the bytes before every mailbox service (ETG.1000.4, mailbox).
 
 use core::fmt;
 
@@ -21,12 +21,12 @@ pub enum MailboxType {
     Soe,
     /// Vendor-specific protocol over EtherCAT, 15.
     Voe,
-    /// A number that names no protocol, kept as it came (6 to 14).
+    /// A number that is not a protocol, kept as received (6 to 14).
     Other(u8),
 }
 
 impl MailboxType {
-    /// The protocol that bits 3:0 name.
+    /// The protocol in bits 3:0.
     #[must_use]
     pub const fn from_bits(bits: u8) -> Self {
         match bits & 0x0F {
@@ -72,7 +72,7 @@ pub struct MailboxHeader {
     pub mailbox_type: MailboxType,
     /// Byte 5 bits 6:4: 1 to 7, or 0 for a message that is not counted.
     pub counter: u8,
-    /// Byte 5 bit 7, kept as it came.
+    /// Byte 5 bit 7, kept as received.
     pub reserved: bool,
 }
 
@@ -165,7 +165,7 @@ impl MailboxErrorReply {
     /// Type of reply: a mailbox command was wrong.
     const COMMAND_ERROR: u16 = 1;
 
-    /// The reply in `body`, the data after the mailbox header; none if it is not one.
+    /// The reply in `body`, the data after the mailbox header; none if it is not an error reply.
     #[must_use]
     pub fn parse(body: &[u8]) -> Option<Self> {
         let [kind_0, kind_1, detail_0, detail_1, ..] = *body else { return None };

@@ -1,4 +1,4 @@
-//! Writes little-endian fields one after the other, and never past the end.
+//! Writes little-endian fields one after the other, never past the end.
 
 /// Where the next field goes.
 pub(crate) struct Writer<'a> {
@@ -11,7 +11,7 @@ impl<'a> Writer<'a> {
         Self { bytes, at: 0 }
     }
 
-    /// Appends `octets`; none, and nothing written, if they do not fit.
+    /// Appends `octets`; none, and writes nothing, if they do not fit.
     pub(crate) fn bytes(&mut self, octets: &[u8]) -> Option<()> {
         let end = self.at.checked_add(octets.len())?;
         self.bytes.get_mut(self.at..end)?.copy_from_slice(octets);

@@ -1,9 +1,9 @@
-//! SDO requests: command, index, subindex and data behind a CoE header of service 2 (ETG.1000.6, SDO).
+//! SDO requests: command, index, subindex and data after a CoE header of service 2 (ETG.1000.6, SDO).
 
 use crate::mailbox_writer::Writer;
 use crate::{ObjectIndex, SdoAbort, SubIndex};
 
-/// What an initiate request wants of an object: one entry, or the object as a whole.
+/// The scope of an initiate request: one entry, or the whole object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SdoAccess {
     /// One entry.
@@ -27,7 +27,7 @@ impl SdoAccess {
     }
 }
 
-/// What an SDO transfer is about.
+/// The target of an SDO transfer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct SdoTarget {
     /// The object.
@@ -52,14 +52,14 @@ impl SdoTarget {
     }
 }
 
-/// Why bytes are no SDO.
+/// Why the bytes are not a valid SDO.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoSyntaxError {
     /// They are fewer than the command needs (mailbox error 6).
     TooShort,
     /// They are more than the command allows (mailbox error 8).
     InvalidSize,
-    /// The command specifier names no service (SDO abort 0x05040001). Index and subindex as they came.
+    /// The command specifier is not a service (SDO abort 0x05040001). Index and subindex as received.
     UnknownCommand {
         /// The index field.
         index: ObjectIndex,
@@ -73,20 +73,20 @@ pub enum SdoSyntaxError {
 pub enum SdoRequest<'a> {
     /// Download with up to four bytes of data in the header.
     DownloadExpedited {
-        /// Where to.
+        /// The target.
         target: SdoTarget,
         /// The data field, used or not.
         field: [u8; 4],
-        /// How many bytes of it are data, 1 to 4; none if the size is not indicated.
+        /// How many bytes of the field are data, 1 to 4; none if the size is not indicated.
         length_bytes: Option<u8>,
     },
     /// Download with its size, and the first or only part of the data.
     DownloadNormal {
-        /// Where to.
+        /// The target.
         target: SdoTarget,
         /// Length of the whole transfer.
         size_bytes: u32,
-        /// The part that came along.
+        /// The part in this message.
         data: &'a [u8],
     },
     /// A further part of a download.
@@ -98,37 +98,37 @@ pub enum SdoRequest<'a> {
         /// The part.
         data: &'a [u8],
     },
-    /// Asks for a value.
+    /// Requests a value.
     Upload {
-        /// Where from.
+        /// The source.
         target: SdoTarget,
     },
-    /// Asks for a further part of an upload.
+    /// Requests the next part of an upload.
     UploadSegment {
         /// Alternates, beginning with false.
         toggle: bool,
     },
-    /// Ends a transfer; in the other direction the refusal of one.
+    /// Aborts a transfer; in the other direction, refuses it.
     Abort {
         /// Index of the transfer.
         index: ObjectIndex,
         /// Subindex of the transfer.
         sub: SubIndex,
-        /// Why.
+        /// The reason.
         code: SdoAbort,
     },
 }
 
-/// Fewest data bytes of a segment; shorter parts are padded and the rest counted as unused.
+/// Minimum number of data bytes of a segment; shorter parts are padded and the unused bytes are counted.
 pub(crate) const SEGMENT_MIN_BYTES: usize = 7;
 
 const TOGGLE: u8 = 0x10;
 
 impl<'a> SdoRequest<'a> {
-    /// Takes apart `bytes`, the bytes after the CoE header. Reserved bits are ignored.
+    /// Parses `bytes`, the bytes after the CoE header. Reserved bits are ignored.
     ///
     /// # Errors
-    /// What is wrong with the bytes.
+    /// The defect of the bytes.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SdoSyntaxError> {
         let &[command, ref rest @ ..] = bytes else { return Err(SdoSyntaxError::TooShort) };
         match command >> 5 {
@@ -137,7 +137,7 @@ impl<'a> SdoRequest<'a> {
                 last,
                 data,
             }),
-            // Masters send ten bytes here, but the command byte alone says it all.
+            // Masters send ten bytes here, but the command byte alone is sufficient.
             3 => Ok(Self::UploadSegment { toggle: command & TOGGLE != 0 }),
             specifier => {
                 let (index, sub, field, data) = split_initiate(rest).ok_or(SdoSyntaxError::TooShort)?;
@@ -152,7 +152,7 @@ impl<'a> SdoRequest<'a> {
         }
     }
 
-    /// Writes the SDO to the start of `bytes`; the bytes written, none if they do not fit.
+    /// Writes the SDO to the start of `bytes`; returns the number of bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -190,14 +190,14 @@ fn parse_download<'a>(
     Ok(SdoRequest::DownloadExpedited { target, field, length_bytes })
 }
 
-/// Index, subindex, the four-byte field, and what follows; none if the bytes after the command are too few.
+/// Index, subindex, the four-byte field, and the bytes after it; none if the bytes after the command are too few.
 pub(crate) fn split_initiate(rest: &[u8]) -> Option<(ObjectIndex, SubIndex, [u8; 4], &[u8])> {
     let &[index_0, index_1, sub, f0, f1, f2, f3, ref data @ ..] = rest else { return None };
     let index = ObjectIndex(u16::from_le_bytes([index_0, index_1]));
     Some((index, SubIndex(sub), [f0, f1, f2, f3], data))
 }
 
-/// Toggle, last, data of a segment: bits 3:1 count unused bytes when the segment has its least length.
+/// Toggle, last flag and data of a segment: bits 3:1 count unused bytes when the segment has its minimum length.
 pub(crate) fn parse_segment(command: u8, rest: &[u8]) -> Result<(bool, bool, &[u8]), SdoSyntaxError> {
     if rest.len() < SEGMENT_MIN_BYTES {
         return Err(SdoSyntaxError::TooShort);

@@ -1,4 +1,4 @@
-//! SDO abort codes: why a slave refuses (ETG.1000.6; CiA 301).
+//! SDO abort codes: why a slave refuses a transfer (ETG.1000.6; CiA 301).
 
 use core::fmt;
 
@@ -69,7 +69,7 @@ sdo_aborts! {
 }
 
 impl SdoAbort {
-    /// What the standard says of this code; nothing for a code that it does not have.
+    /// The standard's meaning of this code; nothing for a code that the standard does not define.
     #[must_use]
     pub fn row(self) -> Option<&'static SdoAbortRow> {
         Self::TABLE.iter().find(|row| row.code == self)

@@ -5,24 +5,24 @@ use bitflags::bitflags;
 use crate::mailbox_writer::Writer;
 use crate::{ObjectIndex, SdoAbort, SubIndex};
 
-/// What an SDO information message is, header byte 0 bits 6:0.
+/// Type of an SDO information message, header byte 0 bits 6:0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SdoInfoOpcode {
-    /// Asks for a list of indexes, 1.
+    /// Requests a list of indexes, 1.
     ListRequest,
     /// A list of indexes, 2.
     ListResponse,
-    /// Asks for the description of an object, 3.
+    /// Requests the description of an object, 3.
     ObjectRequest,
     /// The description of an object, 4.
     ObjectResponse,
-    /// Asks for the description of an entry, 5.
+    /// Requests the description of an entry, 5.
     EntryRequest,
     /// The description of an entry, 6.
     EntryResponse,
     /// A refusal, 7.
     Error,
-    /// A number without meaning, kept as it came.
+    /// A number without meaning, kept as received.
     Other(u8),
 }
 
@@ -65,7 +65,7 @@ pub struct SdoInfoHeader {
     pub opcode: SdoInfoOpcode,
     /// Byte 0 bit 7: further fragments follow.
     pub incomplete: bool,
-    /// Bytes 3:2: how many fragments follow.
+    /// Bytes 3:2: the number of fragments that follow.
     pub fragments_left: u16,
 }
 
@@ -79,8 +79,8 @@ impl SdoInfoHeader {
         Self { opcode, incomplete: fragments_left != 0, fragments_left }
     }
 
-    /// The header at the start of `bytes`, the bytes after the CoE header, and what follows it; none if
-    /// they are too few.
+    /// The header at the start of `bytes`, the bytes after the CoE header, and the bytes after it; none if they
+    /// are too few.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<(Self, &[u8])> {
         let &[opcode, _, left_0, left_1, ref data @ ..] = bytes else { return None };
@@ -100,10 +100,10 @@ impl SdoInfoHeader {
     }
 }
 
-/// Which objects a list holds.
+/// Which objects a list contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SdoInfoList {
-    /// 0: how long the five lists are.
+    /// 0: the lengths of the five lists.
     Lengths,
     /// 1: every object.
     All,
@@ -115,12 +115,12 @@ pub enum SdoInfoList {
     Backup,
     /// 5: settings (startup parameters).
     Settings,
-    /// A number that names no list, kept as it came.
+    /// A number that is not a list, kept as received.
     Other(u16),
 }
 
 impl SdoInfoList {
-    /// The five lists that hold indexes, in the order of [`SdoInfoList::Lengths`].
+    /// The five lists of indexes, in the order of [`SdoInfoList::Lengths`].
     pub const LISTS: [Self; 5] = [Self::All, Self::RxPdo, Self::TxPdo, Self::Backup, Self::Settings];
 
     /// The list with this number.
@@ -153,10 +153,10 @@ impl SdoInfoList {
 }
 
 bitflags! {
-    /// What an entry description shall hold, and what it does hold.
+    /// The contents of an entry description, as requested and as returned.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
     pub struct ValueInfo: u8 {
-        /// Access rights; they are always there.
+        /// Access rights; always present.
         const ACCESS_RIGHTS = 1 << 0;
         /// Object category; part of the access word.
         const CATEGORY = 1 << 1;
@@ -175,38 +175,38 @@ bitflags! {
     }
 }
 
-/// Why bytes are no SDO information request.
+/// Why the bytes are not a valid SDO information request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoInfoSyntaxError {
     /// They are fewer than the opcode needs (mailbox error 6).
     TooShort,
-    /// The opcode is no request.
+    /// The opcode is not a request.
     NoRequest(SdoInfoOpcode),
 }
 
 /// A well-formed SDO information request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoInfoRequest {
-    /// Which objects are there?
+    /// Requests the list of objects.
     List(SdoInfoList),
-    /// What is this object?
+    /// Requests the description of this object.
     Object(ObjectIndex),
-    /// What is this entry?
+    /// Requests the description of this entry.
     Entry {
         /// Its object.
         index: ObjectIndex,
         /// Its subindex.
         sub: SubIndex,
-        /// What the answer shall hold.
+        /// The requested contents of the response.
         value_info: ValueInfo,
     },
 }
 
 impl SdoInfoRequest {
-    /// Takes apart `bytes`, the bytes after the CoE header.
+    /// Parses `bytes`, the bytes after the CoE header.
     ///
     /// # Errors
-    /// What is wrong with the bytes.
+    /// The defect of the bytes.
     pub fn parse(bytes: &[u8]) -> Result<Self, SdoInfoSyntaxError> {
         let (header, data) = SdoInfoHeader::parse(bytes).ok_or(SdoInfoSyntaxError::TooShort)?;
         match (header.opcode, data) {
@@ -228,7 +228,7 @@ impl SdoInfoRequest {
         }
     }
 
-    /// Writes the request to the start of `bytes`; the bytes written, none if they do not fit.
+    /// Writes the request to the start of `bytes`; returns the number of bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -251,8 +251,8 @@ impl SdoInfoRequest {
     }
 }
 
-/// Writes the refusal of an SDO information request to the start of `bytes`, the bytes after the CoE
-/// header; the bytes written, none if they do not fit.
+/// Writes the refusal of an SDO information request to the start of `bytes`, the bytes after the CoE header;
+/// returns the number of bytes written, none if they do not fit.
 #[must_use]
 pub fn pack_sdo_info_error(code: SdoAbort, bytes: &mut [u8]) -> Option<usize> {
     let mut writer = Writer::new(bytes);

@@ -22,7 +22,7 @@ impl<'a> ObjectDescription<'a> {
     /// Bytes before the name.
     pub const FIXED_BYTES: usize = 6;
 
-    /// Takes a description apart; none if the bytes are too few.
+    /// Parses a description; none if the bytes are too few.
     #[must_use]
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let &[index_0, index_1, type_0, type_1, max_sub, object_code, ref name @ ..] = bytes else {
@@ -37,7 +37,7 @@ impl<'a> ObjectDescription<'a> {
         })
     }
 
-    /// Writes the description to the start of `bytes`; the bytes written, none if they do not fit.
+    /// Writes the description to the start of `bytes`; returns the number of bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);
@@ -56,7 +56,7 @@ pub struct EntryDescription<'a> {
     pub index: ObjectIndex,
     /// Its subindex.
     pub sub: SubIndex,
-    /// What [`EntryDescription::values`] holds.
+    /// The contents of [`EntryDescription::values`].
     pub value_info: ValueInfo,
     /// Its data type.
     pub data_type: DataType,
@@ -64,7 +64,7 @@ pub struct EntryDescription<'a> {
     pub bit_length: u16,
     /// Its access word.
     pub access: u16,
-    /// Unit type, default, minimum and maximum, those of them that `value_info` names, in this order.
+    /// Unit type, default, minimum and maximum, in this order, each only if `value_info` includes it.
     pub values: &'a [u8],
     /// Its name, without a final NUL.
     pub name: &'a [u8],
@@ -74,7 +74,7 @@ impl<'a> EntryDescription<'a> {
     /// Bytes before the values.
     pub const FIXED_BYTES: usize = 10;
 
-    /// Takes a description apart; none if the bytes are too few.
+    /// Parses a description; none if the bytes are too few.
     #[must_use]
     pub fn parse(bytes: &'a [u8]) -> Option<Self> {
         let &[i0, i1, sub, info, t0, t1, l0, l1, a0, a1, ref rest @ ..] = bytes else { return None };
@@ -93,8 +93,8 @@ impl<'a> EntryDescription<'a> {
         })
     }
 
-    /// Writes the description to the start of `bytes`; the bytes written, none if they do not fit or if
-    /// `values` is not as long as `value_info` says.
+    /// Writes the description to the start of `bytes`; returns the number of bytes written, none if they do not
+    /// fit or if the length of `values` does not match `value_info`.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         if self.values.len() != values_length_bytes(self.value_info, self.bit_length) {
@@ -112,7 +112,7 @@ impl<'a> EntryDescription<'a> {
     }
 }
 
-/// How long the values of an entry description are.
+/// Length of the values of an entry description.
 fn values_length_bytes(value_info: ValueInfo, bit_length: u16) -> usize {
     let unit_bytes = if value_info.contains(ValueInfo::UNIT_TYPE) { 4 } else { 0 };
     let of_the_entry = value_info & (ValueInfo::DEFAULT | ValueInfo::MINIMUM | ValueInfo::MAXIMUM);

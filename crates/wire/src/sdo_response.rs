@@ -1,18 +1,18 @@
-//! SDO responses: what a slave answers to a transfer (ETG.1000.6, SDO).
+//! SDO responses: the answers of a slave to a transfer (ETG.1000.6, SDO).
 
 use crate::mailbox_writer::Writer;
 use crate::sdo::{pack_abort, pack_initiate, pack_segment, pack_toggle, parse_segment, split_initiate};
 use crate::{CoeService, ObjectIndex, SdoAbort, SdoAccess, SdoSyntaxError, SdoTarget, SubIndex};
 
-/// A well-formed answer to an SDO request.
+/// A well-formed response to an SDO request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SdoResponse<'a> {
-    /// The download has begun, or was taken.
+    /// The download has begun, or is complete.
     Download {
         /// The request's target.
         target: SdoTarget,
     },
-    /// A part of a download was taken.
+    /// A part of a download was accepted.
     DownloadSegment {
         /// The request's toggle.
         toggle: bool,
@@ -23,7 +23,7 @@ pub enum SdoResponse<'a> {
         target: SdoTarget,
         /// The data field; bytes beyond the length are 0.
         field: [u8; 4],
-        /// How many bytes of it are the value, 1 to 4.
+        /// How many bytes of the field are the value, 1 to 4.
         length_bytes: u8,
     },
     /// The value's size and the first or only part of it.
@@ -32,7 +32,7 @@ pub enum SdoResponse<'a> {
         target: SdoTarget,
         /// Length of the whole value.
         size_bytes: u32,
-        /// The part that comes along.
+        /// The part in this message.
         data: &'a [u8],
     },
     /// A further part of the value.
@@ -50,7 +50,7 @@ pub enum SdoResponse<'a> {
         index: ObjectIndex,
         /// The request's subindex.
         sub: SubIndex,
-        /// Why.
+        /// The reason.
         code: SdoAbort,
     },
 }
@@ -61,7 +61,7 @@ impl<'a> SdoResponse<'a> {
     /// Bytes before the data of a segment.
     pub const SEGMENT_OVERHEAD_BYTES: usize = 1;
 
-    /// The CoE service that carries it: an abort is an SDO request by definition, all else a response.
+    /// The CoE service that carries it: an abort is an SDO request by definition, everything else a response.
     #[must_use]
     pub const fn service(&self) -> CoeService {
         match self {
@@ -70,10 +70,10 @@ impl<'a> SdoResponse<'a> {
         }
     }
 
-    /// Takes apart `bytes`, the bytes after the CoE header.
+    /// Parses `bytes`, the bytes after the CoE header.
     ///
     /// # Errors
-    /// What is wrong with the bytes.
+    /// The defect of the bytes.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, SdoSyntaxError> {
         let &[command, ref rest @ ..] = bytes else { return Err(SdoSyntaxError::TooShort) };
         match command >> 5 {
@@ -100,7 +100,7 @@ impl<'a> SdoResponse<'a> {
         }
     }
 
-    /// Writes the SDO to the start of `bytes`; the bytes written, none if they do not fit.
+    /// Writes the SDO to the start of `bytes`; returns the number of bytes written, none if they do not fit.
     #[must_use]
     pub fn pack(&self, bytes: &mut [u8]) -> Option<usize> {
         let mut writer = Writer::new(bytes);

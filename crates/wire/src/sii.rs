@@ -1,8 +1,8 @@
-//! The checksum of the SII EEPROM, for the controller, for files that describe a unit, and for telling them apart.
+//! The checksum of the SII EEPROM, used by the controller, by unit files, and to distinguish EEPROM images.
 
 use crc::{Algorithm, Crc};
 
-/// Bytes of the ESC configuration area in front of the checksum, words 0 to 6.
+/// Bytes of the ESC configuration area before the checksum, words 0 to 6.
 pub const SII_CONFIGURATION_BYTES: usize = 14;
 
 /// CRC-8 with x^8 + x^2 + x + 1, start value 0xFF, not reflected (ETG.1000.6, SII; reference 4.2).

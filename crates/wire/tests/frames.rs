@@ -1,4 +1,4 @@
-//! Frames and datagrams: what is found in them, what survives, what is refused.
+//! Frames and datagrams: their contents, which values are kept, which frames are refused.
 
 use proptest::prelude::*;
 use wire::{
@@ -77,7 +77,7 @@ fn defects_are_named() {
     assert_eq!(FrameKind::of(&beyond), FrameKind::Defective(Defect::DatagramBeyondEnd));
 }
 
-/// libethercat tells 16 bytes too many; controllers go by the datagrams.
+/// libethercat announces 16 bytes too many; controllers follow the datagrams.
 #[test]
 fn a_length_beyond_the_frame_is_passed_over_when_the_datagrams_are_there() {
     for datagrams in 1..=3 {
@@ -94,7 +94,7 @@ fn a_length_beyond_the_frame_is_passed_over_when_the_datagrams_are_there() {
     assert!(!layout.is_overlong());
 }
 
-/// With the more flag on its last datagram such a frame has no end.
+/// With the more flag on its last datagram, such a frame has no end.
 #[test]
 fn a_length_beyond_the_frame_with_more_promised_is_cut_short() {
     let mut frame = brd();

@@ -1,4 +1,4 @@
-//! Mailbox, CoE, SDO and emergency bytes: known messages, and codecs that lose nothing.
+//! Mailbox, CoE, SDO and emergency bytes: known messages, and codecs that lose no information.
 #![expect(clippy::unwrap_used, reason = "a panic here is a failed test")]
 
 use proptest::prelude::*;
