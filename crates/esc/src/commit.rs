@@ -1,4 +1,4 @@
-//! The end of a frame: register writes take effect, SyncManagers hand over.
+//! The end of a frame: register writes take effect, SyncManagers release their buffers.
 
 use time::Instant;
 
@@ -13,13 +13,13 @@ use crate::sii::Sii;
 use crate::sync_manager::{SYNC_MANAGER_BYTES, SmDirection, SmMode, SyncManagerSettings};
 
 const RESET_SEQUENCE: [u8; 3] = *b"RES";
-/// DL control bit 24: the station alias answers too.
+/// DL control bit 24: the slave also answers to the station alias.
 const USE_ALIAS: u8 = 1;
 /// What 0x0040 reads after each step of the sequence.
 const RESET_READBACK: [u8; 3] = [0, 1, 2];
 
 impl Esc {
-    /// Closes a good frame: what it wrote takes effect.
+    /// Closes a valid frame: its writes take effect.
     #[inline]
     pub fn end_of_frame(&mut self, passage: &Passage) {
         if self.awaits_end_of_frame() {
@@ -48,7 +48,7 @@ impl Esc {
         sm.end_of_frame();
         let settings = sm.settings;
         if settings.watchdog_trigger && settings.direction == SmDirection::EcatWrites {
-            // Outputs that come too late do not hide that they were late.
+            // Check for expiry first, so that a late write cannot mask the time-out.
             self.advance(now);
             self.watchdog.trigger(now);
         }
@@ -68,7 +68,7 @@ impl Esc {
             }
         }
         self.advance_reset(reset_step);
-        // Address and data of the same frame are in place by now, before or behind the command.
+        // Address and data of the same frame are stored by now, whether they came before or after the command.
         if let Some(control) = sii_control {
             self.sii.run_command(control, &mut self.memory, passage.arrival);
         }
@@ -85,7 +85,7 @@ impl Esc {
         self.hot.event_mask = self.memory.u16(at::ECAT_EVENT_MASK);
     }
 
-    /// Stores what the table lets be stored, then runs each effect of the bytes touched, once.
+    /// Stores the bits that the table permits, then runs each effect of the written bytes once.
     fn commit_write(&mut self, offset: u16, data: &[u8], passage: &Passage) -> Effects {
         let mut effects = Effects(0);
         for (offset, byte) in (offset..USER_RAM_START).zip(data) {
@@ -94,7 +94,7 @@ impl Esc {
             }
             let effect = BYTES.effect(offset);
             effects.0 |= 1 << effect as u32;
-            // SyncManagers decide about their bytes as a whole: a write that disables one may also set it.
+            // SyncManagers check their bytes as a whole: a write that disables one may also set it.
             if effect != Effect::SyncManager {
                 self.memory.store(offset, *byte);
             }
@@ -181,7 +181,7 @@ impl Esc {
             self.memory.store(registers + 6, activation);
             self.al_events |= AlEvents::SYNC_MANAGER_ACTIVATION;
         }
-        // The activation counts first: a write that also disables the SyncManager may set it.
+        // The activation is checked first: a write that also disables the SyncManager may set it.
         if self.takes_settings(n) || activation.is_some_and(|activation| activation & 1 == 0) {
             for byte in 0..5 {
                 if let Some(value) = written(byte) {
@@ -202,7 +202,7 @@ impl Esc {
         }
     }
 
-    /// Takes the FMMUs apart, once, so that the frame's path finds them ready.
+    /// Decodes the FMMUs once, so that they are ready while a frame passes.
     pub(crate) fn update_mappings(&mut self) {
         self.read_mappings.clear();
         self.write_mappings.clear();
@@ -235,7 +235,7 @@ impl Esc {
             self.read_mappings.iter().any(|read| self.write_mappings.iter().any(|write| alias(read, write)));
     }
 
-    /// The buffered SyncManager whose buffer a byte-wise mapping covers exactly, where no lower one decides.
+    /// The buffered SyncManager whose buffer a byte-wise mapping covers exactly, if no lower FMMU maps there.
     fn buffer_of(&self, fmmu: &Fmmu) -> Option<u8> {
         let (start, end) = physical_range(fmmu.physical_start, fmmu.length_bytes);
         let touches =
@@ -245,8 +245,8 @@ impl Esc {
         (exact && fmmu.is_bytewise() && sm.settings.mode == SmMode::Buffered).then_some(n)
     }
 
-    /// "RES" in three frames asks for a reset, which whoever drives this ESC carries out. A frame that writes
-    /// other registers in between begins it anew.
+    /// "RES" in three frames requests a reset; the code that drives this ESC carries it out. A frame that
+    /// writes other registers in between restarts the sequence.
     fn advance_reset(&mut self, byte: Option<u8>) {
         let Some(byte) = byte else {
             self.reset_progress = 0;
@@ -266,7 +266,7 @@ impl Esc {
     }
 }
 
-/// The effects of one write, a bit each.
+/// The effects of one write, one bit each.
 #[derive(Clone, Copy)]
 struct Effects(u32);
 
@@ -276,7 +276,7 @@ impl Effects {
     }
 }
 
-/// Control of the SII as a write has it: only with its upper byte, which is the command.
+/// The SII control value in a write: only if the write includes its upper byte, which is the command.
 fn sii_control_in(offset: u16, data: &[u8]) -> Option<u16> {
     let byte = |at: u16| data.get(usize::from(at.checked_sub(offset)?)).copied();
     let command = byte(at::SII_CONTROL + 1)?;

@@ -1,8 +1,8 @@
-//! What an ESC is built with: sizes, features, and the choices where real controllers differ.
+//! Configuration of an ESC: sizes, features, and the choices in which real controllers differ.
 
 use time::Duration;
 
-/// Build of one ESC. The default is the ESC of the ET1100 class with two MII ports.
+/// Configuration of one ESC. The default is an ESC of the ET1100 class with two MII ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct EscConfig {
     /// FMMUs, 0 to 16.
@@ -11,17 +11,17 @@ pub struct EscConfig {
     pub sync_manager_count: u8,
     /// Process data RAM in KiB, 1 to 60.
     pub ram_kib: u8,
-    /// What is behind ports 0 to 3, register 0x0007. Frames pass ports 0 and 1: a further one never has a cable.
+    /// What is connected to ports 0 to 3, register 0x0007. Frames pass ports 0 and 1: ports 2 and 3 never have a cable.
     pub ports: [PortKind; 4],
-    /// Whether distributed clocks exist (64 bits); without them 0x0900 to 0x09FF do not answer.
+    /// Whether distributed clocks exist (64 bits); without them there is no answer at 0x0900 to 0x09FF.
     pub distributed_clocks: bool,
-    /// When an SII command is finished.
+    /// When an SII command is complete.
     pub sii: SiiTiming,
-    /// Whether an enabled SyncManager takes new settings.
+    /// Whether an enabled SyncManager accepts new settings.
     pub sync_manager_writes: SyncManagerWrites,
 }
 
-/// What is behind a port.
+/// What is connected to a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortKind {
     /// 00: there is no port.
@@ -41,22 +41,22 @@ impl PortKind {
     }
 }
 
-/// How long the SII takes for a command.
+/// How long an SII command takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SiiTiming {
-    /// Finished when the next frame comes.
+    /// Complete when the next frame arrives.
     Immediate,
     /// Busy for this long after the frame with the command, as a real EEPROM is (0.1 to 1 ms).
     Busy(Duration),
 }
 
-/// What a write to start, length and control of a SyncManager does while it is enabled. The bytes are
-/// writable only while it is disabled (reference 2.13, C080); some stacks rewrite them all the same.
+/// The effect of a write to start, length and control of a SyncManager while it is enabled. The bytes are
+/// writable only while it is disabled (reference 2.13, C080); some stacks rewrite them nevertheless.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SyncManagerWrites {
     /// Ignored, as in an ET1100. A write that also disables the SyncManager sets them.
     OnlyWhileDisabled,
-    /// Taken over; the buffers start anew.
+    /// Accepted; the buffers start again.
     Always,
 }
 

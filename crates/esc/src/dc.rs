@@ -1,7 +1,7 @@
 //! Distributed clocks: receive times, system time and its control loop (reference 2.14).
 //!
-//! SYNC pulses are not generated: their registers store what a master writes, and the unit's own check
-//! refuses a configuration that it cannot follow.
+//! SYNC pulses are not generated: their registers store what a master writes, and the unit's check refuses a
+//! configuration that the unit does not support.
 
 use time::{Duration, Instant};
 
@@ -9,7 +9,7 @@ use crate::memory::Memory;
 use crate::passage::Passage;
 use crate::registers::at;
 
-/// The local clock follows the reference clock by at most one part in this many, as a real one that
+/// The local clock follows the reference clock by at most one part in this number, like a real clock that
 /// adjusts its rate.
 const RATE_LIMIT: u64 = 1_024;
 /// Sign of the system time difference: local copy smaller than the received time (reference 2.14).
@@ -40,13 +40,13 @@ impl Dc {
         self.local_time(now).wrapping_add(memory.u64(at::SYSTEM_TIME_OFFSET)).wrapping_sub(delay)
     }
 
-    /// Latches when this frame came to the processing unit and to each port.
+    /// Latches the times at which this frame arrived at the processing unit and at each port.
     pub(crate) fn latch(&self, memory: &mut Memory, passage: &Passage) {
         let arrival = self.local_time(passage.arrival);
         memory.set_u64(at::RECEIVE_TIME_EPU, arrival);
         memory.set_u32(at::RECEIVE_TIME_PORT, arrival as u32);
-        // Ports without a partner see the frame when it passes them inside: not at 0, which libethercat
-        // takes for a fault.
+        // Ports without a partner see the frame when it passes them inside: their time is not 0, because
+        // libethercat takes 0 for a fault.
         let returned = self.local_time(passage.returned_out) as u32;
         for port in 1..4 {
             memory.set_u32(at::RECEIVE_TIME_PORT + 4 * port, returned);

@@ -1,4 +1,4 @@
-//! The face of the wire: what datagrams read and write, inside a frame.
+//! The ECAT side: what datagrams read and write, within a frame.
 
 use time::Instant;
 
@@ -23,28 +23,28 @@ pub struct Access {
 }
 
 impl Esc {
-    /// Whether a configured-address command with this station address is for this ESC.
+    /// Whether this ESC answers a configured-address command with this station address.
     #[inline]
     #[must_use]
     pub fn answers_to(&self, station_address: u16) -> bool {
         self.hot.station_address == station_address || self.hot.answering_alias == Some(station_address)
     }
 
-    /// Whether something waits for the end of the frame.
+    /// Whether an action waits for the end of the frame.
     #[inline]
     #[must_use]
     pub const fn awaits_end_of_frame(&self) -> bool {
         self.hot.complete != 0 || self.hot.registers_written
     }
 
-    /// The ECAT event request as its mask lets it into the IRQ field of datagrams.
+    /// The ECAT event request, masked, for the IRQ field of datagrams.
     #[inline]
     #[must_use]
     pub const fn masked_events(&self) -> u16 {
         self.hot.masked_events
     }
 
-    /// Reads memory into `data`. Tells whether at least one byte could be read; bytes that could not stay.
+    /// Reads memory into `data`. Returns whether at least one byte could be read; the other bytes are unchanged.
     #[inline]
     pub fn read(&mut self, offset: u16, data: &mut [u8], now: Instant) -> bool {
         self.read_with(offset, data.len(), now, |at, bytes| {
@@ -103,7 +103,7 @@ impl Esc {
         true
     }
 
-    /// Registers whose value is worked out when it is read.
+    /// Registers whose value is calculated when they are read.
     fn read_live_registers(
         &mut self,
         offset: u16,
@@ -120,7 +120,7 @@ impl Esc {
         true
     }
 
-    /// Reading DL status or AL status takes back its event.
+    /// Reading DL status or AL status clears its event.
     fn clear_events_read(&mut self, offset: u16, length_bytes: usize) {
         let touched = |register: u16| {
             offset < register + 2 && usize::from(register) < usize::from(offset) + length_bytes
@@ -133,7 +133,7 @@ impl Esc {
         }
     }
 
-    /// Reads RAM piece by piece, as SyncManagers cut it.
+    /// Reads RAM in pieces, split at the borders of SyncManagers.
     #[inline]
     fn read_ram(
         &mut self,
@@ -156,7 +156,7 @@ impl Esc {
         any
     }
 
-    /// Writes memory. Tells whether at least one byte could be written.
+    /// Writes memory. Returns whether at least one byte could be written.
     #[inline]
     pub fn write(&mut self, offset: u16, data: &[u8], now: Instant) -> bool {
         let ram_is_open = !self.hot.protected || self.protection.opens_ram();
@@ -181,13 +181,13 @@ impl Esc {
         registers || !user_ram.is_empty() || ram
     }
 
-    /// Register writes wait for the end of the frame.
+    /// Register writes take effect at the end of the frame.
     fn write_registers(&mut self, offset: u16, data: &[u8], now: Instant) -> bool {
         let mut offsets = (offset..).take(data.len());
         if !offsets.any(|offset| self.accepts_write(offset, now)) {
             return false;
         }
-        // The enable registers count within the same frame.
+        // The enable registers take effect within the same frame.
         if offset == at::WRITE_REGISTER_ENABLE {
             self.protection.registers_enabled = data[0] & 1 != 0;
         } else if offset == at::ESC_WRITE_ENABLE {
@@ -200,7 +200,7 @@ impl Esc {
         true
     }
 
-    /// Whether the wire may write the byte at `offset` at the moment `now`.
+    /// Whether the ECAT side may write the byte at `offset` at the time `now`.
     pub(crate) fn accepts_write(&self, offset: u16, now: Instant) -> bool {
         let dc_missing = offset >> 8 == 0x09 && !self.config.distributed_clocks;
         let protected = self.hot.protected && !self.protection.opens_register(offset);
@@ -226,7 +226,8 @@ impl Esc {
             }
     }
 
-    /// Whether a SyncManager holds this byte of the digital output data: a write that goes beyond them leaves it.
+    /// Whether a SyncManager covers this byte of the digital output data: a write that continues past the data
+    /// leaves this byte unchanged.
     fn is_held(&self, offset: u16) -> bool {
         let offset_is_held = || self.piece(u32::from(offset), 1).sync_manager.is_some();
         are_digital_outputs(offset, 1) && offset_is_held()
@@ -253,12 +254,12 @@ impl Esc {
         any
     }
 
-    /// Reads what was there before, and writes what came: APRW, FPRW.
+    /// Reads the old contents and writes the received data: APRW, FPRW.
     pub fn read_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
         self.exchange(offset, data, now, Self::read)
     }
 
-    /// ORs what was there before into the data, and writes what came: BRW.
+    /// ORs the old contents into the data and writes the received data: BRW.
     pub fn read_or_write(&mut self, offset: u16, data: &mut [u8], now: Instant) -> Access {
         self.exchange(offset, data, now, Self::read_or)
     }
@@ -276,7 +277,7 @@ impl Esc {
         Access { read: read(self, offset, data, now), written: self.write(offset, incoming, now) }
     }
 
-    /// The longest piece of RAM from `offset` on that one SyncManager holds, or none does.
+    /// The longest piece of RAM from `offset` on that one SyncManager covers, or that no SyncManager covers.
     fn piece(&self, offset: u32, length_bytes: usize) -> Piece {
         let mut length = length_bytes as u32;
         for (n, sm) in (0u8..).zip(&self.sync_managers) {
@@ -291,12 +292,12 @@ impl Esc {
             length = length.min(start - offset);
         }
         let room = (self.memory.end() as u32).saturating_sub(offset);
-        // What lies behind the RAM is one piece that nobody can reach.
+        // Everything after the end of the RAM is one piece that cannot be accessed.
         let length = if room == 0 { length } else { length.min(room) };
         Piece { offset, length_bytes: length as usize, sync_manager: None }
     }
 
-    /// Where a piece is read from, as its SyncManager has it.
+    /// The address from which a piece is read, according to its SyncManager.
     #[inline]
     fn readable(&mut self, piece: &Piece) -> Option<u32> {
         let Some(n) = piece.sync_manager else { return Some(piece.offset) };
@@ -307,7 +308,7 @@ impl Esc {
         Some(buffer + u32::from(from))
     }
 
-    /// Where a piece is written to, as its SyncManager has it.
+    /// The address to which a piece is written, according to its SyncManager.
     #[inline]
     fn writable(&mut self, piece: &Piece) -> Option<u32> {
         let Some(n) = piece.sync_manager else { return Some(piece.offset) };
@@ -338,7 +339,7 @@ struct Piece {
     sync_manager: Option<u8>,
 }
 
-/// Which one of a bank of registers, and which byte of it.
+/// The number of the register within a bank, and the byte within that register.
 pub(crate) fn split_bank(from_bank_start: u16, size_bytes: usize) -> (usize, usize) {
     (usize::from(from_bank_start) / size_bytes, usize::from(from_bank_start) % size_bytes)
 }

@@ -1,4 +1,4 @@
-//! The controller itself: its parts, power-on, and what both faces need.
+//! The controller: its parts, power-on, and what the ECAT side and the PDI side share.
 
 use arrayvec::ArrayVec;
 use time::Instant;
@@ -33,7 +33,7 @@ pub struct Esc {
     pub(crate) sync_managers: [SyncManager; SYNC_MANAGERS_MAX],
     pub(crate) read_mappings: ArrayVec<Mapping, FMMUS_MAX>,
     pub(crate) write_mappings: ArrayVec<Mapping, FMMUS_MAX>,
-    /// A read mapping and a write mapping share memory: LRW then has to read before it writes.
+    /// A read mapping and a write mapping share memory: LRW must read before it writes.
     pub(crate) mappings_alias: bool,
     pub(crate) shadow: Option<Box<Shadow>>,
     pub(crate) ports: Ports,
@@ -49,24 +49,24 @@ pub struct Esc {
     pub(crate) config: EscConfig,
 }
 
-/// What every datagram looks at, in one cache line, so that passing an ESC that is not meant costs little.
+/// The values that every datagram needs, in one cache line, so that passing an ESC that is not addressed costs little.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
 pub(crate) struct Hot {
     pub(crate) read_span: Span,
     pub(crate) write_span: Span,
     pub(crate) station_address: u16,
-    /// The alias, where DL control bit 24 lets it answer.
+    /// The alias, if DL control bit 24 enables it.
     pub(crate) answering_alias: Option<u16>,
     /// The visible part of the ECAT event request, for the IRQ field of datagrams.
     pub(crate) masked_events: u16,
     /// The ECAT event mask, register 0x0200.
     pub(crate) event_mask: u16,
-    /// SyncManagers that hand over at the end of the frame, a bit each.
+    /// SyncManagers that release their buffer at the end of the frame, one bit each.
     pub(crate) complete: u16,
     /// Register writes wait for the end of the frame.
     pub(crate) registers_written: bool,
-    /// Some write protection is on.
+    /// At least one write protection is on.
     pub(crate) protected: bool,
 }
 
@@ -84,7 +84,7 @@ impl Hot {
     };
 }
 
-/// An FMMU that is switched on, as the frame's path needs it.
+/// An FMMU that is switched on, in the form needed while a frame passes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mapping {
     pub(crate) logical_start: u32,
@@ -93,19 +93,19 @@ pub(crate) struct Mapping {
     /// Its number, for mappings that are not byte-wise.
     pub(crate) fmmu: u8,
     pub(crate) bytewise: bool,
-    /// The buffered SyncManager whose buffer it maps whole, byte by byte.
+    /// The buffered SyncManager whose complete buffer it maps, byte by byte.
     pub(crate) sync_manager: Option<u8>,
 }
 
 impl Mapping {
-    /// The logical bytes, end excluded. No mapping wraps at the end of the address space.
+    /// The logical bytes, end excluded. A mapping does not wrap at the end of the address space.
     #[inline]
     pub(crate) const fn logical_bytes(&self) -> Span {
         let start = self.logical_start as u64;
         Span { start, end: start + self.length_bytes as u64 }
     }
 
-    /// Whether it maps one whole buffer, and a datagram covers it all.
+    /// Whether it maps one complete buffer, and a datagram covers all of it.
     #[inline]
     pub(crate) const fn is_whole_buffer_in(&self, datagram: Span) -> bool {
         let bytes = self.logical_bytes();
@@ -113,7 +113,7 @@ impl Mapping {
     }
 }
 
-/// Write protection as it applies to the frame that is passing.
+/// Write protection that applies to the frame that is passing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Protection {
     pub(crate) registers: bool,
@@ -137,14 +137,14 @@ impl Protection {
 }
 
 impl Esc {
-    /// An ESC that gets power at `now`, with this EEPROM image. All memory that it ever uses is allocated here.
+    /// An ESC that is powered on at `now`, with this EEPROM image. All the memory that it ever uses is allocated here.
     #[must_use]
     pub fn power_on(config: EscConfig, sii_image: Vec<u8>, now: Instant) -> Self {
         let (memory, sii) = (Memory::new(config.ram_kib), Sii::new(sii_image, config.sii));
         Self::start(config, memory, sii, Box::default(), now)
     }
 
-    /// Back to the state after power-on; cables and EEPROM stay as they are.
+    /// Back to the state after power-on; cables and EEPROM are unchanged.
     pub fn reset(&mut self, now: Instant) {
         let ports = self.ports;
         let memory = core::mem::take(&mut self.memory).cleared();
@@ -159,7 +159,7 @@ impl Esc {
         self.ecat_events = EcatEvents::default();
     }
 
-    /// Begins with memory and EEPROM as they are at power-on.
+    /// Starts with memory and EEPROM in their power-on state.
     fn start(config: EscConfig, memory: Memory, sii: Sii, shadow: Box<Shadow>, now: Instant) -> Self {
         let mut esc = Self {
             hot: Hot::AT_POWER_ON,
@@ -207,7 +207,7 @@ impl Esc {
     }
 
     /// The EEPROM image for the start-up of the unit, before the controller loads it. In operation the PDI
-    /// takes the EEPROM first: [`crate::Pdi::take_sii`].
+    /// first takes the EEPROM: [`crate::Pdi::take_sii`].
     pub fn sii_image_mut(&mut self) -> &mut [u8] {
         self.sii.image_mut()
     }
@@ -218,13 +218,13 @@ impl Esc {
         self.sii.set_timing(timing);
     }
 
-    /// The SII interface is busy until then, whoever uses it.
+    /// Keeps the SII interface busy until the time `until`, for all users.
     pub fn keep_sii_busy(&mut self, now: Instant, until: Instant) {
         self.sii.keep_busy(now, until);
     }
 
-    /// How many words the wire has written to the EEPROM since power-on, modulo 2^32: whoever keeps the image
-    /// sees by it that it may have changed.
+    /// Number of words that the ECAT side has written to the EEPROM since power-on, modulo 2^32. Code that
+    /// stores the image compares it to detect a possible change.
     #[must_use]
     pub const fn sii_words_written(&self) -> u32 {
         self.sii.words_written()
@@ -250,23 +250,23 @@ impl Esc {
         }
     }
 
-    /// Whether frames may take another way than before.
+    /// Whether the path of frames may have changed.
     #[inline]
     pub fn take_ports_changed(&mut self) -> bool {
         core::mem::take(&mut self.ports_changed)
     }
 
-    /// A frame came with an error: counted as invalid at the port where it came in first.
+    /// A frame arrived with an error: counted as invalid at the port where it first arrived.
     pub fn count_invalid_frame(&mut self, port: Port) {
         self.memory.count_up(at::PORT_ERRORS + 2 * u16::from(port == Port::Out));
     }
 
-    /// A frame came that another ESC had already marked as broken.
+    /// A frame arrived that another ESC had already marked as broken.
     pub fn count_forwarded_error(&mut self, port: Port) {
         self.memory.count_up(at::FORWARDED_ERRORS + u16::from(port == Port::Out));
     }
 
-    /// The processing unit met a frame that it cannot process.
+    /// The processing unit received a frame that it cannot process.
     pub fn count_processing_unit_error(&mut self) {
         self.memory.count_up(at::PROCESSING_UNIT_ERRORS);
     }
@@ -277,32 +277,33 @@ impl Esc {
         self.memory.u8(at::DL_CONTROL) & 1 != 0
     }
 
-    /// When something happens here by itself: the watchdog. [`Instant::NEVER`] if nothing does.
+    /// The time of the next event without a frame or an access: the watchdog. [`Instant::NEVER`] if there is none.
     #[must_use]
     pub fn deadline(&self) -> Instant {
         self.watchdog.deadline().unwrap_or(Instant::NEVER)
     }
 
-    /// Lets time pass.
+    /// Advances the time.
     pub fn advance(&mut self, now: Instant) {
         if self.watchdog.expire(&mut self.memory, now) {
             self.al_events |= AlEvents::WATCHDOG;
         }
     }
 
-    /// Whether the PDI has something to do: an event that its mask lets through, or a reset.
+    /// Whether the PDI has work: an event that its mask lets through, or a reset.
     #[must_use]
     pub fn interrupts_pdi(&self) -> bool {
         self.reset_requested || !self.visible_al_events().is_empty()
     }
 
-    /// Whether the wire has handed over at a SyncManager, and the PDI has not looked yet, be it interrupted or not.
+    /// Whether the ECAT side has completed an access at a SyncManager that the PDI has not read yet, with or
+    /// without an interrupt.
     #[must_use]
     pub fn has_sync_manager_event(&self, index: SmIndex) -> bool {
         self.sync_managers[usize::from(index.0 & 0x0F)].pdi_event
     }
 
-    /// Whether the master asks for a reset of the controller.
+    /// Whether the master requests a reset of the controller.
     #[must_use]
     pub const fn asks_for_reset(&self) -> bool {
         self.reset_requested
@@ -312,7 +313,7 @@ impl Esc {
         self.all_al_events() & AlEvents::from_bits_truncate(self.memory.u32(at::AL_EVENT_MASK))
     }
 
-    /// The AL event request: what is kept here, and what the SyncManagers show.
+    /// The AL event request: the events stored here, and those of the SyncManagers.
     pub(crate) fn all_al_events(&self) -> AlEvents {
         let sync_managers = self.sync_managers.iter().enumerate();
         let bits = sync_managers

@@ -2,10 +2,10 @@
 
 /// Bytes of one FMMU in the register map.
 pub(crate) const FMMU_BYTES: usize = 16;
-/// Most FMMUs that an ESC has.
+/// Maximum number of FMMUs of an ESC.
 pub(crate) const FMMUS_MAX: usize = 16;
 
-/// One FMMU, taken apart when it is written (reference 2.12, 3.6).
+/// One FMMU, decoded when it is written (reference 2.12, 3.6).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fmmu {
     /// First logical byte.
@@ -29,7 +29,7 @@ pub struct Fmmu {
 }
 
 impl Fmmu {
-    /// Takes the register bytes apart.
+    /// Decodes the register bytes.
     #[must_use]
     pub fn from_bytes(bytes: &[u8; FMMU_BYTES]) -> Self {
         let length_bytes = u16::from_le_bytes([bytes[4], bytes[5]]);
@@ -59,7 +59,7 @@ impl Fmmu {
         Span { start, end: last + self.logical_stop_bit as u64 + 1 }
     }
 
-    /// The physical bit that a mapped logical bit stands for, counted from physical byte 0.
+    /// The physical bit of a mapped logical bit, counted from physical byte 0.
     pub(crate) const fn physical_bit(&self, logical_bit: u64) -> u64 {
         let first = self.physical_start as u64 * 8 + self.physical_start_bit as u64;
         first + (logical_bit - self.logical_bits().start)

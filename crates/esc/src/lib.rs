@@ -1,9 +1,8 @@
-//! One EtherCAT slave controller of the ET1100 class, with two faces: the wire and the PDI.
+//! One EtherCAT slave controller of the ET1100 class, with its ECAT side and its PDI side.
 //!
-//! The wire reads and writes memory through datagrams ([`Esc::read`], [`Esc::write`], the logical
-//! commands) and closes each frame by [`Esc::end_of_frame`]; the application works through [`Pdi`]. The
-//! controller never knows what a mailbox says or what the process data mean, and it asks nobody what time
-//! it is.
+//! The ECAT side reads and writes memory through datagrams ([`Esc::read`], [`Esc::write`], the logical
+//! commands) and closes each frame with [`Esc::end_of_frame`]; the application uses [`Pdi`]. The controller
+//! does not interpret mailbox messages or process data, and it never reads a clock.
 
 mod commit;
 mod config;

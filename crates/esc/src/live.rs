@@ -1,5 +1,5 @@
-//! Registers whose value is worked out when somebody looks: event requests, watchdog status, SII, SyncManager
-//! status, system time.
+//! Registers whose value is calculated on access: event requests, watchdog status, SII, SyncManager status,
+//! system time.
 
 use time::Instant;
 
@@ -11,7 +11,7 @@ use crate::sync_manager::{SYNC_MANAGER_BYTES, SYNC_MANAGERS_MAX};
 const SM_STATUS: u16 = 5;
 const SM_PDI_CONTROL: u16 = 7;
 
-/// The values of these registers at one moment.
+/// The values of these registers at one point in time.
 struct Live {
     ecat_events: u16,
     al_events: u32,
@@ -24,14 +24,15 @@ struct Live {
 }
 
 impl Esc {
-    /// Puts them into the memory, for a read by the wire.
+    /// Stores them in the memory, for a read by the ECAT side.
     pub(crate) fn show_live_registers(&mut self, now: Instant) {
         let live = self.live(now);
         live.each(|offset, value| self.memory.slice_mut(offset, value.len()).copy_from_slice(value));
     }
 
-    /// What the wire would read from `offset` on at this moment, registers and RAM, without the effects that
-    /// its access has. Of an area with three buffers this is the first one. Bytes beyond the memory stay as they are.
+    /// What the ECAT side would read from `offset` on at this time, registers and RAM, without the side effects
+    /// of an access. For an area with three buffers this is the first one. Bytes beyond the memory are
+    /// unchanged.
     pub fn look(&self, offset: u16, bytes: &mut [u8], now: Instant) {
         let Some(memory) = self.memory.get(u32::from(offset), bytes.len()) else { return };
         bytes.copy_from_slice(memory);

@@ -21,7 +21,7 @@ impl Esc {
         self.hot.write_span.overlaps(bytes) && self.write_mapped(bytes, data, now)
     }
 
-    /// LRW: both, each from what was there before.
+    /// LRW: both; the data read are the old contents.
     #[inline]
     pub fn logical_read_write(&mut self, address: u32, data: &mut [u8], now: Instant) -> Access {
         let bytes = logical_bytes(address, data.len());
@@ -33,7 +33,7 @@ impl Esc {
         Access { written, read: reads && self.read_mapped(bytes, data, now) }
     }
 
-    /// Reads before it writes, where a read mapping and a write mapping share memory.
+    /// Reads before it writes, because a read mapping and a write mapping share memory.
     #[inline(never)]
     fn exchange_mapped(&mut self, datagram: Span, data: &mut [u8], now: Instant) -> Access {
         let mut incoming = [0; DATA_BYTES_MAX];
@@ -43,7 +43,7 @@ impl Esc {
         Access { read, written: self.write_mapped(datagram, incoming, now) }
     }
 
-    /// The lowest-numbered FMMU wins where several map the same bit, so it comes last.
+    /// If several FMMUs map the same bit, the lowest-numbered one has priority, so it is applied last.
     #[inline]
     fn read_mapped(&mut self, datagram: Span, data: &mut [u8], now: Instant) -> bool {
         let mut any = false;
@@ -130,7 +130,7 @@ impl Esc {
         }
     }
 
-    /// A bit-wise write touches whole bytes; the bits that are not mapped keep what the buffer holds.
+    /// A bit-wise write accesses whole bytes; bits that are not mapped keep the value in the buffer.
     #[inline(never)]
     fn write_mapping(&mut self, mapping: &Mapping, datagram: Span, data: &[u8], now: Instant) -> bool {
         if !mapping.logical_bytes().overlaps(datagram) {
@@ -163,7 +163,7 @@ struct PhysicalBits {
 }
 
 impl PhysicalBits {
-    /// None if no bit is left, or if the bits leave the address space.
+    /// None if no bit is left, or if the bits exceed the address space.
     fn of(fmmu: &Fmmu, bits: Span) -> Option<Self> {
         if bits.start >= bits.end {
             return None;
@@ -185,8 +185,8 @@ fn logical_bytes(address: u32, length_bytes: usize) -> Span {
     Span { start, end: start + length_bytes as u64 }
 }
 
-/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start;
-/// none where the mapping has left the address space.
+/// The part of a datagram's data that a byte-wise mapping covers, and the physical address of its start; none
+/// where the mapping exceeds the address space.
 #[inline]
 fn byte_overlap(mapping: &Mapping, datagram: Span) -> Option<(core::ops::Range<usize>, u16)> {
     let bytes = mapping.logical_bytes();

@@ -2,20 +2,20 @@
 
 use crate::registers::{BYTES, REGISTER_BYTES, REGISTERS};
 
-/// Registers 0x0000 to 0x0FFF and the process data RAM behind them.
+/// Registers 0x0000 to 0x0FFF, followed by the process data RAM.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
     bytes: Box<[u8]>,
 }
 
 impl Memory {
-    /// Memory at power-on: registers at their reset values, RAM at zero.
+    /// Memory at power-on: registers at their reset values, RAM zero.
     pub(crate) fn new(ram_kib: u8) -> Self {
         let bytes = vec![0; REGISTER_BYTES + usize::from(ram_kib) * 1024].into_boxed_slice();
         Self { bytes }.cleared()
     }
 
-    /// The same memory as it is at power-on.
+    /// The same memory in its power-on state.
     pub(crate) fn cleared(mut self) -> Self {
         self.bytes.fill(0);
         for register in REGISTERS {
@@ -26,7 +26,7 @@ impl Memory {
         self
     }
 
-    /// First offset behind the memory.
+    /// First offset after the memory.
     #[inline]
     pub(crate) fn end(&self) -> usize {
         self.bytes.len()
@@ -43,7 +43,7 @@ impl Memory {
         &mut self.bytes[usize::from(offset)..usize::from(offset) + length_bytes]
     }
 
-    /// The bytes that an access may touch; none where it leaves the memory.
+    /// The bytes that an access may reach; none if it exceeds the memory.
     #[inline]
     pub(crate) fn get(&self, offset: u32, length_bytes: usize) -> Option<&[u8]> {
         self.bytes.get(offset as usize..offset as usize + length_bytes)
@@ -75,7 +75,7 @@ impl Memory {
         self.slice_mut(offset, 1)[0] = value;
     }
 
-    /// Stores what the wire writes to a register: the bits that the register has, and no reserved ones.
+    /// Stores an ECAT write to a register: only the bits that the register has, without reserved bits.
     pub(crate) fn store(&mut self, offset: u16, value: u8) {
         let stored = BYTES.stored(offset);
         self.set_u8(offset, self.u8(offset) & !stored | value & stored);
@@ -93,7 +93,7 @@ impl Memory {
         self.slice_mut(offset, 8).copy_from_slice(&value.to_le_bytes());
     }
 
-    /// Counts up in one byte, which stays at 255.
+    /// Increments one byte, up to 255.
     pub(crate) fn count_up(&mut self, offset: u16) {
         let count = self.u8(offset);
         self.set_u8(offset, count.saturating_add(1));
@@ -101,8 +101,8 @@ impl Memory {
 }
 
 impl Memory {
-    /// Two areas at once, the first to read, the second to write. Where a master made them overlap or
-    /// leave the memory, the one to read is empty, or both are.
+    /// Two areas at once, the first for reading, the second for writing. If a master configured them so that
+    /// they overlap or exceed the memory, the area for reading is empty, or both are.
     pub(crate) fn two(
         &mut self,
         read_at: u32,

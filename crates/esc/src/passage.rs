@@ -1,12 +1,12 @@
-//! The moments at which a frame passes an ESC.
+//! The times at which a frame passes an ESC.
 
 use time::Instant;
 
 /// When a frame passed this ESC.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Passage {
-    /// Came in at port 0.
+    /// It arrived at port 0.
     pub arrival: Instant,
-    /// Came back at port 1, or passed it inside where its loop is closed.
+    /// It returned to port 1, or passed it inside if its loop is closed.
     pub returned_out: Instant,
 }

@@ -1,4 +1,4 @@
-//! The face of the application: events, AL status, mailboxes, buffers, SII.
+//! The PDI side: events, AL status, mailboxes, buffers, SII.
 
 use time::Instant;
 use wire::{AlControl, AlStatus, AlStatusCode};
@@ -9,65 +9,65 @@ use crate::ports::{self, Port};
 use crate::registers::at;
 use crate::sync_manager::{SmDirection, SmIndex, SmMode, SyncManager, SyncManagerSettings};
 
-/// The ESC as its application sees it, at one moment.
+/// The ESC as its application sees it, at one point in time.
 pub struct Pdi<'a> {
     esc: &'a mut Esc,
 }
 
 impl Esc {
-    /// The face of the application.
+    /// The PDI side, for the application.
     pub fn pdi(&mut self) -> Pdi<'_> {
         Pdi { esc: self }
     }
 }
 
 impl Pdi<'_> {
-    /// Takes the watchdog event, as reading 0x0440 does.
+    /// Returns and clears the watchdog event, as reading 0x0440 does.
     pub fn take_watchdog_event(&mut self) -> bool {
         let expired = self.esc.al_events.contains(AlEvents::WATCHDOG);
         self.esc.al_events -= AlEvents::WATCHDOG;
         expired
     }
 
-    /// Takes the event that an activation byte has been written, as reading 0x0806 + 8n does.
+    /// Returns and clears the event that an activation byte has been written, as reading 0x0806 + 8n does.
     pub fn take_activation_event(&mut self) -> bool {
         let changed = self.esc.al_events.contains(AlEvents::SYNC_MANAGER_ACTIVATION);
         self.esc.al_events -= AlEvents::SYNC_MANAGER_ACTIVATION;
         changed
     }
 
-    /// The application begins to run, or has not begun yet: DL status bit 0. It needs a loaded SII too.
+    /// Sets whether the application is running: DL status bit 0. The bit also requires a loaded SII.
     pub fn set_operational(&mut self, operational: bool) {
         let is_loaded = self.esc.sii.is_loaded();
         ports::set_pdi_operational(&mut self.esc.memory, operational && is_loaded);
     }
 
-    /// The state request that waits, if there is one. The wire cannot write the next until it is taken.
+    /// The pending state request, if there is one. The master cannot write the next one before this one is taken.
     #[must_use]
     pub fn al_control(&self) -> Option<AlControl> {
         self.esc.al_control_pending.then(|| AlControl::from_bits(self.esc.memory.u16(at::AL_CONTROL)))
     }
 
-    /// Takes the state request: the wire may write the next.
+    /// Takes the state request: the master may write the next one.
     pub fn take_al_control(&mut self) {
         self.esc.al_control_pending = false;
         self.esc.al_events -= AlEvents::AL_CONTROL;
     }
 
-    /// Sets AL status; the code goes first, so that it is valid no later than the error bit.
+    /// Sets AL status; the code is written first, so that it is valid no later than the error bit.
     pub fn set_al_status(&mut self, status: AlStatus, code: AlStatusCode) {
         self.esc.memory.set_u16(at::AL_STATUS_CODE, code.0);
         self.esc.memory.set_u16(at::AL_STATUS, status.bits());
         self.esc.raise_ecat_event(EcatEvents::AL_STATUS);
     }
 
-    /// AL status as the wire sees it.
+    /// AL status as the master reads it.
     #[must_use]
     pub fn al_status(&self) -> AlStatus {
         AlStatus::from_bits(self.esc.memory.u16(at::AL_STATUS))
     }
 
-    /// AL status code as the wire sees it.
+    /// AL status code as the master reads it.
     #[must_use]
     pub fn al_status_code(&self) -> AlStatusCode {
         AlStatusCode(self.esc.memory.u16(at::AL_STATUS_CODE))
@@ -85,7 +85,7 @@ impl Pdi<'_> {
         self.sm(index).settings
     }
 
-    /// Opens or closes a SyncManager for the wire (PDI control bit 0).
+    /// Opens or closes a SyncManager for the ECAT side (PDI control bit 0).
     pub fn set_deactivated(&mut self, index: SmIndex, deactivated: bool) {
         self.sm_mut(index).deactivate_by_pdi(deactivated);
         self.esc.update_mappings();
@@ -94,14 +94,14 @@ impl Pdi<'_> {
         }
     }
 
-    /// Whether the master asks for the last mailbox message again.
+    /// Whether the master requests the last mailbox message again.
     #[must_use]
     pub fn repeat_requested(&self, index: SmIndex) -> bool {
         let sm = self.sm(index);
         sm.settings.enabled && sm.settings.repeat_request != sm.repeat_acknowledge
     }
 
-    /// Tells the master that the message stands in the mailbox again.
+    /// Signals to the master that the message is in the mailbox again.
     pub fn acknowledge_repeat(&mut self, index: SmIndex) {
         let sm = self.sm_mut(index);
         sm.repeat_acknowledge = sm.settings.repeat_request;
@@ -113,7 +113,7 @@ impl Pdi<'_> {
         self.sm(index).full
     }
 
-    /// The message in a full mailbox of the wire; it stays there until [`Pdi::release_mailbox`].
+    /// The message in a full mailbox that the master has written; it remains there until [`Pdi::release_mailbox`].
     #[must_use]
     pub fn mailbox(&self, index: SmIndex) -> Option<&[u8]> {
         let sm = self.sm(index);
@@ -121,13 +121,13 @@ impl Pdi<'_> {
         (writes && sm.full).then(|| self.esc.memory.get(sm.ecat_buffer(), sm.settings.length_bytes.into()))?
     }
 
-    /// The message has been read: the wire may write the next.
+    /// The message has been read: the master may write the next one.
     pub fn release_mailbox(&mut self, index: SmIndex) {
         self.sm_mut(index).pdi_took_mailbox();
         self.esc.update_masked_events();
     }
 
-    /// Puts a message into an empty mailbox for the wire. False if it is full, closed or too small.
+    /// Puts a message into an empty mailbox for the master. False if the mailbox is full, closed or too small.
     pub fn fill_mailbox(&mut self, index: SmIndex, message: &[u8]) -> bool {
         let sm = *self.sm(index);
         let reads = sm.settings.mode == SmMode::Mailbox && sm.settings.direction == SmDirection::EcatReads;
@@ -144,7 +144,7 @@ impl Pdi<'_> {
         true
     }
 
-    /// Throws away a message that the wire has not read.
+    /// Discards a message that the master has not read.
     pub fn empty_mailbox(&mut self, index: SmIndex) {
         let sm = self.sm_mut(index);
         sm.full = false;
@@ -152,24 +152,24 @@ impl Pdi<'_> {
         self.esc.update_masked_events();
     }
 
-    /// Whether the wire has read or written this SyncManager, and the PDI has not looked yet.
+    /// Whether the ECAT side has read or written this SyncManager and the PDI has not read that event yet.
     #[must_use]
     pub fn has_event(&self, index: SmIndex) -> bool {
         self.esc.has_sync_manager_event(index)
     }
 
-    /// Takes the event that the wire has read or written this SyncManager.
+    /// Clears the event that the ECAT side has read or written this SyncManager.
     pub fn take_event(&mut self, index: SmIndex) {
         self.sm_mut(index).pdi_event = false;
     }
 
-    /// Whether the master has enabled this SyncManager, and with a length.
+    /// Whether the master has enabled this SyncManager with a length above 0.
     #[must_use]
     pub fn carries_data(&self, index: SmIndex) -> bool {
         self.sm(index).rules
     }
 
-    /// The newest whole outputs, and whether they are new since the last call.
+    /// The newest complete outputs, and whether they are new since the last call.
     #[must_use]
     pub fn read_buffer(&mut self, index: SmIndex) -> (&[u8], bool) {
         let length = usize::from(self.sm(index).settings.length_bytes);
@@ -177,7 +177,8 @@ impl Pdi<'_> {
         (self.esc.memory.get(at, length).unwrap_or_default(), fresh)
     }
 
-    /// Publishes inputs, as many as the buffer holds. False if the SyncManager is closed, or holds another number.
+    /// Publishes inputs whose length equals the buffer's length. False if the SyncManager is closed, or the
+    /// lengths differ.
     pub fn write_buffer(&mut self, index: SmIndex, inputs: &[u8]) -> bool {
         let sm = self.sm(index);
         let (at, length) = (sm.pdi_write_buffer(), usize::from(sm.settings.length_bytes));
@@ -191,14 +192,14 @@ impl Pdi<'_> {
         true
     }
 
-    /// Whether the wire has written whole outputs since the SyncManager was enabled.
+    /// Whether the master has written complete outputs since the SyncManager was enabled.
     #[must_use]
     pub fn outputs_received(&self, index: SmIndex) -> bool {
         self.sm(index).was_written()
     }
 
-    /// Outputs to take and inputs to fill, both in place: `exchange(outputs, inputs)`. The inputs are
-    /// published whole afterwards. A SyncManager that is not there, or is not active, shows as empty.
+    /// Reads outputs and fills inputs, both in place: `exchange(outputs, inputs)`. Afterwards the inputs are
+    /// published as one complete image. A SyncManager that does not exist or is not active appears as empty.
     pub fn exchange(
         &mut self,
         outputs: Option<SmIndex>,
@@ -228,14 +229,14 @@ impl Pdi<'_> {
         self.esc.watchdog.is_expired()
     }
 
-    /// Starts the process data watchdog, if this SyncManager has its trigger and it does not run yet.
+    /// Starts the process data watchdog, if this SyncManager triggers it and it is not running yet.
     pub fn start_watchdog(&mut self, index: SmIndex, now: Instant) {
         if self.triggers_watchdog(index) {
             self.esc.watchdog.start(now);
         }
     }
 
-    /// Whether the process data watchdog watches this SyncManager: it has the trigger, and the time is not 0.
+    /// Whether the process data watchdog monitors this SyncManager: it has the trigger, and the time is not 0.
     #[must_use]
     pub fn is_watched(&self, index: SmIndex) -> bool {
         self.triggers_watchdog(index) && self.watchdog_time() > 0
@@ -276,7 +277,7 @@ impl Pdi<'_> {
         self.esc.sii.image()
     }
 
-    /// Takes or gives back the EEPROM (0x0501 bit 0). It can be taken only where the master offers it.
+    /// Takes or returns the EEPROM (0x0501 bit 0). It can be taken only while the master offers it.
     pub fn take_sii(&mut self, take: bool) -> bool {
         let offered = self.esc.memory.u8(at::SII_OWNER) & 1 != 0;
         let taken = take && offered;
@@ -284,7 +285,7 @@ impl Pdi<'_> {
         taken == take
     }
 
-    /// Writes a word of the EEPROM, for a PDI that has taken it. False behind its end or without it.
+    /// Writes a word of the EEPROM, for a PDI that has taken it. False beyond its end, or if the PDI has not taken it.
     pub fn write_sii_word(&mut self, word_address: u16, word: u16) -> bool {
         let owns = self.esc.memory.u8(at::SII_PDI_STATE) & 1 != 0;
         let at = usize::from(word_address) * 2;
@@ -295,7 +296,7 @@ impl Pdi<'_> {
         })
     }
 
-    /// Takes the wish of the master that the controller be reset ("RES" at 0x0040).
+    /// Returns and clears the master's request to reset the controller ("RES" at 0x0040).
     pub fn take_reset_request(&mut self) -> bool {
         core::mem::take(&mut self.esc.reset_requested)
     }

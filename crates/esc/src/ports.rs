@@ -34,12 +34,12 @@ impl Port {
     }
 }
 
-/// Where a frame goes at a port.
+/// The path of a frame at a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LoopState {
-    /// Out of the port.
+    /// Out through the port.
     Open,
-    /// On to the next port inside.
+    /// To the next port inside the ESC.
     Closed,
 }
 
@@ -48,7 +48,7 @@ pub enum LoopState {
 pub struct PortStatus {
     /// A cable with a partner at its other end.
     pub link: bool,
-    /// Where a frame goes.
+    /// The path of a frame.
     pub loop_state: LoopState,
 }
 
@@ -65,7 +65,7 @@ const PDI_WATCHDOG_OK: u16 = 1 << 1;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ports {
     status: [PortStatus; 2],
-    /// In auto-close mode a loop that link loss has closed stays so until DL control is written.
+    /// In auto-close mode a loop that was closed by a lost link remains closed until DL control is written.
     latched_closed: [bool; 2],
 }
 
@@ -79,7 +79,7 @@ impl Ports {
         self.status[port.number() as usize]
     }
 
-    /// A cable is plugged or pulled. Tells whether DL status has changed.
+    /// A cable is plugged or pulled. Returns whether DL status has changed.
     pub(crate) fn set_link(&mut self, port: Port, link: bool, memory: &mut Memory) -> bool {
         let number = usize::from(port.number());
         let lost = self.status[number].link && !link;
@@ -94,7 +94,7 @@ impl Ports {
         self.update(memory)
     }
 
-    /// DL control has been written. Tells whether DL status has changed.
+    /// DL control has been written. Returns whether DL status has changed.
     pub(crate) fn dl_control_written(&mut self, memory: &mut Memory) -> bool {
         for port in Port::ALL {
             if loop_mode(memory, port) == LOOP_AUTO_CLOSE && self.status(port).link {
@@ -104,7 +104,7 @@ impl Ports {
         self.update(memory)
     }
 
-    /// Works out loops and DL status anew.
+    /// Recalculates loops and DL status.
     pub(crate) fn update(&mut self, memory: &mut Memory) -> bool {
         for port in Port::ALL {
             let number = usize::from(port.number());
@@ -119,7 +119,7 @@ impl Ports {
         }
         let all_closed = self.status.iter().all(|port| port.loop_state == LoopState::Closed);
         if all_closed && self.status[0].link {
-            // Port 0 opens when all are closed, so that the slave stays reachable.
+            // Port 0 opens if all ports are closed, so that the slave remains reachable.
             self.status[0].loop_state = LoopState::Open;
         }
         let before = memory.u16(at::DL_STATUS);
@@ -139,7 +139,7 @@ impl Ports {
     }
 }
 
-/// Shows in DL status whether the PDI is up (SII loaded).
+/// Sets the bit in DL status that the PDI is operational (SII loaded).
 pub(crate) fn set_pdi_operational(memory: &mut Memory, operational: bool) {
     let status = memory.u16(at::DL_STATUS) & !(PDI_OPERATIONAL | PDI_WATCHDOG_OK);
     let pdi = if operational { PDI_OPERATIONAL | PDI_WATCHDOG_OK } else { 0 };

@@ -1,15 +1,15 @@
 //! The register map 0x0000 to 0x0FFF as one table: width, reset value, who may write which bits, side effect.
 //!
-//! ETG.1000.4 and the data sheet of an ET1100-class controller, as listed in reference 2.1 to 2.15. What
-//! stands in no row is reserved: it reads as 0 and ignores writes.
+//! ETG.1000.4 and the data sheet of an ET1100-class controller, as listed in reference 2.1 to 2.15. An address
+//! without a row is reserved: it reads as 0 and ignores writes.
 
 /// Bytes of the register area.
 pub(crate) const REGISTER_BYTES: usize = 0x1000;
-/// Where user RAM begins, which is written at once and not at the end of the frame.
+/// Start of the user RAM, which is written immediately and not at the end of the frame.
 pub(crate) const USER_RAM_START: u16 = 0x0F80;
-/// Where process data RAM begins.
+/// Start of the process data RAM.
 pub(crate) const PROCESS_RAM_START: u16 = 0x1000;
-/// Digital output data: registers that SyncManagers and FMMUs reach like RAM, written at once.
+/// Digital output data: registers that SyncManagers and FMMUs access like RAM, written immediately.
 pub(crate) const DIGITAL_OUTPUTS: core::ops::Range<u16> = 0x0F00..0x0F04;
 
 /// Whether an access stays within the digital output data.
@@ -18,16 +18,16 @@ pub(crate) const fn are_digital_outputs(offset: u16, length_bytes: usize) -> boo
     offset >= DIGITAL_OUTPUTS.start && offset as usize + length_bytes <= DIGITAL_OUTPUTS.end as usize
 }
 
-/// What the wire may do with a register.
+/// Access to a register from the ECAT side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EcatAccess {
-    /// Read only: a write is ignored and does not count.
+    /// Read only: a write is ignored and does not increment the working counter.
     Read,
-    /// Read and write, as far as the register's effect allows.
+    /// Read and write, as far as the register's effect permits.
     ReadWrite,
 }
 
-/// What the PDI may do with a register.
+/// Access to a register from the PDI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PdiAccess {
     /// Read only.
@@ -36,18 +36,18 @@ pub enum PdiAccess {
     ReadWrite,
 }
 
-/// What a write from the wire does, beside storing the bits that [`Register::stored`] names.
+/// The effect of an ECAT write, in addition to storing the bits in [`Register::stored`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
-    /// Nothing else.
+    /// No other effect.
     Store,
-    /// Write protection registers: they are looked at while a frame passes.
+    /// Write protection registers: they are evaluated while a frame passes.
     Protection,
     /// "RES" in three frames resets the controller.
     Reset,
     /// Opens or closes ports.
     DlControl,
-    /// A request, which stays until the PDI has read it.
+    /// A request, which remains until the PDI has read it.
     AlControl,
     /// Clears the port error counters 0x0300 to 0x030B.
     ClearPortErrors,
@@ -57,17 +57,17 @@ pub enum Effect {
     ClearPdiErrors,
     /// Clears the lost link counters.
     ClearLostLinks,
-    /// Sets the process data watchdog anew.
+    /// Sets the process data watchdog again.
     Watchdog,
     /// Clears both watchdog counters.
     ClearWatchdogCounters,
-    /// Decides who owns the SII.
+    /// Assigns the SII to ECAT or PDI.
     SiiOwner,
     /// Runs a command on the SII.
     SiiCommand,
-    /// Sets an FMMU anew.
+    /// Sets an FMMU again.
     Fmmu,
-    /// A SyncManager decides which of its bytes are taken.
+    /// The SyncManager determines which of its bytes are accepted.
     SyncManager,
     /// Latches the receive times of this frame.
     DcLatch,
@@ -92,20 +92,20 @@ pub struct Register {
     pub offset: u16,
     /// Width in bytes.
     pub size_bytes: u16,
-    /// Access from the wire.
+    /// Access from the ECAT side.
     pub ecat: EcatAccess,
     /// Access from the PDI.
     pub pdi: PdiAccess,
     /// Value after power-on, little endian over the width.
     pub reset: u32,
-    /// The bits that a write from the wire stores, byte by byte; bytes beyond its end are stored whole. The others
-    /// are reserved, read-only or cleared by any write.
+    /// The bits that an ECAT write stores, byte by byte; bytes beyond the end of this list are stored
+    /// completely. The other bits are reserved, read-only or cleared by any write.
     pub stored: &'static [u8],
-    /// What else a write from the wire does.
+    /// Any other effect of an ECAT write.
     pub effect: Effect,
-    /// How many of them follow each other.
+    /// Number of consecutive registers.
     pub count: u16,
-    /// Bytes from one to the next.
+    /// Distance from one to the next in bytes.
     pub stride_bytes: u16,
 }
 
@@ -155,7 +155,7 @@ impl Register {
     }
 }
 
-/// Offsets that the code asks for by name; each stands in [`REGISTERS`] with its row.
+/// Offsets that the code uses by name; each has its row in [`REGISTERS`].
 pub(crate) mod at {
     pub(crate) const TYPE: u16 = 0x0000;
     pub(crate) const FMMU_COUNT: u16 = 0x0004;
@@ -210,9 +210,9 @@ pub(crate) mod at {
     pub(crate) const SYNC_PULSE_LENGTH: u16 = 0x0982;
 }
 
-/// Nothing of a register that a write only acts on is stored.
+/// Nothing is stored in a register for which a write is only a command.
 const NOTHING: &[u8] = &[0; 8];
-/// Start bit, stop bit and physical start bit count to 7; type is read and write; activate is one bit.
+/// Start bit, stop bit and physical start bit have values up to 7; type is read and write; activate is one bit.
 const FMMU_BITS: [u8; 16] =
     [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x07, 0x07, 0xFF, 0xFF, 0x07, 0x03, 0x01, 0, 0, 0];
 
@@ -290,7 +290,7 @@ pub const REGISTERS: &[Register] = &[
     row("SII control/status", at::SII_CONTROL, 2, W, W).stores(NOTHING).effect(Effect::SiiCommand),
     row("SII address", at::SII_ADDRESS, 4, W, W).effect(Effect::SiiCommand),
     row("SII data", at::SII_DATA, 8, W, W).effect(Effect::SiiCommand),
-    // No PHY stands behind it: a command is done at once, without error, and is not kept.
+    // No PHY is connected: a command is complete immediately, without error, and is not stored.
     row("MII control/status", 0x0510, 2, W, W).stores(&[0x01, 0x00]),
     row("PHY address", 0x0512, 1, W, W).stores(&[0x1F]),
     row("PHY register address", 0x0513, 1, W, W).stores(&[0x1F]),
@@ -338,7 +338,7 @@ pub const REGISTERS: &[Register] = &[
     row("User RAM", USER_RAM_START, 128, W, W),
 ];
 
-/// What the table says of each byte, for the frame's path.
+/// The table's values for each byte, for use while a frame passes.
 pub(crate) struct ByteMap {
     writable: [bool; REGISTER_BYTES],
     stored: [u8; REGISTER_BYTES],
@@ -380,26 +380,26 @@ impl ByteMap {
         map
     }
 
-    /// Whether the wire may write the byte at `offset`.
+    /// Whether the ECAT side may write the byte at `offset`.
     #[inline]
     pub(crate) fn writable(&self, offset: u16) -> bool {
         self.writable.get(usize::from(offset)).copied().unwrap_or(false)
     }
 
-    /// Which bits of the byte at `offset` a write of the wire stores.
+    /// Which bits of the byte at `offset` an ECAT write stores.
     #[inline]
     pub(crate) fn stored(&self, offset: u16) -> u8 {
         self.stored.get(usize::from(offset)).copied().unwrap_or(0)
     }
 
-    /// What a write to the byte at `offset` does.
+    /// The effect of a write to the byte at `offset`.
     #[inline]
     pub(crate) fn effect(&self, offset: u16) -> Effect {
         self.effect.get(usize::from(offset)).copied().unwrap_or(Store)
     }
 }
 
-/// Whether a read that touches the 16 bytes around `offset` needs values worked out first: event requests,
+/// Whether a read of the 16 bytes around `offset` needs values that must be calculated first: event requests,
 /// watchdog status, SII, SyncManager status, DC.
 #[inline]
 pub(crate) const fn is_live(offset: u16) -> bool {

@@ -5,8 +5,8 @@ use crate::registers::USER_RAM_START;
 const REGISTERS: usize = USER_RAM_START as usize;
 const WORDS: usize = REGISTERS / 64;
 
-/// What a frame has written so far: a byte for each register, so that there is room for any frame and the
-/// last write of a byte wins.
+/// The writes of a frame so far: one byte for each register, so that there is room for any frame, and the last
+/// write to a byte applies.
 #[derive(Clone, Debug)]
 pub(crate) struct Shadow {
     bytes: [u8; REGISTERS],
@@ -20,7 +20,7 @@ impl Default for Shadow {
 }
 
 impl Shadow {
-    /// Remembers a write; what lies behind the registers is not its business.
+    /// Stores a write; bytes after the register area are ignored.
     pub(crate) fn write(&mut self, offset: u16, data: &[u8]) {
         for (at, byte) in (usize::from(offset)..REGISTERS).zip(data) {
             self.bytes[at] = *byte;
@@ -35,7 +35,7 @@ impl Shadow {
         Some((start as u16, &self.bytes[start..end]))
     }
 
-    /// The first byte from `from` on that is written, or is not.
+    /// The first byte from `from` on that is written, or is not written.
     fn find(&self, from: usize, written: bool) -> Option<usize> {
         let mut at = from;
         while at < REGISTERS {

@@ -1,4 +1,4 @@
-//! The SII interface 0x0500 to 0x050F and the EEPROM behind it (reference 2.10).
+//! The SII interface 0x0500 to 0x050F and its EEPROM (reference 2.10).
 
 use time::Instant;
 use wire::{SII_CONFIGURATION_BYTES, sii_checksum};
@@ -18,10 +18,10 @@ const WRITE_ENABLE_ERROR: u16 = 1 << 14;
 const BUSY: u16 = 1 << 15;
 /// Largest EEPROM with one address byte: 16 KiBit.
 const ONE_ADDRESS_BYTE_LIMIT: usize = 2048;
-/// Bytes that a loadable image has at least: the header words.
+/// Minimum number of bytes of a loadable image: the header words.
 const HEADER_BYTES: usize = 128;
 
-/// What the configuration area did when it was loaded.
+/// The result of loading the configuration area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Loading {
     Loaded,
@@ -29,10 +29,10 @@ enum Loading {
     Missing,
 }
 
-/// The interface takes no command until then.
+/// The interface accepts no command until then.
 #[derive(Clone, Copy, Debug)]
 struct Busy {
-    /// Bits 8 to 10 of control/status: the command that runs; 0 if it is busy without one.
+    /// Bits 8 to 10 of control/status: the running command; 0 if the interface is busy without one.
     command: u16,
     until: Instant,
 }
@@ -69,13 +69,14 @@ impl Sii {
         self.timing = timing;
     }
 
-    /// Busy until then, with the command that runs at `now`, if one does.
+    /// Busy until then, with the command that runs at `now`, if there is one.
     pub(crate) fn keep_busy(&mut self, now: Instant, until: Instant) {
         let command = self.busy_at(now).map_or(0, |busy| busy.command);
         self.busy = Some(Busy { command, until });
     }
 
-    /// The same EEPROM at a reset, which is no power-on for code that watches it: the count of written words goes up.
+    /// The same EEPROM at a reset. Code that monitors it can distinguish this from a power-on: the count of
+    /// written words increases.
     pub(crate) fn restarted(self, timing: SiiTiming) -> Self {
         Self { words_written: self.words_written, ..Self::new(self.image, timing) }
     }
@@ -84,7 +85,7 @@ impl Sii {
         matches!(self.loading, Loading::Loaded)
     }
 
-    /// Loads the configuration area at power-on, the station alias included.
+    /// Loads the configuration area at power-on, including the station alias.
     pub(crate) fn power_on(&mut self, memory: &mut Memory) {
         self.errors = 0;
         self.busy = None;
@@ -94,7 +95,7 @@ impl Sii {
         }
     }
 
-    /// Loads words 0 to 3 into the PDI and ESC configuration. A wrong checksum leaves them alone.
+    /// Loads words 0 to 3 into the PDI and ESC configuration. If the checksum is wrong, they are unchanged.
     fn load(&mut self, memory: &mut Memory) {
         self.loading = self.check();
         if self.is_loaded() {
@@ -121,7 +122,7 @@ impl Sii {
         }
     }
 
-    /// A word of the EEPROM; erased (0xFFFF) behind its end.
+    /// A word of the EEPROM; erased (0xFFFF) beyond its end.
     fn word(&self, address: u32) -> u16 {
         let at = address as usize * 2;
         self.image.get(at..at + 2).map_or(0xFFFF, |bytes| u16::from_le_bytes([bytes[0], bytes[1]]))
@@ -135,19 +136,19 @@ impl Sii {
         self.busy.filter(|busy| now < busy.until)
     }
 
-    /// Whether the wire owns the interface: not offered to the PDI, not taken by it.
+    /// Whether the ECAT side owns the interface: not offered to the PDI, not taken by it.
     pub(crate) fn ecat_owns(memory: &Memory) -> bool {
         memory.u8(at::SII_OWNER) & 1 == 0 && memory.u8(at::SII_PDI_STATE) & 1 == 0
     }
 
-    /// Owner register: bit 1 takes the EEPROM back from the PDI by force.
+    /// Owner register: bit 1 forces the EEPROM back from the PDI.
     pub(crate) fn owner_written(memory: &mut Memory) {
         if memory.u8(at::SII_OWNER) & 2 != 0 {
             memory.set_u8(at::SII_PDI_STATE, 0);
         }
     }
 
-    /// Control has been written, and the interface is not busy; address and data of the same frame are in place.
+    /// Control has been written, and the interface is not busy; address and data of the same frame are already stored.
     pub(crate) fn run_command(&mut self, control: u16, memory: &mut Memory, now: Instant) {
         let write_enabled = control & 1 != 0;
         let address = memory.u32(at::SII_ADDRESS);
@@ -172,7 +173,7 @@ impl Sii {
         }
     }
 
-    /// A word behind the end of the EEPROM goes nowhere.
+    /// A word beyond the end of the EEPROM is discarded.
     fn write(&mut self, address: u32, word: u16) {
         let at = address as usize * 2;
         if let Some(bytes) = self.image.get_mut(at..at + 2) {
@@ -181,7 +182,7 @@ impl Sii {
         }
     }
 
-    /// Control/status as it reads at `now`.
+    /// Control/status as read at `now`.
     pub(crate) fn status(&self, now: Instant) -> u16 {
         let loading = match self.loading {
             Loading::Loaded => 0,

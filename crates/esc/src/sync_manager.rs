@@ -4,7 +4,7 @@ use crate::registers::{PROCESS_RAM_START, are_digital_outputs};
 
 /// Bytes of one SyncManager in the register map.
 pub(crate) const SYNC_MANAGER_BYTES: usize = 8;
-/// Most SyncManagers that an ESC has.
+/// Maximum number of SyncManagers of an ESC.
 pub(crate) const SYNC_MANAGERS_MAX: usize = 16;
 
 /// Which SyncManager, 0 to 15.
@@ -22,7 +22,7 @@ impl SmIndex {
     pub const INPUTS: Self = Self(3);
 }
 
-/// Control bits 1:0: how the buffer is handed over.
+/// Control bits 1:0: how the buffer is exchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmMode {
     /// 00: three buffers, never blocked.
@@ -33,12 +33,12 @@ pub enum SmMode {
     Other(u8),
 }
 
-/// Control bits 3:2: who writes.
+/// Control bits 3:2: the side that writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SmDirection {
-    /// 00: the wire reads, the PDI writes.
+    /// 00: ECAT reads, the PDI writes.
     EcatReads,
-    /// 01: the wire writes, the PDI reads.
+    /// 01: ECAT writes, the PDI reads.
     EcatWrites,
     /// 10 or 11, reserved.
     Other(u8),
@@ -53,7 +53,7 @@ pub struct SyncManagerSettings {
     pub length_bytes: u16,
     /// Buffered or mailbox.
     pub mode: SmMode,
-    /// Who writes.
+    /// The side that writes.
     pub direction: SmDirection,
     /// Control bit 4: requests an ECAT event.
     pub ecat_event: bool,
@@ -65,12 +65,12 @@ pub struct SyncManagerSettings {
     pub control: u8,
     /// Activation bit 0.
     pub enabled: bool,
-    /// Activation bit 1: toggles to ask for the last mailbox message again.
+    /// Activation bit 1: toggles to request the last mailbox message again.
     pub repeat_request: bool,
 }
 
 impl SyncManagerSettings {
-    /// Takes the register bytes apart.
+    /// Decodes the register bytes.
     #[must_use]
     pub const fn from_bytes(bytes: &[u8; SYNC_MANAGER_BYTES]) -> Self {
         let control = bytes[4];
@@ -103,16 +103,16 @@ impl Default for SyncManagerSettings {
     }
 }
 
-/// The three areas of a buffered SyncManager inside ESC memory: which one the wire has, which one the PDI
-/// has, and the one between them. The three indexes are always different.
+/// The three buffers of a buffered SyncManager inside ESC memory: the index of the buffer at the ECAT side, of
+/// the buffer at the PDI side, and of the one between them. The three indexes are always different.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SmBuffers {
     ecat: u8,
     pdi: u8,
     between: u8,
-    /// The one between holds a whole image that its reader has not taken yet.
+    /// The buffer between holds a complete image that its reader has not taken yet.
     fresh: bool,
-    /// The last one that was written whole, if any was.
+    /// The buffer that was last written completely, if there is one.
     last_written: Option<u8>,
 }
 
@@ -132,24 +132,24 @@ pub struct SyncManager {
     pub(crate) deactivated_by_pdi: bool,
     /// PDI control bit 1: follows the repeat request.
     pub(crate) repeat_acknowledge: bool,
-    /// Enabled and not empty: its area is under its rule.
+    /// Enabled and not empty: it controls access to its area.
     pub(crate) rules: bool,
-    /// Not closed by the PDI either: its area answers.
+    /// Not closed by the PDI either: its area can be accessed.
     pub(crate) active: bool,
     pub(crate) buffers: SmBuffers,
     /// Mailbox mode: full.
     pub(crate) full: bool,
-    /// The wire has begun an access at the first byte.
+    /// ECAT has begun an access at the first byte.
     open: bool,
-    /// This frame has touched the last byte of an open access: handed over at the end of the frame.
+    /// This frame has accessed the last byte of an open access: the buffer is released at the end of the frame.
     pub(crate) complete: bool,
     /// Status bit 0: written, cleared when the first byte is read.
     pub(crate) interrupt_write: bool,
     /// Status bit 1: read, cleared when the first byte is written.
     pub(crate) interrupt_read: bool,
-    /// The wire has handed over, and the PDI has not looked yet.
+    /// ECAT has completed an access, and the PDI has not read that event yet.
     pub(crate) pdi_event: bool,
-    /// Its area, with all its buffers, lies in the RAM or in the digital output data.
+    /// Its area, with all its buffers, is inside the RAM or the digital output data.
     fits: bool,
 }
 
@@ -173,7 +173,7 @@ impl Default for SyncManager {
     }
 }
 
-/// Which bytes of the buffer an access touches, counted from its first byte; end excluded.
+/// The bytes of the buffer that an access reaches, counted from its first byte; end excluded.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach {
     pub(crate) from: u16,
@@ -187,13 +187,13 @@ impl SyncManager {
         &self.settings
     }
 
-    /// First byte behind the buffer that is addressed.
+    /// First byte after the addressed buffer.
     #[inline]
     pub(crate) const fn end(&self) -> u32 {
         self.settings.start as u32 + self.settings.length_bytes as u32
     }
 
-    /// Takes new settings: all hand-over starts anew, except when only the repeat request toggles.
+    /// Stores new settings: the exchange of buffers starts again, except when only the repeat request toggles.
     pub(crate) fn set(&mut self, settings: SyncManagerSettings, memory_end: usize) {
         let repeat_only = SyncManagerSettings { repeat_request: self.settings.repeat_request, ..settings };
         let restart = repeat_only != self.settings;
@@ -233,7 +233,7 @@ impl SyncManager {
         self.active = self.rules && self.fits && !self.deactivated_by_pdi;
     }
 
-    /// The wire writes `reach`: the offset of the buffer to write to, or none if it is refused.
+    /// ECAT writes `reach`: the offset of the buffer to write to, or none if the access is refused.
     #[inline]
     pub(crate) fn ecat_write(&mut self, reach: Reach) -> Option<u32> {
         if !self.active || !matches!(self.settings.direction, SmDirection::EcatWrites) {
@@ -258,7 +258,7 @@ impl SyncManager {
         Some(self.ecat_buffer())
     }
 
-    /// The wire reads `reach`: the offset of the buffer to read from, or none if it is refused.
+    /// ECAT reads `reach`: the offset of the buffer to read from, or none if the access is refused.
     #[inline]
     pub(crate) fn ecat_read(&mut self, reach: Reach) -> Option<u32> {
         if !self.active || !matches!(self.settings.direction, SmDirection::EcatReads) {
@@ -286,13 +286,13 @@ impl SyncManager {
         Some(self.ecat_buffer())
     }
 
-    /// The wire writes a whole buffer at once.
+    /// ECAT writes a complete buffer at once.
     #[inline]
     pub(crate) fn ecat_write_whole(&mut self) -> Option<u32> {
         self.ecat_write(Reach { from: 0, to: self.settings.length_bytes })
     }
 
-    /// The wire reads a whole buffer at once.
+    /// ECAT reads a complete buffer at once.
     #[inline]
     pub(crate) fn ecat_read_whole(&mut self) -> Option<u32> {
         self.ecat_read(Reach { from: 0, to: self.settings.length_bytes })
@@ -303,12 +303,12 @@ impl SyncManager {
         self.buffer(self.buffers.ecat)
     }
 
-    /// Memory offset of a buffer; a mailbox has one only.
+    /// Memory offset of a buffer; a mailbox has only one.
     #[inline]
     fn buffer(&self, index: u8) -> u32 {
         let start = u32::from(self.settings.start);
         match self.settings.mode {
-            // One byte is whole by itself: it has no buffers (reference 3.1).
+            // A single byte is always consistent: it has no buffers (reference 3.1).
             SmMode::Buffered if self.settings.length_bytes > 1 => {
                 start + u32::from(index) * u32::from(self.settings.length_bytes)
             }
@@ -316,7 +316,7 @@ impl SyncManager {
         }
     }
 
-    /// Hands over at the end of a good frame.
+    /// Releases the buffers at the end of a valid frame.
     pub(crate) fn end_of_frame(&mut self) {
         self.complete = false;
         self.pdi_event = true;
@@ -340,7 +340,7 @@ impl SyncManager {
         }
     }
 
-    /// The PDI takes the newest whole outputs: the buffer's offset, and whether they are new.
+    /// The PDI takes the newest complete outputs: the buffer's offset, and whether they are new.
     pub(crate) fn pdi_read_buffer(&mut self) -> (u32, bool) {
         let fresh = core::mem::take(&mut self.buffers.fresh);
         if fresh {
@@ -351,7 +351,7 @@ impl SyncManager {
         (self.buffer(self.buffers.pdi), fresh)
     }
 
-    /// Whether the wire has ever written a whole buffer since the SyncManager was enabled.
+    /// Whether ECAT has written a complete buffer since the SyncManager was enabled.
     pub(crate) const fn was_written(&self) -> bool {
         self.buffers.last_written.is_some()
     }
@@ -361,7 +361,7 @@ impl SyncManager {
         self.buffer(self.buffers.pdi)
     }
 
-    /// The PDI has filled its buffer: the wire gets it with its next read of the first byte.
+    /// The PDI has filled its buffer: ECAT gets it with its next read of the first byte.
     pub(crate) fn pdi_publish(&mut self) {
         self.buffers.last_written = Some(self.buffers.pdi);
         SmBuffers::publish(&mut self.buffers.pdi, &mut self.buffers.between);
@@ -371,7 +371,7 @@ impl SyncManager {
         self.pdi_event = false;
     }
 
-    /// The PDI has emptied a mailbox of the wire.
+    /// The PDI has emptied a mailbox that the master had filled.
     pub(crate) fn pdi_took_mailbox(&mut self) {
         self.full = false;
         self.interrupt_write = false;
@@ -379,7 +379,7 @@ impl SyncManager {
         self.pdi_event = false;
     }
 
-    /// The PDI has filled a mailbox for the wire.
+    /// The PDI has filled a mailbox for the master.
     pub(crate) fn pdi_filled_mailbox(&mut self) {
         self.full = true;
         self.open = false;
@@ -404,7 +404,7 @@ impl SyncManager {
         u8::from(self.deactivated_by_pdi) | u8::from(self.repeat_acknowledge) << 1
     }
 
-    /// Whether the other side has handed something over to the wire.
+    /// Whether the other side has provided new data for ECAT.
     pub(crate) const fn has_ecat_event(&self) -> bool {
         match self.settings.direction {
             SmDirection::EcatReads => self.interrupt_write,

@@ -8,13 +8,13 @@ use crate::registers::at;
 /// One tick of the divider: 25 MHz.
 const TICK: Duration = Duration::from_nanos(40);
 
-/// Runs from the first complete write to a SyncManager with trigger, or from when the application starts it;
-/// before, there is nothing to watch.
+/// Runs from the first complete write to a SyncManager with trigger, or from the time when the application
+/// starts it; before that, there is nothing to monitor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Watchdog {
     /// None where the time register is 0.
     period: Option<Duration>,
-    /// There is something to watch, be the time register 0 or not.
+    /// There is something to monitor, whether the time register is 0 or not.
     is_watching: bool,
     deadline: Option<Instant>,
     expired: bool,
@@ -25,14 +25,14 @@ impl Watchdog {
         Self { period: period(memory), is_watching: false, deadline: None, expired: false }
     }
 
-    /// A complete write has come.
+    /// A complete write has been received.
     #[inline]
     pub(crate) fn trigger(&mut self, now: Instant) {
         self.run(now);
         self.expired = false;
     }
 
-    /// The application wants it to run, whether or not a write has come. What has expired still shows.
+    /// The application starts it, whether or not a write has been received. An expiry remains visible.
     pub(crate) fn start(&mut self, now: Instant) {
         if !self.is_watching {
             self.run(now);
@@ -44,8 +44,7 @@ impl Watchdog {
         self.deadline = self.period.map(|period| now + period);
     }
 
-    /// Its registers have been written: one that has something to watch starts anew, one that is off is never
-    /// expired.
+    /// Its registers have been written: if it has something to monitor, it restarts; if it is off, it never expires.
     pub(crate) fn configure(&mut self, memory: &Memory, now: Instant) {
         self.period = period(memory);
         if self.is_watching {
@@ -54,13 +53,13 @@ impl Watchdog {
         self.expired &= self.period.is_some();
     }
 
-    /// Nothing will trigger it for now: it does not expire, and what has expired still shows.
+    /// Nothing will trigger it for now: it does not expire, and an earlier expiry remains visible.
     pub(crate) fn disarm(&mut self) {
         self.is_watching = false;
         self.deadline = None;
     }
 
-    /// No SyncManager with trigger is left: there is nothing to watch.
+    /// No SyncManager with trigger is left: there is nothing to monitor.
     pub(crate) fn stop(&mut self) {
         self.disarm();
         self.expired = false;
@@ -70,7 +69,7 @@ impl Watchdog {
         self.deadline
     }
 
-    /// Whether it has just expired; counts, and does not expire again until it is triggered.
+    /// Whether it has just expired; counts the expiry, and does not expire again until it is triggered.
     pub(crate) fn expire(&mut self, memory: &mut Memory, now: Instant) -> bool {
         let expired = self.deadline.is_some_and(|deadline| now >= deadline);
         if expired {

@@ -32,7 +32,7 @@ fn neighbours_have_sync_managers_of_their_own() {
     assert_eq!([0, 1].map(|n| pdi.read_buffer(SmIndex(n)).0.to_vec()), [[1], [2]]);
 }
 
-/// Three buffers do not fit there.
+/// There is no room for three buffers there.
 #[test]
 fn a_sync_manager_that_leaves_them_does_not_answer() {
     for (start, length_bytes) in [(0x0F00, 2), (0x0F03, 2), (0x0F04, 1), (0x0EFF, 1)] {
@@ -68,7 +68,7 @@ fn they_keep_what_is_written() {
     assert_eq!(bench.read(0x0F00, 4), Some(vec![9, 9, 3, 4]));
 }
 
-/// A long write of registers leaves what a SyncManager holds.
+/// A long write of registers does not change what a SyncManager covers.
 #[test]
 fn a_long_write_leaves_the_outputs() {
     let mut bench = with_outputs(0, 0x0F00, 1);

@@ -1,11 +1,11 @@
-//! FMMU mapping against a model that knows bits only.
+//! FMMU mapping against a model that handles only bits.
 
 mod bench;
 
 use bench::Bench;
 use proptest::prelude::*;
 
-/// A mapping as its registers tell it.
+/// A mapping as in its registers.
 #[derive(Clone, Copy, Debug)]
 struct Mapping {
     logical_start: u32,
@@ -84,7 +84,7 @@ fn the_example_of_the_standard_maps_fourteen_bits() {
     assert_eq!(data, [0b1111_1000, 0xFF, 0b0000_0001]);
 }
 
-/// C084, C085: off is off; the mailbox status bit can be mapped.
+/// C084, C085: an inactive FMMU maps nothing; the mailbox status bit can be mapped.
 #[test]
 fn the_mailbox_status_bit_can_be_mapped() {
     let mut bench = Bench::new();
@@ -101,7 +101,7 @@ fn the_mailbox_status_bit_can_be_mapped() {
     assert!(!bench.esc.logical_read(0, &mut data, now));
 }
 
-/// C008: overlapped inputs and outputs in one LRW: what was there before is read, what came is written.
+/// C008: overlapping inputs and outputs in one LRW: the old contents are read, the received data are written.
 #[test]
 fn lrw_reads_inputs_and_writes_outputs_in_the_same_place() {
     let mut bench = Bench::new();
@@ -122,7 +122,7 @@ fn lrw_reads_inputs_and_writes_outputs_in_the_same_place() {
     assert_eq!(bench.esc.pdi().read_buffer(esc::SmIndex(2)).0, [1, 2]);
 }
 
-/// A mapping for both directions over the same RAM gives the old content and takes the new.
+/// A mapping for both directions over the same RAM returns the old contents and stores the new ones.
 #[test]
 fn lrw_over_shared_ram_exchanges() {
     let mut bench = Bench::new();
@@ -137,7 +137,7 @@ fn lrw_over_shared_ram_exchanges() {
 
 const DATAGRAM: std::ops::Range<u32> = 0x0000_FFF8..0x0001_0030;
 
-/// A mapping that leaves the address space maps nothing there; it does not begin anew at 0.
+/// A mapping that exceeds the address space maps nothing there; it does not wrap to 0.
 #[test]
 fn a_mapping_does_not_wrap() {
     let mut bench = Bench::new();
@@ -150,7 +150,7 @@ fn a_mapping_does_not_wrap() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2_000))]
 
-    /// C007, C083: logical reads equal the bit model, unmapped bits stay, lower FMMUs win.
+    /// C007, C083: logical reads equal the bit model, unmapped bits are unchanged, lower FMMUs have priority.
     #[test]
     fn logical_reads_equal_the_bit_model(
         first in mapping(1), second in mapping(1), ram: [u8; 64], sent: [u8; 40],
@@ -178,7 +178,7 @@ proptest! {
         prop_assert_eq!(data, expected);
     }
 
-    /// Logical writes equal the bit model, and touch no other bit of the memory.
+    /// Logical writes equal the bit model, and change no other bit of the memory.
     #[test]
     fn logical_writes_equal_the_bit_model(
         mapping in mapping(2), ram: [u8; 64], sent: [u8; 40], start in DATAGRAM, length in 1usize..40,

@@ -1,4 +1,4 @@
-//! Registers as the data sheet tells them: reset values, who may write, side effects, then every address.
+//! Registers as in the data sheet: reset values, write access, side effects, then every address.
 
 mod bench;
 
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use time::Duration;
 use wire::{AlState, AlStatus, AlStatusCode};
 
-/// C012, C013: what stands there after power-on.
+/// C012, C013: the values after power-on.
 #[test]
 fn power_on_values_tell_the_build() {
     let mut bench = Bench::new();
@@ -20,7 +20,7 @@ fn power_on_values_tell_the_build() {
     assert_eq!(bench.word(0x0440), 1);
 }
 
-/// C018: the alias comes from the SII, and the wire does not change it.
+/// C018: the alias comes from the SII, and the ECAT side does not change it.
 #[test]
 fn the_alias_is_word_4_and_read_only() {
     let mut bench = Bench::new();
@@ -29,7 +29,7 @@ fn the_alias_is_word_4_and_read_only() {
     assert_eq!(bench.word(0x0012), 0x1234);
 }
 
-/// C005: the alias answers only where DL control bit 24 says so.
+/// C005: the slave answers to the alias only if DL control bit 24 is set.
 #[test]
 fn the_alias_answers_when_it_is_switched_on() {
     let mut bench = Bench::new();
@@ -50,7 +50,7 @@ fn a_register_write_takes_effect_at_the_end_of_its_frame() {
     assert_eq!(bench.word(0x0010), 7);
 }
 
-/// AL control takes one request at a time.
+/// AL control accepts one request at a time.
 #[test]
 fn al_control_waits_for_the_pdi() {
     let mut bench = Bench::new();
@@ -78,7 +78,7 @@ fn al_status_raises_an_event_that_reading_it_clears() {
     assert_eq!(bench.esc.masked_events(), 0);
 }
 
-/// C015, C016: any write clears all counters of its group, and only these.
+/// C015, C016: any write clears all counters of its group, and no others.
 #[test]
 fn counters_are_cleared_by_writing() {
     let mut bench = Bench::new();
@@ -157,7 +157,7 @@ fn without_distributed_clocks_nothing_answers_there() {
     assert_eq!(bench.word(0x0008) & 0x000C, 0);
 }
 
-/// C029: two bits for each port. A port without a cable is closed, be it there or not.
+/// C029: two bits for each port. A port without a cable is closed, whether it exists or not.
 #[test]
 fn the_port_descriptor_says_what_is_behind_each_port() {
     use esc::PortKind::{Ebus, Mii, Missing, NotConfigured};
@@ -181,7 +181,7 @@ fn beyond_the_ram_nothing_answers() {
     assert!(bench.read(0xFFFF, 4).is_none());
 }
 
-/// Masters clear whole areas by block writes of 256 bytes; the writable bytes in them count.
+/// Masters clear whole areas by block writes of 256 bytes; the writable bytes in them increment the working counter.
 #[test]
 fn block_writes_over_register_areas_are_taken() {
     let mut bench = Bench::new();
@@ -193,7 +193,7 @@ fn block_writes_over_register_areas_are_taken() {
     assert_eq!(bench.read(0x0810, 5), Some(vec![0; 5]));
 }
 
-/// A FMMU or SyncManager that is not built in stays silent.
+/// An FMMU or SyncManager that is not built in does not answer.
 #[test]
 fn banks_end_where_the_build_ends() {
     let mut bench = Bench::new();
@@ -225,7 +225,7 @@ fn the_process_data_watchdog_expires_after_its_time() {
     assert_eq!(bench.byte(0x0442), 0);
 }
 
-/// C068: time 0 is off; a watchdog that had something to watch goes on when it gets a time again.
+/// C068: time 0 is off; a watchdog that had something to monitor continues when its time is set again.
 #[test]
 fn a_watchdog_without_time_starts_again_with_one() {
     let mut bench = Bench::new();
@@ -239,7 +239,7 @@ fn a_watchdog_without_time_starts_again_with_one() {
     assert_eq!(bench.esc.deadline(), bench.now + Duration::from_millis(1));
 }
 
-/// The application starts it before the first write; what has expired shows until a write comes.
+/// The application starts it before the first write; an expiry remains visible until a write is received.
 #[test]
 fn the_application_starts_the_watchdog_of_a_trigger() {
     let mut bench = Bench::new();
@@ -261,7 +261,7 @@ fn the_application_starts_the_watchdog_of_a_trigger() {
     assert_eq!(bench.word(0x0440), 1);
 }
 
-/// C118: the system time advances; offset and delay show in it.
+/// C118: the system time advances and includes offset and delay.
 #[test]
 fn system_time_is_local_time_with_offset_less_delay() {
     let mut bench = Bench::new();
@@ -272,7 +272,7 @@ fn system_time_is_local_time_with_offset_less_delay() {
     assert_eq!(time, Some(1_000_000 + 5_000 - 300));
 }
 
-/// A slave whose delay is set right agrees with the reference clock.
+/// A slave whose delay is set correctly agrees with the reference clock.
 #[test]
 fn the_control_loop_brings_the_difference_to_nothing() {
     let mut bench = Bench::new();
@@ -287,7 +287,7 @@ fn the_control_loop_brings_the_difference_to_nothing() {
     assert!(difference < 10, "{difference} ns");
 }
 
-/// C019: a long write that begins at the enable register opens nothing behind it.
+/// C019: a long write that begins at the enable register unlocks nothing after it.
 #[test]
 fn write_protection_looks_at_every_byte() {
     let mut bench = Bench::new();
@@ -299,7 +299,7 @@ fn write_protection_looks_at_every_byte() {
     assert!(bench.esc.pdi().al_control().is_none());
 }
 
-/// "RES" takes three frames, and nothing else in between.
+/// "RES" needs three frames, without other writes in between.
 #[test]
 fn res_in_one_frame_or_interrupted_resets_nothing() {
     let mut bench = Bench::new();
@@ -317,7 +317,7 @@ fn res_in_one_frame_or_interrupted_resets_nothing() {
     assert!(!bench.esc.pdi().take_reset_request());
 }
 
-/// However many FMMUs map registers, every write of a frame has room.
+/// There is room for every write of a frame, however many FMMUs map registers.
 #[test]
 fn a_frame_may_write_registers_many_times() {
     let mut bench = Bench::new();
@@ -331,7 +331,7 @@ fn a_frame_may_write_registers_many_times() {
     assert_eq!(bench.word(0x0010), 0x7777);
 }
 
-/// Reference 2.11: no PHY stands behind the MII interface, so it is never busy and has no error.
+/// Reference 2.11: no PHY is connected to the MII interface, so it is never busy and has no error.
 #[test]
 fn mii_management_is_never_busy() {
     let mut bench = Bench::new();
@@ -339,8 +339,8 @@ fn mii_management_is_never_busy() {
     assert_eq!(bench.word(0x0510), 0x0001);
 }
 
-/// What each writable register reads after ones were written to all its bits, at the moment of power-on (reference
-/// 2.3 to 2.14). Of a bank this is its first register.
+/// What each writable register reads after ones were written to all its bits, at the time of power-on
+/// (reference 2.3 to 2.14). For a bank this is its first register.
 const AFTER_ONES: &[(u16, &[u8])] = &[
     (0x0010, &[0xFF; 2]),
     (0x0020, &[0x01]),
@@ -376,7 +376,7 @@ const AFTER_ONES: &[(u16, &[u8])] = &[
     (0x0516, &[0x01]),
     (0x0600, &[0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x07, 0x07, 0xFF, 0xFF, 0x07, 0x03, 0x01, 0, 0, 0]),
     (0x0800, &[0xFF, 0xFF, 0xFF, 0xFF, 0x7F, 0x30, 0xC3, 0x00]),
-    // It is 0 ns since power-on.
+    // 0 ns since power-on.
     (0x0900, &[0; 4]),
     (0x0910, &[0; 8]),
     (0x0920, &[0xFF; 8]),
@@ -413,7 +413,7 @@ fn reserved_bits_are_not_stored() {
     }
 }
 
-/// Reference 2.14: a write to 0x0900 latches, one behind it does nothing and does not count.
+/// Reference 2.14: a write to 0x0900 latches; a write after it does nothing and does not count.
 #[test]
 fn only_the_first_receive_time_latches() {
     let mut bench = Bench::new();
@@ -428,7 +428,7 @@ fn only_the_first_receive_time_latches() {
     assert!(times.chunks(4).all(|time| time == 5_000_u32.to_le_bytes()), "{times:?}");
 }
 
-/// Looks at all registers without a frame, and reads them.
+/// Gets all registers without a frame, and by reading them.
 fn looked_at_and_read(bench: &mut Bench) -> (Vec<u8>, Option<Vec<u8>>) {
     let mut seen = vec![0xEE; 0x1000];
     bench.esc.look(0, &mut seen, bench.now);
@@ -486,7 +486,7 @@ fn a_look_at_power_on_sees_what_is_worked_out() {
 }
 
 proptest! {
-    /// C014: whatever is written wherever, read-only registers stay, and nothing panics.
+    /// C014: any write to any address leaves read-only registers unchanged, and nothing panics.
     #[test]
     fn read_only_registers_stay(
         writes in prop::collection::vec((0u16..0x1200, prop::collection::vec(any::<u8>(), 1..64)), 1..40),
@@ -501,7 +501,7 @@ proptest! {
         prop_assert_eq!(constants(&mut bench), before);
     }
 
-    /// C014: every register that the table lets the wire write counts a write, every other does not.
+    /// C014: a write increments the working counter at every register that the table makes writable, and at no other.
     #[test]
     fn a_write_counts_where_the_table_says_so(row in 0..REGISTERS.len()) {
         let register = REGISTERS[row];

@@ -1,4 +1,4 @@
-//! The SII interface, in all the shapes in which masters use it.
+//! The SII interface, with all the access patterns of masters.
 
 mod bench;
 
@@ -43,7 +43,7 @@ fn four_bytes_at_the_command_are_a_short_address() {
     assert_eq!(bench.read(0x0508, 4), Some(vec![5, 6, 7, 8]));
 }
 
-/// C031: any word reads, behind the end as erased.
+/// C031: any word is readable; words beyond the end read as erased.
 #[test]
 fn every_word_reads_and_the_end_is_erased() {
     let mut bench = Bench::new();
@@ -56,7 +56,7 @@ fn every_word_reads_and_the_end_is_erased() {
     }
 }
 
-/// C032: a write asks for the enable bit in the same write.
+/// C032: a write requires the enable bit in the same write.
 #[test]
 fn a_write_without_enable_is_an_error_and_changes_nothing() {
     let mut bench = Bench::new();
@@ -81,7 +81,7 @@ fn an_unknown_command_is_an_error_that_a_nop_clears() {
     assert_eq!(bench.word(0x0502) & COMMAND_ERROR, 0);
 }
 
-/// C033, C034: the PDI owns it until the master takes it back by force.
+/// C033, C034: the PDI owns it until the master forces it back.
 #[test]
 fn ownership_decides_who_may_command() {
     let mut bench = words_8_to_11();
@@ -103,8 +103,7 @@ fn slow() -> Bench {
     Bench::with(EscConfig { sii: SiiTiming::Busy(WAIT), ..EscConfig::default() })
 }
 
-/// C031: the read ends with busy 0; what is written in between does not count and changes nothing (reference 2.10,
-/// 2.16).
+/// C031: the read ends with busy 0; a write in between does not count and changes nothing (reference 2.10, 2.16).
 #[test]
 fn a_slow_eeprom_takes_nothing_until_it_is_done() {
     let mut bench = slow();
@@ -122,7 +121,7 @@ fn a_slow_eeprom_takes_nothing_until_it_is_done() {
     assert!(bench.write(0x0502, &[0, 1, 8, 0, 0, 0]));
 }
 
-/// A write that covers the owner register too counts for that byte alone.
+/// A write that also covers the owner register counts for that byte alone.
 #[test]
 fn a_busy_interface_does_not_keep_the_owner_from_being_set() {
     let mut bench = slow();
@@ -131,7 +130,7 @@ fn a_busy_interface_does_not_keep_the_owner_from_being_set() {
     assert_eq!((bench.byte(0x0500), bench.word(0x0504)), (1, 4));
 }
 
-/// Bits 8 to 10 are the running command, and 0 where the interface is busy without one (reference 2.10).
+/// Bits 8 to 10 are the running command, and 0 if the interface is busy without one (reference 2.10).
 #[test]
 fn the_running_command_shows_until_it_is_done() {
     let mut bench = slow();
@@ -153,7 +152,7 @@ fn the_running_command_shows_until_it_is_done() {
     assert_eq!(bench.word(0x0502) & (BUSY | COMMAND), BUSY | 0x0100, "kept busy while a command runs");
 }
 
-/// Three datagrams of one frame: data, address and command each come by themselves.
+/// Three datagrams of one frame: data, address and command arrive separately.
 #[test]
 fn data_of_the_same_frame_is_in_place_wherever_it_comes() {
     let mut bench = slow();
@@ -164,7 +163,7 @@ fn data_of_the_same_frame_is_in_place_wherever_it_comes() {
     assert_eq!(bench.esc.sii_image()[10..12], [0xCD, 0xAB]);
 }
 
-/// A wrong checksum: the configuration stays out, the controller still answers.
+/// A wrong checksum: the configuration is not loaded, the controller still answers.
 #[test]
 fn a_wrong_checksum_shows_and_keeps_the_configuration_out() {
     let mut image = sii_image();
@@ -183,7 +182,7 @@ fn an_empty_eeprom_is_not_loaded() {
     assert_eq!(bench.read(0x0508, 2), Some(vec![0xFF, 0xFF]));
 }
 
-/// C018: a reload takes the configuration, never the alias.
+/// C018: a reload loads the configuration, never the alias.
 #[test]
 fn a_reload_leaves_the_alias() {
     let mut bench = Bench::new();

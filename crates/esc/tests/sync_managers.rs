@@ -18,7 +18,7 @@ fn full(bench: &mut Bench, n: u16) -> bool {
     bench.byte(0x0805 + 8 * n) & 8 != 0
 }
 
-/// C076, C079: full refuses the next message until the PDI has read.
+/// C076, C079: a full mailbox refuses the next message until the PDI has read it.
 #[test]
 fn a_full_mailbox_refuses_and_keeps_its_message() {
     let mut bench = with_sync_manager(0, 4, MAILBOX_RECEIVE);
@@ -29,7 +29,7 @@ fn a_full_mailbox_refuses_and_keeps_its_message() {
     assert!(!full(&mut bench, 0) && bench.write(START, &[5, 6, 7, 8]));
 }
 
-/// C078, and TwinCAT's way: the content first, the last byte alone in another datagram.
+/// C078, and the order that TwinCAT uses: the content first, the last byte alone in another datagram.
 #[test]
 fn a_mailbox_is_full_with_its_last_byte_only() {
     let mut bench = with_sync_manager(0, 16, MAILBOX_RECEIVE);
@@ -43,7 +43,7 @@ fn the_last_byte_alone_opens_nothing() {
     assert!(!bench.write(START + 15, &[0]) && !full(&mut bench, 0));
 }
 
-/// C077, C079: empty refuses; reading to the last byte empties.
+/// C077, C079: an empty mailbox refuses a read; reading to the last byte empties it.
 #[test]
 fn an_empty_mailbox_refuses_reads() {
     let mut bench = with_sync_manager(1, 4, MAILBOX_SEND);
@@ -120,7 +120,7 @@ fn inputs_can_be_read_before_they_were_written() {
     assert_eq!(bench.read(START, 4), Some(vec![0; 4]));
 }
 
-/// C063: what the application has closed does not count, and opens again.
+/// C063: access to an area that the application has closed does not count, until it is opened again.
 #[test]
 fn a_sync_manager_that_the_pdi_closed_refuses() {
     let mut bench = with_sync_manager(2, 2, OUTPUTS);
@@ -157,7 +157,7 @@ enum InputStep {
 const LENGTH: usize = 8;
 const HALF: usize = LENGTH / 2;
 
-/// Reference 1.6: an area that leaves the RAM, with all its buffers, hands nothing over.
+/// Reference 1.6: if an area, with all its buffers, exceeds the RAM, nothing is exchanged.
 #[test]
 fn an_area_beyond_the_ram_does_not_answer() {
     let mut bench = Bench::new();
@@ -168,7 +168,7 @@ fn an_area_beyond_the_ram_does_not_answer() {
     assert_eq!(bench.read(0x2F00, 100), None, "the third buffer has no room");
 }
 
-/// Reference 2.7: the PDI's event ends when it has looked, and does not come back by itself.
+/// Reference 2.7: the PDI's event ends when the PDI has read it, and is not set again without a new access.
 #[test]
 fn an_event_ends_when_the_pdi_has_looked() {
     let mut bench = with_sync_manager(1, 4, MAILBOX_SEND);
@@ -182,7 +182,7 @@ fn an_event_ends_when_the_pdi_has_looked() {
 }
 
 proptest! {
-    /// C081: for any interleaving the PDI gets whole images only, and always the newest whole one.
+    /// C081: for any interleaving the PDI gets only complete images, and always the newest complete one.
     #[test]
     fn outputs_are_never_torn(steps in prop::collection::vec(
         prop_oneof![
@@ -221,7 +221,7 @@ proptest! {
         }
     }
 
-    /// C081: for any interleaving the wire gets whole images, even when it reads them in two datagrams.
+    /// C081: for any interleaving ECAT gets complete images, even when it reads them in two datagrams.
     #[test]
     fn inputs_are_never_torn(steps in prop::collection::vec(
         prop_oneof![

@@ -10,8 +10,8 @@ use wire::{Command, FrameBuilder};
 const OUTPUTS: u8 = 0x64;
 const INPUTS: u8 = 0x20;
 
-/// A line of ESCs with so many bytes of outputs and inputs each, mapped one behind the other; outputs and
-/// inputs share their logical bytes, as SOEM and ethercrab map them for LRW.
+/// A line of ESCs, each with this number of bytes of outputs and inputs, mapped one after the other; outputs
+/// and inputs share their logical bytes, as SOEM and ethercrab map them for LRW.
 fn line(units: usize, outputs_bytes: u16, inputs_bytes: u16) -> Segment {
     let escs = (0..units).map(|_| Esc::power_on(EscConfig::default(), Vec::new(), Instant::ZERO));
     let mut segment = Segment::new(escs.collect());
@@ -46,7 +46,7 @@ fn fmmu(logical: u32, length_bytes: u16, physical: u16, kind: u8) -> [u8; 16] {
     bytes
 }
 
-/// Outputs and inputs of a full unit, two frames, and the application takes and gives whole images.
+/// Outputs and inputs of a full unit in two frames; the application takes and provides complete images.
 fn full_unit(criterion: &mut Criterion) {
     let mut segment = line(1, 1_200, 1_204);
     let mut outputs = FrameBuilder::new().logical(Command::Lwr, 0, &[0x5A; 1_200]).finish();
@@ -95,7 +95,7 @@ fn broadcast(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// A logical datagram that no unit maps: the cost of a unit that is not touched.
+/// A logical datagram that no unit maps: the cost of a unit that is not addressed.
 fn untouched(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("untouched units, LRW 6 bytes");
     for units in [1, 100, 1_000, 10_000] {
@@ -109,7 +109,7 @@ fn untouched(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// What masters send in each cycle to keep the clocks together: the first unit is read, all others are written.
+/// What masters send in each cycle to synchronise the clocks: the first unit is read, all others are written.
 fn system_time(criterion: &mut Criterion) {
     let mut frmw = FrameBuilder::new().physical(Command::Frmw, 0, 0x0910, &[0; 8]).finish();
     criterion.bench_function("100 units: FRMW 8 of the system time", |bencher| {
@@ -118,7 +118,7 @@ fn system_time(criterion: &mut Criterion) {
     });
 }
 
-/// Registers that are worked out when they are read, of one unit.
+/// Registers of one unit that are calculated when they are read.
 fn live_registers(criterion: &mut Criterion) {
     let mut aprd = FrameBuilder::new().physical(Command::Aprd, 0, 0x080D, &[0]).finish();
     criterion.bench_function("mailbox status: APRD 1", |bencher| {

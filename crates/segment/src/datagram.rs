@@ -1,11 +1,11 @@
-//! One datagram along a line of ESCs: who is meant, what is read and written, what counts.
+//! One datagram along a line of ESCs: which ESC is addressed, what is read and written, what counts.
 
 use esc::{Access, Esc};
 use time::{Duration, Instant};
 use wire::{Command, Datagram};
 
-/// Passes a datagram through the processing unit of each ESC, the first one at `now`, each next one a hop
-/// later (reference 1.4, 1.5). Tells whether an ESC waits for the end of the frame.
+/// Passes a datagram through the processing unit of each ESC, the first one at `now`, each next one a hop later
+/// (reference 1.4, 1.5). Returns whether an ESC waits for the end of the frame.
 #[inline]
 pub(crate) fn pass(escs: &mut [Esc], datagram: &mut Datagram<'_>, now: Instant, hop: Duration) -> bool {
     let passed = Passed { events: 0, count: 0, waits: false, arrival: now, hop };
@@ -19,7 +19,7 @@ pub(crate) fn pass(escs: &mut [Esc], datagram: &mut Datagram<'_>, now: Instant, 
     passed.waits
 }
 
-/// What adds up along the line.
+/// The sums along the line.
 struct Passed {
     events: u16,
     count: u16,
@@ -29,7 +29,7 @@ struct Passed {
 }
 
 impl Passed {
-    /// One ESC further.
+    /// To the next ESC.
     #[inline]
     fn by(&mut self, esc: &Esc, increment: u16) {
         self.count = self.count.wrapping_add(increment);

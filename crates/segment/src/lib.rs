@@ -1,7 +1,7 @@
-//! ESCs joined by ports and links: the way of a frame.
+//! ESCs joined by ports and links: the path of a frame.
 //!
-//! A segment is a line of ESCs with two ports each. A frame passes the processing unit of each, turns at
-//! the first closed loop, and comes back. Frames are edited in place; nothing is allocated on their way.
+//! A segment is a line of ESCs with two ports each. A frame passes the processing unit of each, turns at the
+//! first closed loop, and returns. Frames are edited in place; nothing is allocated on their path.
 
 mod activity;
 mod datagram;

@@ -1,4 +1,4 @@
-//! The line: which ESCs a frame reaches, and what becomes of it.
+//! The line: which ESCs a frame reaches, and its fate.
 
 use esc::{Esc, LoopState, Passage, Port};
 use time::{Duration, Instant};
@@ -7,15 +7,15 @@ use wire::{Defect, FrameKind, Layout, mark_source_address};
 use crate::activity::{Activity, PortActivity};
 use crate::datagram::pass;
 
-/// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of a real ESC.
+/// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of magnitude of a real ESC.
 const HOP: Duration = Duration::from_nanos(500);
 /// From the processing unit of the last ESC to its closed port 1.
 const TURN: Duration = Duration::from_nanos(100);
 
-/// What became of a frame.
+/// The fate of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrameFate {
-    /// It came back to the end where it was sent.
+    /// It returned to the end from which it was sent.
     Returned,
     /// It left at the other end of the line, to the master's second port.
     CrossedOver,
@@ -32,12 +32,12 @@ pub struct Segment {
     overlong_frames: u64,
 }
 
-/// The way of a frame that comes in at the master's end.
+/// The path of a frame that arrives from the master's end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Way {
     /// ESCs that it passes.
     reach: usize,
-    /// Cables that it goes over, the one to the master included.
+    /// Cables that it passes, including the one to the master.
     cables: usize,
     end: WayEnd,
 }
@@ -46,7 +46,7 @@ struct Way {
 enum WayEnd {
     Turns,
     CrossesOver,
-    /// A loop is held open by DL control where no cable is.
+    /// DL control keeps a loop open where there is no cable.
     Lost,
 }
 
@@ -72,7 +72,7 @@ impl Segment {
         self.escs.len()
     }
 
-    /// Whether there is no ESC at all.
+    /// Whether there are no ESCs.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.escs.is_empty()
@@ -102,8 +102,8 @@ impl Segment {
         self.follow_ports();
     }
 
-    /// What a port of the ESC at `position` has to tell its L/A indicator; nothing beyond the line. A cable counts
-    /// as carrying every frame that was put on it, also a broken one.
+    /// The inputs of the L/A indicator for a port of the ESC at `position`; none beyond the line. A cable
+    /// counts as active for every frame that was sent on it, including broken frames.
     #[must_use]
     pub fn port_activity(&self, position: usize, port: Port) -> Option<PortActivity> {
         let link = self.escs.get(position)?.port(port).link;
@@ -114,14 +114,14 @@ impl Segment {
         Some(PortActivity { link, last_frame: self.activity.last_frame(cable, self.way.cables) })
     }
 
-    /// Frames from the master whose EtherCAT header promised more bytes than they had. They were taken: their
-    /// datagrams were all there.
+    /// Frames from the master whose EtherCAT header announced more bytes than they had. They were accepted:
+    /// their datagrams were all complete.
     #[must_use]
     pub const fn overlong_frames(&self) -> u64 {
         self.overlong_frames
     }
 
-    /// A frame comes from the master at `now`, from its destination address on, without FCS.
+    /// A frame arrives from the master at `now`, from its destination address on, without FCS.
     pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         let way = self.way;
         let kind = FrameKind::of(frame);
@@ -152,9 +152,9 @@ impl Segment {
         }
     }
 
-    /// A frame comes from the master and gets a bit error on the cable in front of the ESC at `position`. The ESCs
-    /// before it take the frame; that one counts it as invalid, those behind it as forwarded, and nobody there
-    /// takes it. It does not return: its FCS is wrong.
+    /// A frame arrives from the master and gets a bit error on the cable before the ESC at `position`. The ESCs
+    /// before the error accept the frame; the ESC at `position` counts it as invalid, those after it as
+    /// forwarded error, and none of these accepts it. It does not return: its FCS is wrong.
     pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], position: usize) -> FrameFate {
         let reach = self.way.reach;
         self.activity.on_way(now);
@@ -170,8 +170,9 @@ impl Segment {
         FrameFate::Destroyed
     }
 
-    /// A frame comes from the master's second port, at the far end. It runs back without being processed
-    /// until it meets a closed port 0; there it is marked as circulating, and destroyed if it already was.
+    /// A frame arrives from the master's second port, at the far end. It runs back without being processed
+    /// until it reaches a closed port 0; there it is marked as circulating, and destroyed if it was already
+    /// marked.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         let far_end = self.escs.last().map(|esc| esc.port(Port::Out)).filter(|port| port.link);
         let Some(far_end) = far_end else { return FrameFate::Destroyed };
@@ -200,8 +201,8 @@ impl Segment {
         FrameFate::Returned
     }
 
-    /// Datagram by datagram along the line: the ESCs share nothing but the datagram, so that the order is
-    /// the same as ESC by ESC.
+    /// Datagram by datagram along the line: the ESCs share nothing but the datagram, so the result is the same
+    /// as ESC by ESC.
     fn pass_datagrams(
         &mut self,
         positions: core::ops::Range<usize>,
@@ -233,7 +234,7 @@ impl Segment {
         }
     }
 
-    /// A frame that is not EtherCAT: the first ESC whose forwarding rule says so destroys it.
+    /// A frame that is not EtherCAT: the first ESC whose forwarding rule requires it destroys the frame.
     fn pass_foreign(&mut self, reach: usize, now: Instant, frame: &mut [u8]) -> FrameFate {
         mark_source_address(frame);
         for (position, esc) in self.escs[..reach].iter_mut().enumerate() {
@@ -247,8 +248,8 @@ impl Segment {
         FrameFate::Returned
     }
 
-    /// A broken frame runs through, takes no effect, and is counted: by the first ESC where it came in, by
-    /// the others as an error that was already marked.
+    /// A broken frame passes all ESCs without effect, and is counted: by the first ESC as an error where it
+    /// arrived, by the others as an error that was already marked.
     fn pass_defective(&mut self, reach: usize, defect: Defect) -> FrameFate {
         let (first, others) = match self.escs[..reach].split_first_mut() {
             Some((first, others)) => (first, others),
@@ -262,13 +263,13 @@ impl Segment {
         FrameFate::Destroyed
     }
 
-    /// When something happens in an ESC by itself.
+    /// The time of the next event in an ESC without a frame: the watchdog.
     #[must_use]
     pub fn deadline(&self) -> Instant {
         self.escs.iter().map(Esc::deadline).min().unwrap_or(Instant::NEVER)
     }
 
-    /// Looks where frames go now, after an ESC was reset.
+    /// Recalculates the path of frames after an ESC was reset.
     pub fn follow_changed_ports(&mut self) {
         let changed = self.escs.iter_mut().fold(false, |changed, esc| esc.take_ports_changed() | changed);
         if changed {
@@ -294,7 +295,7 @@ impl Segment {
     fn find_way(&self) -> Way {
         for (position, esc) in self.escs.iter().enumerate() {
             if esc.port(Port::In).loop_state == LoopState::Closed {
-                // A closed port with a partner still hears what comes over the cable.
+                // A closed port with a partner still receives what arrives over the cable.
                 let cables = position + usize::from(esc.port(Port::In).link);
                 return Way { reach: position, cables, end: WayEnd::Lost };
             }

@@ -1,5 +1,5 @@
-//! Which ports carry frames, as the L/A indicators show it: `-` no link, `L` link, `A` active; IN and OUT of each
-//! unit, one unit behind the other.
+//! Which ports carry frames, as the L/A indicators show it: `-` no link, `L` link, `A` active; IN and OUT of
+//! each unit, in the order of the line.
 
 use esc::{Esc, EscConfig, Port};
 use segment::{FrameFate, Segment};

@@ -36,7 +36,7 @@ fn positions_count_up_and_one_slave_answers() {
     assert_eq!((beyond.data, beyond.working_counter, beyond.header.address), (vec![5, 6], 0, 0xFFF3));
 }
 
-/// C004: the station address answers, others do not, and it is not changed.
+/// C004: the slave with the station address answers, others do not, and the address is not changed.
 #[test]
 fn station_addresses_answer_alone() {
     let mut line = line(3);
@@ -45,7 +45,7 @@ fn station_addresses_answer_alone() {
     assert_eq!(send(&mut line, Command::Fprd, 0x1004, 0x0010, &[0, 0]).working_counter, 0);
 }
 
-/// C006: a broadcast read ORs, also into what the master sent.
+/// C006: a broadcast read ORs, including the data that the master sent.
 #[test]
 fn broadcast_reads_or() {
     let mut line = line(3);
@@ -90,7 +90,7 @@ fn read_write_commands_give_the_old_and_take_the_new() {
     assert_eq!(send(&mut line, Command::Fprd, 0x1002, 0x1000, &[0]).data, [0x33]);
 }
 
-/// C009: one slave reads, those behind it write what it read.
+/// C009: one slave reads, the slaves after it write what it read.
 #[test]
 fn multiple_write_commands_spread_one_value() {
     for (command, address) in [(Command::Armw, 0u16), (Command::Frmw, 0x1001)] {
@@ -102,7 +102,7 @@ fn multiple_write_commands_spread_one_value() {
     }
 }
 
-/// C007: a logical address that nobody maps stays as it is.
+/// C007: data at a logical address that no slave maps are unchanged.
 #[test]
 fn an_unmapped_logical_address_stays() {
     let frame = FrameBuilder::new().logical(Command::Lrw, 0x0001_0000, &[1, 2, 3]);
@@ -127,7 +127,7 @@ fn the_event_field_collects_what_the_masks_let_through() {
     assert_eq!(send(&mut line, Command::Nop, 0, 0, &[0]).header.events, 0);
 }
 
-/// Reads behind a write in the same frame see the old register, and RAM at once.
+/// Reads after a write in the same frame see the old register, but the new RAM.
 #[test]
 fn several_datagrams_share_a_frame() {
     let frame = FrameBuilder::new()
@@ -162,8 +162,8 @@ proptest! {
         }
     }
 
-    /// Any bytes are survived; a frame that is no good one comes back as it was, but for the mark of having
-    /// passed, or not at all, and changes no register but the error counters.
+    /// Any bytes are handled; a frame that is not valid returns unchanged except for the mark of having passed,
+    /// or does not return, and changes no register except the error counters.
     #[test]
     fn any_bytes_are_survived(
         bytes in prop::collection::vec(any::<u8>(), 0..200), header in any::<u16>(), ethercat in any::<bool>(),

@@ -1,4 +1,4 @@
-//! The way of a frame: ports, cables, broken frames, times.
+//! The path of a frame: ports, cables, broken frames, times.
 
 use esc::{Esc, EscConfig, Port};
 use segment::{FrameFate, Segment};
@@ -116,7 +116,7 @@ fn a_ring_that_is_whole_lets_frames_cross() {
     assert_eq!(returned_datagrams(&frame)[0].working_counter, 3);
 }
 
-/// C010: the locally administered bit is set, the rest of the source address stays.
+/// C010: the locally administered bit is set, the rest of the source address is unchanged.
 #[test]
 fn the_source_address_is_marked() {
     let mut frame = FrameBuilder::new().physical(Command::Nop, 0, 0, &[0]).finish();
@@ -124,7 +124,7 @@ fn the_source_address_is_marked() {
     assert_eq!(frame[6..12], [0x12, 0x10, 0x10, 0x10, 0x10, 0x10]);
 }
 
-/// C011: a truncated frame changes nothing; the first ESC counts it, the others an error that was marked.
+/// C011: a truncated frame changes nothing; the first ESC counts it, the others count an error that was already marked.
 #[test]
 fn a_truncated_frame_is_counted_along_the_line() {
     let mut line = line(2);
@@ -161,7 +161,7 @@ fn foreign_frames_follow_the_forwarding_rule() {
     assert_eq!(frame[6], 2);
 }
 
-/// C117: a write to 0x0900 latches, and times grow along the way of the frame.
+/// C117: a write to 0x0900 latches, and the times increase along the path of the frame.
 #[test]
 fn receive_times_grow_along_the_way() {
     let mut line = line(3);
@@ -203,7 +203,8 @@ fn nothing_crosses_to_a_far_end_without_a_cable() {
     assert_eq!(line(2).frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed);
 }
 
-/// libethercat tells an EtherCAT length of 16 bytes too many. Nothing of such a frame is lost, and it is no error.
+/// libethercat sends an EtherCAT length that is 16 bytes too large. Such a frame is processed completely, and
+/// is not an error.
 #[test]
 fn a_frame_whose_length_is_beyond_its_end_is_taken_and_counted() {
     let mut line = line(2);
@@ -218,7 +219,7 @@ fn a_frame_whose_length_is_beyond_its_end_is_taken_and_counted() {
     assert_eq!(read(&mut line, 0, 0x0300, 20), [0; 20]);
 }
 
-/// What happens with a more flag on the last datagram: where the length ends the chain, all of it is taken.
+/// A more flag on the last datagram: if the length ends the chain, all of it is processed.
 #[test]
 fn a_more_flag_on_the_last_datagram_is_passed_over() {
     let mut line = line(2);

@@ -1,7 +1,7 @@
-//! Instant and duration in integer nanoseconds; no way to ask what time it is.
+//! Instant and duration in integer nanoseconds, without any access to a clock.
 //!
-//! Everything below the links takes the time as an argument, so that a run in virtual time is the same
-//! every time. An [`Instant`] counts from an origin that the caller chose (the start of the run).
+//! Everything below the links takes the time as an argument, so that a run in virtual time is always the same.
+//! An [`Instant`] counts from an origin that the caller chose (the start of the run).
 
 use core::fmt;
 use core::ops::{Add, AddAssign, Mul, Sub};
@@ -14,7 +14,7 @@ pub struct Instant(u64);
 impl Instant {
     /// The origin.
     pub const ZERO: Self = Self(0);
-    /// Later than anything that happens.
+    /// Later than any event.
     pub const NEVER: Self = Self(u64::MAX);
 
     /// The instant `nanos` nanoseconds after the origin.
@@ -54,7 +54,7 @@ impl AddAssign<Duration> for Instant {
 pub struct Duration(u64);
 
 impl Duration {
-    /// No time at all.
+    /// A duration of 0.
     pub const ZERO: Self = Self(0);
 
     /// A duration of `nanos` nanoseconds.
@@ -93,7 +93,7 @@ impl Duration {
         self.0 / 1_000
     }
 
-    /// Whether it is no time at all.
+    /// Whether the duration is 0.
     #[must_use]
     pub const fn is_zero(self) -> bool {
         self.0 == 0
@@ -136,7 +136,7 @@ impl fmt::Display for Duration {
     }
 }
 
-/// A text that is no duration: a number is missing, a unit is missing or unknown, or it is too long.
+/// A text that is not a duration: a number is missing, a unit is missing or unknown, or it is too long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotADuration;
 

@@ -1,4 +1,4 @@
-//! One ESC under test, with the master's moves as short as the data sheet tells them.
+//! One ESC under test, with the master's operations as short as in the data sheet.
 
 #![expect(dead_code, reason = "each test file uses its part of the bench")]
 
@@ -23,19 +23,19 @@ impl Bench {
         Self { esc: Esc::power_on(config, image, Instant::ZERO), now: Instant::ZERO }
     }
 
-    /// Ends the frame that is on its way.
+    /// Ends the current frame.
     pub(crate) fn end(&mut self) {
         self.esc.end_of_frame(&Passage { arrival: self.now, returned_out: self.now });
     }
 
-    /// One frame with one write. Whether it counted.
+    /// One frame with one write. Returns whether the working counter was incremented.
     pub(crate) fn write(&mut self, offset: u16, data: &[u8]) -> bool {
         let written = self.esc.write(offset, data, self.now);
         self.end();
         written
     }
 
-    /// One frame with one read; none if it did not count.
+    /// One frame with one read; none if the working counter was not incremented.
     pub(crate) fn read(&mut self, offset: u16, length_bytes: usize) -> Option<Vec<u8>> {
         let mut data = vec![0; length_bytes];
         let read = self.esc.read(offset, &mut data, self.now);
@@ -43,7 +43,7 @@ impl Bench {
         read.then_some(data)
     }
 
-    /// Registers, which can always be read.
+    /// Registers, which are always readable.
     fn registers<const N: usize>(&mut self, offset: u16) -> [u8; N] {
         let mut bytes = [0; N];
         assert!(self.esc.read(offset, &mut bytes, self.now), "register 0x{offset:04X} does not answer");
@@ -75,7 +75,7 @@ impl Bench {
     }
 }
 
-/// An image of 128 header bytes with words 0 to 7 as one likes them: word 4, the alias, is 0x1234.
+/// An image of 128 header bytes with usual words 0 to 7: word 4, the alias, is 0x1234.
 pub(crate) fn sii_image() -> Vec<u8> {
     let mut image = vec![0; 2048];
     image[..14].copy_from_slice(&[0x05, 0x0E, 0x03, 0x06, 0x10, 0x27, 0, 0, 0x34, 0x12, 0, 0, 0, 0]);
