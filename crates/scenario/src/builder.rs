@@ -3,8 +3,8 @@
 use time::Duration;
 
 use crate::model::{
-    Condition, CpuOrder, Expectation, LineOrder, MasterOrder, Mode, Order, Paths, Script, ScriptMaster,
-    ScriptUnit, Step, Trigger, UnitOrder,
+    Condition, CpuOrder, LineOrder, MasterOrder, Paths, Script, ScriptMaster, ScriptUnit, Step, StepForm,
+    UnitOrder,
 };
 use crate::ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 use crate::run::Scenario;
@@ -39,10 +39,11 @@ pub struct ScenarioBuilder {
     units: Vec<String>,
     /// Names and texts of user programs.
     programs: Vec<(String, String)>,
-    /// What the next step says of its moment.
-    trigger: Trigger,
-    mode: Mode,
-    /// What is wrong with sentences.
+    /// What is said of the next step so far.
+    next: StepForm,
+    /// How many steps were said, right ones and wrong ones.
+    said: usize,
+    /// What is wrong with steps, before units and programs are known.
     wrong: Vec<ScenarioError>,
 }
 
@@ -53,8 +54,8 @@ impl ScenarioBuilder {
             script: Script::new(title),
             units: Vec::new(),
             programs: Vec::new(),
-            trigger: Trigger::AtOnce,
-            mode: Mode::Now,
+            next: StepForm::default(),
+            said: 0,
             wrong: Vec::new(),
         }
     }
@@ -81,76 +82,66 @@ impl ScenarioBuilder {
     }
 
     /// The next step is due at this time from the beginning.
-    pub fn at(mut self, at: Duration) -> Self {
-        self.trigger = Trigger::At(at);
-        self
+    pub fn at(self, at: Duration) -> Self {
+        self.key("at", at, |next| &mut next.at)
     }
 
     /// The next step is due this time after the one before it.
-    pub fn after(mut self, after: Duration) -> Self {
-        self.trigger = Trigger::After(after);
-        self
+    pub fn after(self, after: Duration) -> Self {
+        self.key("after", after, |next| &mut next.after)
     }
 
     /// The next step is due as soon as this holds.
-    pub fn when(mut self, condition: impl Say<Condition>) -> Self {
-        if let Some(condition) = self.said(condition) {
-            self.trigger = Trigger::When(condition);
-        }
-        self
+    pub fn when(self, condition: impl Say<Condition>) -> Self {
+        self.said_key("when", condition, |next| &mut next.when)
     }
 
     /// The next expectation has to hold at some moment before this time has passed.
-    pub fn within(mut self, within: Duration) -> Self {
-        self.mode = Mode::Within(within);
-        self
+    pub fn within(self, within: Duration) -> Self {
+        self.key("within", within, |next| &mut next.within)
     }
 
     /// The next expectation has to hold until this does.
-    pub fn until(mut self, condition: impl Say<Condition>) -> Self {
-        if let Some(condition) = self.said(condition) {
-            self.mode = Mode::Until(condition);
-        }
-        self
+    pub fn until(self, condition: impl Say<Condition>) -> Self {
+        self.said_key("until", condition, |next| &mut next.until)
     }
 
     /// Orders something of the scripted master.
     pub fn master(self, order: impl Say<MasterOrder>) -> Self {
-        self.order(order, Order::Master)
+        self.said_key("master", order, |next| &mut next.master).add()
     }
 
     /// Does something to a unit by hand.
     pub fn unit_order(self, order: impl Say<UnitOrder>) -> Self {
-        self.order(order, Order::Unit)
+        self.said_key("unit", order, |next| &mut next.unit).add()
     }
 
     /// Does something to a CPU Unit.
     pub fn cpu(self, order: impl Say<CpuOrder>) -> Self {
-        self.order(order, Order::Cpu)
+        self.said_key("cpu", order, |next| &mut next.cpu).add()
     }
 
     /// Does something to the line.
     pub fn line(self, order: impl Say<LineOrder>) -> Self {
-        self.order(order, Order::Line)
+        self.said_key("line", order, |next| &mut next.line).add()
     }
 
     /// Asks for something that has to hold.
-    pub fn expect(mut self, condition: impl Say<Condition>) -> Self {
-        let mode = core::mem::replace(&mut self.mode, Mode::Now);
-        self.order(condition, |condition| Order::Expect(Expectation { condition, mode }))
+    pub fn expect(self, condition: impl Say<Condition>) -> Self {
+        self.said_key("expect", condition, |next| &mut next.expect).add()
     }
 
     /// Asks for something that must not hold, to the end or until something else does.
-    pub fn never(mut self, condition: impl Say<Condition>) -> Self {
-        let mode = match core::mem::replace(&mut self.mode, Mode::Now) {
-            Mode::Until(until) => Mode::NeverUntil(until),
-            Mode::Now | Mode::Within(_) | Mode::Never | Mode::For(_) | Mode::NeverUntil(_) => Mode::Never,
-        };
-        self.order(condition, |condition| Order::Expect(Expectation { condition, mode }))
+    pub fn never(self, condition: impl Say<Condition>) -> Self {
+        self.said_key("never", condition, |next| &mut next.never).add()
     }
 
     /// Adds a typed step. It has its own moment.
     pub fn step(mut self, step: Step) -> Self {
+        if core::mem::take(&mut self.next) != StepForm::default() {
+            self.refuse("a typed step has its own moment", "remove the moment in front of `step`");
+        }
+        self.said += 1;
         self.script.steps.push(step.into());
         self
     }
@@ -158,31 +149,63 @@ impl ScenarioBuilder {
     /// The scenario.
     ///
     /// # Errors
-    /// What is wrong with sentences, values and units, each with the number of its step or unit.
+    /// What is wrong with steps, or else with values and units, each with the number of its step or unit.
     pub fn finish(mut self) -> Result<Scenario, ScenarioErrors> {
-        let wrong = core::mem::take(&mut self.wrong);
+        if self.next != StepForm::default() {
+            self.refuse("a moment without a step", "add the step, or remove the moment");
+        }
+        if !self.wrong.is_empty() {
+            return Err(ScenarioErrors { list: self.wrong, more: 0 });
+        }
         let script = core::mem::replace(&mut self.script, Script::new(""));
-        let made = Scenario::of(script, &mut self);
-        if wrong.is_empty() { made } else { Err(ScenarioErrors { list: wrong, more: 0 }) }
+        Scenario::of(script, &mut self)
     }
 
-    fn order<T>(mut self, order: impl Say<T>, kind: impl FnOnce(T) -> Order) -> Self {
-        let trigger = core::mem::replace(&mut self.trigger, Trigger::AtOnce);
-        if let Some(value) = self.said(order) {
-            self.script.steps.push(Step { trigger, order: kind(value), repetition: None }.into());
+    /// Says one key of the next step.
+    fn key<T>(mut self, name: &str, value: T, key: impl FnOnce(&mut StepForm) -> &mut Option<T>) -> Self {
+        if key(&mut self.next).replace(value).is_some() {
+            self.refuse(format!("a step has one `{name}`"), "");
         }
         self
     }
 
-    fn said<T>(&mut self, said: impl Say<T>) -> Option<T> {
+    fn said_key<T>(
+        mut self,
+        name: &str,
+        said: impl Say<T>,
+        key: impl FnOnce(&mut StepForm) -> &mut Option<T>,
+    ) -> Self {
         match said.value() {
-            Ok(value) => Some(value),
+            Ok(value) => self.key(name, value, key),
             Err(NoSentence { message, help }) => {
-                let number = self.script.steps.len() + self.wrong.len() + 1;
-                self.wrong.push(ScenarioError { place: ErrorPlace::Step(number), message, help });
-                None
+                self.refuse(message, help);
+                self
             }
         }
+    }
+
+    /// Adds the step that is said.
+    fn add(mut self) -> Self {
+        let form = core::mem::take(&mut self.next);
+        let number = self.said + 1;
+        if !self.is_wrong(number) {
+            match form.read() {
+                Ok(step) => self.script.steps.push(step),
+                Err(wrong) => self.refuse(wrong.message, wrong.help),
+            }
+        }
+        self.said = number;
+        self
+    }
+
+    /// Notes what is wrong with the step that is being said.
+    fn refuse(&mut self, message: impl Into<String>, help: impl Into<String>) {
+        let place = ErrorPlace::Step(self.said + 1);
+        self.wrong.push(ScenarioError { place, message: message.into(), help: help.into() });
+    }
+
+    fn is_wrong(&self, number: usize) -> bool {
+        self.wrong.last().is_some_and(|wrong| wrong.place == ErrorPlace::Step(number))
     }
 }
 

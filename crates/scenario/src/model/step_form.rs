@@ -12,7 +12,7 @@ use super::step::{Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep,
 use super::unit::UnitOrder;
 
 /// The keys of a step.
-#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct StepForm {
     #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
