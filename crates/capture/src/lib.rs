@@ -1,6 +1,6 @@
 //! Captures in the pcapng format, with times in nanoseconds (draft-ietf-opsawg-pcapng).
 //!
-//! One section, one Ethernet interface. The same calls give the same bytes: nothing of the machine goes in.
+//! One section, one Ethernet interface. The same calls produce the same bytes: nothing machine-specific is included.
 
 mod reader;
 
@@ -24,10 +24,10 @@ const OPTION_PACKET_FLAGS: u16 = 2;
 const OPTION_RECEIVED: u16 = 4;
 const OPTION_DROPPED: u16 = 5;
 
-/// Bytes of an option's value that its 16-bit length can tell, rounded down to whole words.
+/// Maximum length of an option's value in bytes, limited by its 16-bit length, rounded down to whole words.
 const OPTION_BYTES_MAX: usize = 0xFFFC;
 
-/// Which way a frame went, as seen from the unit.
+/// Direction of a frame, as seen from the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// From the master to the unit.
@@ -55,7 +55,7 @@ impl<W: Write> PcapngWriter<W> {
         Ok(writer)
     }
 
-    /// Adds a frame at `at_nanos`, counted from 1970-01-01 UTC, without FCS.
+    /// Adds a frame at the time `at_nanos`, counted from 1970-01-01 UTC, without FCS.
     ///
     /// # Errors
     /// Those of `out`.
@@ -81,7 +81,7 @@ impl<W: Write> PcapngWriter<W> {
         self.finish_block()
     }
 
-    /// Adds the counts of the interface: frames seen, and those of them that the capture lost.
+    /// Adds the counts of the interface: frames seen, and how many of them the capture lost.
     ///
     /// # Errors
     /// Those of `out`.
@@ -95,12 +95,12 @@ impl<W: Write> PcapngWriter<W> {
         self.finish_block()
     }
 
-    /// What it writes to. Each call of a method that adds something writes one whole block to it.
+    /// The output. Each call of a method that adds something writes one complete block to it.
     pub const fn out_mut(&mut self) -> &mut W {
         &mut self.out
     }
 
-    /// Passes everything on to the medium.
+    /// Flushes everything to the medium.
     ///
     /// # Errors
     /// Those of `out`.
@@ -108,7 +108,7 @@ impl<W: Write> PcapngWriter<W> {
         self.out.flush()
     }
 
-    /// The end: gives `out` back, flushed.
+    /// Ends the capture: returns `out`, flushed.
     ///
     /// # Errors
     /// Those of `out`.
@@ -141,7 +141,7 @@ impl<W: Write> PcapngWriter<W> {
         self.finish_block()
     }
 
-    /// Every block has its length in front and behind; the one in front is filled in at the end.
+    /// Every block has its length at its start and its end; the one at the start is filled in last.
     fn begin(&mut self, block_type: u32) {
         self.block.clear();
         self.u32(block_type);
@@ -207,7 +207,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Splits a capture into its blocks: type and body, checking both lengths on the way.
+    /// Splits a capture into its blocks: type and body, checking both lengths.
     fn blocks(mut bytes: &[u8]) -> Vec<(u32, &[u8])> {
         let word = |bytes: &[u8], at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
         let mut found = Vec::new();

@@ -10,22 +10,22 @@ use crate::{
 /// A frame of a capture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Packet {
-    /// When, in nanoseconds since 1970-01-01 UTC.
+    /// Time in nanoseconds since 1970-01-01 UTC.
     pub at_nanos: u64,
-    /// Which way it went, where the capture tells.
+    /// Its direction, if the capture contains it.
     pub direction: Option<Direction>,
     /// From its destination address on, without FCS.
     pub frame: Vec<u8>,
 }
 
-/// Why bytes are no capture that can be read.
+/// Why the bytes are not a readable capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotACapture {
     /// They do not begin with a pcapng section.
     NoSection,
     /// A block that is cut short or contradicts itself.
     Block {
-        /// Where it begins, in bytes.
+        /// Its start, in bytes.
         at: usize,
     },
     /// Another link type than Ethernet.
@@ -35,7 +35,7 @@ pub enum NotACapture {
     },
     /// A packet of an interface that was not described.
     Interface {
-        /// Where the packet begins, in bytes.
+        /// The start of the packet, in bytes.
         at: usize,
     },
 }
@@ -61,13 +61,13 @@ impl core::error::Error for NotACapture {}
 
 /// Reads the packets of a capture, in the order of the file.
 ///
-/// # Errors
+/// [`NotACapture`]: the defect and its position.
 /// [`NotACapture`]: what is wrong, and where.
 pub fn read_packets(bytes: &[u8]) -> Result<Vec<Packet>, NotACapture> {
     packets(bytes)?.collect()
 }
 
-/// The packets of a capture one after the other, in the order of the file; the last is what is wrong, if anything is.
+/// The packets of a capture one after the other, in the order of the file; if there is a defect, it is the last item.
 ///
 /// # Errors
 /// [`NotACapture::NoSection`].
@@ -84,7 +84,7 @@ pub struct Packets<'a> {
     bytes: &'a [u8],
     at: usize,
     big_endian: bool,
-    /// Nanoseconds of a tick of each interface, as a fraction.
+    /// Duration of a tick in nanoseconds for each interface, as a fraction.
     interfaces: Vec<(u64, u64)>,
 }
 
@@ -107,7 +107,7 @@ impl Iterator for Packets<'_> {
 }
 
 impl<'a> Packets<'a> {
-    /// Passes a block; the packet, if it is one.
+    /// Processes a block; returns the packet, if it is one.
     fn block(&mut self) -> Result<Option<Packet>, NotACapture> {
         let at = self.at;
         let broken = NotACapture::Block { at };
@@ -197,7 +197,7 @@ impl<'a> Packets<'a> {
     }
 }
 
-/// Nanoseconds of a tick, as a fraction: a power of ten, or with bit 7 of two.
+/// Duration of a tick in nanoseconds, as a fraction: a power of ten, or a power of two if bit 7 is set.
 fn tick(resolution: u8) -> (u64, u64) {
     let exponent = u32::from(resolution & 0x7F);
     let ticks =

@@ -1,19 +1,19 @@
-//! What a device says of itself, before it is ESI or SII.
+//! The description of a device, independent of ESI and SII.
 
 use bitflags::bitflags;
 
 use crate::{DiagMessage, EscPresets, FmmuUsage, InitCommand, Pdo, SyncManager, Timeouts};
 
-/// Everything that the ESI file and the EEPROM tell of a device, apart from its object dictionary.
+/// All contents of the ESI file and the EEPROM, except the object dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DeviceDescription {
-    /// Who made it.
+    /// The manufacturer.
     pub vendor: Vendor,
     /// The group under which a configuration tool lists it.
     pub group: Group,
-    /// Order code, the text of the ESI `Type`; masters show it as the device's name.
+    /// Order code, the text of the ESI `Type`; masters show it as the name of the device.
     pub order_code: String,
-    /// Name for people.
+    /// Name for display.
     pub name: String,
     /// Product code, SII words 0x0A and 0x0B.
     pub product_code: u32,
@@ -21,7 +21,7 @@ pub struct DeviceDescription {
     pub revision: u32,
     /// Serial number, SII words 0x0E and 0x0F; 0: none.
     pub serial: u32,
-    /// What is behind ports 0 to 3.
+    /// The kinds of ports 0 to 3.
     pub ports: [PortPhysics; 4],
     /// SII words 0 to 3: PDI control and ESC configuration, PDI configuration, SYNC pulse length in 10 ns,
     /// extended PDI configuration. The ESC loads them into 0x0140, 0x0150, 0x0982 and 0x0152.
@@ -39,7 +39,7 @@ pub struct DeviceDescription {
     pub identification_offset: u16,
     /// Current drawn from the EBus in mA; negative feeds in.
     pub ebus_current_ma: i16,
-    /// What the FMMUs are for, FMMU 0 first. 8 at most on an ESC of the ET1100 class.
+    /// The purposes of the FMMUs, FMMU 0 first. 8 at most on an ESC of the ET1100 class.
     pub fmmus: Vec<FmmuUsage>,
     /// The SyncManagers, SyncManager 0 first. 8 at most on an ESC of the ET1100 class.
     pub sync_managers: Vec<SyncManager>,
@@ -47,9 +47,9 @@ pub struct DeviceDescription {
     pub rx_pdos: Vec<Pdo>,
     /// PDOs from slave to master with their default entries.
     pub tx_pdos: Vec<Pdo>,
-    /// What the master writes by CoE on its way up.
+    /// The CoE writes that the master makes at start-up.
     pub init_commands: Vec<InitCommand>,
-    /// How long a master should wait.
+    /// Time-outs of the master.
     pub timeouts: Timeouts,
     /// Registers that the master should preset.
     pub esc_presets: EscPresets,
@@ -71,11 +71,11 @@ pub struct Vendor {
 pub struct Group {
     /// Key of the group, referred to by the ESI `GroupType`.
     pub group_type: String,
-    /// Its name for people.
+    /// Its name for display.
     pub name: String,
 }
 
-/// What is behind a port of the ESC (SII category 30, bytes 16 and 17; ESI `Physics`).
+/// The kind of a port of the ESC (SII category 30, bytes 16 and 17; ESI `Physics`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PortPhysics {
     /// 0: no port.
@@ -87,12 +87,12 @@ pub enum PortPhysics {
     Ebus,
     /// 4: fast hot connect.
     FastHotConnect,
-    /// A code that names nothing, kept as it came (0 to 15).
+    /// An undefined code, kept as received (0 to 15).
     Other(u8),
 }
 
 impl PortPhysics {
-    /// The physics of a nibble.
+    /// The physics for a nibble.
     #[must_use]
     pub const fn from_bits(bits: u8) -> Self {
         match bits & 0x0F {
@@ -117,7 +117,7 @@ impl PortPhysics {
     }
 }
 
-/// The mailbox: two areas of process RAM and what is spoken through them.
+/// The mailbox: two areas of process RAM and the protocols that use them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mailbox {
     /// From master to slave (SyncManager 0).
@@ -128,7 +128,7 @@ pub struct Mailbox {
     pub bootstrap: Option<(MailboxArea, MailboxArea)>,
     /// The protocols.
     pub protocols: MailboxProtocols,
-    /// What CoE can do.
+    /// The services of CoE.
     pub coe_details: CoeDetails,
 }
 
@@ -189,9 +189,9 @@ bitflags! {
         const ENABLE_NOT_LRW = 1 << 1;
         /// The mailbox data link layer (repeat of lost replies) is supported.
         const MAILBOX_DATA_LINK_LAYER = 1 << 2;
-        /// The identification value is told in the AL status code (0x0134).
+        /// The identification value is in the AL status code (0x0134).
         const IDENT_AL_STATUS = 1 << 3;
-        /// The identification value is told in a register.
+        /// The identification value is in a register.
         const IDENT_PHY_M = 1 << 4;
     }
 }

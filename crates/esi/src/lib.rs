@@ -1,8 +1,8 @@
 //! ESI and SII: written and read from one device description.
 //!
-//! A [`DeviceDescription`] is plain data and knows of no unit model. [`sii::image`] makes the EEPROM image
-//! of it, [`xml`] the ESI file; both tell the same, because both read the same description and, for the
-//! dictionary, the same [`objects::ObjectTable`] that answers online.
+//! A [`DeviceDescription`] is plain data and independent of unit models. [`sii::image`] makes the EEPROM image
+//! from it, [`xml`] the ESI file; both agree, because both are made from the same description and, for the
+//! dictionary, from the same [`objects::ObjectTable`] that answers online.
 
 mod description;
 mod process_data;

@@ -2,7 +2,7 @@
 
 use wire::{DataType, ObjectIndex, SubIndex};
 
-/// What an FMMU is for (SII category 40).
+/// The purpose of an FMMU (SII category 40).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FmmuUsage {
     /// 0 (0xFF is read as the same): nothing.
@@ -13,7 +13,7 @@ pub enum FmmuUsage {
     Inputs,
     /// 3: SyncManager status. SOEM then maps a third FMMU to 0x080D.
     MailboxState,
-    /// A code that names nothing, kept as it came.
+    /// An undefined code, kept as received.
     Other(u8),
 }
 
@@ -43,10 +43,10 @@ impl FmmuUsage {
     }
 }
 
-/// What a SyncManager is for (SII category 41, byte 7).
+/// The purpose of a SyncManager (SII category 41, byte 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SyncManagerType {
-    /// 0: nothing, or nothing that is told.
+    /// 0: unused, or not indicated.
     Unused,
     /// 1: mailbox from master to slave.
     MailboxOut,
@@ -56,7 +56,7 @@ pub enum SyncManagerType {
     Outputs,
     /// 4: process data from slave to master.
     Inputs,
-    /// A code that names nothing, kept as it came.
+    /// An undefined code, kept as received.
     Other(u8),
 }
 
@@ -88,18 +88,18 @@ impl SyncManagerType {
     }
 }
 
-/// How a SyncManager is set.
+/// The settings of a SyncManager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SyncManager {
-    /// What it is for.
+    /// Its purpose.
     pub usage: SyncManagerType,
     /// Physical start address.
     pub start: u16,
-    /// Length in bytes when nothing else is set: the mailbox, or the default PDOs.
+    /// Length in bytes unless set otherwise: the mailbox, or the default PDOs.
     pub default_bytes: u16,
-    /// Least length in bytes that a master may set; none: not told.
+    /// Minimum length in bytes that a master may set; none: not indicated.
     pub min_bytes: Option<u16>,
-    /// Greatest length in bytes that a master may set; none: not told.
+    /// Maximum length in bytes that a master may set; none: not indicated.
     pub max_bytes: Option<u16>,
     /// Control byte, 0x0804 + 8n.
     pub control: u8,
@@ -116,11 +116,11 @@ pub struct Pdo {
     pub name: String,
     /// Its entries in order, 255 at most.
     pub entries: Vec<PdoEntry>,
-    /// SyncManager that it is assigned to by default; none when it is not assigned.
+    /// SyncManager to which it is assigned by default; none if it is not assigned.
     pub sync_manager: Option<u8>,
     /// Whether its mapping cannot be changed.
     pub fixed: bool,
-    /// Whether it cannot be left out of the assignment.
+    /// Whether it must be in the assignment.
     pub mandatory: bool,
 }
 
@@ -141,21 +141,21 @@ pub struct PdoEntry {
     pub sub: SubIndex,
     /// Its name; empty for padding.
     pub name: String,
-    /// Its data type; 0 for padding. The SII shows types above 0xFF as 0, it has one byte for them.
+    /// Its data type; 0 for padding. The SII shows types above 0xFF as 0, because it has one byte for them.
     pub data_type: DataType,
     /// Its length in bits, 1 to 255.
     pub bit_length: u8,
 }
 
 impl PdoEntry {
-    /// Bits that carry nothing.
+    /// Bits without contents.
     #[must_use]
     pub const fn padding(bit_length: u8) -> Self {
         let (index, sub, data_type) = (ObjectIndex(0), SubIndex::ZERO, DataType(0));
         Self { index, sub, name: String::new(), data_type, bit_length }
     }
 
-    /// Whether the bits carry nothing.
+    /// Whether the bits are padding.
     #[must_use]
     pub const fn is_padding(&self) -> bool {
         self.index.0 == 0

@@ -1,4 +1,4 @@
-//! What a description asks of the master: init commands, time-outs, presets, texts.
+//! What a description requires of the master: init commands, time-outs, presets, texts.
 
 use wire::{ObjectIndex, SubIndex};
 
@@ -52,19 +52,19 @@ impl Transition {
 /// An SDO download that the master makes at a transition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InitCommand {
-    /// When.
+    /// The transition.
     pub transition: Transition,
-    /// Where: index.
+    /// Index of the entry.
     pub index: ObjectIndex,
-    /// Where: subindex.
+    /// Subindex of the entry.
     pub sub: SubIndex,
-    /// What, as the SDO carries it (little endian).
+    /// The value, as in the SDO (little endian).
     pub data: Vec<u8>,
-    /// Why.
+    /// The reason.
     pub comment: String,
 }
 
-/// How long a master should wait, in milliseconds.
+/// Time-outs of the master, in milliseconds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Timeouts {
     /// INIT to PRE-OP.
@@ -75,14 +75,14 @@ pub struct Timeouts {
     pub back_to_init_ms: u32,
     /// OP to SAFE-OP.
     pub back_to_safe_op_ms: u32,
-    /// Until the mailbox takes a request.
+    /// Until the mailbox accepts a request.
     pub mailbox_request_ms: u32,
     /// From a mailbox request to its reply.
     pub mailbox_response_ms: u32,
 }
 
 impl Timeouts {
-    /// The values that ESI files in the field carry.
+    /// The usual values of ESI files.
     pub const USUAL: Self = Self {
         pre_op_ms: 3_000,
         safe_op_op_ms: 9_000,
@@ -99,7 +99,7 @@ impl Default for Timeouts {
     }
 }
 
-/// Registers of the ESC that the master should preset; none: it leaves them at reset value.
+/// Registers of the ESC that the master should preset; none: the register keeps its reset value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EscPresets {
     /// 0x0108, read/write offset.
@@ -115,8 +115,8 @@ pub struct EscPresets {
 /// A text of the diagnosis history (ETG.1020, object 10F3).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DiagMessage {
-    /// The text ID that a message carries.
+    /// The text ID in a message.
     pub text_id: u16,
-    /// The text, with `%d` and the like for its parameters.
+    /// The text, with placeholders such as `%d` for its parameters.
     pub text: String,
 }

@@ -1,11 +1,11 @@
-//! The device that the tests of this crate describe.
+//! The device in the tests of this crate.
 
 use objects::{AccessRights, Entry, Object, ObjectCode, ObjectTable};
 use wire::{DataType, ObjectIndex, SubIndex};
 
 use crate::*;
 
-/// A description with something in every field.
+/// A description in which every field has a value.
 pub(crate) fn small_device() -> DeviceDescription {
     let sync_manager = |usage, start, default_bytes, control| SyncManager {
         usage,

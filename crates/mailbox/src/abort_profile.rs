@@ -1,4 +1,4 @@
-//! Which abort code a unit gives where the standard has several for one reason.
+//! Which abort code a unit returns if the standard has several for one reason.
 
 use wire::SdoAbort;
 
@@ -9,16 +9,16 @@ pub struct AbortProfile {
     pub length_too_high: SdoAbort,
     /// A download is shorter than the entry, or ends within an entry.
     pub length_too_low: SdoAbort,
-    /// Complete access to an object that has none.
+    /// Complete access to an object that does not support it.
     pub complete_access_unsupported: SdoAbort,
     /// Complete access that begins at a subindex above 1.
     pub complete_access_subindex: SdoAbort,
-    /// An upload of what can only be written.
+    /// An upload of a write-only entry.
     pub write_only: SdoAbort,
 }
 
 impl AbortProfile {
-    /// The most telling code for each reason (CiA 301 and ETG.1000.6).
+    /// The most specific code for each reason (CiA 301 and ETG.1000.6).
     pub const CIA_301: Self = Self {
         length_too_high: SdoAbort::LENGTH_TOO_HIGH,
         length_too_low: SdoAbort::LENGTH_TOO_LOW,
@@ -27,8 +27,7 @@ impl AbortProfile {
         write_only: SdoAbort::WRITE_ONLY,
     };
 
-    /// One code for every length and one for every access that is not supported, as units have it whose
-    /// manual lists no more than these.
+    /// One code for every wrong length and one for every unsupported access, for units whose manual lists no others.
     pub const COARSE: Self = Self {
         length_too_high: SdoAbort::LENGTH_MISMATCH,
         length_too_low: SdoAbort::LENGTH_MISMATCH,

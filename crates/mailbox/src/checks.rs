@@ -1,13 +1,13 @@
-//! What a master may do with an object, in the order in which a slave looks: does the object exist, has it
-//! complete access, does the subindex exist, has anybody the right, in this state, does the length fit,
-//! does the value (ETG.1000.6, SDO; the codes are those of CiA 301).
+//! What a master may do with an object. The checks run in the order of a slave: the object exists, it supports
+//! complete access, the subindex exists, the access right exists, it applies in this state, the length fits,
+//! the value is within its limits (ETG.1000.6, SDO; the codes are those of CiA 301).
 
 use objects::{AccessRights, Entry, Object, ObjectServer, ObjectTable};
 use wire::{AlState, SdoAbort, SdoAccess, SdoTarget, SubIndex};
 
 use crate::AbortProfile;
 
-/// Where and by which unit's codes a request is judged.
+/// The state and the unit's abort codes with which a request is checked.
 #[derive(Clone, Copy)]
 pub(crate) struct Judge {
     pub(crate) state: AlState,
@@ -36,8 +36,8 @@ impl Judge {
         if !union(entries).intersects(AccessRights::WRITE) {
             return Err(SdoAbort::READ_ONLY);
         }
-        // Complete access passes over what is read-only, but what is only closed now refuses it all: it
-        // would be lost without a word.
+        // Complete access skips read-only entries, but an entry that is writable only in another state refuses
+        // the whole access: its value would be discarded silently.
         let closed =
             |entry: &Entry| union([entry]).intersects(AccessRights::WRITE) && !self.is_open(entry.access);
         if entries.iter().any(closed) {
@@ -50,8 +50,7 @@ impl Judge {
         }
     }
 
-    /// Whether the server's values and `octets` let the download happen; the request has passed
-    /// [`Judge::check_download`].
+    /// Whether the server's values and `octets` permit the download; the request has passed [`Judge::check_download`].
     pub(crate) fn check_values(
         self,
         server: &mut dyn ObjectServer,
@@ -75,7 +74,7 @@ impl Judge {
         }
     }
 
-    /// The entries that decide on the access right.
+    /// The entries that determine the access right.
     fn entries(self, table: &ObjectTable, target: SdoTarget) -> Result<&[Entry], SdoAbort> {
         let object = table.object(target.index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
         if target.access == SdoAccess::Complete {
@@ -93,7 +92,8 @@ impl Judge {
         if first > SubIndex(1) {
             return Err(self.aborts.complete_access_subindex);
         }
-        // Subindex 0 of an array or record only counts; unless the master sets it, the others decide.
+        // Subindex 0 of an array or record is only a count; unless the master sets it, the other entries
+        // determine the right.
         let counts = object.max_sub() > SubIndex::ZERO && !object.is_counted_by_master();
         let from = if counts { SubIndex(1) } else { first };
         let skipped = object.entries.partition_point(|entry| entry.sub < from);
@@ -131,14 +131,14 @@ impl Judge {
         Ok(())
     }
 
-    /// Where the master sets the number of entries, the bytes hold at least that many.
+    /// If the master sets the number of entries, the bytes hold at least that many.
     fn check_counted(self, object: &Object, first: SubIndex, octets: &[u8]) -> Result<(), SdoAbort> {
         if !object.is_counted_by_master() || first != SubIndex::ZERO {
             return Ok(());
         }
         let last = SubIndex(octets.first().copied().unwrap_or_default());
         let needed_bytes = object.layout(first).length_bytes_to(last);
-        // Without entries the byte that pads subindex 0 is not missed.
+        // Without entries, the padding byte of subindex 0 may be missing.
         if last == SubIndex::ZERO || octets.len() >= needed_bytes {
             Ok(())
         } else {

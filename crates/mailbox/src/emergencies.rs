@@ -1,9 +1,9 @@
-//! Emergencies that wait for the mailbox: bounded, and it says what it lost.
+//! Emergencies that wait for the mailbox: a bounded queue that counts what it loses.
 
 use arrayvec::ArrayVec;
 use wire::Emergency;
 
-/// How many emergencies wait at most.
+/// Maximum number of waiting emergencies.
 const CAPACITY: usize = 16;
 
 /// The queue was full: the emergency is lost and counted.

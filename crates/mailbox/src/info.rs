@@ -6,11 +6,11 @@ use wire::{
     SdoInfoList, SdoInfoOpcode, SdoInfoRequest, SdoInfoSyntaxError, SubIndex, ValueInfo, pack_sdo_info_error,
 };
 
-/// The server; a list that does not fit one message goes out in fragments.
+/// The server; a list that does not fit into one message is sent in fragments.
 #[derive(Debug)]
 pub(crate) struct InfoServer {
     list: SdoInfoList,
-    /// What the list holds, and from where on it is still to be sent.
+    /// The contents of the list, and the position of the next fragment.
     items: Vec<u16>,
     next: usize,
     /// Default, minimum and maximum of the entry that is being described.
@@ -33,14 +33,14 @@ impl InfoServer {
         self.next = 0;
     }
 
-    /// Serves a request; the bytes of the answer in `room`, behind the CoE header.
+    /// Serves a request; returns the number of response bytes in `room`, after the CoE header.
     pub(crate) fn request(
         &mut self,
         request: &[u8],
         table: &ObjectTable,
         room: &mut [u8],
     ) -> Result<Option<usize>, MailboxErrorCode> {
-        // A further request ends the list that is still on its way.
+        // A further request ends the list that is still being sent.
         self.reset();
         let outcome = match SdoInfoRequest::parse(request) {
             Ok(SdoInfoRequest::List(list)) => self.begin_list(list, table).map(|()| self.fragment(room)),
@@ -54,12 +54,12 @@ impl InfoServer {
         Ok(outcome.unwrap_or_else(|code| pack_sdo_info_error(code, room)))
     }
 
-    /// Whether a fragment waits.
+    /// Whether a fragment is waiting.
     pub(crate) fn is_pending(&self) -> bool {
         self.next < self.items.len()
     }
 
-    /// The next fragment; none if no list is on its way.
+    /// The next fragment; none if no list is being sent.
     pub(crate) fn next_fragment(&mut self, room: &mut [u8]) -> Option<usize> {
         if self.is_pending() { self.fragment(room) } else { None }
     }
@@ -126,7 +126,7 @@ impl InfoServer {
         Ok(describe(SdoInfoOpcode::EntryResponse, room, |body| description.pack(body)))
     }
 
-    /// Gathers those of the values asked for that the entry has and that fit; tells which.
+    /// Collects those of the requested values that the entry has and that fit; returns which.
     fn gather_values(&mut self, entry: &Entry, asked: ValueInfo, room_bytes: usize) -> ValueInfo {
         let size_bytes = entry.size_bytes();
         let range = entry.range();
@@ -149,8 +149,8 @@ impl InfoServer {
     }
 }
 
-/// A subindex without an entry, as Beckhoff's slave stack describes it: masters ask for every subindex up to the
-/// highest, and take a refusal for a fault.
+/// A subindex without an entry, as Beckhoff's slave stack describes it: masters request every subindex up to
+/// the highest, and take a refusal for a fault.
 fn gap(index: ObjectIndex, sub: SubIndex, asked: ValueInfo) -> EntryDescription<'static> {
     EntryDescription {
         index,
@@ -164,7 +164,7 @@ fn gap(index: ObjectIndex, sub: SubIndex, asked: ValueInfo) -> EntryDescription<
     }
 }
 
-/// What the access word tells.
+/// The parts that the access word contains.
 fn in_access_word() -> ValueInfo {
     ValueInfo::ACCESS_RIGHTS | ValueInfo::CATEGORY | ValueInfo::PDO_MAPPING
 }
@@ -197,7 +197,7 @@ fn describe(
     Some(SdoInfoHeader::LENGTH_BYTES + pack(body)?)
 }
 
-/// A description fits one message: its name is cut if need be.
+/// A description fits into one message: its name is cut if necessary.
 fn cut(name: &str, room_bytes: usize) -> &[u8] {
     name.as_bytes().get(..room_bytes).unwrap_or(name.as_bytes())
 }

@@ -1,8 +1,8 @@
 //! Mailbox services: request bytes in, reply bytes or abort code out.
 //!
-//! [`Mailbox`] answers what a master has put into SyncManager 0, and hands out what goes into the other
-//! one. It knows neither the slave controller nor the unit: values come from an [`objects::ObjectServer`].
-//! After construction it allocates nothing.
+//! [`Mailbox`] answers messages that a master has written to SyncManager 0, and provides the messages for
+//! SyncManager 1. It depends neither on the slave controller nor on the unit: values come from an
+//! [`objects::ObjectServer`]. After construction it allocates nothing.
 //!
 //! ```
 //! use std::sync::Arc;

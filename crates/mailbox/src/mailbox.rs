@@ -1,4 +1,4 @@
-//! The mailbox: headers, counters, error replies, and which service gets what (ETG.1000.4, mailbox).
+//! The mailbox: headers, counters, error replies, and the service for each message (ETG.1000.4, mailbox).
 
 use objects::{ObjectServer, ObjectTable};
 use wire::{
@@ -25,7 +25,7 @@ pub struct MailboxSizes {
 impl MailboxSizes {
     /// The shortest mailbox.
     pub const MIN_BYTES: u16 = 34;
-    /// The longest mailbox: one that a frame can carry.
+    /// The longest mailbox: one that fits into a frame.
     pub const MAX_BYTES: u16 = 1486;
 
     fn are_valid(self) -> bool {
@@ -36,9 +36,9 @@ impl MailboxSizes {
 
 /// The mailbox of one slave.
 ///
-/// Its owner moves the bytes: what the master has written goes to [`Mailbox::request`] as soon as the
-/// master's mailbox is free for an answer; whenever it is free, [`Mailbox::next_unsolicited`] may have
-/// something too. When the master has read its mailbox, [`Mailbox::confirm_read`] is to be told.
+/// Its owner moves the bytes: it passes the master's message to [`Mailbox::request`] as soon as the mailbox for
+/// the answer is empty; whenever that is empty, [`Mailbox::next_unsolicited`] may also return a message. When
+/// the master has read its mailbox, the owner calls [`Mailbox::confirm_read`].
 #[derive(Debug)]
 pub struct Mailbox {
     sizes: MailboxSizes,
@@ -47,9 +47,9 @@ pub struct Mailbox {
     info: InfoServer,
     emergencies: Emergencies,
     outbox: Outbox,
-    /// Counter of the last counted message that came, 0 for none.
+    /// Counter of the last counted message received, 0 for none.
     received_counter: u8,
-    /// Counter of the last message that went, 0 for none.
+    /// Counter of the last message sent, 0 for none.
     sent_counter: u8,
 }
 
@@ -57,10 +57,10 @@ impl Mailbox {
     /// Headers before an SDO or an SDO information message.
     const COE_OVERHEAD_BYTES: usize = MailboxHeader::LENGTH_BYTES + CoeHeader::LENGTH_BYTES;
 
-    /// A mailbox for the objects of `table`. Everything it ever needs is allocated here.
+    /// A mailbox for the objects of `table`. All the memory that it needs is allocated here.
     ///
     /// # Panics
-    /// If a size is below 34 or above 1,486 bytes: the sizes are ours.
+    /// If a size is below 34 or above 1,486 bytes: the sizes are part of this program.
     #[must_use]
     pub fn new(sizes: MailboxSizes, aborts: AbortProfile, table: &ObjectTable) -> Self {
         assert!(sizes.are_valid(), "{sizes:?}: a mailbox has 34 to 1,486 octets");
@@ -77,7 +77,7 @@ impl Mailbox {
         }
     }
 
-    /// Starts afresh, as at INIT to PRE-OP: no transfer, no message, no emergency, counters from the beginning.
+    /// Resets the mailbox, as at INIT to PRE-OP: no transfer, no message, no emergency, counters at their start.
     pub fn reset(&mut self) {
         self.sdo.reset();
         self.info.reset();
@@ -93,8 +93,8 @@ impl Mailbox {
         self.sizes
     }
 
-    /// Serves what lies in SyncManager 0; `reply` is as long as SyncManager 1. The bytes of the reply;
-    /// none if there is nothing to say (a message that came twice, an SDO abort, a state without mailbox).
+    /// Serves the message in SyncManager 0; `reply` is as long as SyncManager 1. Returns the number of reply
+    /// bytes; none if there is no reply (a message received twice, an SDO abort, a state without mailbox).
     pub fn request(
         &mut self,
         request: &[u8],
@@ -120,15 +120,15 @@ impl Mailbox {
         self.send(mailbox_type, address, length_bytes, reply)
     }
 
-    /// Whether [`Mailbox::next_unsolicited`] has something in a state with CoE.
+    /// Whether [`Mailbox::next_unsolicited`] returns a message in a state with CoE.
     #[must_use]
     pub fn has_unsolicited(&self) -> bool {
         self.outbox.is_waiting() || self.info.is_pending() || !self.emergencies.is_empty()
     }
 
-    /// What goes to the master without a further request: a message that made room for a repeated one, the
-    /// next fragment of a list, the oldest emergency. `reply` is as long as SyncManager 1. The bytes of the
-    /// message; none if nothing waits. Only for states with CoE (PRE-OP, SAFE-OP, OP).
+    /// A message to the master without a further request: a message that was replaced by a repeated one, the
+    /// next fragment of a list, the oldest emergency. `reply` is as long as SyncManager 1. Returns the number
+    /// of bytes; none if no message is waiting. Only for states with CoE (PRE-OP, SAFE-OP, OP).
     pub fn next_unsolicited(&mut self, reply: &mut [u8]) -> Option<usize> {
         let reply = reply.get_mut(..usize::from(self.sizes.send_bytes))?;
         if let Some(length_bytes) = self.outbox.take_waiting(reply) {
@@ -151,12 +151,12 @@ impl Mailbox {
     /// Queues an emergency for [`Mailbox::next_unsolicited`].
     ///
     /// # Errors
-    /// If sixteen wait already: this one is lost and counted.
+    /// If sixteen are already waiting: this one is lost and counted.
     pub fn queue_emergency(&mut self, emergency: Emergency) -> Result<(), EmergencyLost> {
         self.emergencies.push(emergency)
     }
 
-    /// How many emergencies were lost since the mailbox was made.
+    /// Number of emergencies lost since the mailbox was created.
     #[must_use]
     pub fn emergencies_lost(&self) -> u64 {
         self.emergencies.lost()
@@ -167,14 +167,14 @@ impl Mailbox {
         self.outbox.confirm_read();
     }
 
-    /// The master asks by register 0x080E bit 1 for the message that it read last: the same bytes again,
-    /// which then replace what lies in SyncManager 1. None if it has read none since [`Mailbox::reset`];
-    /// SyncManager 1 stays as it is then.
+    /// The master requests, by register 0x080E bit 1, the message that it read last: the same bytes again,
+    /// which then replace the contents of SyncManager 1. None if the master has read none since
+    /// [`Mailbox::reset`]; SyncManager 1 is then unchanged.
     pub fn repeat(&mut self, reply: &mut [u8]) -> Option<usize> {
         self.outbox.repeat(reply)
     }
 
-    /// Whether this message was served already; messages with counter 0 are never compared.
+    /// Whether this message has already been served; messages with counter 0 are never compared.
     fn came_before(&mut self, header: MailboxHeader) -> bool {
         if header.counter == 0 {
             return false;
@@ -184,7 +184,7 @@ impl Mailbox {
         again
     }
 
-    /// Serves a message; the bytes of the answer in `room`, behind the mailbox header.
+    /// Serves a message; returns the number of response bytes in `room`, after the mailbox header.
     fn serve(
         &mut self,
         header: Option<MailboxHeader>,
@@ -194,7 +194,7 @@ impl Mailbox {
         room: &mut [u8],
     ) -> Result<Option<usize>, MailboxErrorCode> {
         let header = header.ok_or(MailboxErrorCode::SIZE_TOO_SHORT)?;
-        // BOOT has FoE only, and FoE is none of ours.
+        // BOOT has FoE only, and FoE is not supported.
         if header.mailbox_type != MailboxType::Coe || judge.state == AlState::Boot {
             return Err(MailboxErrorCode::UNSUPPORTED_PROTOCOL);
         }
@@ -231,7 +231,8 @@ impl Mailbox {
         Ok(length_bytes.map(|length_bytes| CoeHeader::LENGTH_BYTES + length_bytes))
     }
 
-    /// Puts the header before a message and keeps a copy of it. The address of a reply is the request's.
+    /// Writes the header before a message and keeps a copy of the message. The address of a reply is that of
+    /// the request.
     fn send(
         &mut self,
         mailbox_type: MailboxType,

@@ -1,6 +1,6 @@
-//! Copies of the last messages, for a master that lost one on its way (ETG.1000.4, mailbox repeat).
+//! Copies of the last messages, for a master that did not receive one (ETG.1000.4, mailbox repeat).
 
-/// Which message lies in the master's mailbox.
+/// Which message is in the master's mailbox.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InMailbox {
     Nothing,
@@ -14,7 +14,7 @@ pub(crate) struct Outbox {
     read: Vec<u8>,
     newest: Vec<u8>,
     in_mailbox: InMailbox,
-    /// The newest message had to make room for a repeated one.
+    /// The newest message was replaced by a repeated one.
     newest_waits: bool,
 }
 
@@ -35,7 +35,7 @@ impl Outbox {
         self.newest_waits = false;
     }
 
-    /// `message` goes into the mailbox.
+    /// `message` is put into the mailbox.
     pub(crate) fn sent(&mut self, message: &[u8]) {
         self.newest.clear();
         self.newest.extend_from_slice(message);
@@ -51,7 +51,7 @@ impl Outbox {
         self.in_mailbox = InMailbox::Nothing;
     }
 
-    /// The message that the master read last, once more; none if it has read none.
+    /// The message that the master read last, again; none if it has read none.
     pub(crate) fn repeat(&mut self, message: &mut [u8]) -> Option<usize> {
         let length_bytes = copy(&self.read, message)?;
         self.newest_waits |= self.in_mailbox == InMailbox::Newest;
@@ -59,7 +59,7 @@ impl Outbox {
         Some(length_bytes)
     }
 
-    /// The newest message, if it made room for a repeated one.
+    /// The newest message, if it was replaced by a repeated one.
     pub(crate) fn take_waiting(&mut self, message: &mut [u8]) -> Option<usize> {
         if !self.newest_waits {
             return None;

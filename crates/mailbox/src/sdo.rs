@@ -16,7 +16,7 @@ enum Transfer {
     Download { target: SdoTarget, size_bytes: usize, received_bytes: usize, expected_toggle: bool },
 }
 
-/// Why a request gets an abort.
+/// Why a request is aborted.
 struct Refusal {
     index: ObjectIndex,
     sub: SubIndex,
@@ -28,7 +28,7 @@ impl Refusal {
         move |code| Self { index: target.index, sub: target.sub, code }
     }
 
-    /// A segment that belongs to no transfer, which names no object either.
+    /// A segment without a transfer, and so without an object.
     const NO_TRANSFER: Self =
         Self { index: ObjectIndex(0), sub: SubIndex::ZERO, code: SdoAbort::COMMAND_SPECIFIER_UNKNOWN };
 }
@@ -37,16 +37,16 @@ impl Refusal {
 #[derive(Debug)]
 pub(crate) struct SdoServer {
     transfer: Transfer,
-    /// The value on its way.
+    /// The value being transferred.
     buffer: Vec<u8>,
-    /// Room for old values while complete access writes new ones.
+    /// Memory for old values while complete access writes new ones.
     undo: Vec<u8>,
-    /// Bytes of one SDO, behind the CoE header.
+    /// Maximum length of one SDO in bytes, after the CoE header.
     sdo_bytes_max: usize,
 }
 
 impl SdoServer {
-    /// A server for the objects of `table`, whose responses are at most `sdo_bytes_max` long.
+    /// A server for the objects of `table`, whose responses have at most `sdo_bytes_max` bytes.
     pub(crate) fn new(table: &ObjectTable, sdo_bytes_max: usize) -> Self {
         let longest_bytes = table.longest_transfer_bytes();
         Self {
@@ -61,7 +61,7 @@ impl SdoServer {
         self.transfer = Transfer::Idle;
     }
 
-    /// Serves one SDO; the response, or none for an abort of the master.
+    /// Serves one SDO; returns the response, or none for an abort by the master.
     pub(crate) fn request(
         &mut self,
         sdo: &[u8],
@@ -86,7 +86,7 @@ impl SdoServer {
         judge: Judge,
         objects: &mut dyn ObjectServer,
     ) -> Result<Option<SdoResponse<'_>>, Refusal> {
-        // An initiate request ends, without a word, the transfer before it.
+        // An initiate request silently ends the transfer before it.
         let transfer = core::mem::replace(&mut self.transfer, Transfer::Idle);
         match request {
             SdoRequest::Upload { target } => {
@@ -204,7 +204,7 @@ impl SdoServer {
         Ok(SdoResponse::DownloadSegment { toggle })
     }
 
-    /// Reads the target into the buffer; the bytes read.
+    /// Reads the target into the buffer; returns the number of bytes read.
     fn read(
         &mut self,
         target: SdoTarget,

@@ -1,23 +1,23 @@
 //! Complete access: all entries of an object at once, through the single entries of an [`ObjectServer`].
 //!
 //! An object whose subindex 0 a master sets (PDO mapping and assignment, see
-//! [`crate::Object::is_counted_by_master`]) is as long as its subindex 0 says: an upload holds that many
-//! entries. A download writes 0 to subindex 0, then the entries, then the number, which is the sequence
-//! that such objects ask for. Every other object always has all its entries.
+//! [`crate::Object::is_counted_by_master`]) has the number of entries in its subindex 0: an upload contains
+//! that many entries. A download writes 0 to subindex 0, then the entries, then the number, which is the
+//! sequence that such objects require. Every other object always has all its entries.
 
 use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 
 use crate::layout::Cursor;
 use crate::{AccessRights, ObjectServer, Slot};
 
-/// Most bytes of a value that is packed bitwise.
+/// Maximum length in bytes of a value that is packed bitwise.
 const PACKED_BYTES_MAX: usize = 8;
 
-/// Reads an object from subindex `first` on (0 or 1) into `octets`; the bytes filled. Entries that
-/// `state` does not let a master read are 0.
+/// Reads an object from subindex `first` on (0 or 1) into `octets`; returns the number of bytes filled. Entries
+/// that a master may not read in `state` are 0.
 ///
 /// # Errors
-/// What an entry refuses with; 0x06020000 if there is no such object, 0x05040005 if `octets` are too few.
+/// The abort code of the entry; 0x06020000 if there is no such object, 0x05040005 if `octets` is too short.
 pub fn read<S: ObjectServer + ?Sized>(
     server: &mut S,
     index: ObjectIndex,
@@ -39,13 +39,14 @@ pub fn read<S: ObjectServer + ?Sized>(
     Ok(length_bytes)
 }
 
-/// Writes the entries that `octets` hold from subindex `first` on (0 or 1), laid out as [`crate::Object::layout`] says;
-/// `octets` may end early, behind a whole entry. Entries that are never writable are passed over. If one is refused,
-/// those before it get their old values back; `undo` is room for them, as long as the object's whole layout.
+/// Writes the entries in `octets` from subindex `first` on (0 or 1), in the layout of
+/// [`crate::Object::layout`]; `octets` may end early, after a whole entry. Entries that are never writable are
+/// skipped. If one is refused, the entries before it get their old values back; `undo` is the memory for them,
+/// as long as the object's whole layout.
 ///
 /// # Errors
-/// What an entry refuses with; 0x06020000 if there is no such object, 0x05040005 if `undo` is shorter than
-/// the object's layout.
+/// The abort code of the entry; 0x06020000 if there is no such object, 0x05040005 if `undo` is shorter than the
+/// object's layout.
 pub fn write<S: ObjectServer + ?Sized>(
     server: &mut S,
     index: ObjectIndex,
@@ -74,7 +75,7 @@ pub fn write<S: ObjectServer + ?Sized>(
             .inspect_err(|_| writes.restore(server, octets, undo, None))
     });
     if outcome.is_err() {
-        // The number stood there before, so the server takes it again.
+        // This number was the previous value, so the server accepts it.
         let _ = server.write(index, SubIndex::ZERO, &[old_count]);
     }
     outcome
@@ -84,9 +85,9 @@ pub fn write<S: ObjectServer + ?Sized>(
 #[derive(Clone, Copy)]
 struct Writes {
     index: ObjectIndex,
-    /// Where the bytes begin.
+    /// Start of the bytes.
     first: SubIndex,
-    /// The first subindex to write here: 1 where subindex 0 is written on its own.
+    /// The first subindex to write here: 1 if subindex 0 is written separately.
     values: SubIndex,
 }
 
@@ -118,7 +119,8 @@ impl Writes {
         .inspect_err(|_| self.restore(server, octets, undo, refused))
     }
 
-    /// Gives the entries before `refused`, or all of them, their old values. An entry that cannot be read keeps the new one.
+    /// Restores the old values of the entries before `refused`, or of all entries. An entry that cannot be read
+    /// keeps the new value.
     fn restore<S: ObjectServer + ?Sized>(
         self,
         server: &mut S,
@@ -129,7 +131,7 @@ impl Writes {
         let _ = for_each_slot(server, self.index, self.first, |server, slot| {
             let written = refused.is_none_or(|refused| slot.sub < refused) && self.covers(slot, octets);
             if written && slot.access.intersects(AccessRights::READ) {
-                // The value stood there before, so the server takes it again.
+                // This was the previous value, so the server accepts it.
                 let _ = write_slot(server, self.index, slot, undo);
             }
             Ok(())
@@ -137,7 +139,7 @@ impl Writes {
     }
 }
 
-/// The last subindex that complete access covers now.
+/// The last subindex that complete access covers at present.
 fn last_subindex<S: ObjectServer + ?Sized>(server: &mut S, index: ObjectIndex) -> Result<SubIndex, SdoAbort> {
     let object = server.table().object(index).ok_or(SdoAbort::OBJECT_DOES_NOT_EXIST)?;
     if object.is_counted_by_master() {
@@ -154,7 +156,7 @@ fn read_count<S: ObjectServer + ?Sized>(server: &mut S, index: ObjectIndex) -> R
     Ok(count)
 }
 
-/// Walks over the slots of an object without holding a borrow of the table.
+/// Iterates over the slots of an object without holding a borrow of the table.
 fn for_each_slot<S: ObjectServer + ?Sized>(
     server: &mut S,
     index: ObjectIndex,

@@ -1,4 +1,4 @@
-//! What exists in the dictionary: objects and entries, as ETG.1000.6 describes them by SDO information.
+//! The contents of the dictionary: objects and entries, as ETG.1000.6 describes them by SDO information.
 
 use core::ops::RangeInclusive;
 
@@ -38,7 +38,7 @@ impl AccessRights {
     /// Writable in every state that has a mailbox.
     pub const WRITE: Self = Self::WRITE_PRE_OP.union(Self::WRITE_SAFE_OP).union(Self::WRITE_OP);
 
-    /// Whether `state` lets a master read.
+    /// Whether a master may read in `state`.
     #[must_use]
     pub fn readable_in(self, state: AlState) -> bool {
         self.intersects(match state {
@@ -49,7 +49,7 @@ impl AccessRights {
         })
     }
 
-    /// Whether `state` lets a master write.
+    /// Whether a master may write in `state`.
     #[must_use]
     pub fn writable_in(self, state: AlState) -> bool {
         self.intersects(match state {
@@ -93,13 +93,13 @@ pub struct Entry {
     pub name: String,
     /// Its data type.
     pub data_type: DataType,
-    /// Its length in bits; a value takes `bit_length` rounded up to whole bytes by SDO.
+    /// Its length in bits; by SDO, a value has `bit_length` rounded up to whole bytes.
     pub bit_length: u16,
-    /// Who may touch it, when; whether it can be mapped.
+    /// Who may access it in which states; whether it can be mapped.
     pub access: AccessRights,
     /// Value at power-on, little endian, rounded up to whole bytes.
     pub default: Vec<u8>,
-    /// The values that a write may set, empty for any.
+    /// The values that a write may set; empty if any value is allowed.
     pub limits: Vec<RangeInclusive<u64>>,
 }
 
@@ -110,7 +110,7 @@ impl Entry {
         usize::from(self.bit_length).div_ceil(8)
     }
 
-    /// Whether the limits let `value`, little endian, through. Values longer than 64 bits have no limits.
+    /// Whether `value`, little endian, is within the limits. Values longer than 64 bits have no limits.
     #[must_use]
     pub fn allows(&self, value: &[u8]) -> bool {
         if self.limits.is_empty() {
@@ -119,8 +119,8 @@ impl Entry {
         unsigned(value).is_none_or(|value| self.limits.iter().any(|limit| limit.contains(&value)))
     }
 
-    /// The least and the greatest value that it can have: those that a write may set, and its default, which is none
-    /// of them where a write is a command. None without limits, and for values longer than 64 bits.
+    /// The minimum and maximum of its possible values: those that a write may set, and its default, which is
+    /// not one of them if a write is a command. None without limits, and for values longer than 64 bits.
     #[must_use]
     pub fn range(&self) -> Option<RangeInclusive<u64>> {
         let default = unsigned(&self.default)?;
@@ -129,8 +129,8 @@ impl Entry {
         Some(least.min(default)..=greatest.max(default))
     }
 
-    /// Whether complete access packs it bit by bit behind its neighbour: booleans, BIT1 to BIT8, bit
-    /// arrays, and whatever else is no whole number of bytes.
+    /// Whether complete access packs it bit by bit after its neighbour: booleans, BIT1 to BIT8, bit arrays, and
+    /// every other type that is not a whole number of bytes.
     #[must_use]
     pub fn is_bit_packed(&self) -> bool {
         const BIT_LENGTH_MAX: u16 = 64;
@@ -171,7 +171,7 @@ impl Object {
         self.entries.get(at)
     }
 
-    /// Whether `sub` is a gap: it lies between entries and has none. A gap takes no bits, in complete access too.
+    /// Whether `sub` is a gap: between entries, without an entry. A gap has no bits, in complete access either.
     #[must_use]
     pub fn is_gap(&self, sub: SubIndex) -> bool {
         sub < self.max_sub() && self.entry(sub).is_none()
@@ -183,9 +183,9 @@ impl Object {
         self.entries.last().map_or(SubIndex::ZERO, |entry| entry.sub)
     }
 
-    /// Whether subindex 0 is a number of entries that a master sets: a PDO mapping or assignment that is
-    /// not fixed. Its entries are writable only while subindex 0 is 0, and complete access covers as many
-    /// of them as subindex 0 says (ETG.1000.6, PDO mapping and SyncManager PDO assignment).
+    /// Whether subindex 0 is a number of entries that a master sets: a PDO mapping or assignment that is not
+    /// fixed. Its entries are writable only while subindex 0 is 0, and complete access covers the number of
+    /// entries in subindex 0 (ETG.1000.6, PDO mapping and SyncManager PDO assignment).
     #[must_use]
     pub fn is_counted_by_master(&self) -> bool {
         let holds_pdos = matches!(self.index.0, 0x1600..=0x17FF | 0x1A00..=0x1BFF | 0x1C10..=0x1C2F);

@@ -1,4 +1,4 @@
-//! A plain dictionary: values in memory, whatever a master writes is kept.
+//! A plain dictionary: values in memory; every write is stored.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use wire::{ObjectIndex, SdoAbort, SubIndex};
 use crate::description::unsigned;
 use crate::{ObjectServer, ObjectTable};
 
-/// The values of one unit, flat in memory, all with their defaults at first. A unit wraps it and answers
-/// itself for the entries that do more than keep a value.
+/// The values of one unit, flat in memory, initially all with their defaults. A unit wraps it and implements
+/// the entries that do more than store a value.
 #[derive(Clone, Debug)]
 pub struct Dictionary {
     table: Arc<ObjectTable>,
@@ -16,7 +16,7 @@ pub struct Dictionary {
 }
 
 impl Dictionary {
-    /// A dictionary with the default of every entry; what a default is too short for is 0.
+    /// A dictionary with the default of every entry; if a default is too short, the missing bytes are 0.
     #[must_use]
     pub fn new(table: Arc<ObjectTable>) -> Self {
         let values = vec![0; table.values_length_bytes()];
@@ -25,7 +25,7 @@ impl Dictionary {
         dictionary
     }
 
-    /// Gives every entry its default.
+    /// Sets every entry to its default.
     pub fn restore_defaults(&mut self) {
         let mut at = 0;
         for entry in self.table.iter().flat_map(|object| &object.entries) {
@@ -51,7 +51,7 @@ impl Dictionary {
         self.values.get(self.table.value_range(index, sub)?)
     }
 
-    /// The value of an entry, to be changed by the unit itself.
+    /// The value of an entry, for changes by the unit.
     #[must_use]
     pub fn value_mut(&mut self, index: ObjectIndex, sub: SubIndex) -> Option<&mut [u8]> {
         self.values.get_mut(self.table.value_range(index, sub)?)

@@ -1,8 +1,8 @@
-//! Where complete access puts the entries of an object (ETG.1000.6, complete access).
+//! The positions of an object's entries in complete access (ETG.1000.6, complete access).
 //!
-//! Subindex 0 of an array or record takes 16 bits when the access begins there, the value and a byte 0.
-//! Entries follow in the order of their subindexes, gaps take no place. Bit types follow each other
-//! bitwise; every other entry begins at a whole byte.
+//! Subindex 0 of an array or record takes 16 bits if the access begins there: the value and a byte 0. Entries
+//! follow in the order of their subindexes; gaps take no space. Bit types follow each other bitwise; every
+//! other entry begins at a whole byte.
 
 use core::ops::Range;
 
@@ -10,7 +10,7 @@ use wire::SubIndex;
 
 use crate::{AccessRights, Object, ObjectCode};
 
-/// One entry's place in the bytes of a complete access.
+/// The position of one entry in the bytes of a complete access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Slot {
     /// The entry's subindex.
@@ -19,14 +19,14 @@ pub struct Slot {
     pub bit_offset: usize,
     /// Its length in bits, without padding.
     pub bit_length: usize,
-    /// Whether it follows its neighbour bitwise; if not, it takes whole bytes.
+    /// Whether it follows its neighbour bitwise; if not, it has whole bytes.
     pub bit_packed: bool,
-    /// Who may touch it.
+    /// Who may access it.
     pub access: AccessRights,
 }
 
 impl Slot {
-    /// Length of the value in bytes, as an SDO to the entry alone carries it.
+    /// Length of the value in bytes, as in an SDO to the entry alone.
     #[must_use]
     pub const fn size_bytes(self) -> usize {
         self.bit_length.div_ceil(8)
@@ -38,30 +38,30 @@ impl Slot {
         self.bit_offset + if self.bit_packed { self.bit_length } else { self.size_bytes() * 8 }
     }
 
-    /// Whether `length_bytes` bytes hold the whole value.
+    /// Whether the whole value is within the first `length_bytes` bytes.
     #[must_use]
     pub const fn is_within(self, length_bytes: usize) -> bool {
         self.bit_end() <= length_bytes * 8
     }
 
-    /// Copies the value out of `octets` into `value`, which is as long as [`Slot::size_bytes`].
+    /// Copies the value from `octets` to `value`, whose length is [`Slot::size_bytes`].
     pub fn load(self, octets: &[u8], value: &mut [u8]) {
         value.fill(0);
         copy_bits(octets, self.bit_offset, value, 0, self.bit_end() - self.bit_offset);
     }
 
-    /// Copies `value` to its place in `octets`.
+    /// Copies `value` to its position in `octets`.
     pub fn store(self, value: &[u8], octets: &mut [u8]) {
         copy_bits(value, 0, octets, self.bit_offset, self.bit_end() - self.bit_offset);
     }
 
-    /// The bytes that hold the value, when it takes whole ones.
+    /// The bytes of the value, if it has whole bytes.
     pub(crate) fn whole_octets(self) -> Option<Range<usize>> {
         (!self.bit_packed).then(|| self.bit_offset / 8..self.bit_end() / 8)
     }
 }
 
-/// How far a walk over the slots of one object has come; it holds no borrow of the object.
+/// The position of an iteration over the slots of one object; it holds no borrow of the object.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cursor {
     entry: usize,
@@ -99,7 +99,7 @@ pub struct Layout<'a> {
 }
 
 impl Object {
-    /// Where complete access from `first` on (0 or 1) puts each entry.
+    /// The position of each entry in a complete access from `first` on (0 or 1).
     #[must_use]
     pub fn layout(&self, first: SubIndex) -> Layout<'_> {
         Layout { object: self, cursor: Cursor::new(self, first) }
@@ -135,7 +135,7 @@ impl Iterator for Layout<'_> {
     }
 }
 
-/// Copies `bit_length` bits; what does not lie within both slices is left out.
+/// Copies `bit_length` bits; bits outside either slice are skipped.
 fn copy_bits(from: &[u8], from_bit: usize, to: &mut [u8], to_bit: usize, bit_length: usize) {
     for bit in 0..bit_length {
         let (source, target) = (from_bit + bit, to_bit + bit);

@@ -1,8 +1,8 @@
 //! The object dictionary: objects, entries, types, access rights, values.
 //!
-//! An [`ObjectTable`] describes (and is shared by all units of a model); an [`ObjectServer`] holds the
-//! values of one unit and answers for them. Who speaks CoE asks the table what exists and who may touch it,
-//! and the server only for values.
+//! An [`ObjectTable`] describes the objects (and is shared by all units of a model); an [`ObjectServer`] holds
+//! the values of one unit and answers for them. A CoE implementation looks up existence and access rights in
+//! the table, and asks the server only for values.
 
 pub mod complete;
 mod description;

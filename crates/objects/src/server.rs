@@ -1,4 +1,4 @@
-//! Who answers for the values of a dictionary.
+//! The trait for the values of a dictionary.
 
 use wire::{ObjectIndex, SdoAbort, SubIndex};
 
@@ -7,16 +7,16 @@ use crate::ObjectTable;
 /// The values of one unit. The caller has checked existence, access right, state, length and limits against
 /// [`ObjectServer::table`]; the server decides on the value, and may still refuse by an abort code.
 pub trait ObjectServer {
-    /// What exists.
+    /// The objects and entries that exist.
     fn table(&self) -> &ObjectTable;
 
-    /// Copies the value of an entry into `value`, which has the entry's size in bytes.
+    /// Copies the value of an entry to `value`, which has the entry's size in bytes.
     ///
     /// # Errors
     /// The abort code that the master gets.
     fn read(&mut self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) -> Result<(), SdoAbort>;
 
-    /// Takes a new value for an entry; `value` has the entry's size in bytes. A refused write changes nothing.
+    /// Stores a new value of an entry; `value` has the entry's size in bytes. A refused write changes nothing.
     ///
     /// # Errors
     /// The abort code that the master gets.

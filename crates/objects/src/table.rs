@@ -6,11 +6,11 @@ use wire::{ObjectIndex, SdoInfoList, SubIndex};
 
 use crate::{AccessRights, Entry, Object};
 
-/// All objects of a unit model, ascending by index, and where a flat image of their values keeps each one.
+/// All objects of a unit model, ascending by index, and the position of each in a flat image of their values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ObjectTable {
     objects: Vec<Object>,
-    /// For each object, where the values of its entries begin, and a last offset where they end.
+    /// For each object, the offsets at which the values of its entries begin, and a last offset at which they end.
     value_offsets: Vec<Vec<usize>>,
 }
 
@@ -18,7 +18,7 @@ impl ObjectTable {
     /// A table of these objects.
     ///
     /// # Panics
-    /// If an index or a subindex stands twice: the table is ours.
+    /// If an index or a subindex occurs twice: the table is part of this program.
     #[must_use]
     pub fn new(mut objects: Vec<Object>) -> Self {
         objects.sort_by_key(|object| object.index);
@@ -48,7 +48,7 @@ impl ObjectTable {
         self.objects.iter()
     }
 
-    /// The objects of a list of SDO information; none for [`SdoInfoList::Lengths`] and unknown lists.
+    /// The objects of a list of SDO information; empty for [`SdoInfoList::Lengths`] and unknown lists.
     #[must_use]
     pub fn list(&self, list: SdoInfoList) -> Option<impl Iterator<Item = &Object>> {
         let access = match list {
@@ -63,14 +63,14 @@ impl ObjectTable {
         Some(self.objects.iter().filter(listed))
     }
 
-    /// How long the five lists of SDO information are, in the order of [`SdoInfoList::LISTS`].
+    /// The lengths of the five lists of SDO information, in the order of [`SdoInfoList::LISTS`].
     #[must_use]
     pub fn list_lengths(&self) -> [u16; 5] {
         let length = |list| self.list(list).map_or(0, Iterator::count);
         SdoInfoList::LISTS.map(|list| u16::try_from(length(list)).unwrap_or(u16::MAX))
     }
 
-    /// Where a flat image of all values keeps the value of an entry.
+    /// The position of an entry's value in a flat image of all values.
     #[must_use]
     pub fn value_range(&self, index: ObjectIndex, sub: SubIndex) -> Option<Range<usize>> {
         let position = self.position(index)?;
@@ -80,7 +80,7 @@ impl ObjectTable {
         Some(*offsets.get(at)?..*offsets.get(at + 1)?)
     }
 
-    /// How long a flat image of all values is.
+    /// The length of a flat image of all values.
     #[must_use]
     pub fn values_length_bytes(&self) -> usize {
         self.value_offsets.last().and_then(|offsets| offsets.last()).copied().unwrap_or(0)

@@ -1,4 +1,4 @@
-//! What an EEPROM image holds, as read: indices into the string table stay numbers, unknown codes survive.
+//! The contents of an EEPROM image, as read: indices into the string table remain numbers, unknown codes are kept.
 
 use wire::{DataType, ObjectIndex, SubIndex};
 
@@ -11,9 +11,9 @@ use crate::{
 pub struct SiiContents {
     /// Words 0 to 0x3F.
     pub header: Header,
-    /// All categories in their order, those that nobody knows too.
+    /// All categories in their order, including unknown ones.
     pub categories: Vec<Category>,
-    /// Category 10; text number 1 is the first.
+    /// Category 10; the first text has number 1.
     pub strings: Vec<String>,
     /// Category 30.
     pub general: Option<General>,
@@ -28,7 +28,7 @@ pub struct SiiContents {
 }
 
 impl SiiContents {
-    /// Text number `number`: empty for 0, none when there is no such text.
+    /// Text number `number`: empty for 0, none if there is no such text.
     #[must_use]
     pub fn string(&self, number: u8) -> Option<&str> {
         match number.checked_sub(1) {
@@ -37,13 +37,13 @@ impl SiiContents {
         }
     }
 
-    /// Whether there is a mailbox, or a PDO.
+    /// Whether there is a mailbox or a PDO.
     #[must_use]
     pub fn carries_data(&self) -> bool {
         self.header.receive.length_bytes > 0 || !self.rx_pdos.is_empty() || !self.tx_pdos.is_empty()
     }
 
-    /// Whether category `number` is there.
+    /// Whether category `number` exists.
     #[must_use]
     pub fn has_category(&self, number: u16) -> bool {
         self.categories.iter().any(|category| category.number == number)
@@ -82,7 +82,7 @@ pub struct Header {
 }
 
 impl Header {
-    /// Size of the EEPROM in bytes, by the size word.
+    /// Size of the EEPROM in bytes, from the size word.
     #[must_use]
     pub fn size_bytes(&self) -> u32 {
         (u32::from(self.size_word) + 1) * super::layout::SIZE_STEP_BYTES
@@ -96,7 +96,7 @@ impl Header {
     }
 }
 
-/// Where a category is.
+/// The position of a category.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Category {
     /// Its number.
@@ -145,7 +145,7 @@ pub struct SyncManagerContents {
     pub control: u8,
     /// Enable byte.
     pub enable: u8,
-    /// What it is for.
+    /// Its purpose.
     pub usage: SyncManagerType,
 }
 
@@ -154,11 +154,11 @@ pub struct SyncManagerContents {
 pub struct PdoContents {
     /// Index of its mapping object.
     pub index: ObjectIndex,
-    /// SyncManager; none when it is assigned to none (0xFF).
+    /// SyncManager; none if it is not assigned (0xFF).
     pub sync_manager: Option<u8>,
     /// Number of its name's text.
     pub name: u8,
-    /// Flags as they stand.
+    /// Flags as read.
     pub flags: u16,
     /// Its entries.
     pub entries: Vec<PdoEntryContents>,
@@ -173,7 +173,7 @@ pub struct PdoEntryContents {
     pub sub: SubIndex,
     /// Number of its name's text.
     pub name: u8,
-    /// Its data type, 0 when not told.
+    /// Its data type, 0 if not indicated.
     pub data_type: DataType,
     /// Its length in bits.
     pub bit_length: u8,

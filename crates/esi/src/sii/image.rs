@@ -5,20 +5,20 @@ use super::layout::{self, category};
 use super::strings::StringTable;
 use crate::{DeviceDescription, Mailbox, MailboxArea, Pdo};
 
-/// The EEPROM image of a description, [`DeviceDescription::eeprom_bytes`] long; what nothing is written to
-/// is 0xFF, as after erasing. PDO categories show the default mapping.
+/// The EEPROM image of a description, [`DeviceDescription::eeprom_bytes`] long; unused bytes are 0xFF, as after
+/// erasing. PDO categories contain the default mapping.
 ///
 /// # Panics
-/// If the description does not fit (see [`ImageError`]): for the tables of our own units. For descriptions
-/// from outside, use [`try_image`].
+/// If the description does not fit (see [`ImageError`]): for the built-in tables of units. For descriptions
+/// from elsewhere, use [`try_image`].
 #[must_use]
 pub fn image(description: &DeviceDescription) -> Vec<u8> {
     try_image(description).unwrap_or_else(|error| panic!("{}: {error}", description.order_code))
 }
 
-/// Like [`image()`], for descriptions that come from outside.
+/// Like [`image()`], for descriptions that are not built in.
 ///
-/// # Errors
+/// [`ImageError`] if the description does not fit.
 /// [`ImageError`] when the description does not fit.
 pub fn try_image(description: &DeviceDescription) -> Result<Vec<u8>, ImageError> {
     let mut image = header(description)?;
@@ -61,7 +61,7 @@ fn header(description: &DeviceDescription) -> Result<Vec<u8>, ImageError> {
     Ok(header)
 }
 
-/// Words 0 to 6, also the ESI's `ConfigData`.
+/// Words 0 to 6, which are also the ESI's `ConfigData`.
 pub(crate) fn configuration(description: &DeviceDescription) -> [u8; 14] {
     let mut bytes = [0; 14];
     for (at, word) in description.esc_configuration.iter().enumerate() {
@@ -79,7 +79,7 @@ fn put_mailbox(header: &mut [u8], mailbox: &Mailbox) {
     put(header, layout::MAILBOX_PROTOCOLS, &mailbox.protocols.bits().to_le_bytes());
 }
 
-/// Receive area and send area as SII and the ESI's `BootStrap` order them.
+/// Receive area and send area in the order of SII and the ESI's `BootStrap`.
 pub(crate) fn area_words((receive, send): (MailboxArea, MailboxArea)) -> [u8; 8] {
     let mut bytes = [0; 8];
     let words = [receive.start, receive.length_bytes, send.start, send.length_bytes];
@@ -143,7 +143,7 @@ fn pdos(pdos: &[Pdo], strings: &mut StringTable) -> Result<Vec<u8>, ImageError> 
         bytes.extend_from_slice(&[count, sync_manager, 0, strings.number(&pdo.name)?]);
         bytes.extend_from_slice(&pdo_flags(pdo).to_le_bytes());
         for entry in &pdo.entries {
-            // One byte for the data type: those above 0xFF (arrays) show as unknown rather than as another.
+            // One byte for the data type: types above 0xFF (arrays) are shown as unknown rather than as another type.
             let data_type = u8::try_from(entry.data_type.0).unwrap_or(0);
             bytes.extend_from_slice(&entry.index.0.to_le_bytes());
             bytes.extend_from_slice(&[
@@ -165,7 +165,7 @@ fn pdo_flags(pdo: &Pdo) -> u16 {
         | flag(pdo.fixed, layout::PDO_FIXED)
 }
 
-/// A category with nothing in it is left out.
+/// An empty category is left out.
 fn append(image: &mut Vec<u8>, category: u16, payload: &[u8]) -> Result<(), ImageError> {
     if payload.is_empty() {
         return Ok(());
@@ -178,7 +178,7 @@ fn append(image: &mut Vec<u8>, category: u16, payload: &[u8]) -> Result<(), Imag
     Ok(())
 }
 
-/// Writes `bytes` at `offset`; our offsets lie inside.
+/// Writes `bytes` at `offset`; the offsets in this file are inside the image.
 fn put(target: &mut [u8], offset: usize, bytes: &[u8]) {
     target[offset..offset + bytes.len()].copy_from_slice(bytes);
 }

@@ -1,23 +1,23 @@
-//! Why a description makes no EEPROM image.
+//! Why an EEPROM image cannot be made from a description.
 
 use core::fmt;
 
-/// What of a description does not fit into an EEPROM.
+/// The part of a description that does not fit into an EEPROM.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ImageError {
-    /// The size is no multiple of 128 bytes, or outside what the size word tells.
+    /// The size is not a multiple of 128 bytes, or exceeds the size word.
     EepromSize {
-        /// The size asked for.
+        /// The requested size.
         eeprom_bytes: u32,
     },
     /// The contents are longer than the EEPROM.
     EepromTooSmall {
-        /// What the contents take.
+        /// The length of the contents.
         required_bytes: usize,
-        /// What there is.
+        /// The size of the EEPROM.
         eeprom_bytes: u32,
     },
-    /// A text is longer than its length byte can tell.
+    /// A text is longer than its length byte permits.
     StringTooLong {
         /// The text.
         text: String,
@@ -29,18 +29,18 @@ pub enum ImageError {
         /// The text.
         text: String,
     },
-    /// A category is longer than its length word can tell.
+    /// A category is longer than its length word permits.
     CategoryTooLong {
         /// Its number.
         category: u16,
-        /// How long it would be.
+        /// Its length.
         length_bytes: usize,
     },
-    /// A PDO has more entries than its count byte can tell.
+    /// A PDO has more entries than its count byte permits.
     TooManyEntries {
         /// Index of the PDO.
         pdo: u16,
-        /// How many it has.
+        /// Its number of entries.
         entries: usize,
     },
 }

@@ -1,4 +1,4 @@
-//! Where things are in the EEPROM: byte offsets of the header, category numbers.
+//! Positions in the EEPROM: byte offsets of the header, category numbers.
 
 use core::ops::Range;
 
@@ -29,17 +29,17 @@ pub(super) const VERSION: usize = 126;
 /// Word 0x40: the first category.
 pub(super) const CATEGORIES: usize = 128;
 
-/// The version that word 0x3F carries.
+/// The version in word 0x3F.
 pub(super) const CURRENT_VERSION: u16 = 1;
-/// The size word counts 1,024 bits.
+/// The size word counts units of 1,024 bits.
 pub(super) const SIZE_STEP_BYTES: u32 = 128;
-/// Length of category 30. IgH takes no other.
+/// Length of category 30. IgH accepts no other.
 pub(super) const GENERAL_BYTES: usize = 32;
 /// Length of a SyncManager in category 41.
 pub(super) const SYNC_MANAGER_BYTES: usize = 8;
 /// Length of a PDO's head, and of each entry, in categories 50 and 51.
 pub(super) const PDO_BYTES: usize = 8;
-/// SyncManager of a PDO that is assigned to none.
+/// SyncManager of a PDO that is not assigned.
 pub(super) const NO_SYNC_MANAGER: u8 = 0xFF;
 
 /// PDO flags, bytes 6 and 7 of its head.
@@ -55,7 +55,7 @@ pub mod category {
     pub const STRINGS: u16 = 10;
     /// General, 32 bytes.
     pub const GENERAL: u16 = 30;
-    /// FMMU usages, a byte each.
+    /// FMMU usages, one byte each.
     pub const FMMU: u16 = 40;
     /// SyncManagers, 8 bytes each.
     pub const SYNC_MANAGER: u16 = 41;

@@ -1,4 +1,4 @@
-//! What a conformance test would find in an EEPROM image.
+//! The findings of a conformance test in an EEPROM image.
 
 use core::fmt;
 
@@ -7,16 +7,16 @@ use super::layout::{self, category};
 use super::{SiiError, checksum, parse};
 use crate::{DeviceDescription, MailboxArea, MailboxProtocols, PortPhysics, SyncManagerType};
 
-/// One thing that is wrong with an image: a fact with its numbers.
+/// One defect of an image: a fact with its numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
-    /// The statement that it breaks: C022 to C037 of the conformance list.
+    /// The statement that it violates: C022 to C037 of the conformance list.
     pub check: &'static str,
-    /// Where.
+    /// The place.
     pub place: String,
-    /// What stands there.
+    /// The value found.
     pub found: String,
-    /// What should.
+    /// The expected value.
     pub expected: String,
 }
 
@@ -27,7 +27,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// Findings that the image shows by itself, empty when there are none.
+/// Findings from the image alone, empty if there are none.
 #[must_use]
 pub fn lint(image: &[u8]) -> Vec<Finding> {
     let contents = match parse(image) {
@@ -43,7 +43,7 @@ pub fn lint(image: &[u8]) -> Vec<Finding> {
     findings
 }
 
-/// Findings where the image differs from the image of `description`: identity, mailbox, sizes, categories.
+/// Findings in which the image differs from the image of `description`: identity, mailbox, sizes, categories.
 #[must_use]
 pub fn compare(image: &[u8], description: &DeviceDescription) -> Vec<Finding> {
     let (actual, expected) = match (parse(image), super::try_image(description)) {
@@ -118,7 +118,7 @@ fn check_header(header: &Header, length_bytes: usize, findings: &mut Vec<Finding
 }
 
 fn check_categories(contents: &SiiContents, findings: &mut Vec<Finding>) {
-    // A coupler has no data, and nothing that would carry them.
+    // A coupler has no process data, and no SyncManagers or FMMUs for process data.
     let has_data = contents.carries_data();
     let needed = [
         (category::STRINGS, "category 10 (strings)", true),

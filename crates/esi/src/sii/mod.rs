@@ -20,7 +20,7 @@ pub use layout::category;
 pub use lint::{Finding, compare, lint};
 pub use parse::{SiiError, parse};
 
-/// Checksum of words 0 to 6, the low byte of word 7; the ESC computes the same when it loads them.
+/// Checksum of words 0 to 6, the low byte of word 7; the ESC computes the same checksum when it loads them.
 #[must_use]
 pub fn checksum(configuration: &[u8; 14]) -> u8 {
     wire::sii_checksum(configuration)

@@ -1,4 +1,4 @@
-//! From EEPROM image to contents. Any bytes may come.
+//! From EEPROM image to contents. The input may be any bytes.
 
 use core::fmt;
 
@@ -12,37 +12,37 @@ use crate::{
     CoeDetails, FmmuUsage, GeneralFlags, MailboxArea, MailboxProtocols, PortPhysics, SyncManagerType,
 };
 
-/// Why bytes are no EEPROM image.
+/// Why the bytes are not an EEPROM image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SiiError {
     /// Shorter than the header.
     HeaderTruncated {
-        /// How long the image is.
+        /// Length of the image.
         length_bytes: usize,
     },
-    /// A category runs beyond the end of the image.
+    /// A category exceeds the end of the image.
     CategoryTruncated {
         /// Its number.
         category: u16,
         /// Offset of its payload in bytes.
         offset_bytes: usize,
-        /// How long it says it is.
+        /// Its length as indicated.
         length_bytes: usize,
-        /// How much there is.
+        /// The length that is left.
         available_bytes: usize,
     },
     /// The list of categories does not end with 0xFFFF.
     EndMissing {
-        /// Where the list ran out, in bytes.
+        /// The end of the list, in bytes.
         offset_bytes: usize,
     },
-    /// A category is shorter than what it counts up: a text, a PDO's entries, the general part.
+    /// A category is shorter than the items that it counts: a text, a PDO's entries, the general part.
     ContentsTruncated {
         /// Its number.
         category: u16,
-        /// Where in its payload something is missing, in bytes.
+        /// The position in its payload at which something is missing, in bytes.
         at_bytes: usize,
-        /// How long the payload is.
+        /// Length of the payload.
         length_bytes: usize,
     },
 }
@@ -75,10 +75,10 @@ impl fmt::Display for SiiError {
 
 impl core::error::Error for SiiError {}
 
-/// Reads an EEPROM image. The checksum is read, not judged: that is [`lint`](super::lint())'s.
+/// Reads an EEPROM image. The checksum is read, not checked: [`lint`](super::lint()) checks it.
 ///
 /// # Errors
-/// [`SiiError`] when the image is shorter than what it tells of itself.
+/// [`SiiError`] if the image is shorter than its length fields indicate.
 pub fn parse(image: &[u8]) -> Result<SiiContents, SiiError> {
     let mut contents = SiiContents { header: header(image)?, ..SiiContents::default() };
     let mut offset_bytes = layout::CATEGORIES;
@@ -120,7 +120,7 @@ fn read_category(contents: &mut SiiContents, category: Category, payload: &[u8])
             contents.sync_managers =
                 payload.chunks_exact(layout::SYNC_MANAGER_BYTES).filter_map(sync_manager).collect();
         }
-        // A master may find each PDO in a category of its own, or all in one.
+        // PDOs may be in one category each, or all in one category.
         category::TX_PDO => contents.tx_pdos.extend(pdos(payload).map_err(truncated)?),
         category::RX_PDO => contents.rx_pdos.extend(pdos(payload).map_err(truncated)?),
         _ => {}
@@ -150,7 +150,7 @@ fn read_header(image: &[u8]) -> Option<Header> {
     })
 }
 
-/// The texts, or the offset at which one goes beyond the payload.
+/// The texts, or the offset of a text that exceeds the payload.
 fn strings(payload: &[u8]) -> Result<Vec<String>, usize> {
     let count = *payload.first().ok_or(0_usize)?;
     let mut at = 1;
@@ -158,7 +158,7 @@ fn strings(payload: &[u8]) -> Result<Vec<String>, usize> {
     for _ in 0..count {
         let length = usize::from(*payload.get(at).ok_or(at)?);
         let text = payload.get(at + 1..at + 1 + length).ok_or(at)?;
-        // Texts of the field are ASCII or ISO 8859-1, where each byte is its character.
+        // Texts are ASCII or ISO 8859-1, in which each byte is one character.
         texts.push(text.iter().map(|byte| char::from(*byte)).collect());
         at += 1 + length;
     }
@@ -192,7 +192,7 @@ fn sync_manager(bytes: &[u8]) -> Option<SyncManagerContents> {
     })
 }
 
-/// The PDOs, or the offset of the one that goes beyond the payload.
+/// The PDOs, or the offset of the one that exceeds the payload.
 fn pdos(payload: &[u8]) -> Result<Vec<PdoContents>, usize> {
     let mut pdos = Vec::new();
     let mut at = 0;
@@ -205,7 +205,7 @@ fn pdos(payload: &[u8]) -> Result<Vec<PdoContents>, usize> {
     Ok(pdos)
 }
 
-/// The PDO at the head of `bytes`, and how long it is.
+/// The PDO at the start of `bytes`, and its length.
 fn pdo(bytes: &[u8]) -> Option<(PdoContents, usize)> {
     let count = usize::from(*bytes.get(2)?);
     let length_bytes = layout::PDO_BYTES * (1 + count);

@@ -1,4 +1,4 @@
-//! Category 10: every text once, referred to by its number from 1.
+//! Category 10: every text once, referenced by its number from 1.
 
 use super::image_error::ImageError;
 
@@ -9,7 +9,7 @@ pub(super) struct StringTable {
 }
 
 impl StringTable {
-    /// The number of `text`, which joins the table unless it is there already. An empty text is number 0.
+    /// The number of `text`; a new text is added to the table. An empty text is number 0.
     pub(super) fn number(&mut self, text: &str) -> Result<u8, ImageError> {
         let visible: Vec<u8> = text.chars().map(visible).collect();
         if visible.is_empty() {

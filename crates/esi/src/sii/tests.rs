@@ -4,7 +4,7 @@ use super::*;
 use crate::tests::small_device;
 use crate::{DeviceDescription, FmmuUsage, PortPhysics};
 
-/// Words 0 to 6 of a drive with the checksum that it stores, and the `ConfigData` of a published ESI sample.
+/// Words 0 to 6 of a drive with its stored checksum, and the `ConfigData` of a published ESI sample.
 const VECTORS: [([u8; 14], u8); 2] = [
     ([0x05, 0x06, 0x0B, 0x0E, 0x64, 0, 0, 0, 0, 0, 0, 0, 0, 0], 0x40),
     ([0x05, 0x0E, 0x03, 0x06, 0x10, 0x27, 0, 0, 0, 0, 0, 0, 0, 0], 0xD7),
@@ -26,7 +26,7 @@ fn an_image_has_the_size_of_the_eeprom_and_no_finding() {
     assert_eq!(compare(&image, &description), []);
 }
 
-/// C027: FMMUs and SyncManagers are there for data.
+/// C027: FMMUs and SyncManagers exist only for data.
 #[test]
 fn a_device_without_data_needs_no_fmmu_and_no_sync_manager() {
     let empty = DeviceDescription { mailbox: None, fmmus: vec![], sync_managers: vec![], ..small_device() };

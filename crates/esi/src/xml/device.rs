@@ -41,7 +41,7 @@ pub(super) fn write(document: &mut Document, description: &DeviceDescription, ta
     });
 }
 
-/// A letter per port; unused ports at the end are left out.
+/// One letter per port; unused ports at the end are left out.
 fn physics(ports: &[PortPhysics]) -> String {
     let letter = |port: &PortPhysics| match port {
         PortPhysics::Mii => 'Y',

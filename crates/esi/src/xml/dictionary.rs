@@ -31,7 +31,7 @@ pub(super) fn write(document: &mut Document, table: &ObjectTable) {
 /// Every data type of an entry, once, by name.
 fn simple_types(table: &ObjectTable) -> BTreeMap<String, (Shape, u16)> {
     let mut found = BTreeMap::new();
-    // Sub item 0 and the elements of arrays need these two in any case.
+    // Sub item 0 and the elements of arrays always need these two.
     found.insert("USINT".to_owned(), (Shape::Base, 8));
     for entry in table.iter().flat_map(|object| &object.entries) {
         let shape = types::shape(entry.data_type, entry.bit_length);
@@ -66,7 +66,7 @@ fn array_info(document: &mut Document, first: u16, elements: u16) {
     });
 }
 
-/// The type of an array or record: sub item 0, and all elements as one or every entry by itself.
+/// The type of an array or record: sub item 0, and all elements as one or every entry separately.
 fn object_type(document: &mut Document, object: &Object) {
     let name = object_type_name(object);
     let elements = elements(object);
@@ -120,8 +120,8 @@ fn sub_item(
     });
 }
 
-/// The elements of an array whose entries differ in nothing but name and value; none when the object has
-/// to be described entry by entry.
+/// The elements of an array whose entries differ only in name and value; none if the object must be described
+/// entry by entry.
 fn elements(object: &Object) -> Option<&[Entry]> {
     let (zero, elements) = object.entries.split_first()?;
     let first = elements.first()?;
@@ -141,7 +141,7 @@ fn object_type_name(object: &Object) -> String {
     format!("DT{:04X}", object.index.0)
 }
 
-/// Where each entry begins, in bits: single bits follow each other, whole bytes begin at a byte.
+/// The start of each entry, in bits: single bits follow each other, whole bytes begin at a byte.
 fn offsets(object: &Object) -> impl Iterator<Item = u32> {
     object.entries.iter().scan(0_u32, |end, entry| {
         let bits = u32::from(entry.bit_length);
@@ -230,7 +230,7 @@ fn write_access(document: &mut Document, access: AccessRights) {
     document.text_with("Access", &attributes, text);
 }
 
-/// The states in which access is given, none when it is given in all or in no state.
+/// The states in which access is permitted; none if it is permitted in all states or in no state.
 fn restrictions(access: AccessRights, rights: [AccessRights; 3]) -> Option<String> {
     let states = ["PreOP", "SafeOP", "OP"];
     let given: Vec<&str> = states

@@ -21,7 +21,7 @@ impl Document {
         document
     }
 
-    /// An element with what `content` writes into it.
+    /// An element with the contents that `content` writes.
     pub(super) fn element(
         &mut self,
         name: &str,
@@ -38,12 +38,12 @@ impl Document {
         self.emit(Event::Empty(start(name, attributes)));
     }
 
-    /// An element that holds a text.
+    /// An element that contains a text.
     pub(super) fn text(&mut self, name: &str, text: &str) {
         self.text_with(name, &[], text);
     }
 
-    /// An element that holds a text and has attributes.
+    /// An element that contains a text and has attributes.
     pub(super) fn text_with(&mut self, name: &str, attributes: &Attributes<'_>, text: &str) {
         self.element(name, attributes, |document| document.emit(Event::Text(BytesText::new(&legal(text)))));
     }
@@ -69,7 +69,7 @@ fn start<'a>(name: &'a str, attributes: &Attributes<'_>) -> BytesStart<'a> {
     start
 }
 
-/// XML 1.0 has no way to write most control characters; they become U+FFFD.
+/// XML 1.0 cannot represent most control characters; they become U+FFFD.
 fn legal(text: &str) -> String {
     let legal =
         |c: char| matches!(c, '\t' | '\n' | '\r') || (c >= ' ' && !matches!(c, '\u{FFFE}' | '\u{FFFF}'));

@@ -1,4 +1,4 @@
-//! Numbers and bytes as the schema writes them.
+//! Numbers and bytes in the notation of the schema.
 
 pub(super) fn hex8(value: u8) -> String {
     format!("#x{value:02X}")
@@ -12,7 +12,7 @@ pub(super) fn hex32(value: u32) -> String {
     format!("#x{value:08X}")
 }
 
-/// Bytes in the order of memory, as `hexBinary` fields hold them.
+/// Bytes in memory order, as in `hexBinary` fields.
 pub(super) fn hex_binary(bytes: &[u8]) -> String {
     bytes.iter().map(|byte| format!("{byte:02X}")).collect()
 }

@@ -1,4 +1,4 @@
-//! The ESI file (ETG.2000): elements in the order of the EtherCATInfo schema, the same text each time.
+//! The ESI file (ETG.2000): elements in the order of the EtherCATInfo schema; the same input gives the same text.
 
 mod device;
 mod dictionary;
@@ -14,7 +14,7 @@ use crate::DeviceDescription;
 use document::{Document, ENGLISH};
 use hex::hex32;
 
-/// The ESI file of a device and its object dictionary. Numbers with a width stand as `#x…`.
+/// The ESI file of a device and its object dictionary. Numbers with a fixed width are written as `#x…`.
 #[must_use]
 pub fn xml(description: &DeviceDescription, table: &ObjectTable) -> String {
     let mut document = Document::new();

@@ -80,7 +80,7 @@ fn sync_managers_pdos_and_init_commands_read_back() {
     assert_eq!(bytes(text_of(command, "Data")), [1, 0xAB]);
 }
 
-/// C103: what the file says of the dictionary is what the table says.
+/// C103: the dictionary in the file agrees with the table.
 #[test]
 fn the_dictionary_equals_the_table() {
     let table = small_table();
@@ -176,7 +176,7 @@ fn rows_of_object(dictionary: Node<'_, '_>, object: Node<'_, '_>) -> Vec<Row> {
             rights(object),
             default_data(find(object, "Info")),
         );
-        // A variable's one entry is named in the table by itself; the file names the object.
+        // The only entry of a variable has its own name in the table; the file contains the name of the object.
         return vec![(row.0, row.1, "Name".into(), row.3.into(), row.4, row.5, row.6)];
     }
     let definition = definition(dictionary, name);

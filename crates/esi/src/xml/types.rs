@@ -43,9 +43,9 @@ const ARRAY_TYPES: [(u16, &str, u16); 6] = [
     (0x0263, "UDINT", 32),
 ];
 
-/// What a data type is made of.
+/// The contents of a data type.
 pub(super) enum Shape {
-    /// Nothing but bits.
+    /// Only bits.
     Base,
     /// Elements of a base type.
     Array {
@@ -71,7 +71,7 @@ pub(super) fn name(data_type: DataType, bit_length: u16) -> String {
     }
 }
 
-/// What `data_type` is made of. Whole bytes of an unknown type are bytes.
+/// The contents of `data_type`. Whole bytes of an unknown type are bytes.
 pub(super) fn shape(data_type: DataType, bit_length: u16) -> Shape {
     let known = |code: u16| BASE_TYPES.iter().any(|(base, ..)| *base == code);
     if known(data_type.0) || data_type == DataType::VISIBLE_STRING {

@@ -79,7 +79,7 @@ impl<S: ObjectServer> Bench<S> {
         self.coe(CoeService::SdoRequest, &bytes[..length_bytes])
     }
 
-    /// Uploads by as many segments as it takes.
+    /// Uploads in as many segments as necessary.
     pub(crate) fn upload(&mut self, target: SdoTarget) -> Result<Vec<u8>, SdoAbort> {
         let (_, reply) = self.sdo(&SdoRequest::Upload { target }).unwrap();
         let (size_bytes, mut value) = match SdoResponse::parse(&reply).unwrap() {
@@ -108,7 +108,7 @@ impl<S: ObjectServer> Bench<S> {
         Ok(value)
     }
 
-    /// Downloads expedited up to four bytes, else normally, by as many segments as it takes.
+    /// Downloads expedited up to four bytes, else normally, in as many segments as necessary.
     pub(crate) fn download(&mut self, target: SdoTarget, value: &[u8]) -> Result<(), SdoAbort> {
         if (1..=4).contains(&value.len()) {
             let mut field = [0; 4];
@@ -146,7 +146,7 @@ impl<S: ObjectServer> Bench<S> {
         }
     }
 
-    /// Asks for SDO information; opcode and data of the answer, of all its fragments together.
+    /// Requests SDO information; returns opcode and data of the response, of all its fragments together.
     pub(crate) fn information(&mut self, request: SdoInfoRequest) -> (SdoInfoOpcode, Vec<u8>) {
         let mut bytes = [0; 16];
         let length_bytes = request.pack(&mut bytes).unwrap();
@@ -165,7 +165,7 @@ impl<S: ObjectServer> Bench<S> {
         (header.opcode, all)
     }
 
-    /// What the slave sends on its own.
+    /// The messages that the slave sends without a request.
     pub(crate) fn unsolicited(&mut self) -> Option<Vec<u8>> {
         let mut message = vec![0xEE; usize::from(self.mailbox.sizes().send_bytes)];
         assert!(self.mailbox.next_unsolicited(&mut []).is_none());
@@ -176,7 +176,7 @@ impl<S: ObjectServer> Bench<S> {
     }
 }
 
-/// Service and data of a CoE message, whose header must be right.
+/// Service and data of a CoE message, whose header must be correct.
 pub(crate) fn coe_message(message: &[u8]) -> (CoeService, Vec<u8>) {
     let header = MailboxHeader::parse(message).unwrap();
     assert_eq!(header.mailbox_type, MailboxType::Coe, "{message:02X?}");

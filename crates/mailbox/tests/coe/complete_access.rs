@@ -18,7 +18,7 @@ fn subindex_0_takes_two_octets() {
     assert_eq!(bench.upload(SdoTarget::complete(0x1018, 1)), Ok(expected));
 }
 
-/// C098, C105: what SOEM reads to learn the SyncManager types.
+/// C098, C105: what SOEM reads to determine the SyncManager types.
 #[test]
 fn sync_manager_types_come_as_soem_expects_them() {
     let mut bench = Bench::in_pre_op();
@@ -157,7 +157,7 @@ fn outside_pre_op_an_assignment_is_readable_only() {
     assert_eq!(bench.download(target, &before), Err(SdoAbort::DEVICE_STATE));
 }
 
-/// A dictionary that refuses one value, wherever it is written, and entries while subindex 0 counts some.
+/// A dictionary that refuses one value, whichever entry is written, and entries while subindex 0 is not 0.
 struct Choosy {
     dictionary: Dictionary,
     refused: Vec<u8>,
@@ -194,7 +194,7 @@ fn choosy(refused: &[u8]) -> Bench<Choosy> {
 fn a_refused_entry_leaves_everything_as_it_was() {
     let target = SdoTarget::complete(0x1C13, 0);
     let download = [2, 0, 0x02, 0x1A, 0x34, 0x12];
-    // Refused are: the second entry, the new number of entries.
+    // Refused are the second entry and the new number of entries.
     for refused in [&[0x34, 0x12][..], &[2]] {
         let mut bench = choosy(refused);
         let before = bench.upload(target).unwrap();

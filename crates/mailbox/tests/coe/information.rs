@@ -73,7 +73,7 @@ fn describe_and_read(bench: &mut Bench, index: ObjectIndex, entry: &Entry) {
     }
 }
 
-/// Masters ask for every subindex up to the highest: one without an entry has no type, no bits, no access, no name.
+/// Masters request every subindex up to the highest: one without an entry has no type, no bits, no access, no name.
 #[test]
 fn every_subindex_up_to_the_highest_has_a_description() {
     let mut bench = Bench::in_pre_op();

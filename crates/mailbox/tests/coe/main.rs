@@ -1,4 +1,4 @@
-//! The CoE server as a master sees it; `Cnnn` names the statement of the conformance list that a test shows.
+//! The CoE server as a master sees it; `Cnnn` is the statement of the conformance list that a test covers.
 #![expect(clippy::unwrap_used, reason = "a panic here is a failed test")]
 
 mod bench;

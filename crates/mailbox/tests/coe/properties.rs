@@ -1,4 +1,4 @@
-//! What holds for any bytes, any length, any mailbox, any object.
+//! Properties of any bytes, any length, any mailbox, any object.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ fn states() -> impl Strategy<Value = AlState> {
     prop::sample::select(vec![AlState::Init, AlState::PreOp, AlState::Boot, AlState::SafeOp, AlState::Op])
 }
 
-/// Bytes near enough to a request to reach every corner.
+/// Bytes similar enough to a request to reach every branch.
 fn requests() -> impl Strategy<Value = Vec<u8>> {
     let indexes = vec![0x1000_u16, 0x1008, 0x1018, 0x1601, 0x1C12, 0x1C13, 0x2000, 0x2003, 0x3001, 0x9999];
     let near = (
@@ -100,7 +100,7 @@ proptest! {
             let single = bench.upload(SdoTarget::entry(0x2000, entry.sub.0)).unwrap();
             prop_assert_eq!(single.len(), entry.size_bytes());
         }
-        // A second round changes nothing more: padding is the only thing that may have been lost.
+        // A second round changes nothing more: only padding may have been lost.
         prop_assert_eq!(bench.download(SdoTarget::complete(0x2000, 0), &again), Ok(()));
         prop_assert_eq!(bench.upload(SdoTarget::complete(0x2000, 0)), Ok(again));
     }
@@ -128,7 +128,7 @@ fn records() -> impl Strategy<Value = Object> {
     })
 }
 
-/// The model: one bit after the other, and whole bytes for what is not a bit type.
+/// The model: one bit after the other, and whole bytes for a type that is not a bit type.
 fn concatenation(object: &Object, first: u8) -> Vec<u8> {
     let bits_of = |entry: &Entry| {
         let octets = entry.default.iter();

@@ -56,7 +56,7 @@ fn an_abort_names_index_and_subindex_in_a_request_frame() {
 fn a_read_only_entry_refuses_a_download() {
     let mut bench = Bench::in_pre_op();
     assert_eq!(bench.download(SdoTarget::entry(0x1000, 0), &[0; 4]), Err(SdoAbort::READ_ONLY));
-    // The right comes before the length.
+    // The right is checked before the length.
     assert_eq!(bench.download(SdoTarget::entry(0x1000, 0), &[0; 2]), Err(SdoAbort::READ_ONLY));
 }
 
