@@ -1,4 +1,4 @@
-//! What has to hold of a master's settings, as rows: the requirement, and the AL status code without it
+//! The conditions for a master's settings, as rows: the requirement, and the AL status code if it is not met
 //! (reference 5.4, 5.5).
 
 use wire::AlStatusCode;
@@ -6,32 +6,32 @@ use wire::AlStatusCode;
 use crate::sync_managers::DataDirection;
 use crate::sync_mode::SyncMode;
 
-/// One row: what has to hold, and what the master is told otherwise.
+/// One row: the requirement, and the code for the master if it is not met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
-    /// What has to hold.
+    /// The requirement.
     pub requires: Requirement,
-    /// The AL status code without it.
+    /// The AL status code if it is not met.
     pub otherwise: AlStatusCode,
 }
 
-/// What can be required of the settings.
+/// A requirement for the settings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Requirement {
-    /// The controller could load the SII.
+    /// The controller has loaded the SII.
     SiiLoaded,
-    /// SyncManagers 0 and 1 are the mailbox that the SII gives, if the slave has one.
+    /// SyncManagers 0 and 1 are the mailbox in the SII, if the slave has one.
     Mailbox,
     /// SyncManagers 0 and 1 are the mailbox of BOOT.
     BootstrapMailbox,
-    /// The SyncManagers of this direction have the described direction and start, and the length of their data. One
-    /// without data is disabled or empty.
+    /// The SyncManagers of this direction have the described direction and start, and the length of their data.
+    /// A SyncManager without data is disabled or empty.
     Areas(DataDirection),
     /// The SyncManagers of this direction have a described buffer mode.
     Buffers(DataDirection),
-    /// This synchronisation mode is one of the slave's, if it is the one that is set.
+    /// This synchronisation mode is supported by the slave, if it is set.
     Offered(SyncMode),
-    /// With outputs and a watchdog time, an outputs' SyncManager triggers the watchdog.
+    /// With outputs and a watchdog time, a SyncManager of the outputs triggers the watchdog.
     WatchdogTrigger,
 }
 
@@ -63,7 +63,7 @@ pub(crate) const WATCHED_MAILBOX: &[Condition] =
 pub(crate) const WATCHED_BOOTSTRAP: &[Condition] =
     &[condition(Requirement::BootstrapMailbox, AlStatusCode::INVALID_MAILBOX_CONFIGURATION_BOOT)];
 
-/// PRE-OP to SAFE-OP as most slaves check it.
+/// PRE-OP to SAFE-OP, as most slaves check it.
 pub const PROCESS_DATA: &[Condition] = &[
     condition(Requirement::Areas(Outputs), AlStatusCode::INVALID_OUTPUT_CONFIGURATION),
     condition(Requirement::Areas(Inputs), AlStatusCode::INVALID_INPUT_CONFIGURATION),
@@ -74,7 +74,7 @@ pub const PROCESS_DATA: &[Condition] = &[
     condition(Requirement::Buffers(Inputs), AlStatusCode::FREE_RUN_NEEDS_THREE_BUFFERS),
 ];
 
-/// What most slaves watch in SAFE-OP and OP.
+/// The conditions that most slaves monitor in SAFE-OP and OP.
 pub const WATCHED_PROCESS_DATA: &[Condition] = &[
     condition(Requirement::Areas(Outputs), AlStatusCode::INVALID_OUTPUT_CONFIGURATION),
     condition(Requirement::Buffers(Outputs), AlStatusCode::INVALID_OUTPUT_CONFIGURATION),

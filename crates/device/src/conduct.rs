@@ -1,22 +1,23 @@
-//! How a slave departs from a quick and willing one: the times of its transitions, what it refuses and ignores.
+//! How a slave deviates from fast and normal behaviour: transition times, refused states, ignored acknowledges.
 
 use time::Duration;
 use wire::{AlState, AlStatusCode};
 
 use crate::state_machine::TRANSITIONS;
 
-/// The conduct of a slave. The default is quick and willing.
+/// The conduct of a slave. The default is fast and normal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Conduct {
     /// How long a request waits in AL control before the slave takes it.
     pub transition_times: TransitionTimes,
-    /// States that it refuses.
+    /// The states that it refuses.
     pub refusals: Refusals,
-    /// While it shows an error, a request with the acknowledge bit is ignored. INIT without the bit is not.
+    /// While it shows an error, a request with the acknowledge bit is ignored. A request for INIT without the
+    /// bit is accepted.
     pub ignores_acknowledge: bool,
 }
 
-/// The time of each transition, a row of [`TRANSITIONS`] each.
+/// The time of each transition, one per row of [`TRANSITIONS`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TransitionTimes([Duration; TRANSITIONS.len()]);
 
@@ -34,7 +35,7 @@ impl TransitionTimes {
         place.map(|place| *place = time).is_some()
     }
 
-    /// The time from one state to another; zero for what is no transition.
+    /// The time from one state to another; zero if this is not a transition.
     #[must_use]
     pub fn of(&self, from: AlState, to: AlState) -> Duration {
         let row = TRANSITIONS.iter().position(|row| row.from == from && row.to == to);
@@ -47,13 +48,13 @@ impl TransitionTimes {
 pub struct Refusals([Option<AlStatusCode>; AlState::ALL.len()]);
 
 impl Refusals {
-    /// Refuses `state` with this code, or no longer; false for a value that names no state.
+    /// Refuses `state` with this code, or accepts it again; false for a value that is not a state.
     pub fn set(&mut self, state: AlState, code: Option<AlStatusCode>) -> bool {
         let place = AlState::ALL.iter().position(|&known| known == state).and_then(|at| self.0.get_mut(at));
         place.map(|place| *place = code).is_some()
     }
 
-    /// The code with which `state` is refused, if it is.
+    /// The code with which `state` is refused, if it is refused.
     #[must_use]
     pub fn of(&self, state: AlState) -> Option<AlStatusCode> {
         let at = AlState::ALL.iter().position(|&known| known == state)?;

@@ -1,5 +1,4 @@
-//! The description of a slave that the stack works by: memory layout, time-outs, checks, the choices where slaves
-//! differ.
+//! The description of a slave for the stack: memory layout, time-outs, checks, the choices in which slaves differ.
 
 use core::fmt;
 
@@ -11,62 +10,62 @@ use crate::conduct::Conduct;
 use crate::sync_managers::{MailboxConfig, ProcessDataConfig, ProcessDataList};
 use crate::sync_mode::SyncMode;
 
-/// Whether SAFE-OP to OP waits for outputs (reference 5.4, C056).
+/// Whether the transition from SAFE-OP to OP waits for outputs (reference 5.4, C056).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputsBeforeOp {
-    /// OP without having seen outputs; they are not valid until they come.
+    /// OP without outputs; outputs are not valid until they are received.
     NotRequired,
-    /// OP with the first outputs that have come since SAFE-OP was entered; without them AL status code 0x001B
-    /// after this time. Only outputs that the process data watchdog watches are waited for.
+    /// OP with the first outputs received since SAFE-OP was entered; without them AL status code 0x001B after
+    /// this time. The transition waits only for outputs that the process data watchdog monitors.
     Within(Duration),
 }
 
-/// What a refused request does to a slave in OP. In the other states it keeps its state.
+/// The effect of a refused request on a slave in OP. In the other states the slave keeps its state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RefusedInOp {
     /// It drops to SAFE-OP (reference 5.2, C061, C062).
     DropToSafeOp,
-    /// It stays in OP and shows the error.
+    /// It remains in OP and shows the error.
     StayInOp,
 }
 
-/// How long the unit takes from power to its first step. Until then the controller answers alone: AL status is INIT, the
-/// PDI is not operational, and a request waits in AL control.
+/// Time from power-on of the unit to its first step. Until then only the controller answers: AL status is INIT,
+/// the PDI is not operational, and a request waits in AL control.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StartUp {
-    /// When it is powered on for the first time; zero: it has been under power for long.
+    /// At the first power-on; zero: the unit has been powered for a long time.
     pub first: Duration,
     /// At every later start.
     pub again: Duration,
 }
 
-/// Everything about the stack of one unit. The default is a slave with neither mailbox nor process data, which runs
-/// freely, follows the standard and is quick.
+/// The complete configuration of the stack of one unit. The default is a slave with neither mailbox nor process
+/// data, which runs freely, follows the standard and is fast.
 #[derive(Clone, Debug)]
 pub struct DeviceConfig {
     /// The controller.
     pub esc: EscConfig,
     /// EEPROM image at power-on.
     pub sii_image: Vec<u8>,
-    /// The mailbox; none for a unit without.
+    /// The mailbox; none for a unit without one.
     pub mailbox: Option<MailboxConfig>,
     /// The SyncManagers with process data.
     pub process_data: ProcessDataList,
-    /// How the unit may be synchronised, the mode that needs no setting first.
+    /// The supported synchronisation modes; the first one is used without a setting.
     pub sync_modes: &'static [SyncMode],
-    /// What is checked from PRE-OP to SAFE-OP, in the order in which the first finding counts.
+    /// The checks from PRE-OP to SAFE-OP, in the order of their priority.
     pub checks: &'static [Condition],
-    /// What has to stay so in SAFE-OP and OP, else the slave drops to PRE-OP.
+    /// The conditions in SAFE-OP and OP; if one is violated, the slave drops to PRE-OP.
     pub watched: &'static [Condition],
-    /// From power to the first step of the unit.
+    /// From power-on to the first step of the unit.
     pub start_up: StartUp,
-    /// From the first step of the unit to its first refresh; less than a refresh period.
+    /// From the first step of the unit to its first refresh; shorter than a refresh period.
     pub refresh_phase: Duration,
     /// SAFE-OP to OP.
     pub outputs_before_op: OutputsBeforeOp,
-    /// Requests in OP that are no transition.
+    /// Requests in OP that are not a transition.
     pub refused_in_op: RefusedInOp,
-    /// Slow transitions, refusals: how the slave behaves until somebody changes it.
+    /// Slow transitions, refusals: the conduct of the slave until it is changed.
     pub conduct: Conduct,
 }
 
@@ -89,26 +88,26 @@ impl Default for DeviceConfig {
     }
 }
 
-/// What of a description does not fit together.
+/// The inconsistency of a description.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConfigError {
     /// The controller has no such SyncManager.
     NoSuchSyncManager {
-        /// The one that is described.
+        /// The SyncManager in the description.
         sync_manager: SmIndex,
-        /// How many there are.
+        /// The number of SyncManagers of the controller.
         count: u8,
     },
-    /// It is the mailbox, or it comes twice, or the list is not ascending.
+    /// It belongs to the mailbox, or it occurs twice, or the list is not ascending.
     SyncManagerOutOfOrder(SmIndex),
     /// The list of synchronisation modes is empty.
     NoSyncMode,
-    /// The stack cannot follow this mode.
+    /// The stack does not support this mode.
     SyncModeNotImplemented(SyncMode),
 }
 
 impl DeviceConfig {
-    /// Whether the parts fit together.
+    /// Whether the parts are consistent.
     ///
     /// # Errors
     /// [`ConfigError`], the first one.

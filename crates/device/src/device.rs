@@ -18,11 +18,11 @@ use crate::power::Power;
 use crate::process_image::ProcessImage;
 use crate::unit::{RefreshCause, Start, Unit};
 
-/// What the stack always listens to.
+/// The events that the stack always handles.
 const EVENTS: AlEvents =
     AlEvents::AL_CONTROL.union(AlEvents::SYNC_MANAGER_ACTIVATION).union(AlEvents::WATCHDOG);
 
-/// A slave under power.
+/// A slave with power.
 #[derive(Debug)]
 pub struct Device<U> {
     unit: U,
@@ -31,18 +31,17 @@ pub struct Device<U> {
     process_image: ProcessImage,
     conduct: Conduct,
     power: Power,
-    /// As it was last, while the slave has no power.
+    /// The last values, while the slave has no power.
     machine: Machine,
-    /// Emergencies that found no mailbox, or no room in it.
+    /// Emergencies for which there was no mailbox, or no room in it.
     emergencies_lost: u64,
 }
 
 impl<U: Unit> Device<U> {
-    /// A slave that gets power at `now`, and the ESC that belongs to it. All memory that they ever use is allocated
-    /// here.
+    /// A slave that is powered on at `now`, and its ESC. All the memory that they ever use is allocated here.
     ///
     /// # Panics
-    /// If the description is wrong in itself, see [`DeviceConfig::validate`].
+    /// If the description is inconsistent, see [`DeviceConfig::validate`].
     #[must_use]
     pub fn power_on(mut config: DeviceConfig, mut unit: U, now: Instant) -> (Self, Esc) {
         if let Err(error) = config.validate() {
@@ -67,7 +66,7 @@ impl<U: Unit> Device<U> {
         (device, esc)
     }
 
-    /// Starts again from INIT, as after power-on; the EEPROM keeps what was written to it.
+    /// Starts again from INIT, as after power-on; the EEPROM keeps its contents.
     pub fn restart(&mut self, esc: &mut Esc, now: Instant, start: Start) {
         let code = self.unit.restart(now, start, esc.sii_image_mut());
         esc.reset(now);
@@ -84,7 +83,7 @@ impl<U: Unit> Device<U> {
         matches!(self.power, Power::Off)
     }
 
-    /// The slave loses its power: it does nothing until [`Device::restart`]. Its cables are the network's.
+    /// Switches the slave's power off: it does nothing until [`Device::restart`]. Its cables belong to the network.
     pub(crate) fn power_off(&mut self, now: Instant) {
         self.power = Power::Off;
         self.unit.power_off(now);
@@ -96,7 +95,7 @@ impl<U: Unit> Device<U> {
         &self.unit
     }
 
-    /// The unit model, for what its application does to it.
+    /// The unit model, for access by its application.
     pub const fn unit_mut(&mut self) -> &mut U {
         &mut self.unit
     }
@@ -113,19 +112,19 @@ impl<U: Unit> Device<U> {
         self.machine.code()
     }
 
-    /// Times and refusals of the state machine, to be changed; [`Device::behave`] takes the change back.
+    /// Mutable access to the conduct of the state machine; [`Device::behave`] restores the configured conduct.
     pub const fn conduct_mut(&mut self) -> &mut Conduct {
         &mut self.conduct
     }
 
-    /// Mailbox requests that come from now on are answered this long after they came.
+    /// Sets the time from receipt to response for mailbox requests received from now on.
     pub fn set_response_time(&mut self, response_time: Duration) {
         if let Some(mailbox) = &mut self.mailbox {
             mailbox.set_response_time(response_time);
         }
     }
 
-    /// Conduct, mailbox and SII take their times of power-on again. The content of the SII stays.
+    /// Restores the power-on settings of conduct, mailbox and SII timing. The contents of the SII are unchanged.
     pub fn behave(&mut self, esc: &mut Esc) {
         self.conduct = self.config.conduct.clone();
         if let Some(mailbox) = self.config.mailbox {
@@ -134,7 +133,7 @@ impl<U: Unit> Device<U> {
         esc.set_sii_timing(self.config.esc.sii);
     }
 
-    /// When the device has to be polled next, whatever the wire does.
+    /// The time at which the device must be polled next, independent of frames.
     #[must_use]
     pub fn deadline(&self) -> Instant {
         let next_refresh = match self.power {
@@ -193,8 +192,8 @@ impl<U: Unit> Device<U> {
         mailbox.poll(now, state, pdi, objects)
     }
 
-    /// Changes the state inside; what the wire sees follows by [`Device::show`], so that the inputs of
-    /// SAFE-OP are there before AL status says so.
+    /// Changes the internal state; [`Device::show`] updates AL status afterwards, so that the inputs of SAFE-OP
+    /// are present before AL status indicates it.
     fn enter(&mut self, state: AlState, pdi: &mut Pdi<'_>, now: Instant) {
         let before = self.machine.state;
         let next = self.state_to_enter(state, pdi);
@@ -216,9 +215,9 @@ impl<U: Unit> Device<U> {
         self.exchange(RefreshCause::Change, pdi, now);
     }
 
-    /// The state with what it takes over from the one before.
+    /// The state, with the data that it takes over from the previous one.
     fn state_to_enter(&self, state: AlState, pdi: &Pdi<'_>) -> State {
-        // Here, because a fall-back closes the outputs and forgets that some have come.
+        // Determined here, because a fall-back closes the outputs and clears the flag that outputs were received.
         let process_data = match self.machine.state.process_data() {
             Some(before) => ProcessData {
                 outputs_came: before.outputs_came || self.outputs_received(pdi),
@@ -232,13 +231,13 @@ impl<U: Unit> Device<U> {
             AlState::Boot => State::Boot,
             AlState::SafeOp => State::SafeOp { process_data, op_request: None },
             AlState::Op => State::Op { process_data },
-            // No row of the transitions leads there.
+            // There is no row with this transition.
             AlState::Other(_) => self.machine.state,
         }
     }
 
-    /// INIT has no mailbox, and process data begin with SAFE-OP (reference 5.1): what the state does not have
-    /// is closed for the wire, and begins empty when it opens.
+    /// INIT has no mailbox, and process data begin with SAFE-OP (reference 5.1): what does not belong to the
+    /// state is closed for the ECAT side, and is empty when it opens.
     fn open_sync_managers(&self, pdi: &mut Pdi<'_>) {
         let state = self.al_state();
         let has_process_data = self.machine.state.process_data().is_some();
@@ -252,7 +251,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// What interrupts the stack in the present state.
+    /// The events that interrupt the stack in the present state.
     fn events(&self) -> AlEvents {
         let mailbox = [SmIndex::MAILBOX_RECEIVE, SmIndex::MAILBOX_SEND];
         let mailbox = mailbox.into_iter().filter(|_| self.config.mailbox.is_some());

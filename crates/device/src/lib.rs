@@ -1,6 +1,6 @@
 //! The slave stack: state machine, mailbox and objects on an ESC; the trait that a unit implements.
 //!
-//! Nothing here knows which unit it carries. A [`Unit`] gives the objects and the process data, a
+//! This crate is independent of the unit model. A [`Unit`] provides the objects and the process data, a
 //! [`DeviceConfig`] the layout; a [`Network`] is a line of such slaves that frames pass.
 
 mod action;

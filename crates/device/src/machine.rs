@@ -1,16 +1,16 @@
-//! Where a slave is in its state machine: the states with what belongs to them, and what AL status shows.
+//! The state of a slave's state machine: the states with their data, and what AL status shows.
 
 use time::Instant;
 use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 
 use crate::sync_mode::SyncMode;
 
-/// The state of a slave, what it shows, and the request that waits in AL control.
+/// The state of a slave, its indication, and the request that waits in AL control.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Machine {
     pub(crate) state: State,
     pub(crate) indication: Indication,
-    /// When the request that waits in AL control is taken.
+    /// The time at which the request in AL control is taken.
     pub(crate) request_due: Option<Instant>,
 }
 
@@ -66,7 +66,7 @@ impl State {
         }
     }
 
-    /// What SAFE-OP and OP know of the process data.
+    /// The process data in SAFE-OP and OP.
     pub(crate) const fn process_data(self) -> Option<ProcessData> {
         match self {
             Self::Init { .. } | Self::PreOp | Self::Boot => None,
@@ -88,7 +88,7 @@ impl State {
         }
     }
 
-    /// The request for OP that waits, which waits no longer.
+    /// Removes and returns the waiting request for OP.
     pub(crate) const fn take_op_request(&mut self) -> Option<OpRequest> {
         match self {
             Self::SafeOp { op_request, .. } => op_request.take(),
@@ -101,7 +101,7 @@ impl State {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ProcessData {
     pub(crate) sync_mode: SyncMode,
-    /// Outputs have come: OP watches over them from its beginning on.
+    /// Outputs have been received: OP monitors them from its start.
     pub(crate) outputs_came: bool,
 }
 
@@ -109,15 +109,15 @@ pub(crate) struct ProcessData {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OpRequest {
     pub(crate) control: AlControl,
-    /// Without outputs it is refused then.
+    /// Without outputs it is refused at this time.
     pub(crate) deadline: Instant,
 }
 
-/// What AL status and AL status code show beside the state.
+/// What AL status and AL status code show in addition to the state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Indication {
     Nothing,
-    /// The Explicit Device ID, which the master has asked for.
+    /// The Explicit Device ID that the master has requested.
     DeviceId(u16),
     /// An error, until it is acknowledged.
     Error(AlStatusCode),

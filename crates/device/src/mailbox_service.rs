@@ -1,4 +1,4 @@
-//! SyncManagers 0 and 1 around the mailbox: when a request is served, when a message may go, repeats.
+//! SyncManagers 0 and 1 for the mailbox: when a request is served, when a message may be sent, repeats.
 
 use esc::{Pdi, SmIndex};
 use mailbox::{Mailbox, MailboxSizes};
@@ -15,9 +15,9 @@ pub(crate) struct MailboxService {
     mailbox: Mailbox,
     request: Box<[u8]>,
     reply: Box<[u8]>,
-    /// When the request that lies in SyncManager 0 is answered.
+    /// The time at which the request in SyncManager 0 is answered.
     due: Option<Instant>,
-    /// A message of ours lies in SyncManager 1.
+    /// A message to the master is in SyncManager 1.
     sent: bool,
 }
 
@@ -41,25 +41,25 @@ impl MailboxService {
         &mut self.mailbox
     }
 
-    /// A request that is waiting already keeps its time.
+    /// A request that is already waiting keeps its time.
     pub(crate) const fn set_response_time(&mut self, response_time: Duration) {
         self.config.response_time = response_time;
     }
 
-    /// Starts afresh, as at INIT to PRE-OP.
+    /// Resets the mailbox, as at INIT to PRE-OP.
     pub(crate) fn reset(&mut self) {
         self.mailbox.reset();
         self.due = None;
         self.sent = false;
     }
 
-    /// When a request is to be answered. While the send mailbox is full the next step is the master's read,
-    /// not a moment in time.
+    /// The time at which a request is to be answered. While the send mailbox is full, the next step is the
+    /// master's read, not a point in time.
     pub(crate) fn deadline(&self) -> Instant {
         if self.sent { Instant::NEVER } else { self.due.unwrap_or(Instant::NEVER) }
     }
 
-    /// Looks at both SyncManagers. Tells whether a request was served, which may have changed the unit.
+    /// Serves both SyncManagers. Returns whether a request was served, which may have changed the unit.
     pub(crate) fn poll(
         &mut self,
         now: Instant,
@@ -75,7 +75,7 @@ impl MailboxService {
         if pdi.repeat_requested(SmIndex::MAILBOX_SEND) {
             self.repeat(pdi);
         }
-        // What waits goes before an answer: a message that made room for a repeated one comes next.
+        // Waiting messages are sent before an answer: a message that was replaced by a repeated one comes next.
         self.send_unsolicited(pdi);
         let served = self.serve(now, state, pdi, objects);
         self.send_unsolicited(pdi);
@@ -89,7 +89,7 @@ impl MailboxService {
         }
     }
 
-    /// The lost message goes into the mailbox again; one that lies there unread follows it later.
+    /// The lost message is put into the mailbox again; an unread message there follows it later.
     fn repeat(&mut self, pdi: &mut Pdi<'_>) {
         if let Some(length_bytes) = self.mailbox.repeat(&mut self.reply) {
             pdi.empty_mailbox(SmIndex::MAILBOX_SEND);
@@ -98,7 +98,7 @@ impl MailboxService {
         pdi.acknowledge_repeat(SmIndex::MAILBOX_SEND);
     }
 
-    /// A request stays in its mailbox, which refuses the next one, until its response can go.
+    /// A request remains in its mailbox, which refuses the next one, until its response can be sent.
     fn serve(
         &mut self,
         now: Instant,

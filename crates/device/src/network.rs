@@ -8,22 +8,22 @@ use crate::config::DeviceConfig;
 use crate::device::Device;
 use crate::unit::{Start, Unit};
 
-/// A line of slaves behind a master, driven from outside: no clock, no thread.
+/// A line of slaves behind a master, driven by the caller: no clock, no thread.
 ///
-/// [`Network::frame`] answers a frame and does nothing else; [`Network::poll`] lets the slaves react. Call
-/// it after each frame and whenever [`Network::deadline`] has come.
+/// [`Network::frame`] answers a frame and does nothing else; [`Network::poll`] lets the slaves react. Call it
+/// after each frame and whenever [`Network::deadline`] is reached.
 #[derive(Debug)]
 pub struct Network<U> {
     segment: Segment,
     devices: Vec<Device<U>>,
-    /// Whether a cable is plugged in: in front of the device of its number, the last one behind the far end.
+    /// Whether a cable is plugged in: the one before the device with its number; the last one is at the far end.
     cables: Vec<bool>,
-    /// Whether the medium to the master carries a signal: that is cable 0 beyond our end of it.
+    /// Whether the medium to the master has a carrier: cable 0, at the master's end.
     carrier: bool,
 }
 
 impl<U: Unit> Network<U> {
-    /// Gives power to a line of units at `now`, the one next to the master first.
+    /// Powers on a line of units at `now`, starting with the one next to the master.
     #[must_use]
     pub fn power_on(units: impl IntoIterator<Item = (DeviceConfig, U)>, now: Instant) -> Self {
         let powered = units.into_iter().map(|(config, unit)| Device::power_on(config, unit, now));
@@ -33,13 +33,13 @@ impl<U: Unit> Network<U> {
         Self { segment: Segment::new(escs), devices, cables, carrier: true }
     }
 
-    /// A frame comes from the master; it is answered in place.
+    /// A frame arrives from the master; it is answered in place.
     #[inline]
     pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
         self.segment.frame(now, frame)
     }
 
-    /// Lets every slave that has something to do react.
+    /// Lets every slave react that has pending work.
     pub fn poll(&mut self, now: Instant) {
         let mut reset = false;
         for (position, device) in self.devices.iter_mut().enumerate() {
@@ -55,7 +55,7 @@ impl<U: Unit> Network<U> {
         }
     }
 
-    /// When [`Network::poll`] has to be called at the latest.
+    /// The latest time at which [`Network::poll`] must be called.
     #[must_use]
     pub fn deadline(&self) -> Instant {
         let devices = self.devices.iter().map(Device::deadline).min().unwrap_or(Instant::NEVER);
@@ -68,7 +68,7 @@ impl<U: Unit> Network<U> {
         self.devices.len()
     }
 
-    /// Whether there is no slave at all.
+    /// Whether there are no slaves.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.devices.is_empty()
@@ -86,7 +86,7 @@ impl<U: Unit> Network<U> {
         self.devices.get_mut(position)
     }
 
-    /// The slave at a position and its ESC, for who has to do with both.
+    /// Mutable access to a slave and its ESC together.
     #[must_use]
     pub fn slave_mut(&mut self, position: usize) -> Option<(&mut Device<U>, &mut Esc)> {
         Some((self.devices.get_mut(position)?, self.segment.esc_mut(position)?))
@@ -98,19 +98,19 @@ impl<U: Unit> Network<U> {
         self.segment.esc(position)
     }
 
-    /// The line itself, to look at.
+    /// The line, for reading.
     #[must_use]
     pub const fn segment(&self) -> &Segment {
         &self.segment
     }
 
-    /// The line itself. Cables are those of [`Network::set_cable`].
+    /// The line, for changes. Plug and pull cables with [`Network::set_cable`].
     pub const fn segment_mut(&mut self) -> &mut Segment {
         &mut self.segment
     }
 
-    /// Plugs or pulls a cable: the one in front of the slave at `number`, or behind the far end. It carries frames
-    /// while both its ends have power.
+    /// Plugs or pulls a cable: the one before the slave at `number`, or the one at the far end. It carries
+    /// frames while both its ends have power.
     pub fn set_cable(&mut self, number: usize, plugged: bool) {
         if let Some(cable) = self.cables.get_mut(number) {
             *cable = plugged;
@@ -118,15 +118,15 @@ impl<U: Unit> Network<U> {
         }
     }
 
-    /// The medium to the master has lost its carrier, or has it again: as if the first cable was pulled at its
-    /// other end. One that is pulled here stays so.
+    /// The medium to the master has lost its carrier, or has it again: as if the first cable were pulled at its
+    /// other end. A cable that is pulled at this end remains pulled.
     pub fn set_carrier(&mut self, present: bool) {
         self.carrier = present;
         self.connect(0);
     }
 
-    /// Takes the power from one slave: no frame passes it until [`Network::restart`] gives it back. A position
-    /// without slave is nothing.
+    /// Switches one slave's power off: no frame passes it until [`Network::restart`]. A position without a
+    /// slave has no effect.
     pub fn power_off(&mut self, position: usize, now: Instant) {
         if let Some(device) = self.devices.get_mut(position) {
             device.power_off(now);
@@ -146,7 +146,7 @@ impl<U: Unit> Network<U> {
         self.segment.set_cable(cable, carries);
     }
 
-    /// Starts one slave again; a position without slave is nothing.
+    /// Restarts one slave; a position without a slave has no effect.
     pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
             let was_off = device.is_off();

@@ -1,23 +1,23 @@
-//! Whether a slave has power, and how far its start-up has come.
+//! Whether a slave has power, and the phase of its start-up.
 
 use time::{Duration, Instant};
 use wire::AlStatusCode;
 
-/// Whether a slave has power, and how far it has come.
+/// Whether a slave has power, and the phase of its start-up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Power {
     Off,
     StartingUp {
         phase: Phase,
-        /// When the phase is over.
+        /// The end of the phase.
         next: Instant,
-        /// How long each phase takes.
+        /// Duration of each phase.
         phase_time: Duration,
-        /// The AL status code that the master finds after it.
+        /// The AL status code for the master after it.
         code: Option<AlStatusCode>,
     },
     On {
-        /// When the unit's timer refreshes it; [`Instant::NEVER`] for a unit without.
+        /// The time of the unit's next refresh by its timer; [`Instant::NEVER`] for a unit without one.
         next_refresh: Instant,
     },
 }
@@ -25,8 +25,8 @@ pub(crate) enum Power {
 /// The two halves of the start-up time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
-    /// Nothing of the unit runs yet.
+    /// The unit does not run yet.
     Waiting,
-    /// Its processor runs, the application does not.
+    /// Its processor is running, the application is not.
     Initializing,
 }

@@ -1,21 +1,21 @@
-//! The process data of a slave as its unit sees them: the outputs in one piece, the inputs in one piece.
+//! The process data of a slave as its unit sees them: all outputs as one block, all inputs as one block.
 
 use arrayvec::ArrayVec;
 use esc::{Pdi, SmIndex, SmMode};
 
 use crate::sync_managers::{Buffers, DataDirection, ProcessDataConfig, SYNC_MANAGERS_MAX};
 
-/// Where outputs and inputs lie while the unit works on them.
+/// The location of outputs and inputs while the unit accesses them.
 #[derive(Debug)]
 pub(crate) enum ProcessImage {
     /// In the buffers of the controller: one SyncManager of three buffers in each direction, or none.
     InPlace { outputs: Option<SmIndex>, inputs: Option<SmIndex> },
-    /// In memory of our own, gathered from several SyncManagers, or from single buffers.
+    /// In separate memory, collected from several SyncManagers, or from single buffers.
     Gathered { outputs: Gathered, inputs: Gathered },
 }
 
 impl ProcessImage {
-    /// The image of these SyncManagers. All memory that it ever uses is allocated here.
+    /// The image of these SyncManagers. All the memory that it ever uses is allocated here.
     pub(crate) fn new(process_data: &[ProcessDataConfig]) -> Self {
         let of = |direction| process_data.iter().filter(move |described| described.direction == direction);
         let in_place = |direction| {
@@ -33,7 +33,7 @@ impl ProcessImage {
         }
     }
 
-    /// Lets the unit take the newest whole outputs and fill the inputs, which the master gets afterwards.
+    /// Gives the newest complete outputs to the unit and lets it fill the inputs, which the master gets afterwards.
     pub(crate) fn exchange(&mut self, pdi: &mut Pdi<'_>, exchange: impl FnOnce(&[u8], &mut [u8])) {
         match self {
             Self::InPlace { outputs, inputs } => pdi.exchange(*outputs, *inputs, exchange),
@@ -75,7 +75,7 @@ impl Gathered {
         self.sync_managers.iter().map(|&index| set_bytes(pdi, index)).sum()
     }
 
-    /// What has come whole replaces what was there; a single buffer is free again.
+    /// Completely received data replace the previous data; a single buffer is free again.
     fn take_from(&mut self, pdi: &mut Pdi<'_>) {
         let mut at = 0;
         for &index in &self.sync_managers {
@@ -108,7 +108,7 @@ impl Gathered {
     }
 }
 
-/// The bytes that a SyncManager carries as the master has set it, be it closed or not.
+/// The bytes of a SyncManager as set by the master, whether it is closed or not.
 fn set_bytes(pdi: &Pdi<'_>, index: SmIndex) -> usize {
     let set = pdi.sync_manager(index);
     if set.enabled { usize::from(set.length_bytes) } else { 0 }

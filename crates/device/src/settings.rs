@@ -1,4 +1,4 @@
-//! What a master has set, against the rows of a table of conditions.
+//! The settings of a master, checked against a table of conditions.
 
 use arrayvec::ArrayVec;
 use esc::{Pdi, SmDirection, SmIndex, SmMode, SyncManagerSettings};
@@ -11,13 +11,13 @@ use crate::sync_managers::{
 };
 use crate::sync_mode::SyncMode;
 
-/// The AL status codes of everything that is wrong, each once, in the order in which the first one counts.
+/// The AL status codes of all violated conditions, each once, in the order of their priority.
 pub(crate) type Findings = ArrayVec<AlStatusCode, 16>;
 
-/// Lengths of the process data that the mapping asks for now, in the order of [`DeviceConfig::process_data`].
+/// Lengths of the process data that the present mapping requires, in the order of [`DeviceConfig::process_data`].
 pub(crate) type Lengths = ArrayVec<u16, SYNC_MANAGERS_MAX>;
 
-/// What a master has set, beside what it should have.
+/// The settings of a master together with the expected ones.
 pub(crate) struct Settings<'a, 'p> {
     pub(crate) config: &'a DeviceConfig,
     pub(crate) lengths: &'a Lengths,
@@ -26,12 +26,12 @@ pub(crate) struct Settings<'a, 'p> {
 }
 
 impl Settings<'_, '_> {
-    /// What is wrong, by the rows of a table.
+    /// The violated conditions, in the order of a table.
     pub(crate) fn findings(&self, conditions: &[Condition]) -> Findings {
         let mut findings = Findings::new();
         for condition in conditions {
             if !self.meets(condition.requires) && !findings.contains(&condition.otherwise) {
-                // A table of more codes tells the first ones.
+                // If a table has more codes, only the first ones are reported.
                 let _ = findings.try_push(condition.otherwise);
             }
         }

@@ -2,31 +2,31 @@
 
 use wire::{AlState, AlStatusCode};
 
-/// What has to hold before a transition.
+/// The condition for a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Check {
-    /// Nothing.
+    /// No condition.
     Nothing,
-    /// SII loaded, SyncManagers 0 and 1 as the SII gives them.
+    /// SII loaded, SyncManagers 0 and 1 as in the SII.
     Mailbox,
     /// The same for the mailbox of BOOT.
     Bootstrap,
     /// Mapping, SyncManagers with process data, synchronisation, watchdog.
     ProcessData,
-    /// Outputs have come, where the unit waits for them.
+    /// Outputs have been received, if the unit waits for them.
     Outputs,
 }
 
-/// One transition that the standard knows.
+/// One transition of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition {
     /// The standard's letters: from, to.
     pub letters: &'static str,
-    /// Where it starts.
+    /// The state before.
     pub from: AlState,
-    /// Where it leads.
+    /// The state after.
     pub to: AlState,
-    /// What has to hold.
+    /// The condition.
     pub check: Check,
 }
 
@@ -70,7 +70,7 @@ pub fn transition(from: AlState, to: AlState) -> Option<&'static Transition> {
     TRANSITIONS.iter().find(|row| row.from == from && row.to == to)
 }
 
-/// Why a request that is no transition of the slave is refused (reference 5.2).
+/// Why a request that is not a transition of the slave is refused (reference 5.2).
 #[must_use]
 pub fn refusal(from: AlState, to: AlState) -> AlStatusCode {
     match (from, to) {

@@ -1,11 +1,11 @@
-//! The SyncManagers of a slave: what each is for, where its area is, how it is handed over.
+//! The SyncManagers of a slave: purpose, area, and exchange of buffers.
 
 use arrayvec::ArrayVec;
 use esc::SmIndex;
 use mailbox::AbortProfile;
 use time::Duration;
 
-/// Most SyncManagers that an ESC has.
+/// Maximum number of SyncManagers of an ESC.
 pub(crate) const SYNC_MANAGERS_MAX: usize = 16;
 
 /// A part of the ESC memory.
@@ -29,17 +29,17 @@ pub struct MailboxAreas {
 /// The mailbox on SyncManagers 0 and 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MailboxConfig {
-    /// Its areas in PRE-OP, SAFE-OP and OP, as SII and ESI give them to the master.
+    /// Its areas in PRE-OP, SAFE-OP and OP, as in SII and ESI.
     pub standard: MailboxAreas,
     /// Its areas in BOOT; none for a slave without that state.
     pub bootstrap: Option<MailboxAreas>,
     /// From the receipt of a request to its response.
     pub response_time: Duration,
-    /// Abort codes where manuals differ.
+    /// Abort codes for the cases in which manuals differ.
     pub aborts: AbortProfile,
 }
 
-/// The way of process data.
+/// The direction of process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataDirection {
     /// Master to slave (RxPDO).
@@ -48,14 +48,14 @@ pub enum DataDirection {
     Inputs,
 }
 
-/// How many process data a SyncManager carries.
+/// Length of a SyncManager's process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataLength {
-    /// Always as many bytes.
+    /// Always this number of bytes.
     Fixed(u16),
-    /// As many as the mapping has now, see [`crate::Unit::mapped_bytes`].
+    /// The length of the present mapping, see [`crate::Unit::mapped_bytes`].
     Mapped {
-        /// At most as many.
+        /// Up to this number of bytes.
         max_bytes: u16,
     },
 }
@@ -68,29 +68,29 @@ impl DataLength {
     }
 }
 
-/// How process data may be handed over. The master chooses by the mode of the SyncManager.
+/// How process data may be exchanged. The master chooses by the mode of the SyncManager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Buffers {
     /// Three buffers, never blocked (mode 00). A SyncManager of one byte needs no buffers.
     Three,
     /// One buffer with handshake (mode 10).
     One,
-    /// Whatever the master sets.
+    /// Any mode that the master sets.
     OneOrThree,
 }
 
 /// A SyncManager with process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProcessDataConfig {
-    /// Which one. A slave without mailbox may use 0 and 1 too.
+    /// Its number. A slave without mailbox may use 0 and 1 too.
     pub sync_manager: SmIndex,
-    /// Who writes.
+    /// The direction.
     pub direction: DataDirection,
-    /// Where its area starts.
+    /// Start of its area.
     pub start: u16,
-    /// Length of its data. Without data it has to be disabled.
+    /// Length of its data. Without data it must be disabled.
     pub length: DataLength,
-    /// How it is handed over.
+    /// How its buffers are exchanged.
     pub buffers: Buffers,
 }
 

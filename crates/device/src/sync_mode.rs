@@ -5,15 +5,15 @@ use core::fmt;
 /// When a unit exchanges its process data (reference 7.2, objects 1C32 and 1C33).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SyncMode {
-    /// By a timer of its own, [`crate::Unit::refresh_period`].
+    /// By the unit's own timer, [`crate::Unit::refresh_period`].
     FreeRun,
-    /// Also with every event of the outputs' SyncManagers, or of the inputs' where there are no outputs. The event
-    /// needs the PDI interrupt in the control byte (bit 5).
+    /// Also at every event of the outputs' SyncManagers, or of the inputs' if there are no outputs. The event
+    /// requires the PDI interrupt in the control byte (bit 5).
     SmSynchronous,
-    /// As digital outputs without a processor: also with the end of every frame that writes outputs, whatever the
-    /// control byte says.
+    /// Like digital outputs without a processor: also at the end of every frame that writes outputs,
+    /// independent of the control byte.
     EndOfFrame,
-    /// With SYNC0 of the distributed clocks. No slave of ours follows it yet.
+    /// With SYNC0 of the distributed clocks. No slave of this project supports it yet.
     Dc,
 }
 

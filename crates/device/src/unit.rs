@@ -1,4 +1,4 @@
-//! What a unit model brings: objects, process data, checks, and nothing of the protocol.
+//! What a unit model provides: objects, process data, checks, and no protocol.
 
 use esc::SmIndex;
 use objects::ObjectServer;
@@ -9,12 +9,12 @@ use crate::action::Action;
 use crate::state_machine::Check;
 use crate::sync_mode::SyncMode;
 
-/// The ports of the slave: whether the cable there has a partner at its other end.
+/// The ports of the slave: whether the cable has a partner at its other end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PortLinks {
     /// Port IN, towards the master.
     pub in_port: bool,
-    /// Port OUT, towards the slaves behind.
+    /// Port OUT, towards the next slaves.
     pub out_port: bool,
 }
 
@@ -25,46 +25,46 @@ pub enum RefreshCause {
     Period,
     /// The master has exchanged process data with a unit that follows them ([`SyncMode`]).
     SyncManager,
-    /// A state or a status has changed between two periods, and the master is to see it at once.
+    /// A state or a status has changed between two periods, and the master must see it immediately.
     Change,
 }
 
-/// One refresh: what the SyncManagers hold, for the unit to take and to fill. Several SyncManagers of one direction
-/// follow each other in the order of their numbers.
+/// One refresh: the contents of the SyncManagers, for the unit to read and to fill. Several SyncManagers of one
+/// direction follow each other in the order of their numbers.
 pub struct Exchange<'a> {
-    /// Why it happens.
+    /// The reason for the refresh.
     pub cause: RefreshCause,
     /// State of the EtherCAT state machine at this refresh.
     pub state: AlState,
     /// The links at the ports.
     pub links: PortLinks,
-    /// The newest whole outputs; none unless the slave is in OP, the master has sent outputs since it
-    /// entered SAFE-OP, and the process data watchdog is alive.
+    /// The newest complete outputs; none unless the slave is in OP, the master has sent outputs since the slave
+    /// entered SAFE-OP, and the process data watchdog has not expired.
     pub outputs: Option<&'a [u8]>,
-    /// The inputs to fill, as long as the mapping makes them; empty below SAFE-OP. They hold older inputs on entry.
+    /// The inputs to fill, with the length of the mapping; empty below SAFE-OP. On entry they hold older inputs.
     pub inputs: &'a mut [u8],
 }
 
-/// Why a slave starts again.
+/// Why a slave restarts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// Its power was cycled.
     PowerOn,
-    /// Someone restarted it, locally.
+    /// It was restarted locally.
     Restart,
     /// The master has reset the ESC by register 0x0040.
     EscReset,
 }
 
-/// A unit model on the slave stack: queries that the stack asks when it needs the answer, and actions that it takes
-/// ([`Unit::take_action`]).
+/// A unit model on the slave stack: queries that the stack calls when it needs the answer, and actions that it
+/// takes ([`Unit::take_action`]).
 pub trait Unit {
-    /// The object dictionary behind CoE; none for a unit without a mailbox.
+    /// The object dictionary for CoE; none for a unit without a mailbox.
     fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
         None
     }
 
-    /// How many bytes the mapping that is set now gives to a SyncManager of [`crate::DataLength::Mapped`].
+    /// Number of bytes of a SyncManager of [`crate::DataLength::Mapped`] in the present mapping.
     fn mapped_bytes(&self, _sync_manager: SmIndex) -> u16 {
         0
     }
@@ -74,13 +74,13 @@ pub trait Unit {
         None
     }
 
-    /// The master asks for a state that has to be checked: PRE-OP ([`Check::Mailbox`]), BOOT
-    /// ([`Check::Bootstrap`]) or SAFE-OP ([`Check::ProcessData`]). `found` is what the stack has against it, in the
-    /// order in which the first one counts; mostly nothing. The unit adds its own and may name the stack's in its
-    /// own terms.
+    /// The master requests a state that must be checked: PRE-OP ([`Check::Mailbox`]), BOOT
+    /// ([`Check::Bootstrap`]) or SAFE-OP ([`Check::ProcessData`]). `found` contains the findings of the stack,
+    /// in the order of their priority; usually none. The unit adds its own findings and may replace the code of
+    /// the stack by its own.
     ///
     /// # Errors
-    /// The AL status code that the slave shows; it keeps its state.
+    /// The AL status code that the slave shows; the slave keeps its state.
     fn check_transition(
         &mut self,
         _now: Instant,
@@ -90,53 +90,53 @@ pub trait Unit {
         found.first().map_or(Ok(()), |&code| Err(code))
     }
 
-    /// The stack refuses a request that is no transition, or leaves a state on its own, for this reason. The
-    /// AL status code that the slave shows, which is mostly the same.
+    /// The stack refuses a request that is not a transition, or leaves a state without a request, for this
+    /// reason. Returns the AL status code that the slave shows, which is usually the same.
     fn al_error(&mut self, _now: Instant, code: AlStatusCode) -> AlStatusCode {
         code
     }
 
-    /// The state machine has arrived in `state`.
+    /// The state machine has reached `state`.
     fn entered(&mut self, _now: Instant, _state: AlState) {}
 
-    /// Time between two refreshes by the unit's own timer; none: it is refreshed at changes, and as its
-    /// synchronisation mode says.
+    /// Time between two refreshes by the unit's own timer; none: the unit is refreshed at changes, and
+    /// according to its synchronisation mode.
     fn refresh_period(&self) -> Option<Duration>;
 
     /// Moves data between the SyncManagers and the application.
     fn refresh(&mut self, now: Instant, exchange: Exchange<'_>);
 
-    /// Takes the next thing that the unit wants; none if it wants nothing. The stack asks with every poll, after a
+    /// Takes the next action of the unit; none if there is none. The stack calls this at every poll, after a
     /// refresh and after a mailbox request.
     fn take_action(&mut self) -> Option<Action> {
         None
     }
 
-    /// Explicit Device ID that the slave shows when AL control bit 5 asks; none when it has none.
+    /// Explicit Device ID that the slave shows when AL control bit 5 requests it; none if it has none.
     fn explicit_device_id(&self) -> Option<u16> {
         None
     }
 
-    /// How many emergency messages the unit itself had no room for, since power-on.
+    /// Number of emergency messages since power-on for which the unit had no room.
     fn emergencies_lost(&self) -> u64 {
         0
     }
 
-    /// The slave starts again, for the reason `start`. `sii_image` is the EEPROM, which is loaded right after. The
-    /// stack forgets fault and station alias: what persists is an action again. The AL status code that the master
-    /// finds in INIT; none: no error.
+    /// The slave restarts, for the reason `start`. `sii_image` is the EEPROM, which is loaded immediately
+    /// afterwards. The stack clears fault and station alias: a fault that persists must be an action again.
+    /// Returns the AL status code for the master in INIT; none: no error.
     fn restart(&mut self, _now: Instant, _start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
         None
     }
 
-    /// The processor of the unit runs, and initializes the rest: half of the start-up time is over.
+    /// The processor of the unit is running, and initializes the rest: half of the start-up time is over.
     fn initializing(&mut self, _now: Instant) {}
 
-    /// The slave loses its power. It is restarted with [`Start::PowerOn`] when it gets it back.
+    /// The slave's power is switched off. It is restarted with [`Start::PowerOn`] when the power returns.
     fn power_off(&mut self, _now: Instant) {}
 }
 
-/// A line of many models holds `Box<dyn Unit>`.
+/// A line of different models holds `Box<dyn Unit>`.
 impl<U: Unit + ?Sized> Unit for Box<U> {
     fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
         (**self).objects()

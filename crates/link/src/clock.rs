@@ -4,7 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use time::{Duration, Instant};
 
-/// A clock that never runs backwards.
+/// A monotonic clock.
 #[derive(Clone, Copy, Debug)]
 pub struct Clock {
     started: std::time::Instant,
@@ -13,13 +13,13 @@ pub struct Clock {
 }
 
 impl Clock {
-    /// Starts a clock: its origin is now.
+    /// Starts a clock whose origin is now.
     #[must_use]
     pub fn start() -> Self {
         Self::start_at(Instant::ZERO)
     }
 
-    /// Starts a clock that shows `at_start` now: real time goes on where virtual time stopped.
+    /// Starts a clock that shows `at_start` now: real time continues where virtual time ended.
     #[must_use]
     pub fn start_at(at_start: Instant) -> Self {
         let since_epoch = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();

@@ -6,9 +6,9 @@ use std::os::fd::AsFd;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use time::Duration;
 
-/// Sleeps in the kernel until a descriptor that does not block has bytes, and receives them. `ppoll` rather than
-/// a receive time-out, which counts in ticks of up to 10 ms; and no look before it: on one core that call
-/// would keep the master from running.
+/// Waits in the kernel until a non-blocking descriptor has bytes, and receives them. Uses `ppoll` rather than a
+/// receive time-out, which counts in ticks of up to 10 ms. There is no receive attempt before it: on one core
+/// that call would keep the master from running.
 pub(crate) fn receive_from(
     descriptor: &impl AsFd,
     wait: Duration,
@@ -35,7 +35,7 @@ fn readable(descriptor: &impl AsFd, wait: Duration) -> io::Result<bool> {
     };
     match poll(&mut [PollFd::new(descriptor, PollFlags::IN)], Some(&timeout)) {
         Ok(ready) => Ok(ready > 0),
-        // A signal: the caller looks at its stop flag.
+        // A signal: the caller checks its stop flag.
         Err(rustix::io::Errno::INTR) => Ok(false),
         Err(error) => Err(error.into()),
     }
@@ -43,7 +43,7 @@ fn readable(descriptor: &impl AsFd, wait: Duration) -> io::Result<bool> {
 
 const ETHERTYPE_AT: usize = 12;
 
-/// Whether an ESC would look into this frame: EtherCAT, also behind a VLAN tag, or IPv4, which may carry it.
+/// Whether an ESC would examine this frame: EtherCAT, also after a VLAN tag, or IPv4, which may contain it.
 pub(crate) fn may_be_ethercat(frame: &[u8]) -> bool {
     matches!(frame.get(ETHERTYPE_AT..ETHERTYPE_AT + 2), Some([0x88, 0xA4] | [0x81, 0x00] | [0x08, 0x00]))
 }

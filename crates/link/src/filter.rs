@@ -1,9 +1,10 @@
-//! What the kernel hands to our sockets, in its own filter language: what concerns nobody here does not wake us.
+//! What the kernel passes to the sockets, in its filter language: frames that concern no unit do not wake the process.
 
 use socket2::SockFilter;
 
-/// For raw links: EtherCAT and EtherCAT in UDP, and nothing that this machine sends out, since that goes away from
-/// the unit. (What this socket sends never comes back to it; the masters' own traffic on a shared interface would.)
+/// For raw links: EtherCAT and EtherCAT in UDP, without the frames that this machine sends, because those move
+/// away from the unit. (Frames sent by this socket never return to it; those of a master on a shared interface
+/// would.)
 pub(crate) const ETHERCAT_COMING_IN: [SockFilter; 14] = [
     SockFilter::new(LOAD_HALF_WORD, 0, 0, PACKET_TYPE),
     SockFilter::new(JUMP_IF_EQUAL, 11, 0, PACKET_OUTGOING),
@@ -21,8 +22,8 @@ pub(crate) const ETHERCAT_COMING_IN: [SockFilter; 14] = [
     SockFilter::new(RETURN, 0, 0, 0),
 ];
 
-/// For UDP links: everything but answers of units, which carry [`ANSWER_TOS`] in their IP header (IPv4: second
-/// byte; IPv6: behind the version). The network may change the two ECN bits.
+/// For UDP links: everything except answers of units, which have [`ANSWER_TOS`] in their IP header (IPv4:
+/// second byte; IPv6: after the version). The network may change the two ECN bits.
 pub(crate) const NO_ANSWERS: [SockFilter; 11] = [
     SockFilter::new(LOAD_BYTE, 0, 0, IP_HEADER),
     SockFilter::new(SHIFT_RIGHT, 0, 0, 4),
@@ -37,8 +38,8 @@ pub(crate) const NO_ANSWERS: [SockFilter; 11] = [
     SockFilter::new(RETURN, 0, 0, 0),
 ];
 
-/// Marks the answers of a unit on UDP: DSCP 3, of the pool for local use (RFC 2474, section 6), which no master sends
-/// with. Payloads cannot tell: an answer that no unit took part in equals its request.
+/// Marks the answers of a unit on UDP: DSCP 3, of the pool for local use (RFC 2474, section 6), which no master
+/// uses. The payload cannot mark them: an answer in which no unit took part equals its request.
 pub(crate) const ANSWER_TOS: u32 = 0b000011 << 2;
 
 const LOAD_HALF_WORD: u16 = 0x28;

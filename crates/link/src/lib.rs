@@ -1,11 +1,11 @@
 //! Real media and the real clock: raw, UDP, TAP and in-memory links.
 //!
 //! A [`FramePort`] carries Ethernet frames; `open` makes one from a [`LinkSpec`], [`memory::pair`] makes two
-//! that are joined. [`runner::run`] answers the frames of a port through a [`Responder`], first of all, and
-//! then tells an [`Observer`], such as the [`Recorder`] that writes them to a pcapng file.
+//! that are joined. [`runner::run`] answers the frames of a port through a [`Responder`] first, and then passes
+//! them to an [`Observer`], such as the [`Recorder`] that writes them to a pcapng file.
 //!
-//! This is the only crate below the binary that opens sockets and asks what time it is. Without its feature `media`
-//! it has links in memory alone.
+//! This is the only crate below the binary that opens sockets and reads a clock. Without its feature `media` it
+//! has links in memory only.
 
 mod clock;
 #[cfg(feature = "media")]

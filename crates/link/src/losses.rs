@@ -1,10 +1,10 @@
-//! Frames that did not come back, by kind: each kind is warned of once, and counted.
+//! Frames that did not return, by kind: each kind is logged as a warning once, and counted.
 
 use segment::{Defect, FrameFate, FrameKind};
 
 use crate::port::{Envelope, FRAME_BUFFER_BYTES};
 
-/// Why a frame did not come back.
+/// Why a frame did not return.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Loss {
     Defective(Defect),
@@ -14,7 +14,7 @@ enum Loss {
 }
 
 const KINDS: usize = 7;
-/// What the port puts in front of a UDP datagram.
+/// The header that the port puts before a UDP datagram.
 const ETHERNET_HEADER_BYTES: usize = 14;
 
 impl Loss {
@@ -27,7 +27,7 @@ impl Loss {
         }
     }
 
-    /// The place of its count, and what was wrong.
+    /// The position of its count, and the defect.
     const fn row(self, envelope: Envelope) -> (usize, &'static str) {
         match (self, envelope) {
             (Self::Defective(Defect::TooShort), Envelope::Ethernet) => {
@@ -49,7 +49,7 @@ impl Loss {
     }
 }
 
-/// The frames of a run that did not come back.
+/// The frames of a run that did not return.
 #[derive(Debug)]
 pub(crate) struct Losses {
     envelope: Envelope,
@@ -57,12 +57,12 @@ pub(crate) struct Losses {
 }
 
 impl Losses {
-    /// None so far, of frames in such envelopes.
+    /// None so far, for frames in such envelopes.
     pub(crate) const fn new(envelope: Envelope) -> Self {
         Self { envelope, counts: [None; KINDS] }
     }
 
-    /// A frame did not come back. The first one of its kind is logged.
+    /// A frame did not return. The first one of its kind is logged.
     #[cold]
     pub(crate) fn count(&mut self, frame: &[u8], fate: FrameFate) {
         let loss = Loss::of(frame, fate);
@@ -76,18 +76,18 @@ impl Losses {
         }
     }
 
-    /// What came, with its length on the medium.
+    /// The received data, with their length on the medium.
     fn what_came(&self, frame: &[u8]) -> String {
         let (name, header_bytes) = match self.envelope {
             Envelope::Ethernet => ("a frame", 0),
             Envelope::Udp => ("a UDP datagram", ETHERNET_HEADER_BYTES),
         };
-        // Of what is longer, the rest was cut off.
+        // The rest of a longer frame was cut off.
         let or_more = if frame.len() < FRAME_BUFFER_BYTES { "" } else { " or more" };
         format!("{name} of {} bytes{or_more}", frame.len().saturating_sub(header_bytes))
     }
 
-    /// Logs the count of each kind of which there was more than the one that has been logged.
+    /// Logs the count of each kind that occurred more than the one time already logged.
     pub(crate) fn log(&self) {
         for (loss, count) in self.counts.iter().flatten().filter(|(_, count)| *count > 1) {
             let (_, reason) = loss.row(self.envelope);

@@ -7,10 +7,10 @@ use time::Duration;
 
 use crate::{FRAME_BUFFER_BYTES, FramePort};
 
-/// Frames that one direction holds before it refuses more.
+/// Number of frames that one direction holds before it refuses more.
 pub const CAPACITY_FRAMES: usize = 64;
 
-/// Two ports: what one sends, the other receives.
+/// Two ports: one receives what the other sends.
 #[must_use]
 pub fn pair() -> (MemoryPort, MemoryPort) {
     let (there, back) = (Arc::new(Lane::new()), Arc::new(Lane::new()));
@@ -18,8 +18,8 @@ pub fn pair() -> (MemoryPort, MemoryPort) {
     (one, MemoryPort { incoming: there, outgoing: back })
 }
 
-/// One end of a link in memory. Dropping it closes the link: the other end still receives what is on its
-/// way, and then [`io::ErrorKind::UnexpectedEof`].
+/// One end of a link in memory. Dropping it closes the link: the other end still receives the frames already
+/// sent, and then [`io::ErrorKind::UnexpectedEof`].
 pub struct MemoryPort {
     incoming: Arc<Lane>,
     outgoing: Arc<Lane>,
@@ -46,7 +46,7 @@ impl FramePort for MemoryPort {
     }
 }
 
-/// One direction: a ring of buffers that is made once.
+/// One direction: a ring of buffers, allocated once.
 struct Lane {
     ring: Mutex<Ring>,
     arrived: Condvar,
@@ -72,7 +72,7 @@ impl Lane {
         Self { ring: Mutex::new(ring), arrived: Condvar::new() }
     }
 
-    /// A thread that panicked with the lock left the ring whole: each change is one assignment.
+    /// A thread that panicked with the lock left the ring consistent: each change is one assignment.
     fn lock(&self) -> MutexGuard<'_, Ring> {
         self.ring.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -117,7 +117,7 @@ impl Ring {
         Ok(())
     }
 
-    /// Takes the oldest frame; one that is longer than `buffer` is cut off, as a socket does it.
+    /// Takes the oldest frame; a frame longer than `buffer` is cut off, as by a socket.
     fn pop(&mut self, buffer: &mut [u8]) -> Option<usize> {
         if self.count == 0 {
             return None;

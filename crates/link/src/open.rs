@@ -8,7 +8,7 @@ use crate::{FramePort, LinkSpec, OpenError};
 /// Opens a link.
 ///
 /// # Errors
-/// Why it cannot be opened, and by [`OpenError::help`] the way out.
+/// Why it cannot be opened; [`OpenError::help`] describes the remedy.
 pub fn open(link: &LinkSpec) -> Result<Box<dyn FramePort>, OpenError> {
     Ok(match link {
         LinkSpec::Raw(name) => Box::new(RawPort::open(name)?),

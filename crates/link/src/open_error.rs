@@ -1,4 +1,4 @@
-//! Why a link cannot be opened, and what to do about it.
+//! Why a link cannot be opened, and the remedy.
 
 use std::fmt;
 use std::io;
@@ -12,17 +12,17 @@ pub enum OpenError {
     NoSuchInterface {
         /// The name.
         name: String,
-        /// The names of those that are there.
+        /// The names of the existing interfaces.
         available: Vec<String>,
     },
-    /// The kernel refuses for want of a capability.
+    /// The kernel refuses because a capability is missing.
     NoPermission {
         /// The link.
         link: LinkSpec,
-        /// What the kernel said.
+        /// The error of the kernel.
         source: io::Error,
     },
-    /// Someone else has the address or the interface.
+    /// The address or the interface is in use by another program.
     InUse {
         /// The link.
         link: LinkSpec,
@@ -36,13 +36,13 @@ pub enum OpenError {
     Failed {
         /// The link.
         link: LinkSpec,
-        /// What the kernel said.
+        /// The error of the kernel.
         source: io::Error,
     },
 }
 
 impl OpenError {
-    /// Sorts what the kernel said about `link`.
+    /// Classifies the kernel's error for `link`.
     pub(crate) fn of(link: LinkSpec, source: io::Error) -> Self {
         match source.kind() {
             io::ErrorKind::PermissionDenied => Self::NoPermission { link, source },
@@ -52,7 +52,7 @@ impl OpenError {
         }
     }
 
-    /// What the user can do about it.
+    /// The remedy for the user.
     #[must_use]
     pub fn help(&self) -> String {
         match self {

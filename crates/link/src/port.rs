@@ -1,4 +1,4 @@
-//! Where frames come from and go to.
+//! Source and destination of frames.
 
 use std::io;
 
@@ -6,32 +6,32 @@ use time::Duration;
 
 use crate::LinkSpec;
 
-/// Room for one frame. Longer than any that an ESC takes, so that one which is too long still arrives as
-/// too long and not as a truncated one.
+/// Room for one frame. Longer than any that an ESC accepts, so that a frame that is too long is received as too
+/// long and not as a truncated one.
 pub const FRAME_BUFFER_BYTES: usize = 2048;
 
-/// What the medium carries a frame in.
+/// The envelope of a frame on the medium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Envelope {
     /// The whole Ethernet frame.
     Ethernet,
-    /// A UDP datagram without an Ethernet header, which the port puts in front.
+    /// A UDP datagram without an Ethernet header, which the port puts before it.
     Udp,
 }
 
 /// A medium that carries whole Ethernet frames, from the destination address on, without FCS.
 pub trait FramePort: Send {
-    /// Starts what the port needs beside its frames. Called once, before the first frame: between opening and this, a
-    /// program drops its privileges, which holds for threads that are started later only.
+    /// Starts what the port needs in addition to its frames. Called once, before the first frame: between
+    /// opening and this call, a program drops its privileges, which applies only to threads that start later.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Takes the next frame into `buffer` (of [`FRAME_BUFFER_BYTES`]) and returns its length in bytes. Blocks
-    /// for `wait` at most; nothing if no frame came. May return early without a frame.
+    /// Receives the next frame into `buffer` (of [`FRAME_BUFFER_BYTES`]) and returns its length in bytes.
+    /// Blocks for `wait` at most; nothing if no frame was received. May return early without a frame.
     ///
     /// # Errors
     /// The medium is gone. [`io::ErrorKind::UnexpectedEof`]: the other end has closed the link.
@@ -40,25 +40,25 @@ pub trait FramePort: Send {
     /// Sends one frame, without waiting for room.
     ///
     /// # Errors
-    /// The frame is lost; the port may still be fine.
+    /// The frame is lost; the port may still be usable.
     fn send(&mut self, frame: &[u8]) -> io::Result<()>;
 
-    /// The name of the link, with the real port where port 0 was asked for. Nothing if it has no name.
+    /// The name of the link, with the actual port if port 0 was requested. Nothing if it has no name.
     fn link(&self) -> Option<LinkSpec> {
         None
     }
 
-    /// What frames come in.
+    /// The envelope of the frames.
     fn envelope(&self) -> Envelope {
         Envelope::Ethernet
     }
 
-    /// Whether the cable to the master carries a signal. A medium without a carrier has it always.
+    /// Whether the cable to the master has a carrier. A medium without a carrier signal always has it.
     fn carrier(&self) -> bool {
         true
     }
 
-    /// Frames that came and that the medium had no room for.
+    /// Received frames for which the medium had no room.
     fn dropped(&self) -> u64 {
         0
     }

@@ -34,7 +34,7 @@ impl RawPort {
             return Err(OpenError::NoSuchInterface { name: name.to_owned(), available });
         };
         let open = || {
-            // The bell first: what changes from here on rings it.
+            // The bell is set up first: changes from here on ring it.
             let bell = Bell::new()?;
             let socket = PacketSocket::new()?;
             Ok((bell, Interface::bind(interface, socket.try_clone()?)?, socket))
@@ -61,13 +61,13 @@ impl FramePort for RawPort {
 
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
         match receive_from(&self.socket, wait, || self.socket.receive(buffer)) {
-            // The interface went down or away.
+            // The interface is down or was removed.
             Err(error) if error.kind() == io::ErrorKind::NetworkDown => {
                 self.interface.look();
                 Ok(None)
             }
             Ok(Some(length_bytes)) => {
-                // A frame is faster than the news of the carrier that brought it.
+                // A frame can be faster than the notice of the carrier.
                 if !self.interface.carrier() {
                     self.interface.look();
                 }

@@ -1,4 +1,4 @@
-//! Recording what a link carries, on a thread of its own, so that no frame waits for a disk.
+//! Recording the frames of a link, on a separate thread, so that no frame waits for a disk.
 
 mod outlet;
 
@@ -17,12 +17,13 @@ use outlet::Outlet;
 
 /// Frames that may wait for the disk: two seconds of a 1 ms master, requests and answers.
 const QUEUE_FRAMES: usize = 4096;
-/// A quiet link is written out after this time, so that a reader sees the last frames.
+/// After this time without frames, waiting ones are written, so that a reader sees the last frames.
 const IDLE_FLUSH: Duration = Duration::from_millis(200);
 
-/// Writes request and answer of each frame to a capture. Frames that come faster than the medium takes them
-/// are counted as lost, never waited for. A medium that refuses a write, such as a full disk, is reported at once and
-/// tried again; what it then takes is a whole capture, with a comment where frames are missing.
+/// Writes request and answer of each frame to a capture. The link never waits for the medium: frames that
+/// arrive faster than the medium accepts them are counted as lost. A medium that refuses a write, such as a
+/// full disk, is reported immediately and tried again; the result is always a valid capture, with a comment
+/// where frames are missing.
 pub struct Recorder {
     origin_unix_nanos: u64,
     queue: SyncSender<Record>,
@@ -30,12 +31,12 @@ pub struct Recorder {
     writer: JoinHandle<io::Result<Recording>>,
 }
 
-/// What a recording came to.
+/// The result of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Recording {
     /// Frames in the capture.
     pub written: u64,
-    /// Frames that are missing in it.
+    /// Frames missing from it.
     pub lost: u64,
 }
 
@@ -51,7 +52,7 @@ impl Recorder {
     /// Starts a capture of the link `link_name` into `out`, with the times of `clock`.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     pub fn start(out: impl Medium + 'static, link_name: &str, clock: &Clock) -> io::Result<Self> {
         let writer = PcapngWriter::new(Outlet::new(out, link_name), link_name)?;
         let (queue, records) = sync_channel(QUEUE_FRAMES);
@@ -64,15 +65,15 @@ impl Recorder {
         })
     }
 
-    /// Ends the capture: writes what still waits.
+    /// Ends the capture: writes the waiting frames.
     ///
     /// # Errors
-    /// The medium refuses a write; the capture ends with the last whole frame that it has taken.
+    /// The medium refuses a write; the capture ends with the last complete frame that it has accepted.
     pub fn finish(self) -> io::Result<Recording> {
         let Self { queue, writer, lost_since_last, .. } = self;
         drop(queue);
         let recording = writer.join().map_err(|_| io::Error::other("the capture thread panicked"))??;
-        // The losses that no later frame has told the thread of.
+        // The losses that no later frame has reported to the thread.
         Ok(Recording { lost: recording.lost + lost_since_last, ..recording })
     }
 
@@ -109,7 +110,7 @@ impl Observer for Recorder {
 struct Writing<M> {
     writer: PcapngWriter<Outlet<M>>,
     recording: Recording,
-    /// Frames that are missing in front of the next one.
+    /// Frames that are missing before the next one.
     missing: u64,
     last_nanos: u64,
 }
@@ -120,7 +121,7 @@ impl<M: Medium> Writing<M> {
     }
 
     fn all(mut self, records: &Receiver<Record>) -> io::Result<Recording> {
-        // The head of the capture: a medium that takes nothing is known before the first frame.
+        // The head of the capture: a medium that accepts nothing is detected before the first frame.
         self.writer.out_mut().push();
         loop {
             match records.recv_timeout(IDLE_FLUSH) {

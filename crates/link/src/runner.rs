@@ -11,24 +11,24 @@ use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
 
 /// Longest sleep, so that the stop flag is seen on a link without traffic.
 const STOP_CHECK: Duration = Duration::from_millis(100);
-/// A poll is late when it runs this long after its deadline.
+/// A poll is late if it runs this long after its deadline.
 const LATE: Duration = Duration::from_millis(1);
 
-/// What lies behind a port: a segment of units. It reads no clock.
+/// The receiver behind a port: a segment of units. It reads no clock.
 pub trait Responder {
-    /// A frame passes through, edited in place, and nothing else is done.
+    /// A frame passes through, edited in place; nothing else is done.
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate;
 
-    /// Does what the last frame asked for and what is due at `now`; called after each frame and at each deadline.
+    /// Does what the last frame requested and what is due at `now`; called after each frame and at each deadline.
     fn poll(&mut self, now: Instant);
 
-    /// When [`Responder::poll`] has to be called next without a frame; [`Instant::NEVER`]: it need not.
+    /// The time at which [`Responder::poll`] must be called next without a frame; [`Instant::NEVER`]: no call needed.
     fn deadline(&self) -> Instant;
 
-    /// The cable to the master has lost its carrier, or has it again. At the start it has it.
+    /// The cable to the master has lost its carrier, or has it again. At the start it has a carrier.
     fn carrier(&mut self, _present: bool) {}
 
-    /// Frames so far whose EtherCAT length was beyond their end, and that were taken all the same.
+    /// Number of frames so far whose EtherCAT length exceeded their end and that were accepted nevertheless.
     fn overlong_frames(&self) -> u64 {
         0
     }
@@ -59,41 +59,41 @@ impl<R: Responder + ?Sized> Responder for &mut R {
 /// A frame and its answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<'a> {
-    /// When the frame was received.
+    /// The time at which the frame was received.
     pub received: Instant,
     /// The frame as the master sent it.
     pub request: &'a [u8],
-    /// When the answer had been sent.
+    /// The time at which the answer had been sent.
     pub answered: Instant,
-    /// The frame as it went back; nothing if it did not.
+    /// The frame as returned; nothing if it did not return.
     pub answer: Option<&'a [u8]>,
 }
 
-/// Someone who looks at frames after they have been answered.
+/// An observer of frames, called after they have been answered.
 pub trait Observer {
-    /// A frame has been answered, or did not come back.
+    /// A frame has been answered, or did not return.
     fn frame(&mut self, seen: Seen<'_>);
 }
 
-/// What a run came to.
+/// The result of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Statistics {
     /// Frames received.
     pub frames: u64,
-    /// Frames that did not come back: destroyed, or gone out at the far end.
+    /// Frames that did not return: destroyed, or sent out at the far end.
     pub destroyed: u64,
-    /// Frames whose EtherCAT length was beyond their end.
+    /// Frames whose EtherCAT length exceeded their end.
     pub overlong: u64,
-    /// Frames that came and found no room in the medium, so that nobody saw them.
+    /// Frames that arrived but had no room in the medium, so that they were not received.
     pub dropped: u64,
-    /// Answers that the port did not take.
+    /// Answers that the port did not accept.
     pub unsent: u64,
     /// Polls that ran 1 ms or more after their deadline: the machine was busy elsewhere.
     pub late_polls: u64,
 }
 
 /// Answers the frames of `port` until `stop` is set or the other end closes the link. A frame is answered
-/// before anything else happens; the observer and what is due come after it. Allocates at the start only.
+/// before anything else is done; the observer and due work follow. Allocates at the start only.
 ///
 /// # Errors
 /// The medium is gone.
@@ -107,7 +107,7 @@ pub fn run<'o, P: FramePort, R: Responder>(
     port.begin()?;
     let mut run = Run::new(port, responder, observer, clock);
     let mut buffers = Buffers { frame: vec![0; FRAME_BUFFER_BYTES], request: vec![0; FRAME_BUFFER_BYTES] };
-    // The flag carries no data: who sets it only wants the loop to end.
+    // The flag carries no data: it only ends the loop.
     while !stop.load(Ordering::Relaxed) {
         match run.turn(&mut buffers) {
             Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => break,
@@ -122,7 +122,7 @@ struct Run<'a, 'o, P, R> {
     responder: &'a mut R,
     observer: Option<&'o mut (dyn Observer + 'o)>,
     clock: &'a Clock,
-    /// What the responder knows of the cable.
+    /// The carrier that the responder knows.
     carrier: bool,
     losses: Losses,
     statistics: Statistics,
@@ -152,7 +152,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
     fn turn(&mut self, buffers: &mut Buffers) -> io::Result<()> {
         let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
         let received = self.port.receive(&mut buffers.frame, wait)?;
-        // Before the frame that came over the cable.
+        // Before the frame that arrived over the cable.
         if self.port.carrier() != self.carrier {
             self.carrier = !self.carrier;
             self.responder.carrier(self.carrier);
@@ -200,7 +200,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         }
     }
 
-    /// Warns of the first one only: a master that sends one sends all so.
+    /// Logs a warning for the first one only: a master that sends one sends all of them like this.
     fn count_overlong(&mut self) {
         let overlong = self.responder.overlong_frames();
         if overlong > 0 && self.statistics.overlong == 0 {

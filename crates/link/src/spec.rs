@@ -1,4 +1,4 @@
-//! How a user names a link.
+//! The notation for links.
 
 use std::fmt;
 use std::net::{IpAddr, SocketAddr};
@@ -10,14 +10,14 @@ pub const DEFAULT_UDP_PORT: u16 = 34980;
 /// Longest name of a network interface in bytes (Linux, `IFNAMSIZ` without the terminator).
 const INTERFACE_NAME_BYTES_MAX: usize = 15;
 
-/// A link by its name, as it stands on the command line.
+/// A link by its name, as on the command line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LinkSpec {
     /// `raw:IFNAME`: a network interface.
     Raw(String),
     /// `udp:ADDR:PORT`: EtherCAT in UDP at this local address.
     Udp(SocketAddr),
-    /// `tap:NAME`: a TAP interface, made if it is not there.
+    /// `tap:NAME`: a TAP interface, created if it does not exist.
     Tap(String),
 }
 
@@ -31,14 +31,14 @@ impl fmt::Display for LinkSpec {
     }
 }
 
-/// A text that names no link.
+/// A text that is not a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotALink {
-    /// There is no `raw:`, `udp:` or `tap:` in front.
+    /// There is no `raw:`, `udp:` or `tap:` at the start.
     UnknownKind(String),
-    /// What follows `raw:` or `tap:` cannot be the name of an interface.
+    /// The text after `raw:` or `tap:` cannot be the name of an interface.
     NotAnInterfaceName(String),
-    /// What follows `udp:` is no address.
+    /// The text after `udp:` is not an address.
     NotAnAddress(String),
 }
 

@@ -1,4 +1,4 @@
-//! A TAP interface: the master opens it like a network card, and we are the cable.
+//! A TAP interface: the master opens it like a network card, and this process is the cable.
 
 use std::io;
 
@@ -8,7 +8,7 @@ use tun_rs::{DeviceBuilder, Layer, SyncDevice};
 use crate::descriptor::{may_be_ethercat, receive_from};
 use crate::{FramePort, LinkSpec, OpenError};
 
-/// Our end of a TAP interface. The interface goes away with it unless it was there before.
+/// This process's end of a TAP interface. The interface is removed with it unless it existed before.
 pub(crate) struct TapPort {
     name: String,
     device: SyncDevice,
@@ -25,7 +25,7 @@ fn make(name: &str) -> io::Result<SyncDevice> {
     let builder = DeviceBuilder::new().name(name).layer(Layer::L2).inherit_enable_state();
     let device = builder.build_sync()?;
     device.set_nonblocking(true)?;
-    // One that an administrator made for this user may be opened by him, but not be set up.
+    // An interface that an administrator created for this user may be opened by the user, but not be set up.
     if let Err(error) = device.enabled(true) {
         tracing::warn!("cannot set {name} up ({error}): `sudo ip link set {name} up`");
     }
@@ -35,7 +35,7 @@ fn make(name: &str) -> io::Result<SyncDevice> {
 impl FramePort for TapPort {
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
         let received = receive_from(&self.device, wait, || self.device.recv(buffer))?;
-        // The kernel greets the new interface with IPv6 and ARP.
+        // The kernel sends IPv6 and ARP on the new interface first.
         Ok(received.filter(|length_bytes| buffer.get(..*length_bytes).is_some_and(may_be_ethercat)))
     }
 

@@ -10,18 +10,18 @@ use crate::descriptor::receive_from;
 use crate::filter::{ANSWER_TOS, NO_ANSWERS};
 use crate::{Envelope, FramePort, LinkSpec, OpenError};
 
-/// The Ethernet header in which the segment sees the UDP payload: to everyone, from an address of no maker.
-/// The socket does not show the headers that really came, and an ESC looks at none of them but the source
-/// address, which it marks.
+/// The Ethernet header with which the segment sees the UDP payload: broadcast, from an address without a
+/// manufacturer. The socket does not report the actual headers, and an ESC uses only the source address, which
+/// it marks.
 const HEADER: [u8; 14] = [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x10, 0, 0, 0, 0, 0, 0x88, 0xA4];
 
-/// A UDP socket; answers go to where the last frame came from.
+/// A UDP socket; answers go to the sender of the last frame.
 ///
-/// Answers are marked in their IP header, and the kernel drops what is marked: two units, or one with itself, would
-/// otherwise answer each other's answers for ever after one datagram with a forged sender.
+/// Answers are marked in their IP header, and the kernel drops marked datagrams: otherwise two units, or one
+/// unit with itself, would answer each other's answers endlessly after one datagram with a forged sender.
 pub(crate) struct UdpPort {
     socket: UdpSocket,
-    /// With the real port.
+    /// With the actual port.
     address: SocketAddr,
     master: Option<SocketAddr>,
 }
@@ -42,7 +42,7 @@ impl UdpPort {
 fn mark_answers(socket: &UdpSocket, address: SocketAddr) -> io::Result<()> {
     let options = SockRef::from(socket);
     options.attach_filter(&NO_ANSWERS)?;
-    // An IPv6 socket may send to IPv4 addresses too.
+    // An IPv6 socket may also send to IPv4 addresses.
     options.set_tos_v4(ANSWER_TOS)?;
     if address.is_ipv6() { options.set_tclass_v6(ANSWER_TOS) } else { Ok(()) }
 }
@@ -57,7 +57,7 @@ impl FramePort for UdpPort {
         let received = receive_from(&*socket, wait, || {
             let (length_bytes, sender) = socket.recv_from(payload)?;
             if sender == *address {
-                // Forged: we send nothing to ourselves.
+                // Forged: this unit sends nothing to itself.
                 return Err(io::ErrorKind::WouldBlock.into());
             }
             *master = Some(sender);
@@ -117,7 +117,7 @@ mod tests {
         UdpPort::open(address.parse().unwrap()).unwrap()
     }
 
-    /// Lets `one` take a frame whose sender seems to be `other`, and answer it.
+    /// Lets `one` receive a frame whose sender seems to be `other`, and answer it.
     fn answer_goes_to(one: &mut UdpPort, other: &UdpPort) {
         one.master = Some(other.address);
         one.send(&[7; 60]).unwrap();
@@ -134,11 +134,11 @@ mod tests {
         ] {
             let [mut one, mut other] = addresses.map(open);
             if addresses[1].contains("ffff") {
-                // Both speak IPv4.
+                // Both use IPv4.
                 other.address = SocketAddr::new([127, 0, 0, 1].into(), other.address.port());
             }
             answer_goes_to(&mut one, &other);
-            // What comes behind it is heard: the answer did not wait before it.
+            // A later frame is received: the answer did not wait before it.
             let master = UdpSocket::bind((one.address.ip(), 0)).unwrap();
             master.send_to(&[1; 46], other.address).unwrap();
             assert_eq!(other.receive(&mut buffer, SOON).unwrap(), Some(60), "{addresses:?}");
@@ -150,7 +150,7 @@ mod tests {
     #[test]
     fn a_frame_that_seems_to_come_from_the_unit_itself_is_dropped() {
         let (mut unit, address) = loopback();
-        // Not marked, unlike what the port sends.
+        // Not marked, unlike the frames that the port sends.
         SockRef::from(&unit.socket).set_tos_v4(0).unwrap();
         unit.socket.send_to(&[1; 46], address).unwrap();
         let mut buffer = [0; FRAME_BUFFER_BYTES];

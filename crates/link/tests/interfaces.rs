@@ -1,4 +1,4 @@
-//! Real interfaces: raw sockets over a veth pair, and TAP, in network namespaces that the tests make.
+//! Real interfaces: raw sockets over a veth pair, and TAP, in network namespaces that the tests create.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -14,7 +14,7 @@ fn open_link(name: &str) -> Box<dyn FramePort> {
     port
 }
 
-/// Whatever else has the interface open for sending: another program of the machine.
+/// Another program of the machine that has the interface open for sending.
 fn neighbour_at(name: &str) -> Box<dyn pnet_datalink::DataLinkSender> {
     let interface = pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name).unwrap();
     match pnet_datalink::channel(&interface, pnet_datalink::Config::default()).unwrap() {
@@ -23,7 +23,7 @@ fn neighbour_at(name: &str) -> Box<dyn pnet_datalink::DataLinkSender> {
     }
 }
 
-/// Looks at the port until it agrees, as long as that takes.
+/// Checks the port until `agrees` is true, without a time limit.
 fn wait_until(port: &mut dyn FramePort, agrees: impl Fn(&dyn FramePort) -> bool) {
     let mut buffer = vec![0; FRAME_BUFFER_BYTES];
     for _ in 0..10_000 {
@@ -35,7 +35,7 @@ fn wait_until(port: &mut dyn FramePort, agrees: impl Fn(&dyn FramePort) -> bool)
     panic!("it does not come");
 }
 
-/// Takes the next frame, however often the port comes back early.
+/// Receives the next frame, however often the port returns early.
 fn next(port: &mut dyn FramePort) -> Vec<u8> {
     let mut buffer = vec![0; FRAME_BUFFER_BYTES];
     for _ in 0..1000 {
@@ -47,8 +47,8 @@ fn next(port: &mut dyn FramePort) -> Vec<u8> {
     panic!("no frame came");
 }
 
-/// Sends as a master does, again and again: frames are lost while the kernel still sets an interface up, or before the
-/// port has noticed a new one.
+/// Sends repeatedly, as a master does: frames are lost while the kernel still sets an interface up, or before
+/// the port has detected a new one.
 fn send_until_it_arrives(master: &mut Box<dyn FramePort>, unit: &mut Box<dyn FramePort>, request: &[u8]) {
     let mut buffer = [0; FRAME_BUFFER_BYTES];
     let arrives = |_| {
@@ -59,7 +59,7 @@ fn send_until_it_arrives(master: &mut Box<dyn FramePort>, unit: &mut Box<dyn Fra
     assert!((0..10_000).any(arrives), "no frame arrives");
 }
 
-/// A frame of `length` bytes that carries `ethertype`, from an address that ends in `from`.
+/// A frame of `length` bytes with the EtherType `ethertype`, from an address that ends in `from`.
 fn frame(ethertype: u16, from: u8, length: usize) -> Vec<u8> {
     let mut frame = vec![0xFF; 6];
     frame.extend([0x10, 0, 0, 0, 0, from]);
@@ -68,7 +68,7 @@ fn frame(ethertype: u16, from: u8, length: usize) -> Vec<u8> {
     frame
 }
 
-/// An IPv4 frame that carries UDP to `port`.
+/// An IPv4 frame with UDP to `port`.
 fn udp_frame(port: u16) -> Vec<u8> {
     let mut frame = frame(0x0800, 1, 60);
     frame[14] = 0x45;
@@ -87,7 +87,7 @@ fn frames_of_any_length_cross_a_raw_link_both_ways() {
             master.send(&frame(0x88A4, 1, length)).unwrap();
             assert_eq!(next(&mut unit), frame(0x88A4, 1, length));
             unit.send(&frame(0x88A4, 2, length)).unwrap();
-            // What the master sent itself does not come back to it: the answer is the first thing it sees.
+            // The frames that the master sent do not return to it: the answer is the first frame that it receives.
             assert_eq!(next(&mut master), frame(0x88A4, 2, length));
         }
     });
@@ -120,13 +120,13 @@ fn a_vlan_tag_arrives_with_its_frame_and_goes_back_with_the_answer() {
             let [mut request, mut answer] = [1, 2].map(|from| frame(0x88A4, from, length));
             request.splice(12..12, tag);
             answer.splice(12..12, tag);
-            // The kernel takes the tag out on its way in at both ends.
+            // The kernel removes the tag on receipt at both ends.
             master.send(&request).unwrap();
             assert_eq!(next(&mut unit), request);
             unit.send(&answer).unwrap();
             assert_eq!(next(&mut master), answer);
         }
-        // Frames without a tag stay as they are.
+        // Frames without a tag are unchanged.
         neighbour_at("veth0").send_to(&frame(0x88A4, 3, 60), None).unwrap().unwrap();
         assert_eq!(next(&mut unit), frame(0x88A4, 3, 60));
     });
@@ -155,7 +155,7 @@ fn the_carrier_goes_with_the_other_end_of_the_cable_and_a_frame_proves_it() {
             ip(&["link", "set", "veth0", "down"]);
             wait_until(&mut unit, |unit| !unit.carrier());
             ip(&["link", "set", "veth0", "up"]);
-            // However late the news of the carrier comes.
+            // However late the notice of the carrier arrives.
             send_until_it_arrives(&mut master, &mut unit, &frame(0x88A4, number, 60));
             assert!(unit.carrier());
         }
@@ -170,7 +170,7 @@ fn an_interface_that_is_deleted_and_made_again_is_answered_every_time() {
         for number in 0..100 {
             ip(&["link", "delete", "veth1"]);
             if number % 2 == 0 {
-                // Else the new one is there before the old one is missed.
+                // Otherwise the new interface exists before the old one is missed.
                 wait_until(&mut unit, |unit| !unit.carrier());
                 assert!(unit.send(&frame(0x88A4, 2, 60)).is_err());
             }

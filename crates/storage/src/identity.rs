@@ -1,4 +1,4 @@
-//! Whether two paths mean one file.
+//! Whether two paths refer to the same file.
 
 use std::fs;
 use std::os::unix::fs::MetadataExt;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::place;
 
-/// Equal for two paths that mean one file: by symbolic links, by hard links, or because both would make it.
+/// Equal for two paths that refer to the same file: by symbolic links, by hard links, or because both would create it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Identity(Which);
 
@@ -17,7 +17,8 @@ enum Which {
 }
 
 impl Identity {
-    /// Of the file at this path; none where a write replaces nothing: a device, a pipe, a folder, or no place for a file.
+    /// The identity of the file at this path; none if a write there replaces nothing: a device, a pipe, a
+    /// folder, or a place where no file can be.
     #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         let which = match fs::metadata(path) {

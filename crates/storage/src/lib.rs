@@ -1,9 +1,10 @@
-//! Files that a kill at any moment leaves whole, and that one owner keeps: the non-volatile memory of units.
+//! Files that remain complete after a kill at any time and have one owner: the non-volatile memory of units.
 //!
-//! A [`StoredFile`] belongs to whoever has claimed it; a second claim is refused, whatever path it comes by. Its contents
-//! are the old ones or the new ones, never a mixture: [`StoredFile::write`] makes a new file beside it, brings
-//! that to the disk, and gives it the name of the old one. [`Writer`] does so on a thread of its own, for
-//! callers that must not wait, and repeats a write that was refused. What the bytes mean is for their owner to know.
+//! A [`StoredFile`] belongs to the process that has claimed it; a second claim is refused, whatever path it
+//! uses. Its contents are the old ones or the new ones, never a mixture: [`StoredFile::write`] makes a new file
+//! beside it, flushes that to the disk, and gives it the name of the old one. [`Writer`] does so on a separate
+//! thread, for callers that must not wait, and repeats a write that was refused. The meaning of the bytes
+//! belongs to the owner.
 
 mod identity;
 mod lock;

@@ -1,4 +1,4 @@
-//! A lock on a name, which stays while the file of that name is replaced.
+//! A lock on a name, which is kept while the file with that name is replaced.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -8,11 +8,11 @@ use std::path::PathBuf;
 use rustix::fs::{FlockOperation, OFlags, flock};
 use rustix::io::Errno;
 
-/// Owners that may end, one after the other, between our look at their file and our lock on it.
+/// Maximum number of owners that may end, one after another, between opening and locking their file.
 const ATTEMPTS: usize = 100;
 
-/// A file beside the one that it guards, locked as long as this lives. It is taken away in the end; after a kill it
-/// stays, and the next owner takes it over.
+/// A file beside the one that it guards, locked as long as this value exists. It is removed at the end; after a
+/// kill it remains, and the next owner takes it over.
 #[derive(Debug)]
 pub(crate) struct Lock {
     path: PathBuf,
@@ -31,7 +31,7 @@ impl Lock {
                 created => (created?, false),
             };
             exclusively(&file)?;
-            // Its owner may have taken it away after we opened it: then it guards nothing.
+            // Its owner may have removed it after it was opened here: then it guards nothing.
             let (here, there) = (file.metadata()?, fs::symlink_metadata(&path));
             if there.is_ok_and(|there| (there.dev(), there.ino()) == (here.dev(), here.ino())) {
                 return Ok(Self { path, was_left, _file: file });
@@ -48,7 +48,7 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // While it is locked. If that fails, it stays as after a kill.
+        // While it is locked. If that fails, it remains as after a kill.
         let _ = fs::remove_file(&self.path);
     }
 }

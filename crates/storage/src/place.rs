@@ -1,4 +1,4 @@
-//! Where a file is: behind symbolic links, and beside others.
+//! The location of a file: after symbolic links, and beside other files.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use rustix::io::Errno;
 
-/// Symbolic links that one path may lead through, as in the kernel.
+/// Maximum number of symbolic links in one path, as in the kernel.
 const LINKS_MAX: usize = 40;
 
-/// The file that a path means, behind all symbolic links. The file may be missing, its folder may not.
+/// The file to which a path leads, after all symbolic links. The file may be missing, its folder may not.
 ///
 /// # Errors
 /// The folder is missing or cannot be read, or the links are a circle.
@@ -33,8 +33,8 @@ pub(crate) fn beside(path: &Path, suffix: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// What the names of our own files beside this one have in common. They are as long as the longest of them, so that a
-/// name that is too long for any of them is refused with the first.
+/// The common part of the names of the auxiliary files beside this one. They are as long as the longest of
+/// them, so that a name that is too long for any of them is refused with the first.
 pub(crate) fn own_prefix(path: &Path) -> OsString {
     let mut prefix = OsString::from(".");
     prefix.push(path.file_name().unwrap_or_default());
@@ -42,7 +42,7 @@ pub(crate) fn own_prefix(path: &Path) -> OsString {
     prefix
 }
 
-/// One of our own files beside this one. Four letters tell them apart.
+/// One of the auxiliary files beside this one. Four letters distinguish them.
 pub(crate) fn own(path: &Path, which: &str) -> PathBuf {
     let mut name = own_prefix(path);
     name.push(which);
@@ -53,7 +53,7 @@ pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The new name is on the disk only when the folder is.
+/// The new name is on the disk only after the folder has been flushed.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     File::open(folder(path))?.sync_all()
 }

@@ -11,18 +11,18 @@ use crate::lock::{self, Lock};
 use crate::place;
 use crate::temporary::{self, Temporary};
 
-/// Largest contents: more than any owner stores, and less than it takes to fill the memory.
+/// Maximum length of the contents: more than any owner stores, and less than would fill the memory.
 const BYTES_MAX: u64 = 16 << 20;
 /// Names for files that are set aside.
 const ASIDE_MAX: u32 = 999;
 
-/// A file that belongs to its owner alone.
+/// A file with a single owner.
 ///
-/// Two locks guard it: one on its name, which lasts while the file of that name is replaced, and one on the file
-/// itself, which other names may have too (hard links).
+/// Two locks guard it: one on its name, which remains while the file with that name is replaced, and one on the
+/// file itself, which may also have other names (hard links).
 #[derive(Debug)]
 pub struct StoredFile {
-    /// Behind all symbolic links, so that they stay when the file is replaced.
+    /// After all symbolic links, so that they are kept when the file is replaced.
     path: PathBuf,
     /// The file that was found or written last, locked; none if there was none yet.
     latest: Option<File>,
@@ -33,7 +33,7 @@ impl StoredFile {
     /// Claims the file at this path, which may be missing.
     ///
     /// # Errors
-    /// Somebody else has claimed it, it is no regular file, or its folder is missing or cannot be written.
+    /// The file has another owner, it is not a regular file, or its folder is missing or cannot be written.
     pub fn claim(path: &Path) -> io::Result<Self> {
         let path = place::resolve(path)?;
         let lock = Lock::take(place::own(&path, "lock"))?;
@@ -45,7 +45,7 @@ impl StoredFile {
         Ok(Self { path, latest, _lock: lock })
     }
 
-    /// Where it is, behind all symbolic links.
+    /// Its location, after all symbolic links.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
@@ -54,13 +54,13 @@ impl StoredFile {
     /// The contents; none if there is no such file yet.
     ///
     /// # Errors
-    /// It cannot be read, or is larger than anything that is stored.
+    /// It cannot be read, or is larger than any stored file.
     pub fn read(&self) -> io::Result<Option<Vec<u8>>> {
         if self.latest.is_none() {
             return Ok(None);
         }
         let mut bytes = Vec::new();
-        // Opened once more: `latest` may be at its end, or for writing only.
+        // Opened again: `latest` may be at its end, or open for writing only.
         open(&self.path)?.map_or(Ok(0), |file| file.take(BYTES_MAX + 1).read_to_end(&mut bytes))?;
         if bytes.len() as u64 > BYTES_MAX {
             return Err(io::Error::new(
@@ -72,13 +72,13 @@ impl StoredFile {
     }
 
     /// Replaces the contents. When it returns, a loss of power does not undo it; if the program is killed
-    /// before, the file has its old contents or the new ones. Permissions stay.
+    /// before, the file has its old contents or the new ones. Permissions are kept.
     ///
     /// # Errors
-    /// The folder cannot be written, or the disk is full; the file is as it was.
+    /// The folder cannot be written, or the disk is full; the file is unchanged.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let mut temporary = Temporary::create(&self.path, self.latest.as_ref())?;
-        // Before it has the name, so that nobody else gets hold of it.
+        // Before it has the name, so that no other process claims it.
         lock::exclusively(&temporary.file)?;
         temporary.file.write_all(bytes)?;
         temporary.file.sync_all()?;
@@ -86,10 +86,10 @@ impl StoredFile {
         place::sync_folder(&self.path)
     }
 
-    /// Gives a file that cannot be used the first free name of `NAME.damaged-1`, `NAME.damaged-2` and so on.
+    /// Renames a file that cannot be used to the first free name of `NAME.damaged-1`, `NAME.damaged-2` and so on.
     ///
     /// # Errors
-    /// It cannot be renamed, or all names are taken.
+    /// It cannot be renamed, or all names are in use.
     pub fn set_aside(&self) -> io::Result<PathBuf> {
         for number in 1..=ASIDE_MAX {
             let aside = place::beside(&self.path, &format!(".damaged-{number}"));
@@ -108,7 +108,7 @@ impl StoredFile {
     }
 }
 
-/// None: there is no such file. Nothing but a regular file is opened, and none is waited for.
+/// None: there is no such file. Opens only a regular file, without waiting.
 fn open(path: &Path) -> io::Result<Option<File>> {
     let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits() as i32;
     let file = match OpenOptions::new().read(true).custom_flags(flags).open(path) {

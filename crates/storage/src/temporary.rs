@@ -1,4 +1,4 @@
-//! The new contents of a file, before they take its name.
+//! The new contents of a file, before they get its name.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -8,24 +8,24 @@ use std::path::{Path, PathBuf};
 
 use crate::place;
 
-/// Names that are tried, if somebody has taken the first.
+/// Number of names that are tried, if the first is in use.
 const ATTEMPTS: u16 = 16;
 const NOBODY_ELSE: u32 = 0o600;
-/// Less what the user's mask takes away.
+/// Without the bits that the user's mask removes.
 const EVERYBODY: u32 = 0o666;
 
-/// A new file beside another one. Unless it takes the other's name, it is gone in the end.
+/// A new file beside another one. Unless it gets the other's name, it is removed at the end.
 pub(crate) struct Temporary {
     pub(crate) file: File,
     name: Name,
 }
 
-/// A name that is to go; none: it has become another one.
+/// A name that is to be removed; none: it has been renamed.
 struct Name(Option<PathBuf>);
 
 impl Temporary {
-    /// Makes one for `path`, with the permissions and the owner of `like`. A file that is there already is left alone,
-    /// and no link is followed.
+    /// Makes one for `path`, with the permissions and the owner of `like`. An existing file is left alone, and
+    /// no link is followed.
     pub(crate) fn create(path: &Path, like: Option<&File>) -> io::Result<Self> {
         let mode = if like.is_some() { NOBODY_ELSE } else { EVERYBODY };
         let first = std::process::id() as u16;
@@ -46,13 +46,13 @@ impl Temporary {
     fn resemble(&self, like: &File) -> io::Result<()> {
         let (like, own) = (like.metadata()?, self.file.metadata()?);
         if (like.uid(), like.gid()) != (own.uid(), own.gid()) {
-            // Only root may give files away. The contents matter more than their owner.
+            // Only root may change the owner. The contents are more important than their owner.
             let _ = fchown(&self.file, Some(like.uid()), Some(like.gid()));
         }
         self.file.set_permissions(like.permissions())
     }
 
-    /// Gives it the name of the other one.
+    /// Gives it the name of the other file.
     pub(crate) fn replace(self, path: &Path) -> io::Result<File> {
         let Self { file, mut name } = self;
         if let Some(from) = &name.0 {
@@ -66,13 +66,13 @@ impl Temporary {
 impl Drop for Name {
     fn drop(&mut self) {
         if let Some(path) = &self.0 {
-            // If it cannot be removed, the next owner does it.
+            // If it cannot be removed, the next owner removes it.
             let _ = fs::remove_file(path);
         }
     }
 }
 
-/// Removes what an owner that was killed has left beside `path`.
+/// Removes the files that a killed owner has left beside `path`.
 pub(crate) fn remove_leftovers(path: &Path) -> io::Result<()> {
     let prefix = place::own_prefix(path);
     for entry in fs::read_dir(place::folder(path))? {

@@ -10,14 +10,14 @@ use triple_buffer::{Input, Output, triple_buffer};
 
 use crate::StoredFile;
 
-/// From one try to the next, if the file cannot be written: somebody has to make room on the disk first.
+/// Time between two tries, if the file cannot be written: the user has to make room on the disk first.
 const RETRY: Duration = Duration::from_secs(1);
 
-/// Keeps one file up to date, on a thread of its own. Dropping it waits until the newest contents are stored, or
-/// refused once more.
+/// Keeps one file up to date, on a separate thread. Dropping it waits until the newest contents are stored, or
+/// refused again.
 ///
-/// [`Writer::store`] never waits: contents that are newer than what is being written take the place of those
-/// that wait. A write that is refused, such as by a full disk, is reported at once and repeated until it succeeds.
+/// [`Writer::store`] never waits: newer contents replace those that are waiting to be written. A refused write,
+/// such as on a full disk, is reported immediately and repeated until it succeeds.
 #[derive(Debug)]
 pub struct Writer {
     newest: Input<Vec<u8>>,
@@ -26,11 +26,11 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Starts the thread. Nothing is written before the first [`Writer::store`], which allocates nothing as long
-    /// as the contents have at most `room_bytes`.
+    /// Starts the thread. Nothing is written before the first [`Writer::store`], which allocates nothing as
+    /// long as the contents have at most `room_bytes`.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     pub fn start(file: StoredFile, room_bytes: usize) -> io::Result<Self> {
         let (newest, contents) = triple_buffer(&vec![0; room_bytes]);
         let stop = Arc::new(AtomicBool::new(false));
@@ -40,7 +40,7 @@ impl Writer {
         Ok(Self { newest, stop, thread: Some(thread) })
     }
 
-    /// Hands over new contents: `fill` writes them into a buffer that holds older ones. They are stored soon.
+    /// Provides new contents: `fill` writes them into a buffer that holds older ones. They are stored soon.
     pub fn store(&mut self, fill: impl FnOnce(&mut Vec<u8>)) {
         fill(self.newest.input_buffer_mut());
         self.newest.publish();
@@ -52,11 +52,11 @@ impl Writer {
 
 impl Drop for Writer {
     fn drop(&mut self) {
-        // Release: who sees the flag sees the contents that were published before it.
+        // Release: a thread that sees the flag also sees the contents that were published before it.
         self.stop.store(true, Ordering::Release);
         if let Some(thread) = self.thread.take() {
             thread.thread().unpark();
-            // A thread that panicked has told so itself.
+            // A thread that panicked has already reported it.
             let _ = thread.join();
         }
     }
@@ -65,7 +65,7 @@ impl Drop for Writer {
 fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
     let mut is_unsaved = false;
     loop {
-        // Before the look at the contents, so that the last ones are not missed.
+        // Read before the contents are checked, so that the last ones are not missed.
         let is_last = stop.load(Ordering::Acquire);
         is_unsaved |= contents.update();
         if is_unsaved {
@@ -80,7 +80,7 @@ fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
     }
 }
 
-/// The file, and what is known of writing it.
+/// The file, and the result of the last write.
 struct Kept {
     file: StoredFile,
     /// Why the last write was refused; none if it was not.
@@ -141,7 +141,7 @@ mod tests {
     fn what_is_refused_is_stored_once_it_can_be() {
         let folder = Folder::of_test("refused");
         let mut kept = Kept { file: folder.claim("N1.nvm").expect("free"), refused: None };
-        // A folder in the way is refused as a full disk is: the new file cannot take its place.
+        // A folder with the same name is refused like a full disk: the new file cannot replace it.
         std::fs::create_dir(folder.file("N1.nvm")).expect("writable");
         assert!(!kept.is_stored(b"kept") && kept.refused.is_some());
         assert_eq!(folder.names(), [".N1.nvm.ectwin-lock", "N1.nvm"], "what is refused takes no room");

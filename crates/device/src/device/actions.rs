@@ -1,4 +1,4 @@
-//! What the unit wants, done at once.
+//! The actions of the unit, performed immediately.
 
 use esc::Pdi;
 use time::Instant;
@@ -10,7 +10,7 @@ use crate::machine::State;
 use crate::unit::{RefreshCause, Unit};
 
 impl<U: Unit> Device<U> {
-    /// Does what the unit wants, until it wants nothing more.
+    /// Performs the actions of the unit until there are no more.
     pub(super) fn take_actions(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         while let Some(action) = self.unit.take_action() {
             self.act(action, pdi, now);
@@ -46,8 +46,8 @@ impl<U: Unit> Device<U> {
         is_queued
     }
 
-    /// How many emergencies have found no room in the unit, no mailbox in their state, or no room in it, since
-    /// power-on. Those that waited when the slave went to INIT are not among them.
+    /// Number of emergencies since power-on for which there was no room in the unit, no mailbox in their state,
+    /// or no room in it. Those that were waiting when the slave went to INIT are not included.
     #[must_use]
     pub fn emergencies_lost(&self) -> u64 {
         self.emergencies_lost + self.unit.emergencies_lost()

@@ -1,4 +1,4 @@
-//! The exchange of process data: when it happens, and which outputs are valid.
+//! The exchange of process data: when it occurs, and which outputs are valid.
 
 use esc::{Esc, Pdi, Port, SmIndex};
 use time::{Duration, Instant};
@@ -11,11 +11,11 @@ use crate::sync_managers::{DataDirection, DataLength, ProcessDataConfig};
 use crate::sync_mode::SyncMode;
 use crate::unit::{Exchange, PortLinks, RefreshCause, Unit};
 
-/// DC activation bit 0: the cyclic unit runs.
+/// DC activation bit 0: the cyclic unit is active.
 const CYCLIC_OPERATION: u8 = 1;
 
 impl<U: Unit> Device<U> {
-    /// Refreshes the unit if its timer or the master wants it.
+    /// Refreshes the unit if its timer or the master triggers it.
     pub(super) fn refresh(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         if let Power::On { next_refresh } = self.power
             && now >= next_refresh
@@ -27,18 +27,18 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// Whether the master has exchanged process data that the unit follows.
+    /// Whether the master has exchanged process data with which the unit synchronises.
     fn is_synchronised(&self, pdi: &Pdi<'_>) -> bool {
         self.sync_events().any(|index| pdi.has_event(index) && pdi.sync_manager(index).pdi_event)
             || self.frame_events().any(|index| pdi.has_event(index))
     }
 
-    /// Whether a frame has brought outputs that go out at its end.
+    /// Whether a frame has brought outputs that are applied at the end of the frame.
     pub(crate) fn follows_frame(&self, esc: &Esc) -> bool {
         self.frame_events().any(|index| esc.has_sync_manager_event(index))
     }
 
-    /// What was missed is not made up for, and the phase stays.
+    /// Missed refreshes are not repeated, and the phase is unchanged.
     fn refresh_after(&self, refreshed: Instant, now: Instant) -> Instant {
         let Some(period) = self.unit.refresh_period() else { return Instant::NEVER };
         let mut next = refreshed + period;
@@ -72,7 +72,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// Whether the wire has written all outputs since they were opened.
+    /// Whether the master has written all outputs since they were opened.
     pub(super) fn outputs_received(&self, pdi: &Pdi<'_>) -> bool {
         let mut with_data =
             self.sync_managers_of(DataDirection::Outputs).filter(|&index| pdi.carries_data(index)).peekable();
@@ -85,7 +85,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The process data that show a master that something is wrong: the outputs, or the inputs of a unit without.
+    /// The process data that show an error to a master: the outputs, or the inputs of a unit without outputs.
     pub(super) fn close_process_data(&self, pdi: &mut Pdi<'_>) {
         let direction = if self.has_outputs() { DataDirection::Outputs } else { DataDirection::Inputs };
         for index in self.sync_managers_of(direction) {
@@ -104,7 +104,7 @@ impl<U: Unit> Device<U> {
         all.filter(move |described| described.direction == direction).map(|described| described.sync_manager)
     }
 
-    /// The SyncManagers whose events an SM-synchronous unit follows now.
+    /// The SyncManagers with whose events an SM-synchronous unit synchronises at present.
     pub(super) fn sync_events(&self) -> impl Iterator<Item = SmIndex> + '_ {
         let followed = self
             .is_in(SyncMode::SmSynchronous)
@@ -112,7 +112,7 @@ impl<U: Unit> Device<U> {
         followed.into_iter().flat_map(|direction| self.sync_managers_of(direction))
     }
 
-    /// The SyncManagers whose outputs go out with the end of a frame.
+    /// The SyncManagers whose outputs are applied at the end of a frame.
     fn frame_events(&self) -> impl Iterator<Item = SmIndex> + '_ {
         let followed = self.is_in(SyncMode::EndOfFrame).then_some(DataDirection::Outputs);
         followed.into_iter().flat_map(|direction| self.sync_managers_of(direction))
@@ -132,7 +132,7 @@ impl<U: Unit> Device<U> {
         self.unit.sync_mode().or(first).unwrap_or(SyncMode::FreeRun)
     }
 
-    /// The settings of the master beside what they should be: `look` gets them.
+    /// The settings of the master together with the expected ones, passed to `look`.
     pub(super) fn with_settings<T>(&self, pdi: &Pdi<'_>, look: impl FnOnce(&Settings<'_, '_>) -> T) -> T {
         let (config, lengths) = (&self.config, &self.lengths());
         look(&Settings { config, lengths, sync_mode: self.sync_mode(pdi), pdi })

@@ -13,7 +13,7 @@ use crate::sync_managers::DataDirection;
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
-    /// Takes a state request when its transition has had its time. Until then it stays in AL control, so that a
+    /// Takes a state request when its transition time is over. Until then it remains in AL control, so that a
     /// further write does not count.
     pub(super) fn watch_al_control(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         let Some(control) = pdi.al_control() else { return };
@@ -27,7 +27,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// A state request (reference 5.3): an error has to be acknowledged first, except on the way to INIT.
+    /// A state request (reference 5.3): an error must be acknowledged first, except for a request for INIT.
     fn on_al_control(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
         if let State::Init { fault: Some(code) } = self.machine.state {
             return self.refuse(AlState::Init, code, pdi, now);
@@ -56,7 +56,7 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The row for a request, of those that the slave has.
+    /// The row for a request, if the slave has this transition.
     fn transition(&self, to: AlState) -> Option<&'static Transition> {
         transition(self.al_state(), to).filter(|row| !row.needs_boot() || self.config.has_boot())
     }
@@ -93,7 +93,7 @@ impl<U: Unit> Device<U> {
         Ok(Answer::Now)
     }
 
-    /// OP waits for outputs that are watched and have not come yet.
+    /// OP waits for outputs that are monitored and have not been received yet.
     fn when_outputs_come(&self, pdi: &Pdi<'_>) -> Answer {
         let mut outputs = self.sync_managers_of(DataDirection::Outputs);
         let waits =
@@ -104,14 +104,14 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The state is reached: no error, and the Explicit Device ID where it is asked for.
+    /// The state is reached: no error, and the Explicit Device ID if it is requested.
     pub(super) fn reach(&mut self, control: AlControl, pdi: &mut Pdi<'_>, now: Instant) {
         self.enter(control.state, pdi, now);
         let device_id = self.unit.explicit_device_id().filter(|_| control.device_id_request);
         self.show(device_id.map_or(Indication::Nothing, Indication::DeviceId), pdi);
     }
 
-    /// A refused request: the error is shown in `state`, which differs from the current one where OP drops.
+    /// A refused request: the error is shown in `state`, which differs from the current state if OP is left.
     pub(super) fn refuse(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
         if state == self.al_state() {
             self.show(Indication::error(code), pdi);
@@ -121,9 +121,9 @@ impl<U: Unit> Device<U> {
     }
 }
 
-/// When a transition that may happen happens.
+/// The time of a permitted transition.
 enum Answer {
     Now,
-    /// As soon as outputs come, within this time.
+    /// When outputs are received, within this time.
     WithOutputs(Duration),
 }

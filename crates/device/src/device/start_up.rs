@@ -1,4 +1,4 @@
-//! From power to the first step of the unit: until then its controller answers alone.
+//! From power-on to the first step of the unit: until then only its controller answers.
 
 use esc::Esc;
 use time::{Duration, Instant};
@@ -10,8 +10,8 @@ use crate::power::{Phase, Power};
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
-    /// The slave has got power, or starts again; `code` is what the master finds. Without a start-up time it takes its
-    /// first step at once.
+    /// The slave has been powered on, or restarts; `code` is the code for the master. Without a start-up time
+    /// it takes its first step immediately.
     pub(super) fn begin_start_up(
         &mut self,
         start_up: Duration,
@@ -25,7 +25,7 @@ impl<U: Unit> Device<U> {
         self.has_started(esc, now);
     }
 
-    /// Whether the unit runs at `now`; what is due of its start-up happens first.
+    /// Whether the unit is running at `now`; due steps of its start-up are done first.
     pub(super) fn has_started(&mut self, esc: &mut Esc, now: Instant) -> bool {
         while let Power::StartingUp { phase, next, phase_time, code } = self.power {
             if now < next {

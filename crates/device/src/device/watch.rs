@@ -1,4 +1,4 @@
-//! Why a slave leaves its state on its own: SyncManagers that change, outputs that do not come.
+//! Why a slave leaves its state without a request: SyncManagers that change, outputs that are missing.
 
 use esc::Pdi;
 use time::Instant;
@@ -10,7 +10,7 @@ use crate::machine::{Indication, State};
 use crate::unit::Unit;
 
 impl<U: Unit> Device<U> {
-    /// SyncManagers that become invalid take the slave down (reference 5.5).
+    /// SyncManagers that become invalid cause a fall-back (reference 5.5).
     pub(super) fn watch_sync_managers(&mut self, pdi: &mut Pdi<'_>, now: Instant) {
         let (mailbox, process_data) = match self.machine.state {
             State::Init { .. } => return,
@@ -42,7 +42,8 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The stack itself has reasons to leave the state, if any: the unit hears of all, the first one is shown.
+    /// The reasons of the stack to leave the state, if there are any: the unit receives all of them, the first
+    /// one is shown.
     pub(super) fn drop_to(
         &mut self,
         state: AlState,
@@ -60,8 +61,9 @@ impl<U: Unit> Device<U> {
         }
     }
 
-    /// The slave leaves its state on its own. Out of OP the outputs, or the inputs of a unit without outputs,
-    /// are closed until the master acknowledges, so that it sees the working counter drop (reference 5.5, C063).
+    /// The slave leaves its state without a request. When it leaves OP, the outputs, or the inputs of a unit
+    /// without outputs, are closed until the master acknowledges, so that it sees the working counter drop
+    /// (reference 5.5, C063).
     pub(super) fn fall_back(&mut self, state: AlState, code: AlStatusCode, pdi: &mut Pdi<'_>, now: Instant) {
         self.machine.state.take_op_request();
         self.enter(state, pdi, now);

@@ -1,11 +1,11 @@
-//! What a unit wants of the stack, and when it is done.
+//! The actions that a unit requests of the stack, and when they are performed.
 
 use crate::bench::Bench;
 use device::{Action, Start};
 use wire::AlState::{Init, Op, PreOp};
 use wire::{AlStatusCode, Emergency};
 
-/// Lets the unit want something, which the next poll does.
+/// Adds an action to the unit; the next poll performs it.
 fn want(bench: &mut Bench, action: Action) {
     bench.unit().actions.push_back(action);
     bench.network.poll(bench.now);

@@ -1,5 +1,5 @@
-//! A line with one digital unit: 8 inputs, 8 outputs, no mailbox. It proves that nothing from `device` down
-//! knows of NX, and it is small enough for every state to be tried.
+//! A line with one digital unit: 8 inputs, 8 outputs, no mailbox. It proves that `device` and the crates below
+//! it are independent of the NX unit, and it is small enough to test every state.
 
 use device::{
     Action, Buffers, Check, DataDirection, DataLength, DeviceConfig, Exchange, Network, ProcessDataConfig,
@@ -13,7 +13,7 @@ use wire::{AlState, AlStatusCode, Command, FrameBuilder, Returned, returned_data
 pub(crate) const OUTPUTS_START: u16 = 0x1000;
 pub(crate) const INPUTS_START: u16 = 0x1100;
 
-/// Eight inputs that the test sets, eight outputs that it looks at.
+/// Eight inputs that the test sets, eight outputs that it checks.
 #[derive(Debug, Default)]
 pub(crate) struct Digital8 {
     pub(crate) inputs: u8,
@@ -21,11 +21,11 @@ pub(crate) struct Digital8 {
     pub(crate) without_outputs: bool,
     pub(crate) without_inputs: bool,
     pub(crate) states: Vec<AlState>,
-    /// What it wants of the stack, the first one first.
+    /// Its pending actions for the stack, in order.
     pub(crate) actions: VecDeque<Action>,
-    /// What the master finds after a restart of the kind.
+    /// The code for the master after each kind of restart.
     pub(crate) restarted: Option<Start>,
-    /// What the stack has told of itself.
+    /// The codes that the stack has reported.
     pub(crate) told: Vec<AlStatusCode>,
 }
 
@@ -124,7 +124,7 @@ impl Bench {
         Self::of([(config, Digital8::default())])
     }
 
-    /// A bench whose unit has come to `state` the way a master takes it.
+    /// A bench whose unit has been brought to `state` like a master does it.
     pub(crate) fn in_state(state: AlState) -> Self {
         let mut bench = Self::new();
         bench.bring_to(state);
@@ -154,7 +154,7 @@ impl Bench {
         self.write(0x0610, &[0, 0, 0, 0, 1, 0, 0, 7, 0x00, 0x11, 0, 1, 1, 0, 0, 0]);
     }
 
-    /// One LRW of a byte: what came back, and the working counter.
+    /// One LRW of one byte: the returned data, and the working counter.
     pub(crate) fn cycle(&mut self, outputs: u8) -> (u8, u16) {
         let returned = self.exchange(FrameBuilder::new().logical(Command::Lrw, 0, &[outputs]));
         (returned.data[0], returned.working_counter)
@@ -203,7 +203,7 @@ impl<U: Unit> Bench<U> {
         (self.word(0x0130), self.word(0x0134))
     }
 
-    /// Lets time pass, stopping at every deadline.
+    /// Advances the time, with a poll at every deadline.
     pub(crate) fn run_for(&mut self, duration: Duration) {
         let end = self.now + duration;
         while self.network.deadline() <= end {

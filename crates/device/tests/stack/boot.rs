@@ -1,4 +1,4 @@
-//! BOOT, where a slave has it (reference 5.2, 5.4).
+//! BOOT, for slaves that support it (reference 5.2, 5.4).
 
 use std::sync::Arc;
 
@@ -118,7 +118,7 @@ fn the_mailbox_of_boot_is_checked_and_watched() {
     assert_eq!(bench.status(), (0x11, 0x15));
 }
 
-/// BOOT has FoE only, which the mailbox does not speak: it says so.
+/// BOOT has FoE only, which the mailbox does not support: it answers with an error.
 #[test]
 fn a_message_in_boot_is_answered() {
     let mut bench = in_state(Some(BOOTSTRAP), Boot);

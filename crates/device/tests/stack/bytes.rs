@@ -1,14 +1,14 @@
-//! A unit of as many bytes as its description has.
+//! A unit with the number of bytes of its description.
 
 use device::{Exchange, RefreshCause, SyncMode, Unit};
 use time::{Duration, Instant};
 
 #[derive(Debug)]
 pub(crate) struct Bytes {
-    /// What it gives to the master; what is longer than the inputs is left out.
+    /// Its inputs for the master; bytes beyond the length of the inputs are left out.
     pub(crate) inputs: Vec<u8>,
     pub(crate) outputs: Option<Vec<u8>>,
-    /// Why it was refreshed.
+    /// The reason for its refresh.
     pub(crate) refreshes: Vec<RefreshCause>,
     pub(crate) sync_mode: Option<SyncMode>,
     pub(crate) period: Option<Duration>,

@@ -1,4 +1,4 @@
-//! Slaves that are slow, refuse, or do not listen.
+//! Slaves that are slow, refuse states, or ignore acknowledges.
 
 use crate::bench::{Bench, config};
 use device::{Conduct, Device, DeviceConfig, TRANSITIONS, TransitionTimes};
@@ -13,7 +13,7 @@ fn device(bench: &mut Bench) -> &mut Device<crate::bench::Digital8> {
     device
 }
 
-/// Every transition takes its time, in which AL status does not change and AL control takes nothing.
+/// Every transition takes its time, during which AL status does not change and AL control accepts nothing.
 #[test]
 fn a_transition_takes_its_time() {
     for row in TRANSITIONS.iter().filter(|row| !row.needs_boot()) {
@@ -38,7 +38,7 @@ fn a_transition_takes_its_time() {
     }
 }
 
-/// The time is that of the transition, not of the refusal behind it; what is no transition takes none.
+/// The time belongs to the transition, not to a following refusal; a request that is not a transition takes none.
 #[test]
 fn a_refusal_comes_when_the_time_is_over() {
     let mut bench = Bench::in_state(PreOp);
@@ -65,7 +65,7 @@ fn each_state_may_be_refused_with_a_code() {
     }
 }
 
-/// In OP the state stays too: it is the request that is refused, and no wrong one.
+/// In OP the state is kept too: the request is refused, but it is not an invalid one.
 #[test]
 fn a_refused_way_down_keeps_op() {
     let mut bench = Bench::in_state(Op);
@@ -91,7 +91,7 @@ fn an_acknowledge_may_be_ignored() {
     assert_eq!(bench.status(), (0x02, 0), "without an error there is nothing to ignore");
 }
 
-/// What the slave was built with comes back, the SII's time too.
+/// The configured conduct is restored, including the SII's time.
 #[test]
 fn it_behaves_again() {
     let conduct = Conduct { ignores_acknowledge: true, ..Conduct::default() };
@@ -107,7 +107,7 @@ fn it_behaves_again() {
     assert_eq!(bench.word(0x0502) & 0x8000, 0);
 }
 
-/// A restart begins with no request; how the slave behaves outlives it.
+/// A restart begins without a request; the conduct of the slave is kept.
 #[test]
 fn a_restart_forgets_a_request_that_waits() {
     let mut bench = Bench::new();

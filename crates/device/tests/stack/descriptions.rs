@@ -1,4 +1,4 @@
-//! Slaves of other shapes than mailbox, SyncManager 2 and SyncManager 3: what a description can say.
+//! Slaves with other layouts than mailbox, SyncManager 2 and SyncManager 3: the options of a description.
 
 use crate::bench::{Bench, Digital8, config, process_data, sii_image};
 use crate::bytes::Bytes;
@@ -152,7 +152,7 @@ fn sm_synchronous() -> DeviceConfig {
     DeviceConfig { sync_modes, ..described([outputs, process_data(1, Inputs, 0x1100, Fixed(1))]) }
 }
 
-/// The refresh of the frame, beside those of the timer.
+/// The refresh of the frame, in addition to those of the timer.
 #[test]
 fn an_sm_synchronous_slave_follows_the_outputs() {
     let mut bench = in_pre_op(sm_synchronous(), &[(0, 0x1000, 1, 0x64), (1, 0x1100, 1, 0x20)]);
@@ -171,7 +171,7 @@ fn an_sm_synchronous_slave_follows_the_outputs() {
     assert_eq!(bench.unit().refreshes, []);
 }
 
-/// As digital outputs without a processor do: the control byte has no PDI interrupt.
+/// Like digital outputs without a processor: the control byte has no PDI interrupt.
 #[test]
 fn outputs_may_go_out_with_the_end_of_the_frame() {
     let config = DeviceConfig { sync_modes: &[SyncMode::EndOfFrame], ..sm_synchronous() };
@@ -238,7 +238,7 @@ fn a_synchronisation_mode_that_is_not_described_is_refused() {
     }
 }
 
-/// Such as a coupler: it has nothing to exchange, and nothing to do.
+/// Such as a coupler: it has nothing to exchange.
 #[test]
 fn a_slave_without_process_data_comes_to_op_and_sleeps() {
     let mut bench = Bench::of([(described([]), Bytes { period: None, ..Bytes::default() })]);

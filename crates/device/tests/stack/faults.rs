@@ -1,4 +1,4 @@
-//! What goes wrong inside a unit, and what the stack tells its unit of what it finds itself.
+//! Errors inside a unit, and the errors that the stack detects and reports to its unit.
 
 use crate::bench::{Bench, Digital8, config};
 use device::{Action, DeviceConfig, Network, RefusedInOp, Start};
@@ -40,7 +40,7 @@ fn a_fault_without_code_refuses_without_an_error_indication() {
     }
 }
 
-/// Explicit Device ID 5 is shown in the place of the code; the fault has the same number.
+/// Explicit Device ID 5 is shown instead of the code; the fault has the same number.
 #[test]
 fn a_device_id_does_not_hide_a_fault() {
     let mut bench = Bench::in_state(Init);

@@ -1,10 +1,10 @@
-//! Slaves that have outputs or inputs only.
+//! Slaves with only outputs or only inputs.
 
 use crate::bench::{Bench, Digital8};
 use time::Duration;
 use wire::AlState::{Op, PreOp, SafeOp};
 
-/// What makes a slave of one direction of a digital unit.
+/// What makes a digital unit a slave of one direction.
 type Change = fn(&mut Digital8);
 
 /// A slave in PRE-OP, with both SyncManagers enabled.

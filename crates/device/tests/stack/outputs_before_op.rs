@@ -7,7 +7,7 @@ use wire::AlState::{Init, Op, PreOp, SafeOp};
 
 const LIMIT: Duration = Duration::from_millis(200);
 
-/// A unit in SAFE-OP that waits for outputs, and has not got any.
+/// A unit in SAFE-OP that waits for outputs and has not received any.
 fn waiting_bench() -> Bench {
     let mut bench =
         Bench::with(DeviceConfig { outputs_before_op: OutputsBeforeOp::Within(LIMIT), ..config() });
@@ -52,7 +52,7 @@ fn without_outputs_the_request_is_refused_in_time() {
     assert_eq!(bench.status(), (0x08, 0));
 }
 
-/// Outputs of an earlier SAFE-OP are not those of this one.
+/// Outputs of an earlier SAFE-OP do not count for this one.
 #[test]
 fn outputs_have_to_come_since_safe_op() {
     let mut bench = waiting_bench();
@@ -65,7 +65,7 @@ fn outputs_have_to_come_since_safe_op() {
     assert_eq!(bench.status(), (0x14, 0x1B));
 }
 
-/// An OP that the watchdog has ended needs new outputs too.
+/// When the watchdog has ended OP, new outputs are required too.
 #[test]
 fn an_acknowledged_fall_back_waits_again() {
     let mut bench = waiting_bench();
@@ -103,7 +103,7 @@ fn another_request_ends_the_wait() {
     }
 }
 
-/// The Explicit Device ID is told when OP is reached.
+/// The Explicit Device ID is shown when OP is reached.
 #[test]
 fn a_wait_keeps_what_was_asked_for() {
     let mut bench = waiting_bench();
@@ -113,7 +113,7 @@ fn a_wait_keeps_what_was_asked_for() {
     assert_eq!(bench.status(), (0x28, 5));
 }
 
-/// Outputs that nobody watches are not waited for: no trigger, or a watchdog time of 0.
+/// The slave does not wait for outputs that are not monitored: no trigger, or a watchdog time of 0.
 #[test]
 fn outputs_without_a_watchdog_are_not_waited_for() {
     let mut bench = waiting_bench();

@@ -1,4 +1,4 @@
-//! Process data between the wire and a unit that is not NX.
+//! Process data between the ECAT side and a unit that is not an NX unit.
 
 use crate::bench::Bench;
 use time::Duration;
@@ -42,7 +42,7 @@ fn outputs_end_with_the_watchdog() {
     assert_eq!(bench.unit().outputs, None);
 }
 
-/// Outputs have come since PRE-OP, so that OP watches over them from its beginning on.
+/// Outputs have been received since PRE-OP, so OP monitors them from its start.
 #[test]
 fn op_without_new_outputs_ends_with_the_watchdog() {
     let mut bench = Bench::in_state(SafeOp);
@@ -58,7 +58,7 @@ fn op_without_new_outputs_ends_with_the_watchdog() {
     }
 }
 
-/// They came in an earlier SAFE-OP: the next OP waits for its first ones.
+/// They were received in an earlier SAFE-OP: the next OP waits for its first ones.
 #[test]
 fn op_waits_for_its_first_outputs() {
     let mut bench = Bench::in_state(SafeOp);
@@ -101,7 +101,7 @@ fn a_missed_refresh_is_not_made_up_for() {
     assert!(bench.network.deadline() > bench.now);
 }
 
-/// Reference 5.1: below SAFE-OP there are no process data, and what was sent before does not come back.
+/// Reference 5.1: below SAFE-OP there are no process data, and data sent before do not return.
 #[test]
 fn process_data_end_below_safe_op() {
     let mut bench = Bench::in_state(Op);

@@ -56,7 +56,7 @@ fn the_letters_of_a_row_are_those_of_its_states() {
     }
 }
 
-/// C050: SyncManagers 2 and 3 have to fit the mapping exactly.
+/// C050: SyncManagers 2 and 3 must match the mapping exactly.
 #[test]
 fn wrong_process_data_sync_managers_are_refused() {
     let wrong: [(u16, [u8; 8], u16); 6] = [
@@ -77,7 +77,7 @@ fn wrong_process_data_sync_managers_are_refused() {
     }
 }
 
-/// C120: a unit that runs freely cannot follow DC.
+/// C120: a unit that runs freely does not support DC.
 #[test]
 fn dc_activation_is_refused() {
     let mut bench = Bench::in_state(PreOp);
@@ -107,7 +107,7 @@ fn a_watchdog_time_without_trigger_is_refused_where_the_unit_checks_it() {
     }
 }
 
-/// C045, C046, C047: an error stays until it is acknowledged; INIT needs no acknowledge.
+/// C045, C046, C047: an error remains until it is acknowledged; INIT needs no acknowledge.
 #[test]
 fn an_error_has_to_be_acknowledged() {
     let mut bench = Bench::in_state(PreOp);
@@ -130,7 +130,7 @@ fn acknowledge_and_another_state_in_one_request() {
     assert_eq!(bench.status(), (0x08, 0));
 }
 
-/// C066, C067: outputs stop, the slave falls back and closes them until the master acknowledges.
+/// C066, C067: the outputs stop; the slave falls back and closes them until the master acknowledges.
 #[test]
 fn the_watchdog_takes_op_to_safe_op() {
     let mut bench = Bench::in_state(Op);
@@ -200,7 +200,7 @@ fn res_restarts_the_slave() {
     bench.bring_to(Op);
 }
 
-/// An EEPROM that could not be loaded keeps the slave in INIT.
+/// An EEPROM that cannot be loaded keeps the slave in INIT.
 #[test]
 fn without_sii_there_is_no_pre_op() {
     let mut bench = Bench::with(DeviceConfig { sii_image: vec![0xFF; 128], ..config() });
@@ -208,7 +208,7 @@ fn without_sii_there_is_no_pre_op() {
     assert_eq!(bench.status(), (0x11, 0x51));
 }
 
-/// C069: what has expired shows until outputs come again, also while the fall-back keeps them closed.
+/// C069: an expired watchdog is shown until outputs are received again, also while the fall-back keeps them closed.
 #[test]
 fn an_expired_watchdog_shows_in_its_status() {
     let mut bench = Bench::in_state(Op);
@@ -217,7 +217,7 @@ fn an_expired_watchdog_shows_in_its_status() {
     assert_eq!((bench.word(0x0440), bench.word(0x0442) & 0xFF), (0, 1));
 }
 
-/// Outputs that come too late do not hide that they were late, even if nobody looked in between.
+/// Expiry is checked first, so that a late write cannot mask the time-out, even if there was no poll in between.
 #[test]
 fn late_outputs_do_not_hide_an_expiry() {
     let mut bench = Bench::in_state(Op);
@@ -227,7 +227,7 @@ fn late_outputs_do_not_hide_an_expiry() {
     assert_eq!(bench.status(), (0x14, 0x1B));
 }
 
-/// C064: the buffer mode is watched too.
+/// C064: the buffer mode is monitored too.
 #[test]
 fn a_sync_manager_that_becomes_a_mailbox_takes_the_slave_down() {
     let mut bench = Bench::in_state(Op);
@@ -236,7 +236,7 @@ fn a_sync_manager_that_becomes_a_mailbox_takes_the_slave_down() {
     assert_eq!(bench.status(), (0x12, 0x1D));
 }
 
-/// Two requests in one frame: the last one wins.
+/// Two requests in one frame: the last one counts.
 #[test]
 fn the_last_al_control_of_a_frame_wins() {
     let mut bench = Bench::new();
@@ -250,8 +250,8 @@ fn the_last_al_control_of_a_frame_wins() {
 }
 
 proptest! {
-    /// C071: whatever a master asks and in whatever order, AL status is a state of the standard, an error has a
-    /// code, and no error has none.
+    /// C071: for any sequence of requests, AL status is a state of the standard, an error has a code, and
+    /// without an error there is none.
     #[test]
     fn any_requests_leave_a_state_of_the_standard(requests in prop::collection::vec(any::<u8>(), 1..60)) {
         let mut bench = Bench::new();

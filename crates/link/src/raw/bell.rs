@@ -8,13 +8,13 @@ use rustix::io::Errno;
 use rustix::net::netlink::SocketAddrNetlink;
 use rustix::net::{AddressFamily, RecvFlags, SocketFlags, SocketType, bind, recv, socket_with};
 
-/// `RTMGRP_LINK` of rtnetlink(7): interfaces that come, go or change.
+/// `RTMGRP_LINK` of rtnetlink(7): interfaces that are added, removed or changed.
 const LINKS: u32 = 1;
 /// Notices can be lost when the kernel has no room for them.
 const LONGEST_SLEEP: Timespec = Timespec { tv_sec: 1, tv_nsec: 0 };
 
-/// A netlink socket that is read for its waking only: what it says is looked up afresh, so that a lost notice costs
-/// time and nothing else.
+/// A netlink socket that is used only to wake the thread: the contents of a notice are looked up again, so that
+/// a lost notice costs only time.
 pub(super) struct Bell {
     notices: OwnedFd,
 }
@@ -22,13 +22,13 @@ pub(super) struct Bell {
 impl Bell {
     pub(super) fn new() -> io::Result<Self> {
         let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
-        // The protocol that is meant where none is named is NETLINK_ROUTE.
+        // If no protocol is given, it is NETLINK_ROUTE.
         let notices = socket_with(AddressFamily::NETLINK, SocketType::RAW, flags, None)?;
         bind(&notices, &SocketAddrNetlink::new(0, LINKS))?;
         Ok(Self { notices })
     }
 
-    /// Sleeps until something has changed, or for a second. No: the other end of `hung_up` is closed.
+    /// Waits until something has changed, or for a second. False: the other end of `hung_up` is closed.
     pub(super) fn wait(&self, hung_up: &impl AsFd) -> bool {
         let mut ends = [PollFd::new(&self.notices, PollFlags::IN), PollFd::new(hung_up, PollFlags::IN)];
         let woken = poll(&mut ends, Some(&LONGEST_SLEEP));
@@ -38,7 +38,7 @@ impl Bell {
 
     fn drain(&self) {
         let mut notice = [0_u8; 4096];
-        // Notices that were lost (ENOBUFS) have been rung for all the same.
+        // Notices that were lost (ENOBUFS) have rung the bell too.
         while matches!(recv(&self.notices, &mut notice, RecvFlags::empty()), Ok(_) | Err(Errno::NOBUFS)) {}
     }
 }

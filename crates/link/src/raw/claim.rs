@@ -4,8 +4,9 @@ use std::io;
 use std::os::linux::net::SocketAddrExt;
 use std::os::unix::net::{SocketAddr, UnixDatagram};
 
-/// An interface that this process answers on. The claim is an abstract Unix socket: its name is free again as soon as
-/// the process ends, however it ends, and is one of the network namespace, as the index of the interface is.
+/// An interface on which this process answers. The claim is an abstract Unix socket: its name is free again as
+/// soon as the process ends, in whatever way, and is local to the network namespace, like the index of the
+/// interface.
 pub(super) struct Claim {
     _name: UnixDatagram,
 }

@@ -1,7 +1,7 @@
-//! What becomes of an interface beside its frames: its carrier, its index, and what the kernel drops.
+//! The state of an interface, apart from its frames: its carrier, its index, and the frames that the kernel drops.
 //!
-//! A thread of its own looks after it, so that no frame waits for that: it is woken by the kernel when an interface
-//! changes, and looks once a second in any case.
+//! A separate thread monitors it, so that no frame waits for that: the kernel wakes it when an interface
+//! changes, and it checks once a second in any case.
 
 use std::io;
 use std::os::unix::net::UnixStream;
@@ -19,7 +19,7 @@ use super::socket::{HELP_FOR_BUFFER, PacketSocket};
 /// `IFF_LOWER_UP` of netdevice(7): the interface is up, and there is a signal on the cable.
 const LOWER_UP: u32 = 1 << 16;
 
-/// An interface by its name, whatever device has it.
+/// An interface by its name, whatever device has this name.
 pub(super) struct Interface {
     name: String,
     socket: PacketSocket,
@@ -28,18 +28,18 @@ pub(super) struct Interface {
     dropped: AtomicU64,
 }
 
-/// What the socket is bound to.
+/// The interface to which the socket is bound.
 struct Bound {
     /// Nothing while no interface has the name, or another ectwin has the interface.
     claimed: Option<(u32, Claim)>,
     /// Since when there has been no carrier.
     lost_at: Option<Instant>,
-    /// The last refusal to bind, so that it is logged once.
+    /// The last refusal to bind, so that it is logged only once.
     refusal: Option<io::ErrorKind>,
 }
 
 impl Interface {
-    /// Binds `socket` to the interface that has this name now.
+    /// Binds `socket` to the interface that has this name at present.
     pub(super) fn bind(found: &NetworkInterface, socket: PacketSocket) -> io::Result<Self> {
         let claim = Claim::take(found.index)?;
         socket.bind(found.index)?;
@@ -54,19 +54,19 @@ impl Interface {
         })
     }
 
-    /// Whether there was a carrier when we looked last.
+    /// Whether there was a carrier at the last check.
     pub(super) fn carrier(&self) -> bool {
-        // Nothing else is read by it: the frames are in the kernel.
+        // No other data depend on it: the frames are in the kernel.
         self.carrier.load(Ordering::Relaxed)
     }
 
-    /// Frames that the kernel had no room for.
+    /// Frames for which the kernel had no room.
     pub(super) fn dropped(&self) -> u64 {
         self.count_dropped();
         self.dropped.load(Ordering::Relaxed)
     }
 
-    /// Follows the interface: binds anew where its name has another index, and notes the carrier.
+    /// Follows the interface: binds again if its name has another index, and stores the carrier.
     pub(super) fn look(&self) {
         let mut bound = self.bound();
         let found = find(&self.name);
@@ -85,7 +85,7 @@ impl Interface {
         self.carrier.store(carrier, Ordering::Relaxed);
     }
 
-    /// The same name is another interface now. What has its own claim is left alone.
+    /// The same name is another interface now. An interface with another claim is left alone.
     fn bind_again(&self, bound: &mut Bound, index: u32) {
         let claimed = Claim::take(index).and_then(|claim| self.socket.bind(index).map(|()| claim));
         match claimed {
@@ -130,7 +130,7 @@ impl Interface {
         }
     }
 
-    /// A thread that panicked with the lock left it whole: each change is one assignment.
+    /// A thread that panicked with the lock left the state consistent: each change is one assignment.
     fn bound(&self) -> MutexGuard<'_, Bound> {
         self.bound.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -142,7 +142,7 @@ impl Bound {
     }
 }
 
-/// The interface that has this name now.
+/// The interface that has this name at present.
 pub(super) fn find(name: &str) -> Option<NetworkInterface> {
     pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name)
 }
@@ -151,7 +151,7 @@ fn has_carrier(interface: &NetworkInterface) -> bool {
     interface.flags & LOWER_UP != 0
 }
 
-/// The thread that looks after an interface, until this value goes.
+/// The thread that monitors an interface, until this value is dropped.
 pub(super) struct Watch {
     hang_up: Option<UnixStream>,
     thread: Option<JoinHandle<()>>,
@@ -162,7 +162,7 @@ impl Watch {
         let (hang_up, hung_up) = UnixStream::pair()?;
         let thread = std::thread::Builder::new().name("interface".to_owned());
         let thread = thread.spawn(move || {
-            // What changed between the opening and now.
+            // Changes between opening and now.
             interface.look();
             while bell.wait(&hung_up) {
                 interface.look();

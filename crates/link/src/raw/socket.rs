@@ -1,5 +1,5 @@
-//! A packet socket: bound to one interface after the other, with the VLAN tags of its frames and the kernel's count of
-//! frames that it dropped.
+//! A packet socket: bound to one interface after another, with the VLAN tags of its frames and the kernel's
+//! count of frames that it dropped.
 
 use std::io::{self, Write};
 use std::os::fd::{AsFd, AsRawFd, BorrowedFd};
@@ -10,17 +10,17 @@ use uapi::c;
 use super::vlan;
 use crate::filter::ETHERCAT_COMING_IN;
 
-/// Room for what comes in one burst: SOEM sends the process data of 1,000 units, 250 frames, at once.
+/// Room for one burst: SOEM sends the process data of 1,000 units, 250 frames, at once.
 const RECEIVE_BUFFER_BYTES: usize = 8 << 20;
 
-/// A packet socket. Only its making needs CAP_NET_RAW: a socket that is there may be bound to another interface
-/// without it.
+/// A packet socket. Only its creation requires CAP_NET_RAW: an existing socket may be bound to another
+/// interface without it.
 pub(super) struct PacketSocket {
     socket: Socket,
 }
 
 impl PacketSocket {
-    /// A socket that hears nothing before it is bound, so that nothing slips past its filter.
+    /// A socket that receives nothing before it is bound, so that no frame bypasses its filter.
     pub(super) fn new() -> io::Result<Self> {
         let socket = Socket::new(Domain::PACKET, Type::RAW, None)?;
         socket.attach_filter(&ETHERCAT_COMING_IN)?;
@@ -36,7 +36,7 @@ impl PacketSocket {
         self.socket.try_clone().map(|socket| Self { socket })
     }
 
-    /// Hears and sends on this interface from now on, and hears frames for any address there.
+    /// From now on, receives and sends on this interface, and receives frames for any address there.
     pub(super) fn bind(&self, interface_index: u32) -> io::Result<()> {
         let index = i32::try_from(interface_index).map_err(|_| io::ErrorKind::InvalidInput)?;
         let every_protocol = (c::ETH_P_ALL as u16).to_be();
@@ -59,7 +59,7 @@ impl PacketSocket {
         self.set(c::PACKET_ADD_MEMBERSHIP, &promiscuous)
     }
 
-    /// Takes a frame, with its VLAN tag.
+    /// Receives a frame, with its VLAN tag.
     pub(super) fn receive(&self, buffer: &mut [u8]) -> io::Result<usize> {
         let mut control = [0_u8; vlan::CONTROL_BYTES];
         let mut message = uapi::MsghdrMut {
@@ -81,27 +81,27 @@ impl PacketSocket {
         writer.write(frame).map(|_| ())
     }
 
-    /// How many frames found no room in the receive buffer since this was asked last.
+    /// Number of frames since the last call for which there was no room in the receive buffer.
     pub(super) fn take_dropped(&self) -> u64 {
-        // `tpacket_stats`: packets, drops. Reading them sets them to 0.
+        // `tpacket_stats`: packets, drops. Reading them resets them to 0.
         let mut statistics = [0_u32; 2];
         let read =
             uapi::getsockopt(self.socket.as_raw_fd(), c::SOL_PACKET, c::PACKET_STATISTICS, &mut statistics);
         read.map_or(0, |_| u64::from(statistics[1]))
     }
 
-    /// The room for frames that wait, as the kernel counts it: about half of it for their bytes.
+    /// The room for waiting frames, as the kernel counts it: about half of it for their bytes.
     pub(super) fn receive_buffer_bytes(&self) -> usize {
         self.socket.recv_buffer_size().unwrap_or(0)
     }
 
-    /// Beyond the limit of the system where we may (CAP_NET_ADMIN), else up to it.
+    /// Beyond the limit of the system if permitted (CAP_NET_ADMIN), else up to the limit.
     fn enlarge_receive_buffer(&self) {
         use rustix::net::sockopt::set_socket_recv_buffer_size_force;
         if set_socket_recv_buffer_size_force(&self.socket, RECEIVE_BUFFER_BYTES).is_ok() {
             return;
         }
-        // The kernel cuts what is above its limit.
+        // The kernel cuts a value above its limit.
         let _limited = self.socket.set_recv_buffer_size(RECEIVE_BUFFER_BYTES);
         let (is, wanted) = (self.receive_buffer_bytes() >> 11, RECEIVE_BUFFER_BYTES >> 10);
         if is < wanted {
@@ -114,7 +114,7 @@ impl PacketSocket {
     }
 }
 
-/// What makes the receive buffer larger.
+/// How to enlarge the receive buffer.
 pub(super) const HELP_FOR_BUFFER: &str =
     "`sudo sysctl -w net.core.rmem_max=8388608` raises the limit, CAP_NET_ADMIN at the start goes beyond it";
 

@@ -1,4 +1,4 @@
-//! The VLAN tag of a frame: the kernel takes it out before a packet socket sees the frame, and reports it beside it.
+//! The VLAN tag of a frame: the kernel removes it before a packet socket gets the frame, and reports it separately.
 
 use uapi::c;
 
@@ -6,12 +6,12 @@ use uapi::c;
 pub(super) const CONTROL_BYTES: usize = uapi::cmsg_space(size_of::<c::tpacket_auxdata>());
 
 const TAG_BYTES: usize = 4;
-/// Where a tag is in a frame: behind the addresses.
+/// Position of a tag in a frame: after the addresses.
 const TAG_AT: usize = 12;
-/// The tag protocol of kernels that do not name it.
+/// The tag protocol for kernels that do not report it.
 const CUSTOMER_TAG: u16 = 0x8100;
 
-/// The tag that the control messages of a frame report, as it was on the wire.
+/// The tag in the control messages of a frame, as it was on the cable.
 pub(super) fn tag_in(mut control: &[u8]) -> Option<[u8; TAG_BYTES]> {
     while let Ok((_, header, data)) = uapi::cmsg_read(&mut control) {
         if (header.cmsg_level, header.cmsg_type) == (c::SOL_PACKET, c::PACKET_AUXDATA) {
@@ -37,8 +37,8 @@ fn tag_of(auxiliary: &[u8]) -> Option<[u8; TAG_BYTES]> {
     Some([p0, p1, c0, c1])
 }
 
-/// Puts the tag back into a frame of `length_bytes` at the front of `buffer`. Returns the new length; what does not
-/// fit is cut off.
+/// Puts the tag back into a frame of `length_bytes` at the start of `buffer`. Returns the new length; bytes
+/// that do not fit are cut off.
 pub(super) fn insert(tag: [u8; TAG_BYTES], buffer: &mut [u8], length_bytes: usize) -> usize {
     let tagged_bytes = (length_bytes + TAG_BYTES).min(buffer.len());
     let Some(behind_addresses) = buffer.get_mut(TAG_AT..tagged_bytes) else { return length_bytes };

@@ -1,24 +1,24 @@
-//! What goes to the medium of a capture, and waits while the medium refuses it.
+//! The output of a capture to its medium, which waits while the medium refuses it.
 
 use std::fs::File;
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-/// What waits until it is worth a write.
+/// Number of bytes that are collected before a write.
 const BUFFER_BYTES: usize = 1 << 16;
-/// Most that waits for a medium that refuses writes. What comes then is lost.
+/// Maximum number of waiting bytes while a medium refuses writes. Further bytes are lost.
 const WAITING_BYTES_MAX: usize = 1 << 20;
-/// From one try to the next.
+/// Time between two tries.
 const RETRY: Duration = Duration::from_millis(200);
-/// Where the length of a block is in it, counted from its first byte (draft-ietf-opsawg-pcapng, 3.1).
+/// Position of a block's length, counted from the first byte of the block (draft-ietf-opsawg-pcapng, 3.1).
 const BLOCK_LENGTH: std::ops::Range<usize> = 4..8;
 
-/// Where a capture goes.
+/// The medium of a capture.
 pub trait Medium: Write + Send {
-    /// Cuts off what is behind the first `length_bytes`: part of a block that will never be whole.
+    /// Cuts off everything after the first `length_bytes`: part of a block that will never be complete.
     ///
     /// # Errors
-    /// The medium keeps what it has got, such as a pipe.
+    /// The medium keeps the bytes that it has received, such as a pipe.
     fn cut(&mut self, length_bytes: u64) -> io::Result<()> {
         let _ = length_bytes;
         Err(io::ErrorKind::Unsupported.into())
@@ -31,14 +31,14 @@ impl Medium for File {
     }
 }
 
-/// A medium with a buffer of whole blocks in front. Writing to it never fails.
+/// A medium with a buffer of complete blocks before it. Writing to it never fails.
 pub(super) struct Outlet<M> {
     medium: M,
     link_name: String,
     waiting: Vec<u8>,
-    /// How many bytes of `waiting` the medium has taken.
+    /// Number of bytes of `waiting` that the medium has accepted.
     taken: usize,
-    /// Bytes on the medium in front of `waiting`.
+    /// Bytes on the medium before `waiting`.
     before: u64,
     refusal: Option<Refusal>,
 }
@@ -59,7 +59,7 @@ impl<M: Medium> Outlet<M> {
         self.waiting.len() < WAITING_BYTES_MAX
     }
 
-    /// Passes on what is worth it, or what was refused some time ago.
+    /// Writes if enough bytes are waiting, or if a refused write is due again.
     pub(super) fn push_if_due(&mut self) {
         let is_due = match &self.refusal {
             Some(refusal) => refusal.at.elapsed() >= RETRY,
@@ -70,7 +70,7 @@ impl<M: Medium> Outlet<M> {
         }
     }
 
-    /// Passes everything on. What the medium refuses waits; the first refusal is reported, and the end of it.
+    /// Writes everything. Refused bytes wait; the first refusal is reported, and the end of the refusals.
     pub(super) fn push(&mut self) {
         match (self.try_push(), &self.refusal) {
             (Ok(()), None) => {}
@@ -105,12 +105,12 @@ impl<M: Medium> Outlet<M> {
         self.medium.flush()
     }
 
-    /// The last try. Without success the capture ends with the last block that is whole.
+    /// The last try. If it fails, the capture ends with the last complete block.
     pub(super) fn end(&mut self) -> io::Result<()> {
         self.push();
         let Some(refusal) = self.refusal.take() else { return Ok(()) };
         let whole_bytes = self.before + whole_blocks(&self.waiting, self.taken) as u64;
-        // A pipe keeps a part of a block. The refusal matters more.
+        // A pipe keeps a part of a block. The refusal is the more important error.
         let _ = self.medium.cut(whole_bytes);
         Err(refusal.error)
     }

@@ -3,7 +3,7 @@ use std::sync::{Arc, Mutex};
 
 use super::*;
 
-/// A medium that another handle reads back.
+/// A medium that another handle reads.
 #[derive(Clone, Default)]
 struct Shared(Arc<Mutex<Vec<u8>>>);
 
@@ -37,7 +37,7 @@ fn request_and_answer_are_two_records() {
     }
 }
 
-/// A medium that takes nothing until it is told to.
+/// A medium that accepts nothing until it is released.
 struct Stuck(std::sync::mpsc::Receiver<()>);
 
 impl Write for Stuck {
@@ -67,7 +67,7 @@ fn what_the_medium_cannot_take_is_counted_and_never_waited_for() {
     assert_eq!(recording.written + recording.lost, total);
 }
 
-/// A disk with so much room; the rest of a write is refused.
+/// A disk with this much room; the rest of a write is refused.
 #[derive(Clone, Default)]
 struct Disk(Arc<Mutex<(Vec<u8>, usize)>>);
 
@@ -110,7 +110,7 @@ impl Medium for Disk {
     }
 }
 
-/// The thread's side, and a disk with so much room.
+/// The thread's side, and a disk with this much room.
 fn writing(room_bytes: usize) -> (Disk, Writing<Disk>) {
     let disk = Disk::default();
     disk.make_room(room_bytes);
@@ -130,7 +130,7 @@ fn take_frames(writing: &mut Writing<Disk>, numbers: std::ops::Range<u64>) {
 
 #[test]
 fn a_full_disk_is_tried_again_and_the_capture_is_whole() {
-    // In the midst of a block.
+    // In the middle of a block.
     let (disk, mut writing) = writing(3_333);
     take_frames(&mut writing, 0..500);
     writing.writer.out_mut().push();

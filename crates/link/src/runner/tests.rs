@@ -3,7 +3,8 @@ use std::thread;
 use super::*;
 use crate::memory;
 
-/// Sets the highest bit of what passes, destroys frames that start with 0, counts those that start with 7, polls every millisecond.
+/// Sets the highest bit of passing data, destroys frames that start with 0, counts those that start with 7,
+/// polls every millisecond.
 #[derive(Default)]
 struct Marker {
     next: Instant,
@@ -47,7 +48,7 @@ impl Observer for Notes {
     }
 }
 
-/// A master sends `frames`, takes `answers` of them back and closes the link.
+/// A master sends `frames`, receives `answers` of them and closes the link.
 fn run_against(frames: &[&[u8]], answers: usize, observer: Option<&mut dyn Observer>) -> Statistics {
     let (mut master, mut unit) = memory::pair();
     thread::scope(|scope| {
@@ -92,7 +93,7 @@ fn the_stop_flag_ends_the_run() {
     assert_eq!(statistics, Statistics::default());
 }
 
-/// Stops the run by its own deadline, without a single frame.
+/// Stops the run at its own deadline, without a single frame.
 struct Countdown<'a> {
     stop: &'a AtomicBool,
     left: u32,
@@ -126,7 +127,7 @@ fn what_is_due_happens_at_its_deadline_without_frames() {
     assert!(clock.now() >= Instant::ZERO + Duration::from_millis(8));
 }
 
-/// A port whose cable is pulled and put back while its frames come.
+/// A port whose cable is pulled and plugged in again while it receives frames.
 struct Flaky {
     frames: Vec<(bool, u8)>,
     carrier: bool,
@@ -153,7 +154,7 @@ impl FramePort for Flaky {
     }
 }
 
-/// What happened, in order.
+/// The events, in order.
 #[derive(Default)]
 struct Diary(Vec<String>);
 

@@ -2,7 +2,7 @@ use std::os::unix::fs::{PermissionsExt, symlink};
 
 use super::*;
 
-/// A folder of one test, empty at first, gone at its end.
+/// The folder of one test, empty at first, removed at the end.
 pub(crate) struct Folder(PathBuf);
 
 impl Folder {
@@ -125,7 +125,7 @@ fn a_link_in_the_way_of_a_new_file_is_not_followed() {
     file.write(b"new").expect("there are more names");
     assert_eq!(folder.contents("precious").as_deref(), Some(&b"precious"[..]));
     drop(file);
-    // A lock is no file of somebody else either.
+    // A lock is not a file of another owner either.
     symlink("precious", folder.file(".N2.nvm.ectwin-lock")).expect("linked");
     folder.claim("N2.nvm").expect_err("a link in the place of the lock");
 }
