@@ -10,6 +10,8 @@ use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 use plc::outside::OutsideEnd;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::io::Errno;
 use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
 use tokio::sync::oneshot;
@@ -17,12 +19,12 @@ use tokio::sync::oneshot;
 use crate::map::ModbusMap;
 use crate::unit::Unit;
 
-use clients::Clients;
+use clients::{Clients, Closed};
 use notices::{Notice, Notices};
 
 pub use clients::CONNECTIONS_MAX;
 
-/// How long accepting rests after an error, such as no file descriptor to be had.
+/// How long accepting rests after an error, such as no file descriptor left where no client has one.
 const REST: Duration = Duration::from_millis(100);
 /// File descriptors that the runtime opens at its start, and more. It panics if it gets too few for its signals.
 const RUNTIME_DESCRIPTORS: usize = 8;
@@ -106,10 +108,44 @@ async fn accept(listener: &TcpListener, units: &Arc<[Unit]>) {
                     notices.add(Notice::Closed { closed, for_client: client });
                 }
             }
-            Err(error) => {
-                notices.add(Notice::NotAccepted(error.to_string()));
-                tokio::time::sleep(REST).await;
-            }
+            Err(error) => match make_room(&mut clients, listener, &error).await {
+                Room::Made(closed) => notices.add(Notice::NoDescriptor(closed)),
+                Room::NotWanted => tokio::time::sleep(REST).await,
+                Room::None => {
+                    notices.add(Notice::NotAccepted(error.to_string()));
+                    tokio::time::sleep(REST).await;
+                }
+            },
         }
     }
+}
+
+/// What can be done for a client that was not accepted.
+enum Room {
+    /// This client was closed; its file descriptor is free.
+    Made(Closed),
+    /// There was no client to accept: the system looks for a descriptor first, and only then for a client.
+    NotWanted,
+    /// Nothing.
+    None,
+}
+
+async fn make_room(clients: &mut Clients, listener: &TcpListener, error: &io::Error) -> Room {
+    if !descriptors_are_exhausted(error) {
+        return Room::None;
+    }
+    if !has_waiting_client(listener) {
+        return Room::NotWanted;
+    }
+    clients.free_descriptor().await.map_or(Room::None, Room::Made)
+}
+
+fn has_waiting_client(listener: &TcpListener) -> bool {
+    let mut listeners = [PollFd::new(listener, PollFlags::IN)];
+    poll(&mut listeners, Some(&Timespec::default())).is_ok_and(|ready| ready > 0)
+}
+
+/// Whether there was no file descriptor left, in this process or in the system.
+fn descriptors_are_exhausted(error: &io::Error) -> bool {
+    [Errno::MFILE, Errno::NFILE].iter().any(|errno| error.raw_os_error() == Some(errno.raw_os_error()))
 }

@@ -1,5 +1,6 @@
 //! The clients that are connected.
 
+use std::fmt::{self, Display, Formatter};
 use std::net::SocketAddr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -11,7 +12,7 @@ use crate::connection;
 use crate::unit::Unit;
 
 /// Most clients at a time. One more takes the place of one that has never sent a request, the oldest first; if there is
-/// none, of the one whose last request is longest ago.
+/// none, of the one whose last request is longest ago. So it is too where file descriptors are used up before.
 pub const CONNECTIONS_MAX: usize = 16;
 
 pub(super) struct Clients {
@@ -41,6 +42,13 @@ pub(super) struct Closed {
     pub(super) has_requested: bool,
 }
 
+impl Display for Closed {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let why = if self.has_requested { "silent longest" } else { "without a request so far" };
+        write!(f, "{}, {why},", self.client)
+    }
+}
+
 impl Clients {
     pub(super) fn new(units: Arc<[Unit]>) -> Self {
         Self { units, places: Vec::with_capacity(CONNECTIONS_MAX), count: Arc::default() }
@@ -52,7 +60,7 @@ impl Clients {
             // Requests that have arrived count, also those of clients that came a moment ago in one burst with this one.
             yield_now().await;
         }
-        let closed = self.is_full().then(|| self.close_one()).flatten();
+        let closed = if self.is_full() { self.close_one().await } else { None };
         let (connected, requested) = (next(&self.count), Arc::new(AtomicU64::new(NEVER)));
         let (units, count, own) = (Arc::clone(&self.units), Arc::clone(&self.count), Arc::clone(&requested));
         let task = tokio::spawn(async move {
@@ -62,19 +70,33 @@ impl Clients {
         closed
     }
 
+    /// Closes a client, so that another one can have its file descriptor. None: there is no client.
+    pub(super) async fn free_descriptor(&mut self) -> Option<Closed> {
+        // As above: requests that have arrived count.
+        yield_now().await;
+        self.forget_gone();
+        self.close_one().await
+    }
+
     fn is_full(&mut self) -> bool {
-        self.places.retain(|place| !place.task.is_finished());
+        self.forget_gone();
         self.places.len() >= CONNECTIONS_MAX
     }
 
-    fn close_one(&mut self) -> Option<Closed> {
+    fn forget_gone(&mut self) {
+        self.places.retain(|place| !place.task.is_finished());
+    }
+
+    async fn close_one(&mut self) -> Option<Closed> {
         let requested = |place: &Place| place.requested.load(Ordering::Relaxed);
         let rank = |place: &Place| (requested(place), place.connected);
         let (at, _) = self.places.iter().enumerate().min_by_key(|(_, place)| rank(place))?;
         let place = self.places.swap_remove(at);
+        let closed = Closed { client: place.client, has_requested: requested(&place) != NEVER };
         // The connection is closed with the task that holds it.
         place.task.abort();
-        Some(Closed { client: place.client, has_requested: requested(&place) != NEVER })
+        let _ = place.task.await;
+        Some(closed)
     }
 }
 

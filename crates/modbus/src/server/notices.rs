@@ -17,14 +17,18 @@ const PERIOD: Duration = Duration::from_secs(1);
 pub(super) enum Notice {
     /// A client was closed in favour of another one.
     Closed { closed: Closed, for_client: SocketAddr },
+    /// A client was closed, because there was no file descriptor for the next one.
+    NoDescriptor(Closed),
     /// No client could be accepted.
     NotAccepted(String),
 }
 
+const KINDS: usize = 3;
+
 /// What is to be reported, of each kind.
 #[derive(Debug, Default)]
 pub(super) struct Notices {
-    kinds: [Kind; 2],
+    kinds: [Kind; KINDS],
 }
 
 #[derive(Debug, Default)]
@@ -38,7 +42,7 @@ struct Kind {
 impl Notices {
     /// Reports it now, or with those that happen within the second.
     pub(super) fn add(&mut self, notice: Notice) {
-        let kind = &mut self.kinds[usize::from(matches!(notice, Notice::NotAccepted(_)))];
+        let kind = &mut self.kinds[notice.kind()];
         kind.newest = Some(notice);
         kind.count += 1;
         self.report();
@@ -77,18 +81,31 @@ impl Kind {
 }
 
 impl Notice {
+    const fn kind(&self) -> usize {
+        match self {
+            Self::Closed { .. } => 0,
+            Self::NoDescriptor(_) => 1,
+            Self::NotAccepted(_) => 2,
+        }
+    }
+
     fn words(&self, count: u64) -> String {
         match (self, count) {
-            (Self::Closed { closed: Closed { client, has_requested }, for_client }, 1) => {
-                let why = if *has_requested { "silent longest" } else { "without a request so far" };
+            (Self::Closed { closed, for_client }, 1) => {
                 format!(
-                    "{CONNECTIONS_MAX} Modbus clients are connected: {client}, {why}, was closed for {for_client}"
+                    "{CONNECTIONS_MAX} Modbus clients are connected: {closed} was closed for {for_client}"
                 )
             }
             (Self::Closed { for_client, .. }, _) => format!(
                 "{CONNECTIONS_MAX} Modbus clients are connected: {count} of them were closed for others, the last \
                  one for {for_client}"
             ),
+            (Self::NoDescriptor(closed), 1) => {
+                format!("{NO_DESCRIPTOR}: {closed} was closed; {MORE_DESCRIPTORS}")
+            }
+            (Self::NoDescriptor(_), _) => {
+                format!("{NO_DESCRIPTOR}: {count} clients were closed for others; {MORE_DESCRIPTORS}")
+            }
             (Self::NotAccepted(error), 1) => format!("no Modbus client can be accepted: {error}"),
             (Self::NotAccepted(error), _) => {
                 format!("no Modbus client can be accepted, tried {count} times: {error}")
@@ -96,6 +113,9 @@ impl Notice {
         }
     }
 }
+
+const NO_DESCRIPTOR: &str = "too few open files for the next Modbus client";
+const MORE_DESCRIPTORS: &str = "allow this process more, such as `ulimit -n 1024`";
 
 #[cfg(test)]
 mod tests {
@@ -130,5 +150,24 @@ mod tests {
             happens(3001, Some(closed(3)))
                 .is_some_and(|line| line.contains("127.0.0.1:3, without a request"))
         );
+    }
+
+    #[test]
+    fn each_kind_is_counted_by_itself() {
+        let Notice::Closed { closed: lost, .. } = closed(2) else { return };
+        let mut notices = Notices::default();
+        for notice in [closed(1), Notice::NoDescriptor(lost), Notice::NotAccepted("refused".to_owned())] {
+            for _ in 0..3 {
+                notices.add(notice.clone());
+            }
+        }
+        let waiting = notices.kinds.map(|kind| kind.newest.map(|newest| newest.words(kind.count)));
+        let [Some(full), Some(descriptors), Some(refused)] = waiting else { panic!("{waiting:?}") };
+        assert!(full.contains("2 of them were closed"), "{full}");
+        assert!(
+            descriptors.contains("2 clients were closed for others; allow this process more"),
+            "{descriptors}"
+        );
+        assert!(refused.contains("tried 2 times: refused"), "{refused}");
     }
 }
