@@ -7,16 +7,16 @@ pub struct Channels(u8);
 impl Channels {
     /// No channels.
     pub const NONE: Self = Self(0);
-    /// Most channels.
+    /// Maximum number of channels.
     pub const MAX: u8 = 64;
 
-    /// As many channels; none beyond [`Channels::MAX`].
+    /// This number of channels; none beyond [`Channels::MAX`].
     #[must_use]
     pub const fn new(count: u8) -> Option<Self> {
         if count <= Self::MAX { Some(Self(count)) } else { None }
     }
 
-    /// How many.
+    /// The number of channels.
     #[must_use]
     pub const fn count(self) -> u8 {
         self.0
@@ -33,7 +33,7 @@ impl Channels {
         self.0.div_ceil(8) as u16
     }
 
-    /// Whether there is none.
+    /// Whether there are none.
     #[must_use]
     pub const fn is_none(self) -> bool {
         self.0 == 0
@@ -47,13 +47,13 @@ impl Channels {
         }
     }
 
-    /// The levels that process data carry.
+    /// The levels in process data.
     pub(crate) fn levels(self, bytes: &[u8]) -> u64 {
         let bits = bytes.iter().take(8).rev().fold(0, |bits, &byte| bits << 8 | u64::from(byte));
         bits & self.mask()
     }
 
-    /// Puts levels into process data; what is no channel is 0.
+    /// Writes levels to process data; bits that are not a channel are 0.
     pub(crate) fn put(self, levels: u64, bytes: &mut [u8]) {
         for (byte, level) in bytes.iter_mut().zip((levels & self.mask()).to_le_bytes()) {
             *byte = level;

@@ -6,10 +6,10 @@ use crate::description::description;
 use crate::layout;
 use crate::settings::{Ports, TerminalSettings};
 
-/// A byte of an EEPROM that nobody has written.
+/// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
 
-/// The stack of a terminal with these settings: no mailbox, and outputs that go out with the end of a frame.
+/// The stack of a terminal with these settings: no mailbox, and outputs that are applied at the end of a frame.
 #[must_use]
 pub fn device_config(settings: &TerminalSettings) -> DeviceConfig {
     let mut sii_image = esi::sii::image(&description(settings));

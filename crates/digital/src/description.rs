@@ -1,4 +1,4 @@
-//! What a terminal says of itself in ESI and SII.
+//! The description of a terminal in ESI and SII.
 
 use device::{DataDirection, DataLength, ProcessDataConfig};
 use esi::{
@@ -38,7 +38,7 @@ pub fn description(settings: &TerminalSettings) -> DeviceDescription {
     }
 }
 
-/// How long a master should wait.
+/// Time-outs of the master.
 pub(crate) fn timeouts() -> Timeouts {
     Timeouts::default()
 }
@@ -67,7 +67,7 @@ fn name(settings: &TerminalSettings) -> String {
     }
 }
 
-/// Ports for cables, as many as there are.
+/// Ports for cables, according to the settings.
 fn physics(ports: Ports) -> [PortPhysics; 4] {
     let physics = |number| if number < ports.count() { PortPhysics::Mii } else { PortPhysics::Unused };
     [0, 1, 2, 3].map(physics)
@@ -92,7 +92,7 @@ fn sync_manager(described: ProcessDataConfig) -> SyncManager {
     SyncManager { usage, start: described.start, default_bytes, min_bytes, max_bytes, control, enable: 1 }
 }
 
-/// A PDO of one bit for each channel, as simple terminals have them: 0x7000:01 in 0x1600, 0x7010:01 in 0x1601 and so
+/// A PDO of one bit for each channel, like simple terminals: 0x7000:01 in 0x1600, 0x7010:01 in 0x1601 and so
 /// on; inputs are 0x6000:01 in 0x1A00.
 fn pdos(settings: &TerminalSettings, direction: DataDirection) -> Vec<Pdo> {
     let sync_manager = layout::process_data(settings).find(|described| described.direction == direction);

@@ -1,8 +1,8 @@
-//! Digital terminals as they are built in hardware: 1 to 64 inputs or outputs or both, without mailbox and processor;
-//! and a coupler, which has neither.
+//! Digital terminals that consist of hardware only: 1 to 64 inputs or outputs or both, without mailbox and
+//! processor; and a coupler, which has neither inputs nor outputs.
 //!
-//! A [`UnitFile`] or [`TerminalSettings`] say which one, [`device_config`] describes it to the slave stack, and a [`Terminal`] moves the
-//! levels between process data and its [`Wiring`].
+//! A [`UnitFile`] or [`TerminalSettings`] select one, [`device_config`] describes it to the slave stack, and a
+//! [`Terminal`] moves the levels between process data and its [`Wiring`].
 
 mod channels;
 mod config;

@@ -1,11 +1,11 @@
-//! How a terminal is set up, before it gets power.
+//! The settings of a terminal, before it is powered on.
 
 use device::{Conduct, OutputsBeforeOp, SiiTiming, StartUp};
 use time::Duration;
 
 use crate::channels::Channels;
 
-/// How many ports a terminal has: 2 to 4.
+/// Number of ports of a terminal: 2 to 4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ports(u8);
 
@@ -13,20 +13,20 @@ impl Ports {
     /// IN and OUT.
     pub const TWO: Self = Self(2);
 
-    /// As many ports; none below 2 and beyond 4.
+    /// This number of ports; none below 2 and above 4.
     #[must_use]
     pub const fn new(count: u8) -> Option<Self> {
         if matches!(count, 2..=4) { Some(Self(count)) } else { None }
     }
 
-    /// How many.
+    /// The number of ports.
     #[must_use]
     pub const fn count(self) -> u8 {
         self.0
     }
 }
 
-/// How one terminal is set up. The default is a coupler with two ports.
+/// The settings of one terminal. The default is a coupler with two ports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TerminalSettings {
     /// Inputs, which the master reads.
@@ -39,13 +39,13 @@ pub struct TerminalSettings {
     pub serial: u32,
     /// Configured station alias in the SII; 0: none.
     pub alias: u16,
-    /// From power to the first step.
+    /// From power-on to the first step.
     pub start_up: StartUp,
-    /// From the first step to the first look at the inputs.
+    /// From the first step to the first read of the inputs.
     pub refresh_phase: Duration,
     /// SAFE-OP to OP. A terminal without a processor waits for nothing.
     pub outputs_before_op: OutputsBeforeOp,
-    /// How long an SII command takes.
+    /// Time of an SII command.
     pub sii: SiiTiming,
     /// The EEPROM is erased.
     pub is_sii_blank: bool,

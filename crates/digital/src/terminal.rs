@@ -8,10 +8,10 @@ use crate::channels::Channels;
 use crate::settings::TerminalSettings;
 use crate::wiring::Wiring;
 
-/// Time between two looks at the inputs.
+/// Time between two reads of the inputs.
 const INPUT_PERIOD: Duration = Duration::from_millis(1);
 
-/// A terminal in operation: levels pass between the process data and its wiring, and nothing else happens.
+/// A terminal in operation: it only passes levels between the process data and its wiring.
 #[derive(Debug)]
 pub struct Terminal<W> {
     inputs: Channels,
@@ -26,18 +26,18 @@ impl<W: Wiring> Terminal<W> {
         Self { inputs: settings.inputs, outputs: settings.outputs, wiring }
     }
 
-    /// What is wired to it.
+    /// Its wiring.
     #[must_use]
     pub const fn wiring(&self) -> &W {
         &self.wiring
     }
 
-    /// What is wired to it, to be changed.
+    /// Its wiring, for changes.
     pub const fn wiring_mut(&mut self) -> &mut W {
         &mut self.wiring
     }
 
-    /// Outputs are off without valid process data: below OP, and when the watchdog has expired.
+    /// Outputs are off without valid process data: below OP, and after the watchdog has expired.
     fn switch_outputs(&mut self, process_data: Option<&[u8]>) {
         let levels = process_data.map_or(0, |bytes| self.outputs.levels(bytes));
         self.wiring.set_outputs(levels);
@@ -45,7 +45,7 @@ impl<W: Wiring> Terminal<W> {
 }
 
 impl<W: Wiring> Unit for Terminal<W> {
-    /// Outputs go out with the frame, so that only inputs need a timer.
+    /// Outputs are applied with the frame, so that only inputs need a timer.
     fn refresh_period(&self) -> Option<Duration> {
         (!self.inputs.is_none()).then_some(INPUT_PERIOD)
     }

@@ -11,20 +11,20 @@ use crate::settings::{Ports, TerminalSettings};
 
 /// The name of the model.
 pub const MODEL: &str = "digital";
-/// The keys of this model, beside those of every model.
+/// The keys of this model, in addition to those of every model.
 pub const KEYS: [&str; 4] = ["inputs", "outputs", "ports", "mailbox"];
 
 /// A terminal has neither.
 const SHAPE: Shape = Shape { mailbox: false, boot: false };
-/// The controller loads its EEPROM, and that is all.
+/// The controller loads its EEPROM, without further start-up.
 const START_UP: Duration = Duration::ZERO;
 
-/// What a unit file says of a terminal.
+/// The contents of a terminal's unit file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitFile {
-    /// Name of the unit; `K1` when left out.
+    /// Name of the unit; `K1` if left out.
     pub name: String,
-    /// How the terminal is set up.
+    /// The settings of the terminal.
     pub settings: TerminalSettings,
 }
 
@@ -32,7 +32,7 @@ impl UnitFile {
     /// Reads the text of a unit file.
     ///
     /// # Errors
-    /// Everything that is wrong, in the order of the file.
+    /// All mistakes, in the order of the file.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
         read_toml(text, Wanted::UnitFile, |reader, file| {
             let keys: Vec<&str> = ["model"].into_iter().chain(KEYS).chain(unit_keys::KEYS).collect();
@@ -45,7 +45,7 @@ impl UnitFile {
         })
     }
 
-    /// Reads the keys of a terminal and those of every model. `model`, and keys that are unknown, are the caller's.
+    /// Reads the keys of a terminal and those of every model. The caller handles `model` and unknown keys.
     #[must_use]
     pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Self {
         let inputs = reader.value(file, "inputs", channels).map_or(Channels::NONE, |inputs| inputs.value);
@@ -92,7 +92,7 @@ fn ports(place: &str, value: &DeValue<'_>) -> Result<Ports, Problem> {
     Ports::new(count).ok_or_else(|| Problem::new(format!("`{place}` is {count}"), expected))
 }
 
-/// A terminal with CoE is another device, which is not built yet.
+/// A terminal with CoE is another device, which does not exist here yet.
 fn no_mailbox(place: &str, value: &DeValue<'_>) -> Result<(), Problem> {
     match values::truth(place, value)? {
         false => Ok(()),

@@ -1,16 +1,16 @@
-//! What is wired to the channels of a terminal.
+//! The wiring of a terminal's channels.
 
-/// The other side of the channels. Channel 1 is bit 0; bits beyond the channels are 0 from the terminal, and are not
-/// looked at by it.
+/// The other side of the channels. Channel 1 is bit 0; the terminal sends 0 in bits beyond the channels, and
+/// ignores them when it reads.
 pub trait Wiring {
-    /// The levels at the inputs now.
+    /// The present levels at the inputs.
     fn inputs(&mut self) -> u64;
 
-    /// The outputs have these levels from now on.
+    /// Sets the levels of the outputs.
     fn set_outputs(&mut self, levels: u64);
 }
 
-/// A plain pair of images: inputs that are set by hand, outputs to look at.
+/// A plain pair of images: inputs that the user sets, outputs that the user reads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BitImages {
     /// The levels at the inputs.

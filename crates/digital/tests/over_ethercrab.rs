@@ -15,7 +15,7 @@ use time::{Duration, Instant};
 
 static STORAGE: PduStorage<16, { PduStorage::element_size(256) }> = PduStorage::new();
 
-/// Wiring that the test keeps hold of.
+/// Wiring to which the test keeps a handle.
 #[derive(Clone, Default)]
 struct Shared(Arc<Mutex<BitImages>>);
 
@@ -29,7 +29,7 @@ impl Wiring for Shared {
     }
 }
 
-/// The other end of ethercrab's frames: a line in virtual time, 100 microseconds a frame.
+/// The other end of ethercrab's frames: a line in virtual time, 100 microseconds per frame.
 struct Line<'s> {
     network: Network<Box<dyn Unit>>,
     now: Instant,
@@ -38,7 +38,7 @@ struct Line<'s> {
 }
 
 impl Line<'_> {
-    /// Answers all frames that wait. Whether there were any.
+    /// Answers all waiting frames. Returns whether there were any.
     fn answer(&mut self) -> bool {
         let mut answered = false;
         while let Some(frame) = self.tx.next_sendable_frame() {
@@ -65,7 +65,7 @@ impl Wake for NoWaker {
     fn wake(self: Arc<Self>) {}
 }
 
-/// Runs the master, and lets the line answer whenever it waits.
+/// Runs the master, and lets the line answer whenever the master waits.
 fn run<T>(line: &mut Line<'_>, master: impl Future<Output = T>) -> T {
     let waker = Waker::from(Arc::new(NoWaker));
     let (mut master, mut context) = (pin!(master), Context::from_waker(&waker));

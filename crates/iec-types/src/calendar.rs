@@ -1,5 +1,5 @@
-//! Dates and times of day. A DATE and a DATE_AND_TIME count nanoseconds from 1970-01-01 on, a TIME_OF_DAY from midnight
-//! on (W501, 6-3-5). There are no leap seconds and no time zones.
+//! Dates and times of day. A DATE and a DATE_AND_TIME count nanoseconds from 1970-01-01, a TIME_OF_DAY from
+//! midnight (W501, 6-3-5). There are no leap seconds and no time zones.
 
 use core::fmt::{self, Write};
 
@@ -23,7 +23,7 @@ pub const fn last(elementary: Elementary) -> u64 {
     }
 }
 
-/// A duration later, or earlier with a negative one. Behind the last value comes the first.
+/// A duration later, or earlier with a negative one. After the last value follows the first.
 #[must_use]
 pub fn later(elementary: Elementary, moment: u64, duration_ns: i128) -> u64 {
     let count = i128::from(last(elementary)) + 1;
@@ -40,7 +40,8 @@ pub const fn part(of: Elementary, moment: u64) -> u64 {
     }
 }
 
-/// The type whose literals begin with `prefix`, such as `D`, `DATE` or `tod`; none if it is none of a date or time of day.
+/// The type whose literals begin with `prefix`, such as `D`, `DATE` or `tod`; none if it is not a prefix of a
+/// date or time of day.
 #[must_use]
 pub fn type_of_prefix(prefix: &str) -> Option<Elementary> {
     if prefix.eq_ignore_ascii_case("D") {
@@ -49,14 +50,14 @@ pub fn type_of_prefix(prefix: &str) -> Option<Elementary> {
     Elementary::named(prefix).filter(|elementary| elementary.class() == Class::Date)
 }
 
-/// The value of a literal such as `D#2024-02-29`; none if it is none of this type.
+/// The value of a literal such as `D#2024-02-29`; none if it is not a literal of this type.
 #[must_use]
 pub fn value_of(elementary: Elementary, literal: &str) -> Option<u64> {
     let (prefix, text) = literal.split_once('#')?;
     if type_of_prefix(prefix) == Some(elementary) { read(elementary, text) } else { None }
 }
 
-/// The value that stands behind `D#`, `TOD#` or `DT#`; none if there is no such day, or no such time.
+/// The value after `D#`, `TOD#` or `DT#`; none if there is no such day or time.
 #[must_use]
 pub fn read(elementary: Elementary, text: &str) -> Option<u64> {
     match elementary {
@@ -72,7 +73,7 @@ pub fn read(elementary: Elementary, text: &str) -> Option<u64> {
 /// Writes a value as its literal.
 ///
 /// # Errors
-/// `text` takes no more.
+/// `text` returns an error.
 pub fn write(text: &mut impl Write, elementary: Elementary, moment: u64) -> fmt::Result {
     match elementary {
         Elementary::Date => {
@@ -113,7 +114,7 @@ fn time_of_day(text: &str) -> Option<u64> {
     Some(((hours * 60 + minutes) * 60 + seconds) * NS_PER_S + nanoseconds(fraction)?)
 }
 
-/// What stands behind the point of seconds; what is less than a nanosecond is cut off.
+/// The digits after the decimal point of seconds; digits below a nanosecond are cut off.
 fn nanoseconds(fraction: &str) -> Option<u64> {
     let digits: Option<Vec<u64>> = fraction.chars().map(|digit| digit.to_digit(10).map(u64::from)).collect();
     let padded = digits?.into_iter().chain(core::iter::repeat(0));
@@ -225,7 +226,7 @@ mod tests {
             "",
             "x-y-z",
             "99999999999999999999-01-01",
-            // Numbers that fit, and days that would not.
+            // Numbers in range, but days that do not exist.
             "4-2-214647",
             "18446744073709551615-01-01",
         ] {

@@ -1,8 +1,8 @@
-//! The elementary types of IEC 61131-3 that the language knows, as one table.
+//! The elementary types of IEC 61131-3 in the language, as one table.
 
 use core::fmt;
 
-/// An elementary type. IEC 61131-3, table 10. STRING is no elementary type here: it has a length.
+/// An elementary type. IEC 61131-3, table 10. STRING is not an elementary type here: it has a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Elementary {
     /// One bit.
@@ -45,7 +45,7 @@ pub enum Elementary {
     DateAndTime,
 }
 
-/// What can be done with a type: the generic types of IEC 61131-3, 6.4.3.
+/// The operations that a type permits: the generic types of IEC 61131-3, 6.4.3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// BOOL.
@@ -111,7 +111,7 @@ impl Elementary {
         let mut place = 0;
         while place < all.len() {
             all[place] = ROWS[place].elementary;
-            // The rows stand in the order of the variants.
+            // The rows are in the order of the variants.
             assert!(all[place] as usize == place);
             place += 1;
         }
@@ -124,7 +124,7 @@ impl Elementary {
         ROWS[self as usize].name
     }
 
-    /// The type of this name, in whatever case.
+    /// The type with this name, in upper or lower case.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         let has_name = |elementary: &Self| {
@@ -134,19 +134,19 @@ impl Elementary {
         Self::ALL.into_iter().find(has_name)
     }
 
-    /// What can be done with it.
+    /// The operations that it permits.
     #[must_use]
     pub const fn class(self) -> Class {
         ROWS[self as usize].class
     }
 
-    /// How many bits it has: 1, 8, 16, 32 or 64.
+    /// Its number of bits: 1, 8, 16, 32 or 64.
     #[must_use]
     pub const fn bits(self) -> u32 {
         ROWS[self as usize].bits
     }
 
-    /// How many bytes it takes on a wire; a BOOL takes one.
+    /// Its number of bytes in a message; a BOOL takes one.
     #[must_use]
     pub const fn size_bytes(self) -> usize {
         self.bits().div_ceil(8) as usize

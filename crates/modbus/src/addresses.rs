@@ -1,4 +1,4 @@
-//! Addresses of registers or bits, as a request names them.
+//! Addresses of registers or bits in a request.
 
 use crate::exception::Exception;
 
@@ -14,7 +14,7 @@ impl Addresses {
         Self { first, quantity: 1 }
     }
 
-    /// Within the quantities that a request may ask for.
+    /// Within the quantities that a request may contain.
     pub(crate) fn checked(first: u16, quantity: u16, most: u16) -> Result<Self, Exception> {
         let is_possible = (1..=most).contains(&quantity);
         is_possible.then_some(Self { first, quantity }).ok_or(Exception::IllegalDataValue)

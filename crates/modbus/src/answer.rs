@@ -4,7 +4,7 @@ use crate::exception::Exception;
 use crate::request::Request;
 use crate::unit::Unit;
 
-/// The response to a request: function code and what is behind it.
+/// The response to a request: function code and the bytes after it.
 pub(crate) async fn answer(units: &[Unit], unit_identifier: u8, function: u8, octets: &[u8]) -> Vec<u8> {
     match respond(units, unit_identifier, function, octets).await {
         Ok(response) => response,
@@ -25,7 +25,7 @@ async fn respond(
         Request::ReadRegisters(table, addresses) => {
             Ok(packed_registers(function, &unit.registers(table, addresses)?))
         }
-        // A request that writes is answered by its own first bytes: address and value, or address and quantity.
+        // The response to a write contains the first bytes of the request: address and value, or address and quantity.
         Request::WriteCoils(addresses, values) => {
             unit.write_coils(addresses, &values).await.map(|()| head(4))
         }
@@ -37,7 +37,7 @@ async fn respond(
         }
         Request::ReadWriteRegisters { read, write, values } => {
             let table = crate::map::Table::HoldingRegisters;
-            // Nothing is written by a request that is refused.
+            // A refused request writes nothing.
             unit.registers(table, read)?;
             unit.write_registers(write, &values).await?;
             Ok(packed_registers(function, &unit.registers(table, read)?))
@@ -45,8 +45,8 @@ async fn respond(
     }
 }
 
-/// The unit identifier is the position in the line, from 1. 0 and 255 stand for the server itself (implementation
-/// guide, 4.4.1.2): the first unit.
+/// The unit identifier is the position in the line, from 1. 0 and 255 mean the server (implementation guide,
+/// 4.4.1.2): the first unit.
 fn unit_at(units: &[Unit], unit_identifier: u8) -> Result<&Unit, Exception> {
     let position = match unit_identifier {
         0 | 255 => 0,
@@ -55,7 +55,7 @@ fn unit_at(units: &[Unit], unit_identifier: u8) -> Result<&Unit, Exception> {
     units.get(position).ok_or(Exception::GatewayTargetDeviceFailedToRespond)
 }
 
-/// Eight bits a byte, the first in the least significant place.
+/// Eight bits a byte, the first in the least significant bit.
 fn packed_bits(function: u8, bits: &[bool]) -> Vec<u8> {
     let octets =
         bits.chunks(8).map(|chunk| chunk.iter().rev().fold(0_u8, |octet, &bit| octet << 1 | u8::from(bit)));
@@ -68,7 +68,7 @@ fn packed_registers(function: u8, registers: &[u16]) -> Vec<u8> {
 }
 
 fn counted(function: u8, octets: Vec<u8>) -> Vec<u8> {
-    // At most 250 bytes: requests ask for no more.
+    // At most 250 bytes: no valid request asks for more.
     let length_bytes = octets.len() as u8;
     [vec![function, length_bytes], octets].concat()
 }

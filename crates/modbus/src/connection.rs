@@ -1,4 +1,4 @@
-//! One client: frames in, answers out, until it goes or breaks the rules.
+//! One client: frames in, answers out, until it disconnects or violates the protocol.
 
 use std::io;
 use std::time::Duration;
@@ -9,17 +9,17 @@ use tokio::time::timeout;
 use crate::answer::answer;
 use crate::unit::Unit;
 
-/// How long a client may be silent between two requests.
+/// Maximum time between two requests of a client.
 const IDLE: Duration = Duration::from_secs(300);
-/// How long a frame may take from its first byte to its last, and an answer to be taken.
+/// Maximum time from the first byte of a frame to its last, and for a client to receive an answer.
 const FRAME: Duration = Duration::from_secs(3);
 
 /// MBAP header: transaction identifier, protocol identifier, length, unit identifier.
 const HEADER_BYTES: usize = 7;
-/// What the length may count: unit identifier and function code at least, and a PDU of 253 bytes at most.
+/// Range of the length field: unit identifier and function code at least, and a PDU of 253 bytes at most.
 const LENGTHS: core::ops::RangeInclusive<u16> = 2..=254;
 
-/// A frame of a request.
+/// The frame of a request.
 struct Frame {
     transaction_identifier: [u8; 2],
     unit_identifier: u8,
@@ -27,11 +27,12 @@ struct Frame {
     octets: Vec<u8>,
 }
 
-/// Answers one client until it closes the connection. Calls `requested` for each request that is a Modbus frame,
-/// whatever it asks for.
+/// Answers one client until it closes the connection. Calls `requested` for each request that is a Modbus
+/// frame, whatever its function is.
 ///
 /// # Errors
-/// What it sent is no Modbus frame, it was silent for too long, did not take its answers, or the connection broke.
+/// The client sent something that is not a Modbus frame, it was silent for too long, did not receive its
+/// answers, or the connection broke.
 pub(crate) async fn serve(
     mut stream: impl AsyncRead + AsyncWrite + Unpin,
     units: &[Unit],
@@ -57,7 +58,7 @@ async fn next_frame(stream: &mut (impl AsyncRead + Unpin)) -> io::Result<Option<
         let [high, low, protocol_high, protocol_low, length_high, length_low, unit_identifier] = header;
         let length = u16::from_be_bytes([length_high, length_low]);
         if [protocol_high, protocol_low] != [0, 0] || !LENGTHS.contains(&length) {
-            // Where the next frame begins is not known.
+            // The start of the next frame is unknown.
             return Err(io::Error::new(io::ErrorKind::InvalidData, "no Modbus frame"));
         }
         let mut octets = vec![0; usize::from(length) - 1];

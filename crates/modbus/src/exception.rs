@@ -1,19 +1,19 @@
-//! The exceptions that a request is refused with.
+//! The exceptions with which a request is refused.
 
 /// An exception code (application protocol, 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exception {
-    /// The function code is none that the server has.
+    /// The server does not have this function code.
     IllegalFunction = 0x01,
     /// An address is not in the map, or not of this I/O allocation.
     IllegalDataAddress = 0x02,
     /// A quantity, a length or a value is not possible.
     IllegalDataValue = 0x03,
-    /// The CPU Unit has gone.
+    /// The CPU Unit no longer exists.
     ServerDeviceFailure = 0x04,
-    /// The request was taken, and the task period that makes the change has not come yet.
+    /// The request was accepted, and the task period that makes the change has not been executed yet.
     Acknowledge = 0x05,
-    /// Too many changes wait.
+    /// Too many changes are waiting.
     ServerDeviceBusy = 0x06,
     /// There is no unit at this position of the line.
     GatewayTargetDeviceFailedToRespond = 0x0B,

@@ -1,7 +1,7 @@
-//! Which variable has which addresses.
+//! The addresses of the variables.
 //!
-//! One element of an array is one register, a BYTE in the low byte; a UDINT is two, the low word first. Each data set
-//! has its place whatever is allocated, so that another entry moves nothing.
+//! One element of an array is one register, a BYTE in the low byte; a UDINT is two, the low word first. Each
+//! data set has its fixed place whatever is allocated, so that another entry changes no address.
 
 mod bases;
 mod rows;
@@ -24,7 +24,7 @@ pub use table::Table;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModbusMap {
     rows: Vec<MapRow>,
-    /// Sorted by address, as the next ones.
+    /// Sorted by address, like the following lists.
     input_registers: Vec<Register>,
     holding_registers: Vec<Register>,
     discrete_inputs: Vec<Bit>,
@@ -42,10 +42,10 @@ pub(crate) struct Register {
     pub(crate) writing: Writing,
 }
 
-/// What writing a register does.
+/// The effect of writing the register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Writing {
-    /// It gives an output its next value.
+    /// It sets the next value of an output.
     Writes,
     Forces,
 }
@@ -58,7 +58,7 @@ pub(crate) struct Bit {
     pub(crate) tells: BitTells,
 }
 
-/// What a bit tells.
+/// The meaning of a bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BitTells {
     /// One bit of the value, counted from the least significant.
@@ -111,7 +111,7 @@ impl ModbusMap {
         &self.rows
     }
 
-    /// The registers at these addresses: all of them are there, or the request is refused.
+    /// The registers at these addresses: all of them exist, or the request is refused.
     pub(crate) fn registers(&self, table: Table, addresses: Addresses) -> Result<&[Register], Exception> {
         match table {
             Table::InputRegisters => found(&self.input_registers, addresses),
@@ -120,7 +120,7 @@ impl ModbusMap {
         }
     }
 
-    /// The bits at these addresses: all of them are there, or the request is refused.
+    /// The bits at these addresses: all of them exist, or the request is refused.
     pub(crate) fn bits(&self, table: Table, addresses: Addresses) -> Result<&[Bit], Exception> {
         match table {
             Table::Coils => found(&self.coils, addresses),
@@ -145,7 +145,7 @@ impl ModbusMap {
                 self.discrete_inputs
                     .extend((0..16).map(|n| bit(SLAVE_STATUS_BITS_BASE + u16::from(n), id.into(), n)));
             }
-            // The bits of the word have them already.
+            // The bits of the word already have addresses.
             VariableSource::SlaveStatusBit { .. } => {}
             VariableSource::IoDataActive => self.discrete_inputs.push(bit(IO_DATA_ACTIVE, id.into(), 0)),
             VariableSource::UnitError => self.discrete_inputs.push(bit(UNIT_ERROR, id.into(), 0)),
@@ -187,7 +187,7 @@ fn entry_registers(
     })
 }
 
-/// All of these addresses in a sorted list without doubles.
+/// All of these addresses in a sorted list without duplicates.
 fn found<T: Addressed>(list: &[T], addresses: Addresses) -> Result<&[T], Exception> {
     let start = list.partition_point(|row| row.address() < addresses.first);
     let rows = list.get(start..).and_then(|rows| rows.get(..usize::from(addresses.quantity)));

@@ -1,21 +1,21 @@
-//! Requests: function code and bytes in, a request that is well formed out.
+//! Requests: function code and bytes in, a well-formed request out.
 
 use crate::addresses::Addresses;
 use crate::exception::Exception;
 use crate::map::Table;
 
-/// Most bits of a response (application protocol, 6.1 and 6.2).
+/// Maximum number of bits in a response (application protocol, 6.1 and 6.2).
 const READ_BITS_MAX: u16 = 2000;
-/// Most registers of a response (6.3, 6.4 and 6.17).
+/// Maximum number of registers in a response (6.3, 6.4 and 6.17).
 const READ_REGISTERS_MAX: u16 = 125;
-/// Most coils of a request (6.11).
+/// Maximum number of coils in a request (6.11).
 const WRITE_COILS_MAX: u16 = 1968;
-/// Most registers of a request that writes (6.12).
+/// Maximum number of registers in a request that writes (6.12).
 const WRITE_REGISTERS_MAX: u16 = 123;
-/// Most registers of a request that reads too (6.17).
+/// Maximum number of registers in a request that also reads (6.17).
 const READ_WRITE_REGISTERS_MAX: u16 = 121;
 
-/// A request that is well formed. Its addresses may be anywhere.
+/// A well-formed request. Its addresses are not checked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Request {
     /// Read Coils, 0x01, and Read Discrete Inputs, 0x02.
@@ -33,7 +33,7 @@ pub(crate) enum Request {
 }
 
 impl Request {
-    /// A request of its function code and the bytes behind it.
+    /// A request from its function code and the bytes after it.
     pub(crate) fn parse(function: u8, octets: &[u8]) -> Result<Self, Exception> {
         match function {
             0x01 => Ok(Self::ReadBits(Table::Coils, addresses(octets, READ_BITS_MAX)?)),
@@ -58,7 +58,7 @@ impl Request {
     }
 }
 
-/// So many registers, and nothing behind them.
+/// Exactly this number of registers, with nothing after them.
 fn words<const N: usize>(octets: &[u8]) -> Result<[u16; N], Exception> {
     registers_of(octets).try_into().map_err(|_| Exception::IllegalDataValue).and_then(|words| {
         let is_whole = octets.len() == 2 * N;
@@ -86,7 +86,7 @@ fn single_coil(octets: &[u8]) -> Result<Request, Exception> {
     Ok(Request::WriteCoils(Addresses::one(address), vec![value]))
 }
 
-/// The bytes behind `head` bytes of words and the number of bytes: as many as that number says.
+/// The bytes after `head` bytes of words and the byte count: as many as the byte count says.
 fn counted(octets: &[u8], head: usize) -> Result<(&[u8], &[u8]), Exception> {
     let (head, rest) = octets.split_at_checked(head).ok_or(Exception::IllegalDataValue)?;
     match rest.split_first() {

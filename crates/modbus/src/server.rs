@@ -1,4 +1,4 @@
-//! The server: it accepts clients on a thread of its own.
+//! The server: it accepts clients on a separate thread.
 
 mod clients;
 mod notices;
@@ -26,7 +26,7 @@ pub use clients::CONNECTIONS_MAX;
 
 /// How long accepting rests after an error, such as no file descriptor left where no client has one.
 const REST: Duration = Duration::from_millis(100);
-/// File descriptors that the runtime opens at its start, and more. It panics if it gets too few for its signals.
+/// File descriptors that the runtime opens at its start, with a margin. It panics if it gets too few for its signals.
 const RUNTIME_DESCRIPTORS: usize = 8;
 
 /// A Modbus TCP server. Dropping it closes all connections and ends its thread.
@@ -37,11 +37,11 @@ pub struct Server {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Serves these units, in the order of the line, to clients of `listener`. Unit identifier 1 is the first; 0 and 255
-/// mean the first too.
+/// Serves these units, in the order of the line, to clients of `listener`. Unit identifier 1 is the first; 0
+/// and 255 also mean the first.
 ///
 /// # Errors
-/// The listener cannot be used, there are too few file descriptors, or there is no thread to be had.
+/// The listener cannot be used, there are too few file descriptors, or no thread can be started.
 pub fn serve(
     listener: std::net::TcpListener,
     units: impl IntoIterator<Item = (ModbusMap, OutsideEnd)>,
@@ -63,7 +63,7 @@ pub fn serve(
 }
 
 impl Server {
-    /// Where it listens.
+    /// The address on which it listens.
     #[must_use]
     pub const fn address(&self) -> SocketAddr {
         self.address
@@ -72,10 +72,10 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // The thread ends when its end of the channel hears that this one has gone.
+        // The thread ends when its end of the channel detects that this end has been dropped.
         drop(self.stop.take());
         if let Some(thread) = self.thread.take() {
-            // What a thread that panicked had to say, it has said.
+            // A thread that panicked has already reported it.
             let _ = thread.join();
         }
     }
@@ -90,7 +90,7 @@ fn run(runtime: &Runtime, listener: &TcpListener, units: &Arc<[Unit]>, stopped: 
     });
 }
 
-/// Accepts clients, and says once a second what went wrong with it.
+/// Accepts clients, and reports its errors once a second.
 async fn accept(listener: &TcpListener, units: &Arc<[Unit]>) {
     let mut clients = Clients::new(Arc::clone(units));
     let mut notices = Notices::default();

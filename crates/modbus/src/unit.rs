@@ -1,4 +1,4 @@
-//! One unit of the line as clients read and write it.
+//! One unit of the line, as clients read and write it.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -10,17 +10,17 @@ use crate::addresses::Addresses;
 use crate::exception::Exception;
 use crate::map::{Bit, BitTells, ModbusMap, Register, Table, Writing};
 
-/// How long a request that writes waits for the task period that takes it.
+/// How long a write request waits for the task period that executes it.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often it looks: the finest that the timers of the runtime offer.
+/// Interval of its checks: the shortest that the timers of the runtime offer.
 const LOOK: Duration = Duration::from_millis(1);
 
-/// A unit that all connections share.
+/// A unit shared by all connections.
 pub(crate) struct Unit {
     map: ModbusMap,
-    /// Held for the copy of values and no longer.
+    /// Locked only while values are copied.
     end: Mutex<OutsideEnd>,
-    /// One request writes at a time, so that what it reads before it writes half of a value is still so.
+    /// One request writes at a time, so that the half of a value that it has read before is still valid when it writes.
     writing: tokio::sync::Mutex<()>,
 }
 
@@ -72,7 +72,7 @@ impl Unit {
         .await
     }
 
-    /// Forces elements as they are, or releases them.
+    /// Forces elements at their present values, or releases them.
     pub(crate) async fn write_coils(&self, addresses: Addresses, values: &[bool]) -> Result<(), Exception> {
         let coils = self.map.bits(Table::Coils, addresses)?;
         let changes = coils.iter().zip(values).map(|(coil, &value)| {
@@ -83,7 +83,7 @@ impl Unit {
         self.change(|_| Ok(changes.clone())).await
     }
 
-    /// Sends the changes that `make` makes of the newest image, and waits until they have been made.
+    /// Sends the changes that `make` derives from the newest image, and waits until they have been made.
     async fn change(
         &self,
         mut make: impl FnMut(Snapshot<'_>) -> Result<Vec<Change>, Exception>,
@@ -122,13 +122,13 @@ impl Unit {
         }
     }
 
-    /// A connection that panicked left nothing half done: the end is whole after each call.
+    /// A connection that panicked left the end consistent: it is complete after each call.
     fn end(&self) -> MutexGuard<'_, OutsideEnd> {
         self.end.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// A variable of the map that the unit does not have: map and end are of two units.
+/// A variable of the map that the unit does not have: map and end belong to different units.
 fn is_not_there(_: VariableError) -> Exception {
     Exception::ServerDeviceFailure
 }
@@ -150,8 +150,8 @@ fn read_register(image: Snapshot<'_>, register: &Register) -> Result<u16, Except
     Ok(octets.rev().fold(0, |word, octet| word << 8 | u16::from(*octet)))
 }
 
-/// One change for each element that these registers belong to. Of one that is written in part, the rest stays as the
-/// image has it.
+/// One change for each element to which these registers belong. If an element is written in part, the rest
+/// keeps the value in the image.
 fn register_changes(
     image: Snapshot<'_>,
     registers: &[Register],

@@ -1,4 +1,4 @@
-//! Clients that send what is no Modbus, too much, too little, or nothing, and one that goes on beside them.
+//! Clients that send invalid frames, too much, too little, or nothing, and one that continues to work beside them.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -15,7 +15,7 @@ use plc::Io;
 use proptest::prelude::*;
 use tokio_modbus::client::{Reader, Writer};
 
-/// A server that hangs is found out after so long.
+/// A server that hangs is detected after this time.
 const PATIENCE: Duration = Duration::from_secs(20);
 
 fn nothing(_: &mut Io) {}
@@ -42,10 +42,10 @@ fn answer(stream: &mut TcpStream) -> Vec<u8> {
     pdu
 }
 
-/// Everything until the server closes.
+/// Everything until the server closes the connection.
 fn rest(mut stream: TcpStream) -> Vec<u8> {
     let mut octets = Vec::new();
-    // A reset is an end too: the server has not read all that came.
+    // A reset is an end too: the server has not read everything that arrived.
     let _ = stream.read_to_end(&mut octets);
     octets
 }
@@ -129,7 +129,7 @@ fn where_all_have_asked_one_client_more_takes_the_place_of_the_one_that_is_silen
     let bench = Bench::with(nothing);
     let mut clients: Vec<_> = (0..CONNECTIONS_MAX).map(|_| raw(&bench)).collect();
     assert!(clients.iter_mut().all(is_served));
-    // From now on the sixth is silent, then the tenth.
+    // From now on the sixth client is silent, then the tenth.
     for silent in [5, 9] {
         assert!(clients.iter_mut().enumerate().all(|(at, client)| at == silent || is_served(client)));
         let mut one_more = raw(&bench);
@@ -140,7 +140,7 @@ fn where_all_have_asked_one_client_more_takes_the_place_of_the_one_that_is_silen
     }
 }
 
-/// How many connections that never send anything come in one burst.
+/// Number of connections that never send anything and arrive in one burst.
 const MUTE: usize = 40;
 
 #[test]
@@ -148,7 +148,7 @@ fn mute_clients_take_the_places_of_mute_clients_the_oldest_first() {
     let bench = Bench::with(nothing);
     let mut asked: Vec<_> = (0..3).map(|_| raw(&bench)).collect();
     assert!(asked.iter_mut().all(is_served));
-    // Its request comes with the burst, before the first that is mute.
+    // Its request arrives with the burst, before the first silent connection.
     let mut asks = raw(&bench);
     asks.write_all(&frame(&[0x03, 0, 0, 0, 1])).unwrap();
     let mut mute: Vec<_> = (0..MUTE).map(|_| raw(&bench)).collect();
@@ -182,7 +182,7 @@ fn a_client_that_has_gone_leaves_its_place_and_nobody_is_closed() {
     assert!(clients.iter_mut().all(is_served));
     let gone = clients.pop().unwrap();
     gone.shutdown(std::net::Shutdown::Write).unwrap();
-    // The server closes in its turn: now it knows.
+    // The server closes its end: now it has detected the end.
     assert_eq!(rest(gone), []);
     clients.push(raw(&bench));
     assert!(clients.iter_mut().rev().all(is_served));
@@ -202,7 +202,7 @@ proptest! {
             let answered = answer(&mut client);
             prop_assert_eq!(answered[0] & 0x7F, pdu[0] & 0x7F);
         }
-        // The server may close before it has got them all.
+        // The server may close the connection before it has received all of them.
         let _ = client.write_all(&octets);
         let mut client = raw(&bench);
         client.write_all(&frame(&[0x03, 0, 0, 0, 1])).unwrap();

@@ -1,4 +1,4 @@
-//! Clients of every kind at a server, with a CPU Unit behind it that runs as fast as it can.
+//! Clients of every kind at a server, with a CPU Unit that runs as fast as it can.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -83,7 +83,7 @@ fn forced_values_survive_the_user_program_and_others_do_not() {
         assert_eq!(client.read_holding_registers(0, 3).await.unwrap().unwrap(), [0x0101, 501, 0x0101]);
         assert_eq!(client.read_coils(10_000, 3).await.unwrap().unwrap(), [false, true, false]);
 
-        // An input that is forced is what the program copies.
+        // The program copies the forced input.
         client.write_multiple_registers(20_002, &[77]).await.unwrap().unwrap();
         bench.cycles(2).await;
         assert_eq!(client.read_holding_registers(2, 1).await.unwrap().unwrap(), [77]);

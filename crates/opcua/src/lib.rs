@@ -1,11 +1,11 @@
-//! OPC UA: clients read, write and watch the variables of CPU Units.
+//! OPC UA: clients read, write and monitor the variables of CPU Units.
 //!
-//! `serve` answers clients on a thread of its own, which meets the CPU Unit in `plc::outside` only: no client,
-//! however slow or hostile, delays a task period or a frame. There is no security: whoever reaches the port reads and
-//! writes.
+//! `serve` answers clients on a separate thread, which accesses the CPU Unit only through `plc::outside`: no
+//! client, however slow or hostile, delays a task period or a frame. There is no security: anyone with access
+//! to the port can read and write.
 //!
-//! Everything here needs the feature `server`. It is off by default, for the library below it is as large as all that
-//! the rest of ectwin uses.
+//! Everything here requires the feature `server`. It is off by default, because its library is as large as all
+//! other libraries of ectwin together.
 
 #![cfg(feature = "server")]
 

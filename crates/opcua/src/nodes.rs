@@ -24,21 +24,21 @@ use crate::value::scalar_type;
 /// The namespace of the nodes.
 pub const NAMESPACE_URI: &str = "urn:ectwin";
 
-/// How often values that clients watch are looked at.
+/// Sampling interval of monitored values.
 const WATCH_PERIOD: Duration = Duration::from_millis(50);
 
 type Nodes = HashMap<NodeId, (Arc<Unit>, VariableId)>;
 
-/// The nodes of all units. A node keeps no value: each one is read when it is asked for.
+/// The nodes of all units. A node stores no value: each value is read on request.
 pub(crate) struct Line {
     namespace: u16,
     nodes: Arc<Nodes>,
 }
 
 impl Line {
-    /// Puts the nodes of these units, in the order of the line, into the address space.
+    /// Adds the nodes of these units, in the order of the line, to the address space.
     pub(crate) fn new(units: Vec<Unit>, context: &ServerContext, address_space: &mut AddressSpace) -> Self {
-        // One namespace asked for, one index given.
+        // One namespace requested, one index returned.
         let namespace = add_namespaces(context, address_space, &[NAMESPACE_URI]).pop().unwrap_or_default();
         let mut nodes = Nodes::new();
         for (position, unit) in (1..).zip(units) {
@@ -124,7 +124,7 @@ impl InMemoryNodeManagerImpl for Line {
         address_space: &RwLock<AddressSpace>,
         nodes: &mut [&mut WriteNode],
     ) -> Result<(), StatusCode> {
-        // All is sent before the first one is waited for: most requests are taken in one task period.
+        // All changes are sent before the first one is waited for: most requests are executed in one task period.
         let sent: Vec<_> = nodes.iter().map(|write| self.send(address_space, write)).collect();
         for (write, sent) in nodes.iter_mut().zip(sent) {
             write.set_status(match sent {
@@ -143,7 +143,7 @@ fn add_unit(
     position: usize,
     unit: Arc<Unit>,
 ) {
-    // Units of a line may have the same names: of the second and later ones, identifiers begin with the position.
+    // Units of a line may have the same names: the identifiers of the second and later ones begin with the position.
     let node_id = |name: &str| match position {
         1 => NodeId::new(namespace, name.to_owned()),
         _ => NodeId::new(namespace, format!("{position}/{name}")),

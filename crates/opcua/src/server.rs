@@ -1,4 +1,4 @@
-//! The server: it answers clients on a thread of its own.
+//! The server: it answers clients on a separate thread.
 
 use std::io;
 use std::net::{SocketAddr, TcpListener};
@@ -28,7 +28,7 @@ pub struct Server {
 /// Serves these units, in the order of the line, to clients of `listener`: anonymous ones, without security.
 ///
 /// # Errors
-/// The listener cannot be used, or there is no thread to be had.
+/// The listener cannot be used, or no thread can be started.
 pub fn serve(listener: TcpListener, units: impl IntoIterator<Item = OutsideEnd>) -> io::Result<Server> {
     let units: Vec<Unit> = units.into_iter().map(Unit::new).collect();
     let address = listener.local_addr()?;
@@ -45,7 +45,7 @@ pub fn serve(listener: TcpListener, units: impl IntoIterator<Item = OutsideEnd>)
 }
 
 impl Server {
-    /// Where it listens.
+    /// The address on which it listens.
     #[must_use]
     pub const fn address(&self) -> SocketAddr {
         self.address
@@ -54,10 +54,10 @@ impl Server {
 
 impl Drop for Server {
     fn drop(&mut self) {
-        // The thread ends when its end of the channel hears that this one has gone.
+        // The thread ends when its end of the channel detects that this end has been dropped.
         drop(self.stop.take());
         if let Some(thread) = self.thread.take() {
-            // What a thread that panicked had to say, it has said.
+            // A thread that panicked has already reported it.
             let _ = thread.join();
         }
     }
@@ -94,14 +94,14 @@ fn build(address: SocketAddr, units: Vec<Unit>) -> io::Result<UaServer> {
         .host(address.ip().to_string())
         .port(address.port())
         .with_node_manager(InMemoryNodeManagerBuilder::new(line));
-    // It would complain that it has no certificate; without security there is none.
+    // It would report that it has no certificate; without security there is none.
     let built = with_default(NoSubscriber::default(), || builder.build());
-    // The library wants this folder and keeps nothing there.
+    // The library requires this folder and stores nothing in it.
     let _ = std::fs::remove_dir_all(&certificates);
     built.map(|(server, _)| server).map_err(io::Error::other)
 }
 
-/// A folder that nobody else has: a process may have several servers.
+/// A unique folder: a process may have several servers.
 fn certificate_folder() -> PathBuf {
     use std::sync::atomic::{AtomicU32, Ordering};
     static SERVERS: AtomicU32 = AtomicU32::new(0);

@@ -1,4 +1,4 @@
-//! One unit of the line as clients read and write it.
+//! One unit of the line, as clients read and write it.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -9,15 +9,15 @@ use plc::{DeviceVariables, Validity, VariableAccess, VariableError, VariableId};
 
 use crate::value;
 
-/// How long a request that writes waits for the task period that takes it.
+/// How long a write request waits for the task period that executes it.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// How often it looks: the finest that the timers of the runtime offer.
+/// Interval of its checks: the shortest that the timers of the runtime offer.
 const LOOK: Duration = Duration::from_millis(1);
 
-/// A unit that all sessions share.
+/// A unit shared by all sessions.
 pub(crate) struct Unit {
     variables: DeviceVariables,
-    /// Held for the copy of values and no longer.
+    /// Locked only while values are copied.
     end: Mutex<OutsideEnd>,
 }
 
@@ -30,7 +30,7 @@ impl Unit {
         &self.variables
     }
 
-    /// The newest value with its quality, or the status that tells why there is none.
+    /// The newest value with its quality, or the status that explains why there is none.
     pub(crate) fn read(
         &self,
         id: VariableId,
@@ -49,7 +49,7 @@ impl Unit {
         }
     }
 
-    /// Sends what writes a variable or elements of it; [`Unit::taken`] waits for it.
+    /// Sends a change of a variable or of elements of it; [`Unit::taken`] waits for it.
     pub(crate) fn write(
         &self,
         id: VariableId,
@@ -64,7 +64,7 @@ impl Unit {
         self.end().send(&changes).map_err(refusal)
     }
 
-    /// Waits until what has been sent is written, so that whoever writes reads it afterwards.
+    /// Waits until the sent changes have been written, so that a client that writes can read them afterwards.
     pub(crate) async fn taken(&self, ticket: Ticket) -> StatusCode {
         let patience_ends = Instant::now() + PATIENCE;
         while !self.end().newest().has_taken(ticket) {
@@ -86,13 +86,13 @@ impl Unit {
         Ok((value::to_variant(variable.variable_type, &octets).range_of_owned(range)?, quality))
     }
 
-    /// A session that panicked left nothing half done: the end is whole after each call.
+    /// A session that panicked left the end consistent: it is complete after each call.
     fn end(&self) -> MutexGuard<'_, OutsideEnd> {
         self.end.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// What the manual's conditions for valid I/O data (A-3-2) are in OPC UA.
+/// The manual's conditions for valid I/O data (A-3-2), mapped to OPC UA.
 const fn quality(validity: Validity) -> StatusCode {
     match validity {
         Validity::Valid => StatusCode::Good,

@@ -1,6 +1,7 @@
-//! Values: little endian as the CPU Unit has them, and as variants of OPC UA (OPC 10000-6, 5.1).
+//! Values: little endian as in the CPU Unit, and as variants of OPC UA (OPC 10000-6, 5.1).
 //!
-//! Device variables are BOOL, bit strings and unsigned integers, and arrays of these; so their length tells the type.
+//! Device variables are BOOL, bit strings and unsigned integers, and arrays of these; so their length
+//! determines the type.
 
 use opcua::types::{NumericRange, StatusCode, Variant, VariantScalarTypeId};
 use plc::outside::{Change, Operation};
@@ -39,10 +40,10 @@ pub(crate) fn to_variant(variable_type: VariableType, octets: &[u8]) -> Variant 
     }
 }
 
-/// The changes that write a variable, or the elements of it that `range` names.
+/// The changes that write a variable, or the elements of it in `range`.
 ///
 /// # Errors
-/// `BadTypeMismatch`, `BadOutOfRange` for an array of another length, or what is wrong with the range.
+/// `BadTypeMismatch`, `BadOutOfRange` for an array of another length, or the error of the range.
 pub(crate) fn changes(
     id: VariableId,
     variable_type: VariableType,
@@ -77,7 +78,7 @@ fn write(target: plc::Target, value: VariableValue) -> Change {
     Change { target, operation: Operation::Write(value) }
 }
 
-/// The elements of an array. A ByteString stands for an array of Byte (OPC 10000-4, Write).
+/// The elements of an array. A ByteString is accepted as an array of Byte (OPC 10000-4, Write).
 fn array(variable_type: VariableType, value: &Variant) -> Result<Vec<VariableValue>, StatusCode> {
     match value {
         Variant::Array(array) if array.dimensions.as_ref().is_none_or(|dimensions| dimensions.len() == 1) => {
@@ -91,7 +92,7 @@ fn array(variable_type: VariableType, value: &Variant) -> Result<Vec<VariableVal
     }
 }
 
-/// One scalar: of the very type, for a client that means another one means another value.
+/// One scalar of exactly this type: a client that sends another type means another value.
 fn octets(variable_type: VariableType, value: &Variant) -> Result<VariableValue, StatusCode> {
     let octets: VariableValue = match (scalar_type(variable_type), value) {
         (VariantScalarTypeId::Boolean, Variant::Boolean(value)) => [u8::from(*value)].into_iter().collect(),

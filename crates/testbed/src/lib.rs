@@ -1,6 +1,6 @@
-//! For tests only: network namespaces, veth pairs, child processes, and the count of what was skipped.
+//! For tests only: network namespaces, veth pairs, child processes, and the count of skipped tests.
 //!
-//! A test over a real interface runs in a network namespace of its own and needs no root for it:
+//! A test over a real interface runs in its own network namespace and does not need root for it:
 //!
 //! ```no_run
 //! use ectwin_testbed as testbed;

@@ -1,4 +1,4 @@
-//! Network namespaces for tests, made without root where the kernel lets users do so.
+//! Network namespaces for tests, created without root if the kernel permits it.
 
 use std::env;
 use std::process::{Command, ExitStatus};
@@ -9,16 +9,16 @@ use crate::skip::{skip, succeeds};
 /// Set inside the namespace to the name of the test that was started there.
 const INSIDE_VARIABLE: &str = "ECTWIN_INSIDE_NAMESPACE";
 
-/// The ways into a new network namespace: as root, and as an ordinary user by a user namespace.
+/// How to enter a new network namespace: as root, and as an ordinary user through a user namespace.
 const WAYS: [&[&str]; 2] = [&["--net"], &["--user", "--map-root-user", "--net"]];
 
-/// Runs `body` in a network namespace of its own, or says that `test` was skipped.
+/// Runs `body` in a separate network namespace, or reports that `test` was skipped.
 ///
-/// `test` is the path of the test function inside its binary. The test binary is started once more inside
-/// the namespace with this test alone; `body` runs there.
+/// `test` is the path of the test function inside its binary. The test binary is started again inside the
+/// namespace with this test alone; `body` runs there.
 ///
 /// # Panics
-/// When the test fails in its namespace.
+/// If the test fails in its namespace.
 pub fn in_network_namespace(test: &str, body: impl FnOnce()) {
     if env::var(INSIDE_VARIABLE).is_ok_and(|inside| inside == test) {
         return body();
@@ -32,7 +32,7 @@ pub fn in_network_namespace(test: &str, body: impl FnOnce()) {
     command.args(way).arg(binary).args(["--exact", test, "--nocapture"]).env(INSIDE_VARIABLE, test);
     let output = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     let printed = String::from_utf8_lossy(&output.stdout);
-    // A name that matches no test would pass with nothing run.
+    // A name that matches no test would pass without running anything.
     assert!(printed.contains("running 1 test"), "{test}: no such test in its binary\n{printed}");
     eprint!("{}", String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{test} failed in its namespace\n{printed}");
@@ -41,7 +41,7 @@ pub fn in_network_namespace(test: &str, body: impl FnOnce()) {
 /// Runs `ip` (iproute2) with these arguments.
 ///
 /// # Panics
-/// When it fails.
+/// If it fails.
 pub fn ip(arguments: &[&str]) {
     let status = Command::new("ip").args(arguments).status();
     assert!(status.as_ref().is_ok_and(ExitStatus::success), "ip {arguments:?}: {status:?}");
@@ -50,12 +50,12 @@ pub fn ip(arguments: &[&str]) {
 /// Adds a cable with an interface at each end, both up, to this namespace.
 ///
 /// # Panics
-/// When the kernel refuses.
+/// If the kernel refuses.
 pub fn add_veth_pair(one: &str, other: &str) {
     ip(&["link", "add", "name", one, "type", "veth", "peer", "name", other]);
     ip(&["link", "set", one, "up"]);
     ip(&["link", "set", other, "up"]);
-    // The kernel finishes this later, and drops what is sent before: one frame in a hundred on a busy machine.
+    // The kernel finishes this later, and drops frames that are sent before: one frame in a hundred on a busy machine.
     [one, other].into_iter().for_each(wait_until_up);
 }
 
@@ -68,9 +68,10 @@ fn wait_until_up(interface: &str) {
     assert!((0..LOOKS).any(|_| is_up()), "{interface} does not come up");
 }
 
-/// A second network namespace, for the master, with one interface of ours moved into it.
+/// A second network namespace, for the master, with one interface moved into it.
 ///
-/// The namespace stays until this value goes: the cable would go with it, and be lost for the other side too.
+/// The namespace is kept until this value is dropped: otherwise the cable would be removed with it, for the
+/// other side too.
 pub struct MasterSide {
     shell: Process,
 }
@@ -79,10 +80,10 @@ impl MasterSide {
     /// Makes the namespace, moves `interface` into it, and starts `program` there once it is up.
     ///
     /// # Panics
-    /// When the kernel refuses, or the program cannot be started.
+    /// If the kernel refuses, or the program cannot be started.
     #[must_use]
     pub fn start(interface: &str, program: &Command) -> Self {
-        // The shell waits until the interface has arrived, and stays after the program.
+        // The shell waits until the interface has arrived, and continues to run after the program.
         let script =
             "echo in && read -r _ && ip link set \"$0\" up && { \"$@\"; echo \"ended $?\"; read -r _; }";
         let mut command = Command::new("unshare");
@@ -105,7 +106,7 @@ impl MasterSide {
     /// Waits until the program has ended, and returns its exit code.
     ///
     /// # Panics
-    /// When the shell around it has gone.
+    /// If the shell around it has ended.
     #[must_use]
     pub fn wait(&mut self) -> i32 {
         let line = self.shell.wait_for_line("ended ");

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, ChildStdout, Command, ExitStatus, Stdio};
 
-/// A running child: its standard output is ours to read, its standard error goes to the test's.
+/// A running child: the caller reads its standard output, its standard error goes to the test's.
 pub struct Process {
     child: Child,
     stdout: BufReader<ChildStdout>,
@@ -14,7 +14,7 @@ impl Process {
     /// Starts `command`.
     ///
     /// # Panics
-    /// When it cannot be started.
+    /// If it cannot be started.
     #[must_use]
     pub fn start(command: &mut Command) -> Self {
         let child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
@@ -29,10 +29,10 @@ impl Process {
         self.child.id()
     }
 
-    /// Waits for a line that begins with `start` and returns it; prints what it passes over.
+    /// Waits for a line that begins with `start` and returns it; prints the lines before it.
     ///
     /// # Panics
-    /// When the output ends before such a line.
+    /// If the output ends before such a line.
     pub fn wait_for_line(&mut self, start: &str) -> &str {
         loop {
             self.line.clear();
@@ -48,7 +48,7 @@ impl Process {
     /// Writes a line to its standard input.
     ///
     /// # Panics
-    /// When it has closed its input.
+    /// If it has closed its input.
     pub fn say(&mut self, line: &str) {
         let said = self.child.stdin.as_mut().map(|stdin| writeln!(stdin, "{line}"));
         assert!(matches!(said, Some(Ok(()))), "could not say `{line}`: {said:?}");
@@ -57,18 +57,18 @@ impl Process {
     /// Sends SIGINT, as Ctrl-C does.
     ///
     /// # Panics
-    /// When the signal cannot be sent.
+    /// If the signal cannot be sent.
     pub fn interrupt(&self) {
-        // The shell's own kill: the program of that name is not on every machine.
+        // The `kill` of the shell: not every machine has the program of that name.
         let kill = format!("kill -INT {}", self.child.id());
         let sent = Command::new("sh").args(["-c", &kill]).status();
         assert!(sent.as_ref().is_ok_and(ExitStatus::success), "kill -INT: {sent:?}");
     }
 
-    /// Prints what is left of the output and waits for the end.
+    /// Prints the rest of the output and waits for the end.
     ///
     /// # Panics
-    /// When the child cannot be waited for.
+    /// If the child cannot be waited for.
     pub fn wait(&mut self) -> ExitStatus {
         let rest = std::io::read_to_string(&mut self.stdout).unwrap_or_default();
         print!("{rest}");
@@ -77,7 +77,7 @@ impl Process {
 }
 
 impl Drop for Process {
-    /// A test that panics leaves nothing running. An error means that the child has ended already.
+    /// A test that panics leaves nothing running. An error means that the child has already ended.
     fn drop(&mut self) {
         let _ended = self.child.kill().and_then(|()| self.child.wait());
     }

@@ -1,22 +1,22 @@
-//! A test that cannot run says so in one visible line, and the line is counted.
+//! A test that cannot run reports it in one visible line, and the line is counted.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-/// `cargo xtask ci` names the file in which it counts the skips of its run.
+/// `cargo xtask ci` sets the file in which it counts the skips of its run.
 const SKIPS_VARIABLE: &str = "ECTWIN_SKIPS";
 
 /// A Python that the user chose.
 const PYTHON_VARIABLE: &str = "ECTWIN_PYTHON";
 
-/// Says that `test` was left out and why. The line is visible whatever catches the output of tests.
+/// Reports that `test` was skipped and why. The line is visible even if the output of tests is captured.
 ///
 /// # Panics
-/// When the line cannot be counted: a skip that nobody sees would pass for a success.
+/// If the line cannot be counted: a skip that is not visible would look like a success.
 pub fn skip(test: &str, reason: &str) {
     let line = format!("skipped: {test}: {reason}\n");
-    // Not `eprintln!`, which the test harness keeps to itself when a test passes.
+    // Not `eprintln!`, which the test harness captures if a test passes.
     let told = std::io::stderr().write_all(line.as_bytes());
     assert!(told.is_ok(), "{line}");
     if let Some(file) = std::env::var_os(SKIPS_VARIABLE) {
@@ -35,8 +35,8 @@ pub fn has_program(program: &str) -> bool {
     succeeds(Command::new(program).arg("--version"))
 }
 
-/// A Python that can import `module`: the one that `ECTWIN_PYTHON` names, else the one of `target/venv` in
-/// the checkout, else `python3`.
+/// A Python that can import `module`: the one in `ECTWIN_PYTHON`, else the one of `target/venv` in the
+/// checkout, else `python3`.
 #[must_use]
 pub fn python_with(module: &str) -> Option<PathBuf> {
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).map(Path::to_path_buf);

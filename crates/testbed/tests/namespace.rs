@@ -1,4 +1,4 @@
-//! The testbed itself: a cable crosses two namespaces, and a child is read and ended.
+//! The testbed itself: a cable connects two namespaces, and a child is read and ended.
 
 use std::process::Command;
 

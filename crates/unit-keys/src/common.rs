@@ -8,7 +8,7 @@ use crate::slave::{Shape, SlaveKeys};
 use crate::times;
 use crate::timing::{self, Timing};
 
-/// The keys and sections of every model, beside `model`, `storage` and `cpu`.
+/// The keys and sections of every model, in addition to `model`, `storage` and `cpu`.
 pub const KEYS: [&str; 10] = [
     "name",
     "serial",
@@ -22,7 +22,7 @@ pub const KEYS: [&str; 10] = [
     "refuse",
 ];
 
-/// What a unit file says by the keys of every model.
+/// The values of the keys of every model in a unit file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CommonKeys {
     /// Name of the unit, an IEC 61131-3 identifier of up to 127 characters.
@@ -31,18 +31,18 @@ pub struct CommonKeys {
     pub serial: Option<Located<u32>>,
     /// Configured station alias, or the ID that is set by software: 1 to 65535.
     pub alias: Option<Located<u16>>,
-    /// Exact or fast; exact when left out.
+    /// Exact or fast; exact if left out.
     pub timing: Timing,
-    /// Start-up time, 0 s to 60 s; that of the model when left out.
+    /// Start-up time, 0 s to 60 s; that of the model if left out.
     pub start_up: Option<Located<Duration>>,
     /// From the first step of the unit to its first refresh, 0 s to 2 ms.
     pub refresh_phase: Option<Located<Duration>>,
-    /// What it does as an EtherCAT slave.
+    /// Its behaviour as an EtherCAT slave.
     pub slave: SlaveKeys,
 }
 
 impl CommonKeys {
-    /// Reads the keys of a model of this shape. Keys beside them are the model's: it refuses what is unknown.
+    /// Reads the keys of a model of this shape. Other keys belong to the model, which refuses unknown ones.
     #[must_use]
     pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape) -> Self {
         Self {
@@ -61,8 +61,8 @@ impl CommonKeys {
         }
     }
 
-    /// The start-up time that the file names, or that of the model. Without a name for it the unit has been under
-    /// power for long when it is powered on first, so that a master finds it ready.
+    /// The start-up time in the file, or that of the model. Without such a time the unit has been powered for a
+    /// long time when it is first powered on, so that a master finds it ready.
     #[must_use]
     pub fn start_up(&self, of_model: Duration) -> StartUp {
         let named = self.start_up.as_ref().map(|start_up| start_up.value);

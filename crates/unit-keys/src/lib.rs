@@ -1,7 +1,7 @@
 //! The keys of a unit file that every model has: `name`, `serial`, `alias`, `timing`, `start_up`, `refresh_phase`,
 //! `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
 //!
-//! A model reads them by [`CommonKeys::read`] beside its own; [`KEYS`] is their list.
+//! A model reads them with [`CommonKeys::read`] together with its own; [`KEYS`] is their list.
 
 mod common;
 mod slave;

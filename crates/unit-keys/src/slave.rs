@@ -1,4 +1,4 @@
-//! What a file says of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
+//! The keys of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
 
 use device::{Conduct, Refusals, SiiTiming, TRANSITIONS, Transition, TransitionTimes};
 use time::Duration;
@@ -19,7 +19,7 @@ const REFUSED_STATES: [(&str, AlState); 5] = [
 ];
 const ACKNOWLEDGE: &str = "acknowledge";
 
-/// What a model has, and so has keys for.
+/// The features of a model, for which it has keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Shape {
     /// A mailbox.
@@ -28,32 +28,32 @@ pub struct Shape {
     pub boot: bool,
 }
 
-/// `outputs_before_op`: whether SAFE-OP to OP waits for outputs.
+/// `outputs_before_op`: whether the transition from SAFE-OP to OP waits for outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OutputsRule {
-    /// `required`: as slaves do that check it, for the time that the ESI gives a master.
+    /// `required`: like slaves that check it, within the time in the ESI.
     Required,
-    /// `not-required`: OP comes at once, and the outputs are not valid until they come.
+    /// `not-required`: OP is reached immediately, and the outputs are not valid until they are received.
     NotRequired,
 }
 
-/// What a unit file says of the slave. The default is a slave that follows its model and is quick.
+/// The settings of the slave in a unit file. The default is a slave that follows its model and is fast.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SlaveKeys {
-    /// Whether OP is reached without outputs (`outputs_before_op`); none: as the model does.
+    /// Whether OP is reached without outputs (`outputs_before_op`); none: like the model.
     pub outputs_before_op: Option<OutputsRule>,
-    /// How long each transition takes (`[times] transitions`), and what is refused (`[refuse]`).
+    /// The time of each transition (`[times] transitions`), and the refused states (`[refuse]`).
     pub conduct: Conduct,
-    /// How long an SII command takes (`[times] sii`).
+    /// Time of an SII command (`[times] sii`).
     pub sii_time: Duration,
-    /// How long after its request a mailbox response is there (`[times] mailbox`); none: the time of the model.
+    /// Time from a mailbox request to its response (`[times] mailbox`); none: the time of the model.
     pub mailbox_time: Option<Duration>,
-    /// The EEPROM is erased, whatever the non-volatile memory holds (`blank_sii`).
+    /// The EEPROM is erased, whatever the non-volatile memory contains (`blank_sii`).
     pub is_sii_blank: bool,
 }
 
 impl SlaveKeys {
-    /// The conduct with this timing: fast, no time is left; what is refused stays.
+    /// The conduct with this timing: with `fast`, all times are zero; refusals are kept.
     #[must_use]
     pub fn conduct(&self, timing: Timing) -> Conduct {
         let conduct = self.conduct.clone();
@@ -63,7 +63,7 @@ impl SlaveKeys {
         }
     }
 
-    /// When SII commands are finished.
+    /// When SII commands are complete.
     #[must_use]
     pub fn sii_timing(&self, timing: Timing) -> SiiTiming {
         if timing == Timing::Fast || self.sii_time.is_zero() {
@@ -96,7 +96,7 @@ impl SlaveKeys {
     }
 }
 
-/// One time for all, or a table of those that take one.
+/// One time for all transitions, or a table of times for some of them.
 fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>, shape: Shape) -> TransitionTimes {
     const KEY: &str = "transitions";
     let is_table = times.get(KEY).is_some_and(|value| value.get_ref().is_table());
@@ -140,7 +140,7 @@ fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape, condu
     conduct.ignores_acknowledge = truth(reader, &section, ACKNOWLEDGE);
 }
 
-/// A key that is `true` or `false`; left out it is false.
+/// A key that is `true` or `false`; false if left out.
 fn truth(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> bool {
     reader.value(section, key, values::truth).is_some_and(|truth| truth.value)
 }

@@ -73,7 +73,7 @@ fn a_fast_unit_has_no_times_and_refuses_the_same() {
     assert_eq!((fast.timing, fast.start_up(ms(300)).again), (Timing::Fast, ms(0)));
 }
 
-/// Keys of what a model does not have are unknown.
+/// Keys for features that a model does not have are unknown.
 #[test]
 fn a_terminal_has_no_keys_for_mailbox_and_boot() {
     assert_eq!(

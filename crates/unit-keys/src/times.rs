@@ -5,9 +5,9 @@ use core::ops::RangeInclusive;
 use time::Duration;
 use user_file::{DeValue, Problem, values};
 
-/// The longest is more than any master waits.
+/// The longest time is more than any master waits.
 const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
-/// Beyond every refresh period of a unit.
+/// Above every refresh period of a unit.
 const REFRESH_PHASE_MAX: Duration = Duration::from_millis(2);
 
 /// The start-up time of a unit.
@@ -15,7 +15,7 @@ pub(crate) fn start_up(place: &str, value: &DeValue<'_>) -> Result<Duration, Pro
     values::duration(place, value, |time| TIMES.contains(&time), "a duration, \"0ms\" to \"60s\"")
 }
 
-/// Where in its period the unit refreshes.
+/// The position of the refresh in the unit's period.
 pub(crate) fn refresh_phase(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
     values::duration(place, value, |phase| phase <= REFRESH_PHASE_MAX, "a duration, \"0us\" to \"2ms\"")
 }

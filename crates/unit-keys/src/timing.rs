@@ -1,12 +1,12 @@
-//! Whether a unit takes its times, or none.
+//! Whether the times of a unit are simulated.
 
-/// `timing`: whether a unit takes the times of its model and of the file, or none.
+/// `timing`: whether a unit uses the times of its model and of the file, or no times.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Timing {
     /// `exact`.
     #[default]
     Exact,
-    /// `fast`: nothing waits, whatever the file says.
+    /// `fast`: nothing waits, whatever is in the file.
     Fast,
 }
 

@@ -1,4 +1,4 @@
-//! What is wrong with a file, and where.
+//! The mistakes in a file, with their places.
 
 use core::fmt;
 use core::ops::Range;
@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use crate::mistakes::and_more;
 use crate::words::{line_and_column, shortened};
 
-/// One thing that is wrong. Prints as `line:column: message, expected …`, to follow a file name and a colon.
+/// One mistake. Prints as `line:column: message, expected …`, to follow a file name and a colon.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileError {
     /// The bytes of the file.
@@ -16,20 +16,22 @@ pub struct FileError {
     pub line: usize,
     /// Column of the first byte in characters, from 1.
     pub column: usize,
-    /// What is wrong: place and value.
+    /// The mistake: place and value.
     pub message: String,
-    /// What should stand there; empty when there is nothing to say, or when an error before has said it.
+    /// The expected contents; empty if there is nothing to report, or if an earlier error has reported it.
     pub expected: String,
-    /// The valid name nearest to what stands there, if one is near.
+    /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// How many names are expected.
+    /// The number of expected names.
     pub(crate) names: usize,
 }
 
-/// Most names that each mistake repeats. A longer list is said once, by the first mistake of the file that has it.
+/// Maximum number of names that each mistake repeats. A longer list is printed once, with the first mistake of
+/// the file that has it.
 const REPEATED_NAMES_MAX: usize = 8;
 
-/// Leaves out of errors, in the order of their file, the long lists of names that an error before has said.
+/// Removes from errors, which are in the order of their file, the long lists of names that an earlier error has
+/// printed.
 pub(crate) fn say_long_lists_once(errors: &mut [FileError]) {
     let mut said = BTreeSet::new();
     for error in errors.iter_mut().filter(|error| error.names > REPEATED_NAMES_MAX) {
@@ -46,7 +48,7 @@ impl FileError {
         Self { span, line, column, message: shortened(message), expected, nearest, names }
     }
 
-    /// What it prints without the place, for a file whose text is a part of another file.
+    /// The text without the place, for a file whose text is part of another file.
     #[must_use]
     pub fn words(&self) -> String {
         let expected = if self.expected.is_empty() { "" } else { ", expected " };
@@ -63,8 +65,7 @@ impl fmt::Display for FileError {
 
 impl core::error::Error for FileError {}
 
-/// What is wrong with a file, in the order of the file: at least one thing, and
-/// [`MISTAKES_MAX`](crate::MISTAKES_MAX) things at most.
+/// The mistakes in a file, in the order of the file: at least one, and at most [`MISTAKES_MAX`](crate::MISTAKES_MAX).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileErrors {
     pub(crate) list: Vec<FileError>,
@@ -77,7 +78,7 @@ impl FileErrors {
         self.list.iter()
     }
 
-    /// How many errors there are beside those of the list.
+    /// The number of errors in addition to those in the list.
     #[must_use]
     pub const fn more(&self) -> usize {
         self.more
@@ -100,16 +101,16 @@ impl fmt::Display for FileErrors {
 
 impl core::error::Error for FileErrors {}
 
-/// What is wrong, before it has a place.
+/// A mistake, before it has a place.
 #[derive(Debug)]
 pub struct Problem {
-    /// What is wrong: place and value.
+    /// The mistake: place and value.
     pub message: String,
-    /// What should stand there; empty when there is nothing to say.
+    /// The expected contents; empty if there is nothing to report.
     pub expected: String,
-    /// The valid name nearest to what stands there, if one is near.
+    /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// How many names are expected.
+    /// The number of expected names.
     pub(crate) names: usize,
 }
 
@@ -120,7 +121,7 @@ impl Problem {
         Self { message: message.into(), expected: expected.into(), nearest: None, names: 0 }
     }
 
-    /// `word` is none of `names`: says which there are, and which is nearest.
+    /// `word` is not in `names`: lists the names, and the nearest one.
     #[must_use]
     pub fn unknown(message: impl Into<String>, word: &str, names: &[&str]) -> Self {
         Self { nearest: nearest(word, names), names: names.len(), ..Self::new(message, one_of(names)) }
@@ -138,7 +139,7 @@ fn one_of(names: &[&str]) -> String {
     }
 }
 
-/// The valid name that `word` was most likely meant to be, if one is near.
+/// The valid name most likely meant by `word`, if one is near.
 fn nearest(word: &str, names: &[&str]) -> Option<String> {
     let word: String = word.chars().take(40).flat_map(char::to_lowercase).collect();
     let distance = |name: &str| strsim::osa_distance(&word, &name.to_lowercase());
@@ -146,10 +147,10 @@ fn nearest(word: &str, names: &[&str]) -> Option<String> {
     near.min_by_key(|name| distance(name)).map(str::to_owned)
 }
 
-/// Whether `word` is `name` with slips (two letters, or a third of it), a part of it, or an abbreviation.
+/// Whether `word` is `name` with typing errors (two letters, or a third of it), a part of it, or an abbreviation.
 fn is_near(word: &str, name: &str) -> bool {
     let (length, distance) = (name.chars().count(), strsim::osa_distance(word, name));
-    // A word of two letters is within two slips of everything that has two letters.
+    // A word of two letters is within two typing errors of every other word of two letters.
     let slips = distance <= (length / 3).max(2) && distance < length;
     let part = word.chars().count() >= 3 && (name.contains(word) || word.contains(name));
     slips || part || strsim::jaro_winkler(word, name) >= 0.85

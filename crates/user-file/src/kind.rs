@@ -1,10 +1,10 @@
-//! What a file is that is not what was asked for: a table of the kinds that users have at hand.
+//! The kind of a file that is not the requested one: a table of the kinds that users often have.
 
 use wire::{SII_CONFIGURATION_BYTES, sii_checksum};
 
 use crate::sample::Sample;
 
-/// What a command asks for.
+/// The kind of file that a command requires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// A unit file.
@@ -35,9 +35,9 @@ impl Wanted {
 /// Why a file is not used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Refusal {
-    /// What the file is.
+    /// The kind of the file.
     pub message: String,
-    /// What helps.
+    /// The remedy.
     pub help: String,
 }
 
@@ -47,8 +47,8 @@ impl Refusal {
     }
 }
 
-/// What the file of this name is, if it is of a known kind and not of the one that is wanted. A file of an unknown kind
-/// is left to its reader.
+/// The kind of the file with this name, if it is a known kind and not the required one. A file of an unknown
+/// kind is left to its reader.
 #[must_use]
 pub fn of_another_kind(bytes: &[u8], name: &str, wanted: Wanted) -> Option<Refusal> {
     let sample = Sample::of(bytes, name);
@@ -66,11 +66,11 @@ struct Kind {
     name: &'static str,
     is: fn(&Sample<'_>) -> bool,
     wanted_as: Option<Wanted>,
-    /// Who reads it or writes it; empty if the name says enough.
+    /// The program that reads or writes it; empty if the name is sufficient.
     help: &'static str,
 }
 
-/// The first row that fits counts.
+/// The first row that matches is used.
 const KINDS: &[Kind] = &[
     Kind {
         name: "an ESI file, the description of slaves for the configuration tool of a master",
@@ -170,14 +170,14 @@ const CAPTURES: &[&[u8]] = &[
     b"\xA1\xB2\x3C\x4D",
 ];
 
-/// How many bytes an SII image has in front of its categories.
+/// Number of bytes of an SII image before its categories.
 const SII_HEADER_BYTES: usize = 128;
 
 fn is_sii(bytes: &[u8]) -> bool {
     let Some((configuration, rest)) = bytes.split_first_chunk::<SII_CONFIGURATION_BYTES>() else {
         return false;
     };
-    // A few zeros have a checksum too, but not one of zero.
+    // A few zeros also have a checksum, but it is not zero.
     bytes.len() >= SII_HEADER_BYTES
         && bytes.len().is_multiple_of(2)
         && rest.starts_with(&[sii_checksum(configuration), 0])

@@ -1,11 +1,11 @@
-//! What files that users write have in common: their text, what they are instead, their values with places, and their
-//! mistakes.
+//! The common part of reading user files: their text, their kind if it is the wrong one, their values with
+//! places, and their mistakes.
 //!
-//! [`read_toml`] walks through a TOML file: who reads it asks a [`Reader`] for keys and sections by the functions of
-//! [`values`], and everything that is wrong is collected on the way, with its place and the nearest name.
+//! [`read_toml`] reads a TOML file: its caller gets keys and sections from a [`Reader`] with the functions of
+//! [`values`]. All mistakes are collected on the way, with their places and the nearest names.
 //!
-//! A file can be anything: an ESI file, a program in another character set, 200 KB of keys that do not exist. This crate
-//! bounds what is said about it, in number and in length.
+//! A file can be anything: an ESI file, a program in another character set, 200 KB of unknown keys. This crate
+//! limits the messages about it, in number and in length.
 
 mod encoding;
 mod error;

@@ -1,18 +1,18 @@
-//! Values that know where they stand.
+//! Values with their places.
 
 use core::ops::Range;
 
-/// A value and where it stands in the file.
+/// A value and its place in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Located<T> {
     /// The value.
     pub value: T,
-    /// The bytes of the file that it was read from; none when it was left out.
+    /// The bytes of the file from which it was read; none if it was left out.
     pub span: Option<Range<usize>>,
 }
 
 impl<T> Located<T> {
-    /// A value that stands in the file.
+    /// A value with its place in the file.
     #[must_use]
     pub const fn at(span: Range<usize>, value: T) -> Self {
         Self { value, span: Some(span) }

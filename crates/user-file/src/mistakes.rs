@@ -1,6 +1,6 @@
-//! What is wrong with a file: the first places in full, the others as a number.
+//! The mistakes in a file: the first ones in full, the others as a number.
 
-/// How many mistakes of one file, or of one command, are told in full.
+/// The number of mistakes of one file, or of one command, that are reported in full.
 pub const MISTAKES_MAX: usize = 20;
 
 /// Keeps the first [`MISTAKES_MAX`] mistakes in the order of the file, and counts the rest.
@@ -18,7 +18,7 @@ impl<T> Default for Mistakes<T> {
 }
 
 impl<T> Mistakes<T> {
-    /// Notes a mistake at this byte. It is put into words only if it is among the first.
+    /// Notes a mistake at this byte. Its text is made only if it is among the first.
     pub fn note(&mut self, at: usize, mistake: impl FnOnce() -> T) {
         let place = self.kept.partition_point(|(known, _)| *known <= at);
         if place >= MISTAKES_MAX {
@@ -38,14 +38,14 @@ impl<T> Mistakes<T> {
         self.kept.is_empty()
     }
 
-    /// The first ones, and how many more there are.
+    /// The first ones, and the number of others.
     #[must_use]
     pub fn into_parts(self) -> (Vec<T>, usize) {
         (self.kept.into_iter().map(|(_, mistake)| mistake).collect(), self.more)
     }
 }
 
-/// The line behind the mistakes that are told; none if these are all.
+/// The line after the reported mistakes; none if these are all.
 #[must_use]
 pub fn and_more(count: usize) -> Option<String> {
     (count > 0).then(|| format!("and {count} more"))

@@ -1,4 +1,4 @@
-//! Walks through a TOML document and collects what is wrong on the way.
+//! Reads a TOML document and collects its mistakes.
 
 use core::ops::Range;
 
@@ -11,15 +11,14 @@ use crate::located::Located;
 use crate::mistakes::Mistakes;
 use crate::words::shown;
 
-/// A value as the TOML parser hands it out.
+/// A value as the TOML parser returns it.
 pub type Value<'i> = Spanned<DeValue<'i>>;
 
-/// Reads a TOML text of the wanted kind by `read`, which returns something only when it can; what was refused on the way
-/// wins.
+/// Reads a TOML text of the required kind with `read`, which returns a value only if it can; if anything was
+/// refused, the result is the errors.
 ///
 /// # Errors
-/// Everything that is wrong, in the order of the file. Of a text that is of another kind, or no TOML, nothing else is
-/// said.
+/// All mistakes, in the order of the file. For a text that is of another kind, or not TOML, only that is reported.
 pub fn read_toml<T>(
     text: &str,
     wanted: Wanted,
@@ -49,18 +48,18 @@ pub struct Reader<'t> {
 }
 
 impl Reader<'_> {
-    /// Notes what is wrong at `span`.
+    /// Notes a mistake at `span`.
     pub fn refuse(&mut self, span: Range<usize>, problem: Problem) {
         self.refuse_by(span, || problem);
     }
 
-    /// Notes what is wrong at `span`, in words that are found only if it is told.
+    /// Notes a mistake at `span`, with a text that is made only if the mistake is reported.
     pub fn refuse_by(&mut self, span: Range<usize>, problem: impl FnOnce() -> Problem) {
         let text = self.text;
         self.errors.note(span.start, || FileError::new(text, span, problem()));
     }
 
-    /// Refuses every key of `section` that is none of `keys`.
+    /// Refuses every key of `section` that is not in `keys`.
     pub fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
         for (key, _) in section.entries().into_iter().filter(|(key, _)| !keys.contains(&key.value)) {
             self.refuse_by(key.span.unwrap_or_default(), || {
@@ -70,7 +69,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The value of `key` by `read`; none when it is left out or refused.
+    /// The value of `key`, read with `read`; none if it is left out or refused.
     pub fn value<T>(
         &mut self,
         section: &Section<'_, '_>,
@@ -80,7 +79,7 @@ impl Reader<'_> {
         self.read(&section.place_of(key), section.get(key)?, read)
     }
 
-    /// `value` by `read`; none when it is refused.
+    /// `value`, read with `read`; none if it is refused.
     pub fn read<T>(
         &mut self,
         place: &str,
@@ -96,7 +95,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The table at `key`; none when it is left out, or no table.
+    /// The table at `key`; none if it is left out, or not a table.
     pub fn section<'d, 'i>(&mut self, parent: &Section<'d, 'i>, key: &str) -> Option<Section<'d, 'i>> {
         let value = parent.get(key)?;
         let place = parent.place_of(key);
@@ -109,7 +108,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Every element of the array `value` by `read`; those that are refused are left out.
+    /// Every element of the array `value`, read with `read`; refused elements are left out.
     pub fn array<T>(
         &mut self,
         place: &str,
@@ -122,7 +121,7 @@ impl Reader<'_> {
     }
 
     fn refuse_syntax(&mut self, error: &toml::de::Error) {
-        // The parser's text is a fragment already, with what it expected at its end.
+        // The parser's text is already a fragment, with the expected contents at its end.
         let message = error.message().replace('\n', ", ");
         let (message, expected) = message.split_once(", expected ").unwrap_or((&message, ""));
         let span = error.span().unwrap_or(0..0);
@@ -161,7 +160,7 @@ impl<'d, 'i> Section<'d, 'i> {
         entries.into_iter().map(|(key, value)| (located(key), value)).collect()
     }
 
-    /// `key` with the tables that it stands in.
+    /// `key` with the tables that contain it.
     pub fn place_of(&self, key: &str) -> String {
         match self.place.as_str() {
             "" => key.to_owned(),
@@ -175,7 +174,7 @@ impl<'d, 'i> Section<'d, 'i> {
     }
 }
 
-/// `value` has another type than `expected`.
+/// `value` has a type other than `expected`.
 pub fn wrong_type(place: &str, value: &DeValue<'_>, expected: &str) -> Problem {
     let found = match value {
         DeValue::String(_) => "a string",

@@ -1,11 +1,11 @@
-//! What can be seen of a file at a glance.
+//! The features of a file that are visible in its first bytes.
 
 use std::borrow::Cow;
 
-/// How far into a file a look goes.
+/// Number of bytes that are examined.
 const HEAD_BYTES: usize = 16 * 1024;
 
-/// A file as far as its kind can be seen by it.
+/// The part of a file that identifies its kind.
 pub(crate) struct Sample<'f> {
     pub(crate) bytes: &'f [u8],
     /// The ending of its name in small letters; empty if it has none.
@@ -22,7 +22,7 @@ impl<'f> Sample<'f> {
         Self { bytes, ending: ending.unwrap_or_default(), head }
     }
 
-    /// The first tag of an XML document, from its name on; none if this is no such document.
+    /// The first tag of an XML document, from its name on; none if this is not such a document.
     pub(crate) fn root(&self) -> Option<&str> {
         let mut rest = self.start();
         loop {
@@ -44,7 +44,7 @@ impl<'f> Sample<'f> {
         name.is_some_and(|name| name.rsplit(':').next() == Some(element))
     }
 
-    /// Its text from the first character that is no blank on.
+    /// Its text from the first character that is not blank.
     pub(crate) fn start(&self) -> &str {
         self.head.trim_start_matches('\u{feff}').trim_start()
     }

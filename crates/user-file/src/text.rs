@@ -4,13 +4,13 @@ use crate::encoding;
 use crate::kind::{Refusal, Wanted, of_another_kind};
 use crate::line_and_column;
 
-/// The mark in front of a text that some editors write.
+/// The mark before a text that some editors write.
 const BYTE_ORDER_MARK: char = '\u{feff}';
 
 /// The text of the file of this name.
 ///
 /// # Errors
-/// The file is of another kind than is wanted, or its text is not in UTF-8: what it is, and what helps.
+/// The file is of another kind than required, or its text is not UTF-8: reports the kind, and the remedy.
 pub fn text(bytes: Vec<u8>, name: &str, wanted: Wanted) -> Result<String, Refusal> {
     if let Some(refusal) = of_another_kind(&bytes, name, wanted) {
         return Err(refusal);
@@ -35,7 +35,7 @@ fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
     not_utf8_but(encoding::guessed(bytes), &format!(": byte 0x{byte:02X} in line {line}"))
 }
 
-/// Refuses a text in another character set, which is perhaps known.
+/// Refuses a text in another character set, and names the set if it is known.
 fn not_utf8_but(encoding: Option<&str>, place: &str) -> Refusal {
     match encoding {
         Some(encoding) => Refusal::new(
@@ -46,7 +46,7 @@ fn not_utf8_but(encoding: Option<&str>, place: &str) -> Refusal {
     }
 }
 
-/// No text in UTF-8 has a byte 0.
+/// A text in UTF-8 has no byte 0.
 fn with_zeros(bytes: &[u8], wanted: Wanted) -> Refusal {
     match utf_16_without_mark(bytes) {
         Some(encoding) => not_utf8_but(Some(encoding), ""),
@@ -54,8 +54,8 @@ fn with_zeros(bytes: &[u8], wanted: Wanted) -> Refusal {
     }
 }
 
-/// The order of the bytes in a text in UTF-16 that has no byte order mark: all of it are characters of a text, and a
-/// third of them at least ASCII.
+/// The byte order of a text in UTF-16 without byte order mark: all its code units are characters of a text, and
+/// at least a third of them are ASCII.
 fn utf_16_without_mark(bytes: &[u8]) -> Option<&'static str> {
     let is_text = |unit_of: fn([u8; 2]) -> u16| {
         let (units, rest) = bytes.as_chunks::<2>();

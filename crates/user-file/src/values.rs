@@ -14,10 +14,10 @@ use crate::words::shown;
 /// Longest name of a variable on a CPU Unit.
 const NAME_MAX_LENGTH: usize = 127;
 
-/// An integer from `range`; `expected` names the range.
+/// An integer in `range`; `expected` describes the range.
 ///
 /// # Errors
-/// It is none, or beyond the range.
+/// It is not an integer, or out of range.
 pub fn integer<T: TryFrom<u64>>(
     place: &str,
     value: &DeValue<'_>,
@@ -40,18 +40,18 @@ pub fn truth(place: &str, value: &DeValue<'_>) -> Result<bool, Problem> {
     value.as_bool().ok_or_else(|| wrong_type(place, value, "true or false"))
 }
 
-/// A text; `expected` says what it should hold.
+/// A text; `expected` describes the contents.
 ///
 /// # Errors
-/// It is none.
+/// It is not a text.
 pub fn text<'v>(place: &str, value: &'v DeValue<'_>, expected: &str) -> Result<&'v str, Problem> {
     value.as_str().ok_or_else(|| wrong_type(place, value, expected))
 }
 
-/// What `parse` makes of a text; `expected` says what it should hold.
+/// The result of `parse` for a text; `expected` describes the contents.
 ///
 /// # Errors
-/// It is no text, or `parse` makes nothing of it.
+/// It is not a text, or `parse` returns nothing.
 pub fn parsed<T>(
     place: &str,
     value: &DeValue<'_>,
@@ -65,7 +65,7 @@ pub fn parsed<T>(
 /// One of the words of `choices`.
 ///
 /// # Errors
-/// It is none of them.
+/// It is not one of them.
 pub fn choice<T: Copy>(place: &str, value: &DeValue<'_>, choices: &[(&str, T)]) -> Result<T, Problem> {
     let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
     let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
@@ -81,7 +81,7 @@ pub fn choice<T: Copy>(place: &str, value: &DeValue<'_>, choices: &[(&str, T)]) 
 /// An identifier of IEC 61131-3.
 ///
 /// # Errors
-/// It is none.
+/// It is not an identifier.
 pub fn identifier(place: &str, value: &DeValue<'_>) -> Result<String, Problem> {
     let expected =
         "an identifier: letters, digits and single underscores, no digit first, 127 characters at most";
@@ -95,10 +95,10 @@ fn is_identifier(name: &str) -> bool {
     letters && first && underscores && name.len() <= NAME_MAX_LENGTH
 }
 
-/// A duration such as `"1.5ms"`; `expected` says which are allowed.
+/// A duration such as `"1.5ms"`; `expected` describes the permitted ones.
 ///
 /// # Errors
-/// It is none, or not allowed.
+/// It is not a duration, or not permitted.
 pub fn duration(
     place: &str,
     value: &DeValue<'_>,
@@ -111,7 +111,7 @@ pub fn duration(
 /// The path of a file.
 ///
 /// # Errors
-/// It is none.
+/// It is not a path.
 pub fn path(place: &str, value: &DeValue<'_>) -> Result<PathBuf, Problem> {
     let is_path = |path: &str| !path.is_empty() && !path.contains('\0');
     parsed(place, value, "the path of a file", |path| is_path(path).then(|| PathBuf::from(path)))
@@ -136,7 +136,7 @@ pub fn paths(place: &str, value: &DeValue<'_>) -> Result<Vec<PathBuf>, Problem> 
 /// The index of an object.
 ///
 /// # Errors
-/// It is none.
+/// It is not an index.
 pub fn object_index(place: &str, value: &DeValue<'_>) -> Result<ObjectIndex, Problem> {
     integer(place, value, 0..=0xFFFF, "0x0000 to 0xFFFF").map(ObjectIndex)
 }
@@ -144,7 +144,7 @@ pub fn object_index(place: &str, value: &DeValue<'_>) -> Result<ObjectIndex, Pro
 /// An entry of an object as `"6000:01"`.
 ///
 /// # Errors
-/// It is none.
+/// It is not an entry.
 pub fn entry_address(place: &str, value: &DeValue<'_>) -> Result<EntryAddress, Problem> {
     parsed(place, value, "an entry, four and two hexadecimal digits: \"6000:01\"", |written| {
         let (index, sub) = written.split_once(':')?;
@@ -156,7 +156,7 @@ pub fn entry_address(place: &str, value: &DeValue<'_>) -> Result<EntryAddress, P
     })
 }
 
-/// The number that exactly `digits` hexadecimal digits stand for.
+/// The value of exactly `digits` hexadecimal digits.
 #[must_use]
 pub fn hexadecimal(text: &str, digits: usize) -> Option<u32> {
     let exact = text.len() == digits && text.bytes().all(|byte| byte.is_ascii_hexdigit());

@@ -1,9 +1,9 @@
-//! Text of a file inside a message: on one line, without control characters, and not too long.
+//! Text from a file in a message: on one line, without control characters, and not too long.
 
-/// How many characters of a text a message repeats.
+/// Maximum number of characters of a text in a message.
 const SHOWN_CHARACTERS: usize = 40;
 
-/// The head of a text, on one line.
+/// The start of a text, on one line.
 #[must_use]
 pub fn shown(text: &str) -> String {
     let mut characters = text.chars();
@@ -11,10 +11,10 @@ pub fn shown(text: &str) -> String {
     if characters.next().is_some() { format!("{head}...") } else { head }
 }
 
-/// Longest text that [`shortened`] leaves as it is.
+/// Longest text that [`shortened`] leaves unchanged.
 const WHOLE_BYTES_MAX: usize = 600;
 
-/// A message without its middle where that is long: what it quotes of a file may have no end.
+/// A message without its middle part if it is long: the text quoted from a file may have any length.
 #[must_use]
 pub fn shortened(message: String) -> String {
     if message.len() <= WHOLE_BYTES_MAX {
@@ -26,7 +26,7 @@ pub fn shortened(message: String) -> String {
     start + "…" + &end.into_iter().rev().collect::<String>()
 }
 
-/// The text with its control characters written out, so that a terminal does not obey them. Line ends stay.
+/// The text with its control characters escaped, so that a terminal does not interpret them. Line ends are kept.
 #[must_use]
 pub fn escaped(text: &str) -> String {
     let obeyed = |character: char| character.is_control() && character != '\n';
@@ -48,10 +48,10 @@ pub fn line_and_column(text: &str, byte: usize) -> (usize, usize) {
     (line, column)
 }
 
-/// The numbers of the lines of a text, found at once for many places.
+/// The line numbers of a text, found in one pass for many places.
 #[derive(Clone, Debug)]
 pub struct LineNumbers {
-    /// The byte of each end of a line.
+    /// The byte of each line end.
     ends: Vec<usize>,
 }
 

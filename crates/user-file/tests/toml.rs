@@ -1,4 +1,4 @@
-//! A TOML file is read key by key; what is wrong has a place, what was expected, and the nearest name.
+//! A TOML file is read key by key; a mistake has a place, the expected contents, and the nearest name.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -6,7 +6,7 @@ use time::Duration;
 use user_file::{FileErrors, Located, Reader, Section, Wanted, read_toml, values};
 use wire::{EntryAddress, ObjectIndex, SubIndex};
 
-/// A file of no model that is.
+/// A file that belongs to no existing model.
 #[derive(Debug, PartialEq)]
 struct Terminal {
     name: Located<String>,

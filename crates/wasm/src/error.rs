@@ -1,60 +1,60 @@
-//! Why a module is no user program.
+//! Why a module is not a user program.
 
 use core::fmt;
 
-/// Why a module is no user program.
+/// Why a module is not a user program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WasmError {
     /// The file is larger than a user program may be.
     TooLarge {
         /// Its length in bytes.
         size_bytes: usize,
-        /// The most that is taken.
+        /// The maximum.
         limit_bytes: usize,
     },
-    /// It is no module in binary form, or one that needs what is not offered, such as SIMD.
+    /// It is not a module in binary form, or it requires a feature that is not supported, such as SIMD.
     NotAModule {
-        /// What is wrong, as the reader of modules tells it.
+        /// The defect, as the parser of modules reports it.
         reason: String,
     },
-    /// It imports what the module `ectwin` does not have.
+    /// It imports something that the module `ectwin` does not have.
     UnknownImport {
-        /// The module that it names.
+        /// The imported module.
         module: String,
-        /// The name in it.
+        /// The imported name.
         name: String,
     },
     /// It imports a function of `ectwin` with other parameters or results.
     WrongImport {
         /// The function.
         name: &'static str,
-        /// What it takes and gives.
+        /// Its parameters and results.
         expected: &'static str,
     },
-    /// It does not export what a program has to.
+    /// It does not export what a program must export.
     MissingExport {
         /// The name.
         name: &'static str,
-        /// What has to be exported under it.
+        /// What must be exported under it.
         expected: &'static str,
     },
-    /// It exports something else under a name that means something here.
+    /// It exports something else under a name with a defined meaning.
     WrongExport {
         /// The name.
         name: &'static str,
-        /// What has to be exported under it.
+        /// What must be exported under it.
         expected: &'static str,
     },
-    /// It asks for more memory than a user program gets.
+    /// It requests more memory than a user program gets.
     MemoryTooLarge {
-        /// How much it begins with, in bytes.
+        /// Its initial memory in bytes.
         size_bytes: u64,
-        /// The most that it gets.
+        /// The maximum in bytes.
         limit_bytes: u64,
     },
-    /// It cannot be brought to its beginning: a data segment lies outside of its memory, its own start function fails.
+    /// It cannot be initialized: a data segment is outside its memory, or its own start function fails.
     CannotBegin {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! What a program sees of its CPU Unit: the variables that it has asked for, as the scan began, and the time.
+//! What a program sees of its CPU Unit: the variables that it has requested, as at the start of the scan, and the time.
 
 use core::fmt;
 
@@ -7,28 +7,28 @@ use plc::{DeviceVariables, Io, ProgramEvent, ProgramTrouble, VariableAccess, Var
 use time::Instant;
 use wasmi::{Memory, StoreLimits};
 
-/// Most reports of one scan; further ones are dropped.
+/// Maximum number of reports of one scan; further ones are dropped.
 pub const REPORTS_MAX: usize = 4;
 /// Longest text of a report in bytes; a longer one is cut.
 pub const REPORT_BYTES_MAX: usize = 200;
 
-/// Why a variable is not read or written. Its number is what the program gets.
+/// Why a variable cannot be read or written. The program gets the number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
     /// No variable was found under this number.
     NoSuchVariable = 1,
-    /// The array has no such element; what is no array has element 0 only.
+    /// The array has no such element; a variable that is not an array has only element 0.
     NoSuchElement = 2,
-    /// The I/O refresh gives it its value, not the program.
+    /// Its value is set by the I/O refresh, not by the program.
     ReadOnly = 3,
-    /// The value is not one of the type's.
+    /// The value is not a value of the type.
     DoesNotFit = 4,
-    /// The bytes are not as many as the variable has.
+    /// The number of bytes differs from the length of the variable.
     WrongLength = 5,
 }
 
 impl Refusal {
-    /// The number that the program gets.
+    /// The number for the program.
     #[must_use]
     pub const fn number(self) -> i32 {
         self as i32
@@ -47,30 +47,30 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// What the program does at the moment.
+/// The present phase of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
-    /// It is brought to its beginning, or starts: it may ask for variables.
+    /// It is being initialized or started: it may request variables.
     Start,
-    /// It scans: the variables that it uses are fixed.
+    /// It is executing a scan: the variables that it uses are fixed.
     Scan,
 }
 
-/// The CPU Unit, as long as a program runs on it.
+/// The CPU Unit, while a program runs on it.
 pub(crate) struct Host {
     pub(crate) limits: StoreLimits,
-    /// None until the module has been brought to its beginning.
+    /// None until the module has been initialized.
     pub(crate) memory: Option<Memory>,
     pub(crate) phase: Phase,
     variables: DeviceVariables,
     bindings: Vec<Binding>,
     reports: ArrayVec<String, REPORTS_MAX>,
     now_ns: u64,
-    /// Fuel of this scan that is not handed out yet.
+    /// Fuel of this scan that has not been assigned yet.
     pub(crate) fuel_reserve: u64,
 }
 
-/// A variable that the program has asked for. Its number is the place in the list.
+/// A variable that the program has requested. Its number is its position in the list.
 struct Binding {
     variable: VariableId,
     /// Length of the variable, or of one element.
@@ -83,7 +83,7 @@ struct Binding {
 
 impl Host {
     pub(crate) fn new(variables: DeviceVariables, limits: StoreLimits) -> Self {
-        // Each variable is asked for once at most, so that a scan allocates nothing here.
+        // Each variable is in the list once at most, so that a scan allocates nothing here.
         let bindings = Vec::with_capacity(variables.iter().len());
         let phase = Phase::Start;
         let reports = ArrayVec::new();
@@ -101,22 +101,22 @@ impl Host {
         i32::try_from(number).ok()
     }
 
-    /// Takes in the variables, before a scan.
+    /// Reads the variables, before a scan.
     pub(crate) fn take_in(&mut self, io: &Io) {
         self.now_ns = io.now().saturating_since(Instant::ZERO).as_nanos();
         for binding in &mut self.bindings {
             binding.is_written = false;
-            // The ids are of this CPU Unit's own variables.
+            // The identifiers belong to the variables of this CPU Unit.
             if let Ok(value) = io.read(binding.variable) {
                 binding.value = value;
             }
         }
     }
 
-    /// Gives out what has been written, and tells what has been reported.
+    /// Writes the changed variables, and passes on the reports.
     pub(crate) fn give_out(&mut self, io: &mut Io) {
         for binding in self.bindings.iter().filter(|binding| binding.is_written) {
-            // It has been checked when it was written.
+            // It was checked when it was written.
             let _ = io.write(binding.variable, &binding.value);
         }
         for text in self.reports.drain(..) {
@@ -174,7 +174,7 @@ impl Host {
         Ok(())
     }
 
-    /// Keeps a report until the scan ends. What is no letter for a log becomes a blank.
+    /// Keeps a report until the scan ends. A character that is not suitable for a log becomes a blank.
     pub(crate) fn report(&mut self, text: &[u8]) {
         if !self.reports.is_full() {
             let text = String::from_utf8_lossy(text.get(..REPORT_BYTES_MAX).unwrap_or(text));

@@ -1,4 +1,4 @@
-//! A module that has been read and checked: what instances are made of.
+//! A module that has been read and checked: the source of instances.
 
 use plc::DeviceVariables;
 use wasmi::{Config, Engine, ExternType, FuncType, Linker, Module, Store, StoreLimitsBuilder, ValType};
@@ -9,20 +9,20 @@ use crate::imports::{self, IMPORTS};
 
 /// Largest module in bytes.
 pub const MODULE_BYTES_MAX: usize = 4 << 20;
-/// Most memory that a program gets, in bytes; `memory.grow` beyond it gives -1.
+/// Maximum memory of a program, in bytes; `memory.grow` beyond it returns -1.
 pub const MEMORY_BYTES_MAX: usize = 16 << 20;
-/// Most elements of a table.
+/// Maximum number of elements of a table.
 pub const TABLE_ELEMENTS_MAX: usize = 10_000;
-/// Deepest calls inside calls.
+/// Maximum depth of nested calls.
 pub const RECURSION_MAX: usize = 1_000;
 
-/// Most tables of a module.
+/// Maximum number of tables of a module.
 const TABLES_MAX: usize = 4;
 const PAGE_BYTES: u64 = 1 << 16;
 const FUNCTION: &str = "a function without parameters and results";
 const MEMORY: &str = "a memory";
 
-/// A module that can be brought to its beginning, again and again.
+/// A module that can be initialized repeatedly.
 pub(crate) struct Image {
     engine: Engine,
     module: Module,
@@ -117,7 +117,7 @@ impl Image {
     }
 }
 
-/// What a program may do. Everything is compiled when it is loaded, so that no scan waits for that.
+/// The permitted features. Everything is compiled when it is loaded, so that no scan waits for that.
 fn config() -> Config {
     let mut config = Config::default();
     config

@@ -1,4 +1,4 @@
-//! The module `ectwin`: what a program may call.
+//! The module `ectwin`: the functions that a program may call.
 
 use wasmi::ValType::{I32, I64};
 use wasmi::errors::LinkerError;
@@ -9,9 +9,9 @@ use crate::host::{Host, Phase, Refusal};
 /// Name of the module.
 pub(crate) const MODULE: &str = "ectwin";
 
-/// What a call costs besides its instructions, in fuel: about as much as instructions that take as long.
+/// Cost of a call in addition to its instructions, in fuel: about as much as instructions that take the same time.
 const CALL_FUEL: u64 = 40;
-/// What it costs to look a name up.
+/// Cost of looking up a name.
 const LOOK_UP_FUEL: u64 = 4_000;
 /// Longest name that is looked up, in bytes: longer than that of any variable.
 const NAME_BYTES_MAX: u32 = 512;
@@ -19,7 +19,7 @@ const NAME_BYTES_MAX: u32 = 512;
 /// A function of the module.
 pub(crate) struct Import {
     pub(crate) name: &'static str,
-    /// What it takes and gives, in words.
+    /// Its parameters and results, as text.
     pub(crate) signature: &'static str,
     pub(crate) takes: &'static [ValType],
     pub(crate) gives: &'static [ValType],
@@ -45,10 +45,10 @@ pub(crate) const IMPORTS: &[Import] = &[
     import("report", "(ptr: i32, len: i32)", &[I32, I32], &[]),
 ];
 
-/// The functions behind the names.
+/// The functions for the names.
 ///
 /// # Errors
-/// A name stands twice.
+/// A name occurs twice.
 pub(crate) fn linker(engine: &Engine) -> Result<Linker<Host>, LinkerError> {
     let mut linker = Linker::new(engine);
     linker
@@ -77,7 +77,7 @@ fn variable(mut caller: Caller<'_, Host>, start: u32, length_bytes: u32) -> Resu
 
 fn read(mut caller: Caller<'_, Host>, id: i32, element: u32) -> Result<i64, Error> {
     charge(&mut caller, CALL_FUEL)?;
-    // Each number may be a value, so there is none left to say that there is no value.
+    // Each number may be a value, so no number is left to indicate that there is no value.
     let refused = |refusal: Refusal| Error::new(format!("read({id}, {element}): {refusal}"));
     caller.data().read(id, element).map_err(refused)
 }
@@ -135,10 +135,10 @@ fn memory<'a>(
     part.map(|part| (part, host))
 }
 
-/// Takes fuel for what the host does.
+/// Consumes fuel for the work of the host.
 fn charge(caller: &mut Caller<'_, Host>, fuel: u64) -> Result<(), Error> {
     let share = caller.get_fuel()?;
-    // What the present share lacks is taken from the reserve.
+    // Fuel missing in the present share is taken from the reserve.
     let borrowed = fuel.saturating_sub(share).min(caller.data().fuel_reserve);
     caller.data_mut().fuel_reserve -= borrowed;
     let left = share + borrowed;

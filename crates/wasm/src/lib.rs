@@ -1,9 +1,9 @@
 //! User programs in WebAssembly on the device variables of a CPU Unit.
 //!
-//! A [`WasmProgram`] is a [`plc::Program`]. Its module exports `scan`, its `memory` and, if it likes, `start`; all
-//! that it sees of the world are the functions of the module `ectwin`, and docs/user/wasm-programs.md tells them.
-//! It cannot ask a clock or dice, its NaNs are canonical, and its scans are counted in instructions: the same inputs
-//! give the same outputs on every machine.
+//! A [`WasmProgram`] is a [`plc::Program`]. Its module exports `scan`, its `memory` and, optionally, `start`;
+//! its only access to the outside is the functions of the module `ectwin`, which docs/user/wasm-programs.md
+//! describes. It has no clock and no random generator, its NaNs are canonical, and its scans are counted in
+//! instructions: the same inputs give the same outputs on every machine.
 
 mod error;
 mod host;

@@ -7,17 +7,18 @@ use crate::error::WasmError;
 use crate::image::Image;
 use crate::running::Running;
 
-/// How much fuel a statement of the budget is: so many instructions of WebAssembly, about what a statement of
-/// Structured Text takes. A call of a function of `ectwin` costs 40 besides, `variable` 4,000, and bulk operations by
-/// their bytes.
+/// Fuel for one statement of the budget: this number of instructions of WebAssembly, about as many as a
+/// statement of Structured Text takes. A call of a function of `ectwin` costs 40 in addition, `variable` 4,000,
+/// and bulk operations according to their number of bytes.
 pub const FUEL_PER_STATEMENT: u64 = 10;
 
 /// A user program in WebAssembly.
 ///
-/// When the CPU Unit begins RUN mode, the program begins too: its memory is as the module has it, and `start` is called.
-/// Before each scan it takes in the variables that it has asked for, and behind it gives out those that it has written.
-/// A scan that goes wrong ends there: what it has written stays, the CPU Unit reports it, and the next task period
-/// begins a new one with the memory as it was left.
+/// When the CPU Unit enters RUN mode, the program starts too: its memory has the initial contents of the
+/// module, and `start` is called. Before each scan the program reads the variables that it has requested, and
+/// after the scan it writes those that it has changed. A scan that fails ends there: what it has written is
+/// kept, the CPU Unit reports the failure, and the next task period starts a new scan with the memory as it was
+/// left.
 pub struct WasmProgram {
     image: Image,
     variables: DeviceVariables,
@@ -33,12 +34,12 @@ impl WasmProgram {
     pub fn load(octets: &[u8], variables: &DeviceVariables) -> Result<Self, WasmError> {
         let image = Image::read(octets)?;
         let budget_statements = STATEMENT_BUDGET_DEFAULT;
-        // What cannot begin is told now, and not when the CPU Unit goes to RUN mode.
+        // An error in the initialization is reported now, and not when the CPU Unit enters RUN mode.
         Running::begin(&image, variables.clone(), fuel(budget_statements))?;
         Ok(Self { image, variables: variables.clone(), running: None, budget_statements })
     }
 
-    /// Lets a scan run for so many statements at most, from 1; one is [`FUEL_PER_STATEMENT`] instructions.
+    /// Sets the maximum number of statements of a scan, from 1; one is [`FUEL_PER_STATEMENT`] instructions.
     #[must_use]
     pub const fn with_budget(mut self, statements: u64) -> Self {
         self.budget_statements = statements;

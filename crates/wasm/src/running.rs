@@ -7,9 +7,9 @@ use crate::error::WasmError;
 use crate::host::{Host, Phase};
 use crate::image::Image;
 
-/// Where compilers keep the end of the stack that they lay out in memory.
+/// The global in which compilers keep the stack pointer of the stack in memory.
 const STACK_POINTER: &str = "__stack_pointer";
-/// How much fuel is used up before the CPU Unit is asked whether the scan is to end: some milliseconds.
+/// Amount of fuel after which the CPU Unit is asked whether the scan must end: some milliseconds.
 const SHARE_OF_FUEL: u64 = 1 << 20;
 
 /// A program in operation.
@@ -18,12 +18,13 @@ pub(crate) struct Running {
     instance: Instance,
     start: Option<TypedFunc<(), ()>>,
     scan: TypedFunc<(), ()>,
-    /// Where it is exported: the global and its value between scans.
+    /// If it is exported: the global and its value between scans.
     stack_pointer: Option<(Global, Val)>,
 }
 
 impl Running {
-    /// Brings a module to its beginning: memory and globals as it has them, and its own start function done.
+    /// Initializes a module: memory and globals have their initial contents, and its own start function has
+    /// been executed.
     pub(crate) fn begin(image: &Image, variables: DeviceVariables, fuel: u64) -> Result<Self, WasmError> {
         Self::instantiate(image, variables, fuel)
             .map_err(|error| WasmError::CannotBegin { reason: error.to_string() })
@@ -34,7 +35,7 @@ impl Running {
         store.set_fuel(fuel)?;
         let instance = image.linker().instantiate_and_start(&mut store, image.module())?;
         store.data_mut().memory = instance.get_memory(&store, "memory");
-        // The image has been checked: what is there has this type.
+        // The image has been checked: an existing export has this type.
         let start = instance.get_typed_func(&store, "start").ok();
         let scan = instance.get_typed_func(&store, "scan")?;
         let stack_pointer = instance.get_global(&store, STACK_POINTER);
@@ -77,7 +78,7 @@ impl Running {
         result
     }
 
-    /// Calls a function with so much fuel, in shares. A scan that is to end ends where a share does.
+    /// Calls a function with this amount of fuel, in shares. A scan that must end is ended at the end of a share.
     fn call(&mut self, function: TypedFunc<(), ()>, io: &Io, fuel: u64) -> Result<(), Error> {
         self.fill_up(fuel, 0)?;
         let mut call = function.call_resumable(&mut self.store, ())?;
@@ -97,14 +98,14 @@ impl Running {
         }
     }
 
-    /// Hands out the next share of `fuel`, at least `required`; the rest is kept for later shares.
+    /// Assigns the next share of `fuel`, at least `required`; the rest is kept for later shares.
     fn fill_up(&mut self, fuel: u64, required: u64) -> Result<(), Error> {
         let share = SHARE_OF_FUEL.max(required).min(fuel);
         self.store.data_mut().fuel_reserve = fuel - share;
         self.store.set_fuel(share)
     }
 
-    /// A scan that is broken off leaves its stack in use: scan after scan there would be less of it.
+    /// A scan that is aborted leaves its stack in use: without this, less of it would be left after every scan.
     fn give_back_stack(&mut self) {
         if let Some((global, value)) = &self.stack_pointer {
             // It is mutable, and the value is its own.
@@ -113,7 +114,7 @@ impl Running {
     }
 }
 
-/// An error of the host as one of our own: a suspended call only lends it.
+/// Converts an error of the host into an owned one: a suspended call only lends it.
 fn again(error: &Error) -> Error {
     error.as_trap_code().map_or_else(|| Error::new(error.to_string()), Error::from)
 }

@@ -1,4 +1,4 @@
-//! After its start a program allocates nothing, as nothing of the CPU Unit does.
+//! After its start a program allocates nothing, like the whole CPU Unit.
 
 use nx_ect101::IoAllocation;
 use nx_ect101::nx_bus::connect;

@@ -1,4 +1,4 @@
-//! A line of terminals, and the moves of a master that knows only their SII.
+//! A line of terminals, and the operations of a master that uses only their SII.
 
 use device::{Network, SmIndex, Unit};
 use digital::{BitImages, Channels, Terminal, TerminalSettings, device_config};
@@ -27,7 +27,7 @@ impl Bench<Terminal<BitImages>> {
         Self::around(Network::power_on(powered, Instant::ZERO))
     }
 
-    /// One terminal that a master has taken to OP; its outputs are at logical address 0, its inputs behind them.
+    /// One terminal that a master has taken to OP; its outputs are at logical address 0, its inputs follow.
     pub(crate) fn in_op(settings: &TerminalSettings) -> Self {
         let mut bench = Self::of(core::slice::from_ref(settings));
         bench.set_up(0, 0);
@@ -100,7 +100,7 @@ impl<U: Unit> Bench<U> {
         (returned.data, returned.working_counter)
     }
 
-    /// The SII as the wire reads it, four bytes at a time.
+    /// The SII as the master reads it, four bytes at a time.
     pub(crate) fn sii(&mut self, position: u16) -> Vec<u8> {
         let mut image: Vec<u8> = Vec::new();
         while image.len() < 4_096 {
@@ -112,8 +112,8 @@ impl<U: Unit> Bench<U> {
         image
     }
 
-    /// Sets SyncManagers and FMMUs by the SII, the bits of the terminal from `first_bit` of the logical addresses on.
-    /// The bits behind them.
+    /// Sets SyncManagers and FMMUs from the SII, with the bits of the terminal from `first_bit` of the logical
+    /// addresses on. Returns the bit after them.
     pub(crate) fn set_up(&mut self, position: u16, first_bit: u32) -> u32 {
         let image = self.sii(position);
         let contents = esi::sii::parse(&image).expect("a readable SII");
@@ -148,7 +148,7 @@ impl<U: Unit> Bench<U> {
         assert_eq!(self.write(position, 0x0600 + 16 * n, &fmmu), 1);
     }
 
-    /// Lets time pass, stopping at every deadline.
+    /// Advances the time, with a poll at every deadline.
     pub(crate) fn run_for(&mut self, duration: Duration) {
         let end = self.now + duration;
         while self.network.deadline() <= end {

@@ -1,4 +1,4 @@
-//! What a terminal says of itself: SII, ESI, registers.
+//! The description of a terminal: SII, ESI, registers.
 
 use digital::{Channels, Ports, TerminalSettings, VENDOR_ID, description, device_config};
 use esi::PortPhysics::{Mii, Unused};

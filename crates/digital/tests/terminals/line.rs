@@ -1,4 +1,4 @@
-//! A line of coupler, 8 outputs, 8 inputs and 16 inputs, held as units of any model.
+//! A line of coupler, 8 outputs, 8 inputs and 16 inputs, stored as units of any model.
 
 use device::{Network, Unit};
 use digital::{BitImages, Terminal, TerminalSettings, Wiring, device_config};
@@ -7,7 +7,7 @@ use time::{Duration, Instant};
 
 use crate::bench::{Bench, terminal};
 
-/// Wiring that a test keeps hold of.
+/// Wiring to which a test keeps a handle.
 #[derive(Clone, Default)]
 struct Shared(Arc<Mutex<BitImages>>);
 
@@ -27,7 +27,7 @@ impl Wiring for Shared {
     }
 }
 
-/// A line of units of any model, and what is wired to each.
+/// A line of units of any model, with the wiring of each.
 fn line<const N: usize>(settings: [TerminalSettings; N]) -> (Bench<Box<dyn Unit>>, [Shared; N]) {
     let wirings = [(); N].map(|()| Shared::default());
     let powered = settings.iter().zip(&wirings).map(|(settings, wiring)| {
@@ -37,7 +37,7 @@ fn line<const N: usize>(settings: [TerminalSettings; N]) -> (Bench<Box<dyn Unit>
     (Bench::around(Network::power_on(powered, Instant::ZERO)), wirings)
 }
 
-/// The bits of all units, one behind the other.
+/// The bits of all units, one after the other.
 fn to_op(bench: &mut Bench<Box<dyn Unit>>) -> u32 {
     let stations = u16::try_from(bench.network.len()).expect("a short line");
     let bits = (0..stations).fold(0, |at_bit, position| bench.set_up(position, at_bit));
@@ -62,7 +62,7 @@ fn a_line_of_terminals_exchanges_its_bits() {
     assert_eq!(outputs.images().outputs, 0xA5);
 }
 
-/// Four terminals in two bytes: each has its bits of them, and leaves those of the others.
+/// Four terminals in two bytes: each has its bits of them, and leaves those of the others unchanged.
 #[test]
 fn terminals_share_a_byte_of_logical_memory() {
     let (mut bench, [a, b, c, d]) = line([terminal(4, 0), terminal(2, 0), terminal(0, 3), terminal(1, 2)]);
@@ -81,7 +81,7 @@ fn terminals_share_a_byte_of_logical_memory() {
     assert_eq!(levels, [0b0110, 0b01, 0b0]);
 }
 
-/// A terminal that is cut off ends the line before it.
+/// The line ends before a terminal that is cut off.
 #[test]
 fn a_terminal_without_power_ends_the_line() {
     let (mut bench, [_, outputs, _]) = line([terminal(0, 0), terminal(8, 0), terminal(8, 0)]);

@@ -1,4 +1,4 @@
-//! Levels between the wire and the wiring.
+//! Levels between frames and the wiring.
 
 use proptest::prelude::*;
 use time::Duration;
@@ -52,7 +52,7 @@ fn an_esc_reset_switches_the_outputs_off() {
     assert_eq!(bench.wiring(0).outputs, 0);
 }
 
-/// With a timer of its own a terminal polls for inputs only.
+/// With its own timer a terminal polls only for inputs.
 #[test]
 fn a_terminal_without_inputs_sleeps_until_its_watchdog() {
     let mut bench = Bench::in_op(&terminal(8, 0));
@@ -62,7 +62,7 @@ fn a_terminal_without_inputs_sleeps_until_its_watchdog() {
 }
 
 proptest! {
-    /// Whatever a terminal has, each channel is its bit, both ways.
+    /// For all numbers of channels, each channel is its bit, in both directions.
     #[test]
     fn every_channel_is_its_own(outputs in 1..=64u8, inputs in 1..=64u8, levels: u64, wired: u64) {
         let mut bench = Bench::in_op(&terminal(outputs, inputs));

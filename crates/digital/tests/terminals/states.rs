@@ -68,7 +68,7 @@ fn there_is_no_boot() {
     assert_eq!(bench.status(0), (0x11, 0x13));
 }
 
-/// It has no processor that could follow SYNC0.
+/// It has no processor that supports SYNC0.
 #[test]
 fn dc_activation_is_refused() {
     let mut bench = Bench::of(&[terminal(8, 0)]);
@@ -79,7 +79,7 @@ fn dc_activation_is_refused() {
     assert_eq!(bench.status(0), (0x12, 0x30));
 }
 
-/// A terminal without a processor waits for nothing, unless it is told to.
+/// A terminal without a processor does not wait for outputs, unless configured to do so.
 #[test]
 fn op_comes_without_outputs_unless_they_are_required() {
     let mut bench = Bench::in_op(&terminal(8, 0));

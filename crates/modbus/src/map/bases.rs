@@ -1,4 +1,4 @@
-//! Where each kind of variable begins.
+//! The first address of each kind of variable.
 
 /// First register of the entries UINTs: entry `n`, counted from 1, begins at `(n - 1) * 15`.
 pub const UINTS_BASE: u16 = 0;
@@ -9,9 +9,9 @@ pub const UDINT_BASE: u16 = 2000;
 /// Input register of EtherCAT Slave Status.
 pub const SLAVE_STATUS: u16 = 3000;
 
-/// Added to a holding register: writing there forces the output.
+/// Added to the address of a holding register: writing there forces the output.
 pub const FORCED_C_TO_M_BASE: u16 = 10_000;
-/// Added to an input register: the holding register there forces the input.
+/// Added to the address of an input register: the holding register there forces the input.
 pub const FORCED_M_TO_C_BASE: u16 = 20_000;
 
 /// Discrete input of bit 0 of EtherCAT Slave Status; bit 15 is the last.

@@ -1,4 +1,4 @@
-//! The map for people: a row for each variable.
+//! The map for display: a row for each variable.
 
 use core::ops::RangeInclusive;
 
@@ -16,11 +16,11 @@ use super::table::Table;
 pub struct MapRow {
     /// The variable.
     pub variable: VariableId,
-    /// Where it is read, and written if it is an output.
+    /// The table in which it is read, and written if it is an output.
     pub table: Table,
     /// Its addresses there.
     pub addresses: RangeInclusive<u16>,
-    /// Where an I/O entry is forced by holding registers, and found forced and released by coils of the same numbers.
+    /// The holding registers that force an I/O entry; the coils with the same numbers show and release the forcing.
     pub forced: Option<RangeInclusive<u16>>,
 }
 
@@ -29,7 +29,7 @@ pub(super) fn of(variables: &DeviceVariables) -> Vec<MapRow> {
     variables.iter().filter_map(|(id, variable)| row(id, variable.source)).collect()
 }
 
-/// First register of an entry, without what is added to it; none if the data set has no such entry.
+/// First register of an entry, without an offset; none if the data set has no such entry.
 pub(super) fn entry_address(kind: DataSetKind, number: u8) -> Option<u16> {
     let base = match kind {
         DataSetKind::Uints => UINTS_BASE,

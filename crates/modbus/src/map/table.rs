@@ -1,20 +1,20 @@
-//! The tables in which addresses count.
+//! The tables of addresses.
 
 /// One of the four tables of Modbus (application protocol, 4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Table {
-    /// Bits that are read and written.
+    /// Bits that can be read and written.
     Coils,
-    /// Bits that are read.
+    /// Bits that can be read.
     DiscreteInputs,
-    /// Registers of 16 bits that are read.
+    /// Registers of 16 bits that can be read.
     InputRegisters,
-    /// Registers of 16 bits that are read and written.
+    /// Registers of 16 bits that can be read and written.
     HoldingRegisters,
 }
 
 impl Table {
-    /// Its name for programs.
+    /// Its name in data for programs.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {

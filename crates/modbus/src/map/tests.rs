@@ -1,4 +1,4 @@
-//! The map is total, without doubles, and does not move.
+//! The map is complete, without duplicates, and fixed.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ fn counts() -> impl Strategy<Value = [[u8; 3]; 2]> {
     most().map(|counts| counts.map(|most| 0..=most))
 }
 
-/// What each address of the map means, by name.
+/// The meaning of each address of the map, by name.
 fn meanings(variables: &DeviceVariables) -> BTreeMap<(&'static str, u16), String> {
     let map = ModbusMap::of(variables);
     let name = |target: Target| {

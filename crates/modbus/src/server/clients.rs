@@ -1,4 +1,4 @@
-//! The clients that are connected.
+//! The connected clients.
 
 use std::fmt::{self, Display, Formatter};
 use std::net::SocketAddr;
@@ -18,7 +18,7 @@ pub const CONNECTIONS_MAX: usize = 16;
 pub(super) struct Clients {
     units: Arc<[Unit]>,
     places: Vec<Place>,
-    /// Counts connections and requests of all clients: the greater the number, the shorter ago.
+    /// Counts connections and requests of all clients: a greater number is more recent.
     count: Arc<AtomicU64>,
 }
 
@@ -31,14 +31,14 @@ struct Place {
     task: JoinHandle<()>,
 }
 
-/// Numbers of connections and requests are greater.
+/// Numbers of connections and requests are always greater than this.
 const NEVER: u64 = 0;
 
-/// A client that has lost its place to another one.
+/// A client that was replaced by another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Closed {
     pub(super) client: SocketAddr,
-    /// Whether it has sent a request, at any time.
+    /// Whether it has ever sent a request.
     pub(super) has_requested: bool,
 }
 
@@ -54,10 +54,10 @@ impl Clients {
         Self { units, places: Vec::with_capacity(CONNECTIONS_MAX), count: Arc::default() }
     }
 
-    /// Takes a client in. Returns the one that has lost its place to it, if there was no other place.
+    /// Admits a client. Returns the client that it has replaced, if there was no free place.
     pub(super) async fn admit(&mut self, stream: TcpStream, client: SocketAddr) -> Option<Closed> {
         if self.is_full() {
-            // Requests that have arrived count, also those of clients that came a moment ago in one burst with this one.
+            // Requests that have arrived count, including those of clients that have just arrived in the same burst.
             yield_now().await;
         }
         let closed = if self.is_full() { self.close_one().await } else { None };
@@ -132,7 +132,7 @@ mod tests {
         runtime.block_on(async {
             let listener = TcpListener::bind(("127.0.0.1", 0)).await.unwrap();
             let address = listener.local_addr().unwrap();
-            // All of them wait to be accepted, one behind the other; no task runs between two of them.
+            // All of them wait to be accepted, one after the other; no task runs between two of them.
             let connect = |_| std::net::TcpStream::connect(address).unwrap();
             let mut burst: Vec<_> = (0..=CONNECTIONS_MAX).map(connect).collect();
             burst[0].write_all(&[0, 1, 0, 0, 0, 6, 1, 3, 0, 0, 0, 1]).unwrap();

@@ -1,4 +1,4 @@
-//! What a user has to know of clients without a place: at once, then once a second with a count.
+//! Notices to the user about clients without a place: immediately, then once a second with a count.
 
 use std::future::pending;
 use std::mem;
@@ -9,10 +9,10 @@ use tokio::time::{Instant, sleep_until};
 
 use super::clients::{CONNECTIONS_MAX, Closed};
 
-/// From one line of a log to the next of its kind.
+/// Time between two log lines of the same kind.
 const PERIOD: Duration = Duration::from_secs(1);
 
-/// Something that happened.
+/// An event to report.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Notice {
     /// A client was closed in favour of another one.
@@ -35,12 +35,12 @@ pub(super) struct Notices {
 struct Kind {
     newest: Option<Notice>,
     count: u64,
-    /// Nothing is reported before; none: nothing was reported yet.
+    /// Nothing is reported before this time; none: nothing was reported yet.
     not_before: Option<Instant>,
 }
 
 impl Notices {
-    /// Reports it now, or with those that happen within the second.
+    /// Reports it now, or together with those that occur within the second.
     pub(super) fn add(&mut self, notice: Notice) {
         let kind = &mut self.kinds[notice.kind()];
         kind.newest = Some(notice);
@@ -48,7 +48,7 @@ impl Notices {
         self.report();
     }
 
-    /// Waits until something is to be reported; for ever if there is nothing.
+    /// Waits until there is a notice to report; without end if there is none.
     pub(super) async fn due(&self) {
         match self.kinds.iter().filter_map(Kind::due).min() {
             Some(at) => sleep_until(at).await,
@@ -56,7 +56,7 @@ impl Notices {
         }
     }
 
-    /// Reports what is due.
+    /// Reports the pending notices.
     pub(super) fn report(&mut self) {
         let now = Instant::now();
         for line in self.kinds.iter_mut().filter_map(|kind| kind.take(now)) {

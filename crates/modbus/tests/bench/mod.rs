@@ -1,4 +1,4 @@
-//! A CPU Unit that runs without rest on a thread, a server at a free port, and clients.
+//! A CPU Unit that runs continuously on a thread, a server at a free port, and clients.
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -55,7 +55,7 @@ impl Bench {
         Self { server, unit: Mutex::new(unit), m_to_c_bytes, shared, cpu_thread }
     }
 
-    /// Runs a test, and ends everything.
+    /// Runs a test, and then ends everything.
     pub(crate) fn run(self, test: impl AsyncFnOnce(&Self)) {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
         runtime.block_on(test(&self));
@@ -69,7 +69,7 @@ impl Bench {
         tcp::connect_slave(self.address(), Slave(unit_identifier)).await.unwrap()
     }
 
-    /// The unit sends data M to C, which are there when this returns.
+    /// The unit sends data M to C; they have arrived when this returns.
     pub(crate) fn send(&self, fill: impl FnOnce(&mut UnitHeader, &mut [u8])) {
         let (mut header, mut image) = (UnitHeader::default(), vec![0; self.m_to_c_bytes]);
         fill(&mut header, &mut image);
@@ -80,7 +80,7 @@ impl Bench {
         }
     }
 
-    /// Waits for so many task periods.
+    /// Waits for this number of task periods.
     pub(crate) async fn cycles(&self, count: u64) {
         let before = self.shared.cycles.load(Ordering::Acquire);
         while self.shared.cycles.load(Ordering::Acquire) <= before + count {
@@ -88,7 +88,7 @@ impl Bench {
         }
     }
 
-    /// The bytes of a variable as the unit gets them.
+    /// The bytes of a variable as the unit receives them.
     pub(crate) async fn c_to_m(&self, name: &str) -> Vec<u8> {
         self.cycles(1).await;
         let cpu = self.shared.cpu.lock().unwrap();

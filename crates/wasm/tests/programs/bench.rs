@@ -60,7 +60,7 @@ impl Bench {
         Self::new(Box::new(program))
     }
 
-    /// The unit gives these UINTs of entry 1, and says whether they are valid.
+    /// The unit sends these UINTs of entry 1, and whether they are valid.
     pub(crate) fn give(&mut self, elements: [u16; 15], valid: bool) {
         let mut image = vec![0; self.cpu.io().m_to_c().len()];
         for (octets, element) in image.chunks_exact_mut(2).zip(elements) {
@@ -77,13 +77,13 @@ impl Bench {
         }
     }
 
-    /// What entry 1 C to M has behind the last scan.
+    /// The contents of entry 1 C to M after the last scan.
     pub(crate) fn outputs(&self) -> Vec<u16> {
         let octets = self.cpu.io().c_to_m()[..30].chunks_exact(2);
         octets.map(|octets| u16::from_le_bytes([octets[0], octets[1]])).collect()
     }
 
-    /// What the program has told, each with how often.
+    /// The reports of the program, each with its count.
     pub(crate) fn told(&mut self) -> Vec<(ProgramEvent, u64)> {
         let told = self.cpu.take_events().filter_map(|record| match record.event {
             CpuEvent::Program(event) => Some((event, record.count)),

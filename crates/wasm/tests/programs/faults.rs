@@ -1,4 +1,4 @@
-//! Programs that go wrong while they run: the CPU Unit goes on, and tells it.
+//! Programs that fail while they run: the CPU Unit continues, and reports it.
 
 use plc::ProgramEvent;
 use wasm::MEMORY_BYTES_MAX;
@@ -13,7 +13,7 @@ fn counts_and(then: &str) -> String {
     ))
 }
 
-/// What three scans tell; each of them has counted.
+/// The reports of three scans; each of them has counted.
 fn told_of(then: &str) -> Vec<(ProgramEvent, u64)> {
     let mut bench = Bench::with(&counts_and(then));
     bench.cycles(3);
@@ -43,7 +43,7 @@ fn an_endless_loop_is_a_task_overrun() {
     }
 }
 
-/// More fuel than is handed out at once, used up by instructions and by calls of the host.
+/// More fuel than is assigned at once, used up by instructions and by calls of the host.
 #[test]
 fn a_large_budget_is_used_up_whole() {
     let call = "(drop (call $read (i32.const 0) (i32.const 0)))";
@@ -150,7 +150,7 @@ fn a_broken_off_scan_gives_its_stack_back_where_the_pointer_is_exported() {
 
 #[test]
 fn no_number_is_like_another_machines_nan() {
-    // 0/0 with a sign of its own, and its bits as an output.
+    // 0/0 with an explicit sign, and its bits as an output.
     let text = scanning(
         "(drop (call $write (i32.const 1) (i32.const 0) (i64.extend_i32_u (i32.shr_u
             (i32.reinterpret_f32 (f32.div (f32.const -0) (f32.const 0))) (i32.const 16)))))",

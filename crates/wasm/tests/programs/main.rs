@@ -1,4 +1,4 @@
-//! Programs in WebAssembly on a CPU Unit: what they see, what stops them, and what is refused.
+//! Programs in WebAssembly on a CPU Unit: what they see, what ends them, and what is refused.
 
 mod bench;
 mod faults;

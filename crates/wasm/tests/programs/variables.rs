@@ -1,10 +1,10 @@
-//! What a program reads, writes and tells.
+//! What a program reads, writes and reports.
 
 use proptest::prelude::*;
 
 use crate::bench::{Bench, FIND, IMPORTS, scanning};
 
-/// The first element of what the master sends, as it stands behind one scan of this value.
+/// The first element that the master sends, after one scan with this value.
 fn first_output(value: &str) -> u16 {
     let mut bench =
         Bench::with(&scanning(&format!("(drop (call $write (i32.const 1) (i32.const 0) {value}))")));
@@ -14,7 +14,7 @@ fn first_output(value: &str) -> u16 {
     bench.outputs()[0]
 }
 
-/// The same of a function's result.
+/// The same for a function's result.
 fn result_of(call: &str) -> u16 {
     first_output(&format!("(i64.extend_i32_u (i32.and (i32.const 0xFFFF) {call}))"))
 }

@@ -1,4 +1,4 @@
-//! Modules that are refused when they are loaded, with words.
+//! Modules that are refused with a message when they are loaded.
 
 use proptest::prelude::*;
 use wasm::{MODULE_BYTES_MAX, WasmError, WasmProgram};
