@@ -2,7 +2,7 @@
 
 use crate::random::Random;
 
-/// Longest input that damage makes.
+/// Maximum length of an input after damage.
 const LONGEST: usize = 1 << 16;
 
 /// Damages bytes in one to four places.

@@ -1,7 +1,7 @@
 //! Captures: files of blocks of every kind in either byte order, and damaged ones.
 //!
-//! What is read is not longer than the file, and what is written of it is read the same; the frames of a master are
-//! replayed.
+//! The data read are not longer than the file, and reading them again after writing gives the same; the frames
+//! of a master are replayed.
 
 use capture::{Direction, NotACapture, Packet, PcapngWriter, packets, read_packets};
 use scenario::{RecordedFrames, Recording, Scenario};
@@ -28,7 +28,7 @@ pub(crate) const FUZZER: Fuzzer = Fuzzer {
     grains: &[Grain::Pairs, Grain::Bytes],
 };
 
-/// The scenario that replays a capture, and how long it does.
+/// The scenario that replays a capture, and its duration.
 const SCENARIO: &str = "title = \"a capture\"\ncapture = \"x.pcapng\"\nunits = [{ model = \"nx-ect101\", timing = \"fast\" }]\n\
     steps = [{ expect = \"the capture is replayed\", within = \"50ms\" }]\n";
 const REPLAYED: Duration = Duration::from_millis(50);
@@ -64,7 +64,7 @@ fn check(input: &[u8]) -> Checked {
     replayed(input, &read, broken.is_some())
 }
 
-/// A capture of the packets that say which way they went has them again.
+/// A capture of the packets that have a direction contains them again.
 fn written_again(read: &[Packet]) -> Result<(), String> {
     let told: Vec<&Packet> = read.iter().filter(|packet| packet.direction.is_some()).collect();
     let mut writer = PcapngWriter::new(Vec::new(), "fuzz").map_err(|error| error.to_string())?;
@@ -78,7 +78,7 @@ fn written_again(read: &[Packet]) -> Result<(), String> {
     if again.iter().eq(told) { Ok(()) } else { Err("what is written is not what is read".to_owned()) }
 }
 
-/// What can be replayed is, for a while.
+/// A capture that can be replayed is replayed for a while.
 fn replayed(input: &[u8], read: &[Packet], is_broken: bool) -> Checked {
     let frames = match RecordedFrames::read(input) {
         Ok(frames) => frames,
@@ -202,7 +202,7 @@ impl File {
     }
 }
 
-/// A frame of a master, or its answer, or anything.
+/// A frame of a master, or its answer, or any bytes.
 fn frame(random: &mut Random) -> Vec<u8> {
     if random.once_in(6) {
         let length = random.length(200);

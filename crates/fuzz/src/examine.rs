@@ -1,4 +1,4 @@
-//! Trying one input: what it came to, with what it took.
+//! Trying one input: its result and its cost.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
@@ -9,20 +9,20 @@ use allocation_counter::measure;
 
 use crate::fuzzer::{Checked, Fuzzer};
 
-/// How often a slow input is tried: a machine that is busy elsewhere is no finding.
+/// Number of tries for a slow input: a machine that is busy with other work is not a finding.
 const TRIES: usize = 3;
 
-/// What an input came to.
+/// The result of an input.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Examined {
-    /// What it is, or what did not hold.
+    /// The kind of the input, or the violated condition.
     pub checked: Checked,
     /// How long it took.
     pub took: Duration,
 }
 
 thread_local! {
-    /// What the last panic of this thread said.
+    /// The message of the last panic of this thread.
     static PANIC: RefCell<String> = const { RefCell::new(String::new()) };
 }
 
@@ -67,7 +67,7 @@ fn once(fuzzer: &Fuzzer, input: &[u8]) -> Examined {
     Examined { checked, took }
 }
 
-/// What `try_it` says; a panic in it is an error, and prints nothing.
+/// The result of `try_it`; a panic in it is an error, and prints nothing.
 pub(crate) fn without_panic<T>(try_it: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     HOOK.call_once(|| {
         panic::set_hook(Box::new(|panic| PANIC.with_borrow_mut(|said| *said = panic.to_string())));

@@ -1,6 +1,6 @@
-//! Frames against a line of units: chains of datagrams, damaged ones, cables and power, and the states in between.
+//! Frames for a line of units: chains of datagrams, damaged ones, cables and power, and the states in between.
 //!
-//! An input is a text, a step a line: see [`step`].
+//! An input is a text with one step per line: see [`step`].
 
 mod end_state;
 mod even;

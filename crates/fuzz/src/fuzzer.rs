@@ -1,41 +1,41 @@
-//! What a fuzzer is.
+//! The definition of a fuzzer.
 
 use std::time::Duration;
 
 use crate::random::Random;
 use crate::real_files::Seeds;
 
-/// What an input came to, in a word or two for the statistics, such as `accepted`; or what did not hold.
+/// The result of an input, in a word or two for the statistics, such as `accepted`; or the violated condition.
 pub type Checked = Result<&'static str, String>;
 
 /// A fuzzer.
 pub struct Fuzzer {
     /// Its name on the command line, and that of its folder in tests/fuzz.
     pub name: &'static str,
-    /// What ends the name of a file that holds an input.
+    /// The end of the name of a file with an input.
     pub extension: &'static str,
-    /// Reads the real files that inputs are made of.
+    /// Reads the real files from which inputs are made.
     pub seeds: fn() -> Seeds,
     /// Makes an input.
     pub generate: fn(&Seeds, &mut Random) -> Vec<u8>,
     /// Tries an input. A panic is a finding too.
     pub check: fn(&[u8]) -> Checked,
-    /// What an input may cost.
+    /// The permitted cost of an input.
     pub limits: Limits,
-    /// The parts that are left out of a failing input, the largest first.
+    /// The parts that are removed from a failing input, the largest first.
     pub grains: &'static [Grain],
 }
 
-/// What an input of a length may cost.
+/// The permitted cost of an input of a given length.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
     /// For any input.
     pub milliseconds: u64,
-    /// For each KiB beside.
+    /// For each KiB in addition.
     pub milliseconds_per_kib: u64,
     /// Memory for any input, in KiB.
     pub memory_kib: u64,
-    /// Memory for each byte beside, in bytes.
+    /// Memory for each byte in addition, in bytes.
     pub memory_per_byte: u64,
 }
 
@@ -48,7 +48,7 @@ impl Limits {
         )
     }
 
-    /// The most bytes that are allocated at once.
+    /// The maximum number of bytes that are allocated at the same time.
     #[must_use]
     pub const fn memory_bytes(&self, input_bytes: usize) -> u64 {
         self.memory_kib * 1024 + self.memory_per_byte * input_bytes as u64
@@ -60,7 +60,7 @@ impl Limits {
 pub enum Grain {
     /// Lines with their ends.
     Lines,
-    /// What stands between semicolons.
+    /// The text between semicolons.
     Clauses,
     /// Words, numbers, blanks and signs.
     Words,

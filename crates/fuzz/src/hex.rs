@@ -16,7 +16,7 @@ impl fmt::Display for Hex<'_> {
     }
 }
 
-/// The bytes of hexadecimal digits, none if there are too many for a frame.
+/// The bytes for hexadecimal digits; none if there are too many for a frame.
 pub(crate) fn hex(text: &str) -> Option<Vec<u8>> {
     const MOST: usize = 4_096;
     if let Some((byte, count)) = text.split_once('x') {

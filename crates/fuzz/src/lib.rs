@@ -1,7 +1,7 @@
-//! Our own fuzzers: inputs from a grammar, real files that are damaged, and what has to hold after each of them.
+//! The project's fuzzers: inputs from a grammar, damaged real files, and the conditions that hold after each of them.
 //!
-//! An input is bytes, so that it can be kept in a file, shrunk and tried again: a table of [`FUZZERS`] makes inputs from
-//! a seed and checks them. The same seed gives the same inputs. `cargo xtask fuzz` runs them.
+//! An input is bytes, so that it can be stored in a file, shrunk and tried again: the entries of [`FUZZERS`]
+//! make inputs from a seed and check them. The same seed gives the same inputs. `cargo xtask fuzz` runs them.
 
 mod bytes;
 mod capture;

@@ -1,6 +1,6 @@
-//! Messages against the mailbox of a unit: SDOs of every kind, SDO information, and what is neither.
+//! Messages for the mailbox of a unit: SDOs of every kind, SDO information, and other messages.
 //!
-//! An input is a text, a step a line: see [`step`].
+//! An input is a text with one step per line: see [`step`].
 
 mod generate;
 mod objects;

@@ -1,4 +1,4 @@
-//! `ectwin-fuzz`: runs fuzzers side by side, or tries one input. `cargo xtask fuzz` calls it.
+//! `ectwin-fuzz`: runs fuzzers in parallel, or tries one input. `cargo xtask fuzz` calls it.
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -11,27 +11,27 @@ use clap::Parser;
 use fuzz::{FUZZERS, Fuzzer, Plan, Report, Watch, examine, find, root, run};
 use rustix::process::{Resource, Rlimit, setrlimit};
 
-/// An input that takes longer hangs.
+/// An input that takes longer counts as a hang.
 const HANGS: Duration = Duration::from_secs(60);
-/// How often that is looked at.
+/// Interval of that check.
 const LOOK: Duration = Duration::from_millis(200);
-/// The memory that the process may have: an input that wants more kills it, and not the machine.
+/// The memory limit of the process: an input that needs more ends the process, and does not affect the machine.
 const MEMORY_BYTES: u64 = 8 << 30;
 
 #[derive(Parser)]
 struct Arguments {
     /// The fuzzers; all of them if none is named
     names: Vec<String>,
-    /// How long each of them runs
+    /// Run time of each of them
     #[arg(long, default_value_t = 60.0)]
     seconds: f64,
-    /// The seed of the inputs; drawn if none is given
+    /// The seed of the inputs; random if none is given
     #[arg(long)]
     seed: Option<u64>,
-    /// Tries this input alone
+    /// Try only this input
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Writes each input before it is tried
+    /// Write each input before it is tried
     #[arg(long)]
     careful: bool,
 }
@@ -84,7 +84,7 @@ fn try_file(fuzzer: &Fuzzer, file: &std::path::Path) -> ExitCode {
     }
 }
 
-/// As many at once as there are processors.
+/// As many in parallel as there are processors.
 fn run_all(chosen: Vec<&'static Fuzzer>, arguments: &Arguments) -> ExitCode {
     let seed = arguments.seed.unwrap_or_else(|| fastrand::u64(..) >> 16);
     println!("seed {seed}");
@@ -120,7 +120,7 @@ fn run_all(chosen: Vec<&'static Fuzzer>, arguments: &Arguments) -> ExitCode {
     if failed { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }
 
-/// Runs one fuzzer after the other; whether one has found something.
+/// Runs one fuzzer after the other; returns whether one has a finding.
 fn work(waiting: &Mutex<VecDeque<&'static Fuzzer>>, plan: &Plan, watch: &Watch) -> bool {
     let mut failed = false;
     loop {
@@ -159,7 +159,7 @@ fn words(fuzzer: &Fuzzer, report: &Report, took: Duration) -> String {
     text
 }
 
-/// The thread cannot be ended, so the process is.
+/// The thread cannot be ended, so the process is ended.
 fn hangs(fuzzer: &Fuzzer, input: &[u8], plan: &Plan) -> ExitCode {
     let folder = plan.folder.join(fuzzer.name);
     let file = folder.join(format!("hangs{}", fuzzer.extension));

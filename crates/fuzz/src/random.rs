@@ -1,4 +1,4 @@
-//! The random generator of the inputs, and values that are more telling than others.
+//! The random generator of the inputs, with a preference for critical values.
 
 /// A seeded random generator.
 pub struct Random {
@@ -9,7 +9,7 @@ impl Random {
     /// The generator of the input of this number in a run with this seed.
     #[must_use]
     pub fn of_input(seed: u64, number: u64) -> Self {
-        // Each input has a sequence of its own, so that it can be made without those before it.
+        // Each input has its own sequence, so that it can be made without those before it.
         let mixed = seed ^ number.wrapping_mul(0x9E37_79B9_7F4A_7C15);
         Self { generator: fastrand::Rng::with_seed(mixed) }
     }
@@ -32,7 +32,7 @@ impl Random {
     /// One of these.
     ///
     /// # Panics
-    /// If there is none: lists to choose from are ours.
+    /// If there are none: the lists are part of this program.
     pub fn one_of<'a, T>(&mut self, list: &'a [T]) -> &'a T {
         &list[self.below(list.len())]
     }
@@ -49,7 +49,7 @@ impl Random {
         self.below(limit.min(most) + 1)
     }
 
-    /// Any byte; those at the ends of ranges more often.
+    /// Any byte; those at the ends of ranges are more frequent.
     pub fn byte(&mut self) -> u8 {
         match self.below(4) {
             0 => *self.one_of(&[0, 1, 2, 0x7F, 0x80, 0xFE, 0xFF]),
@@ -65,7 +65,7 @@ impl Random {
         (0..length).map(|_| self.byte()).collect()
     }
 
-    /// Any number of up to 64 bits; small ones and those at the ends of widths more often.
+    /// Any number of up to 64 bits; small ones and those at the ends of widths are more frequent.
     pub fn number(&mut self) -> u64 {
         let any = self.generator.u64(..);
         match self.below(6) {

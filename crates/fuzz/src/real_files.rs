@@ -1,4 +1,4 @@
-//! The files of the project that inputs are made of.
+//! The files of the project from which inputs are made.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 pub struct Seeds {
     /// Their bytes.
     pub inputs: Vec<Vec<u8>>,
-    /// Those of them that are texts.
+    /// Those that are text.
     pub texts: Vec<String>,
 }
 
@@ -20,7 +20,7 @@ pub fn root() -> PathBuf {
 }
 
 impl Seeds {
-    /// The files below these folders whose names end so. What cannot be read is left out.
+    /// The files below these folders with these endings. Files that cannot be read are left out.
     pub(crate) fn of(folders: &[&str], extension: &str) -> Self {
         let mut paths = Vec::new();
         for folder in folders {

@@ -1,4 +1,4 @@
-//! Running a fuzzer for a time.
+//! Running a fuzzer for some time.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -12,29 +12,29 @@ use crate::random::Random;
 use crate::real_files::Seeds;
 use crate::shrink::shrink;
 
-/// How a fuzzer is run.
+/// The settings of a run.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// Where its inputs come from.
+    /// The seed of its inputs.
     pub seed: u64,
-    /// How long it runs.
+    /// Its run time.
     pub time: Duration,
-    /// How many inputs it makes at most.
+    /// Maximum number of inputs.
     pub inputs: u64,
-    /// Where failing inputs are written to, in a folder of the fuzzer's name.
+    /// The folder for failing inputs, in a subfolder with the fuzzer's name.
     pub folder: PathBuf,
-    /// Each input is written before it is tried, so that it is there when the process dies of it.
+    /// Each input is written before it is tried, so that it is available if the process ends because of it.
     pub careful: bool,
 }
 
-/// What came of it.
+/// The result of a run.
 #[derive(Clone, Debug)]
 pub struct Report {
-    /// How many inputs were tried.
+    /// Number of inputs tried.
     pub inputs: u64,
-    /// How long it took.
+    /// Elapsed time.
     pub took: Duration,
-    /// How many of them came to what.
+    /// Number of inputs by result.
     pub outcomes: BTreeMap<&'static str, u64>,
     /// The first that failed.
     pub found: Option<Found>,
@@ -43,15 +43,15 @@ pub struct Report {
 /// An input that failed.
 #[derive(Clone, Debug)]
 pub struct Found {
-    /// What did not hold.
+    /// The violated condition.
     pub message: String,
     /// The file of the input as it was made.
     pub file: PathBuf,
-    /// The file of the small one.
+    /// The file of the shrunk input.
     pub small: PathBuf,
 }
 
-/// The input that is being tried, for those who watch over the time.
+/// The input that is being tried, for the code that monitors the time.
 #[derive(Default)]
 pub struct Watch {
     current: Mutex<Option<(Instant, &'static Fuzzer, Vec<u8>)>>,
@@ -72,7 +72,7 @@ impl Watch {
     }
 }
 
-/// Tries inputs until the time is over or one fails: real ones first, then made ones.
+/// Tries inputs until the time is over or one fails: real ones first, then generated ones.
 ///
 /// # Errors
 /// A file that cannot be written.
@@ -100,7 +100,7 @@ pub fn run(fuzzer: &'static Fuzzer, plan: &Plan, watch: &Watch) -> std::io::Resu
     Ok(report)
 }
 
-/// The input of this number.
+/// The input with this number.
 fn input(fuzzer: &Fuzzer, seeds: &Seeds, seed: u64, number: u64) -> Vec<u8> {
     let real = usize::try_from(number).ok().and_then(|number| seeds.inputs.get(number));
     real.cloned().unwrap_or_else(|| (fuzzer.generate)(seeds, &mut Random::of_input(seed, number)))

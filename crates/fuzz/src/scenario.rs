@@ -1,6 +1,6 @@
-//! Scenario files: sentences of every kind, and real ones that are damaged.
+//! Scenario files: sentences of every kind, and damaged real ones.
 //!
-//! What is refused has places in the text; what is accepted is replayed for a while, and twice the same.
+//! Refused text has places of mistakes; accepted text is replayed for a while, and two replays are equal.
 
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Sentence, UNIT};
 use scenario::{ErrorPlace, Recording, Scenario};
@@ -28,12 +28,12 @@ pub(crate) const FUZZER: Fuzzer = Fuzzer {
     grains: &[Grain::Lines, Grain::Words, Grain::Bytes],
 };
 
-/// How long an accepted scenario is replayed, how many periods that is at most, and of how many units.
+/// How long an accepted scenario is replayed, the maximum number of periods, and the maximum number of units.
 const REPLAYED: Duration = Duration::from_millis(50);
 const PERIODS_MAX: u64 = 500;
 const UNITS_MAX: usize = 4;
 
-/// What a program file holds: it ends soon, whatever runs it.
+/// The contents of a program file: it ends soon in every scenario.
 const PROGRAM: &str = "VAR n : UINT; flag : BOOL; kept : ARRAY[0..3] OF INT; END_VAR\nn := n + 1;\nflag := NOT flag;\n\
     IF n MOD 10 = 0 THEN kept[n MOD 4] := kept[n MOD 4] + 1; END_IF;\n";
 
@@ -72,7 +72,7 @@ fn check(input: &[u8]) -> Checked {
     Ok(if report.passes() { "passed" } else { "failed" })
 }
 
-/// The files that scenarios name: the same text for all that are programs, and a unit for the others.
+/// The files that scenarios refer to: the same text for all programs, and a unit for the others.
 fn file(path: &str) -> Result<String, String> {
     match path.rsplit_once('.') {
         Some((_, "st")) => Ok(PROGRAM.to_owned()),
@@ -104,7 +104,7 @@ fn generate(seeds: &Seeds, random: &mut Random) -> String {
     if random.once_in(3) { text } else { damaged(&text, WORDS, &seeds.texts, random) }
 }
 
-/// A file of steps whose sentences are those of the tables, some with a word of another.
+/// A file of steps with sentences of the tables, some with a word replaced.
 fn any_file(random: &mut Random) -> String {
     let units: Vec<String> = (0..random.between(0, 3)).map(|_| unit(random)).collect();
     let mut text = format!("title = \"a fuzzer\"\nseed = {}\n", random.below(1_000));
@@ -177,7 +177,7 @@ fn time(random: &mut Random) -> String {
         .to_owned()
 }
 
-/// An example of a table, now and then with a word of another.
+/// An example of a table, sometimes with a word replaced.
 fn sentence<T>(table: &[Sentence<T>], random: &mut Random) -> String {
     let example = random.one_of(table).example;
     if !random.once_in(4) {

@@ -1,13 +1,13 @@
-//! Making a failing input small: parts are left out as long as it still fails (delta debugging).
+//! Shrinking a failing input: parts are removed as long as it still fails (delta debugging).
 
 use std::time::{Duration, Instant};
 
 use crate::fuzzer::Grain;
 
-/// How long it may take.
+/// Time limit.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// The smallest input that was found on the way and still fails. `fails` is asked for each attempt.
+/// The smallest input found that still fails. `fails` is called for each attempt.
 pub(crate) fn shrink(input: &[u8], grains: &[Grain], mut fails: impl FnMut(&[u8]) -> bool) -> Vec<u8> {
     let end = Instant::now() + PATIENCE;
     let mut smallest = input.to_vec();
@@ -22,7 +22,7 @@ pub(crate) fn shrink(input: &[u8], grains: &[Grain], mut fails: impl FnMut(&[u8]
     }
 }
 
-/// Leaves out runs of parts: half of them, a quarter, down to single ones.
+/// Removes runs of parts: half of them, a quarter, down to single ones.
 fn leave_out(
     mut input: Vec<u8>,
     grain: Grain,
@@ -54,7 +54,7 @@ fn leave_out(
 }
 
 impl Grain {
-    /// The parts of an input, which are all of it.
+    /// The parts of an input; together they are the whole input.
     fn parts(self, input: &[u8]) -> Vec<&[u8]> {
         match self {
             Self::Lines => input.split_inclusive(|byte| *byte == b'\n').collect(),

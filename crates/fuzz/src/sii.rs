@@ -1,7 +1,7 @@
 //! EEPROM images: of descriptions of any device, and damaged ones.
 //!
-//! Whatever the bytes are: reading and lint come to an end, contents lie inside the image, a controller loads the image
-//! where its checksum is right, and a master reads it word by word.
+//! For any bytes: reading and lint terminate, contents are inside the image, a controller loads the image if
+//! its checksum is correct, and a master reads it word by word.
 
 mod description;
 
@@ -35,9 +35,9 @@ pub(crate) const FUZZER: Fuzzer = Fuzzer {
 const CONFIGURATION_BYTES: usize = 14;
 /// A loadable image has at least the words of the header.
 const HEADER_BYTES: usize = 128;
-/// The statement that a wrong checksum breaks.
+/// The statement that a wrong checksum violates.
 const CHECKSUM: &str = "C022";
-/// How many words a master reads here.
+/// Number of words that a master reads here.
 const WORDS_READ: usize = 24;
 
 fn nx_image() -> Vec<u8> {
@@ -70,7 +70,7 @@ fn check(input: &[u8]) -> Checked {
     Ok(outcome)
 }
 
-/// Contents are those of the image, and not more.
+/// The contents are those of the image, and not more.
 fn inside(contents: &SiiContents, input: &[u8]) -> Result<(), String> {
     for category in &contents.categories {
         let end = category.offset_bytes + category.length_bytes;
@@ -87,7 +87,8 @@ fn inside(contents: &SiiContents, input: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// A controller loads what has the right checksum, and gives a master the words that are there. Whether it is loaded.
+/// A controller loads an image with a correct checksum, and returns the stored words to a master. Returns
+/// whether it is loaded.
 fn loads(input: &[u8]) -> Result<bool, String> {
     let now = Instant::ZERO;
     let mut esc = Esc::power_on(EscConfig::default(), input.to_vec(), now);

@@ -1,6 +1,7 @@
-//! Programs in Structured Text: of a grammar, and real ones that are damaged.
+//! Programs in Structured Text: from a grammar, and damaged real ones.
 //!
-//! What is refused has places in the text; what is accepted scans within its budget, and twice the same.
+//! A refused program has places of mistakes; an accepted program executes its scans within its budget, and two
+//! runs are equal.
 
 mod grammar;
 
@@ -27,7 +28,7 @@ pub(crate) const FUZZER: Fuzzer = Fuzzer {
     grains: &[Grain::Lines, Grain::Clauses, Grain::Words, Grain::Bytes],
 };
 
-/// How many scans an accepted program runs, and how many statements each may take.
+/// Number of scans of an accepted program, and maximum number of statements of each.
 const SCANS: u64 = 4;
 const BUDGET: u64 = 2_000;
 
@@ -75,7 +76,7 @@ fn scans(program: &Program, text: &str) -> Result<(), String> {
             text.get(reason.span.range()).ok_or_else(|| format!("{reason:?} is outside the text"))?;
         }
     }
-    // What a changed program takes over, and what a restart keeps.
+    // The values that a changed program takes over, and those that a restart keeps.
     let next = one.succeeded_by(program.start());
     one.restart();
     if !stopped && outputs(&next, program).len() != outputs(&one, program).len() {
@@ -101,7 +102,7 @@ fn outputs(instance: &Instance, program: &Program) -> Vec<u8> {
     outputs
 }
 
-/// Device variables as a unit has them.
+/// Device variables like those of a unit.
 fn globals() -> Vec<Global> {
     let global = |name: &str, type_name: &str, writable| Global {
         name: name.to_owned(),

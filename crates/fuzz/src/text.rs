@@ -1,18 +1,18 @@
-//! Damage to texts: lines, words and signs that are left out, doubled, exchanged or replaced.
+//! Damage to texts: lines, words and signs that are removed, doubled, exchanged or replaced.
 
 use crate::random::Random;
 
-/// Longest text that damage makes.
+/// Maximum length of a text after damage.
 const LONGEST: usize = 1 << 16;
 
-/// What is put between other signs.
+/// Characters that are inserted between others.
 #[rustfmt::skip]
 const SIGNS: &[&str] = &[
     " ", "\n", "\t", "\r\n", "\"", "'", "\"\"\"", "{", "}", "[", "]", "(", ")", "=", ":=", "..", ",", ";", ":", "#",
     "//", "(*", "*)", ".", "-", "\\", "\\u0000", "\0", "\u{7F}", "\u{FEFF}", "ä", "日本", "\u{202E}", "😀",
 ];
 
-/// A text that was damaged in a few places. `words` belong to its language; `others` are texts of its kind.
+/// A text with damage in a few places. `words` belong to its language; `others` are texts of its kind.
 pub(crate) fn damaged(text: &str, words: &[&str], others: &[String], random: &mut Random) -> String {
     let mut text = text.to_owned();
     for _ in 0..random.between(1, 4) {
@@ -95,7 +95,7 @@ fn fresh(words: &[&str], random: &mut Random) -> String {
     }
 }
 
-/// A number as files have them.
+/// A number as in files.
 pub(crate) fn number(random: &mut Random) -> String {
     let number = random.number();
     match random.below(8) {
@@ -107,7 +107,7 @@ pub(crate) fn number(random: &mut Random) -> String {
     }
 }
 
-/// Words, numbers and signs, which are all of the text.
+/// Words, numbers and signs; together they are the whole text.
 pub(crate) fn tokens(text: &str) -> Vec<&str> {
     let is_word = |character: char| character.is_alphanumeric() || character == '_';
     let mut tokens = Vec::new();

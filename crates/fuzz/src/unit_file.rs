@@ -1,7 +1,7 @@
-//! Unit files: keys and values of every kind, and real ones that are damaged.
+//! Unit files: keys and values of every kind, and damaged real ones.
 //!
-//! What is refused has places in the text; what is accepted gets power, comes through its first milliseconds, and is
-//! checked as `ectwin check` does it.
+//! Refused text has places of mistakes; an accepted unit is powered on, runs for its first milliseconds, and is
+//! checked as by `ectwin check`.
 
 use device::Device;
 use digital::{BitImages, Terminal};
@@ -42,7 +42,7 @@ fn check(input: &[u8]) -> Checked {
             check_errors(text, &errors)?;
             return Ok(if accepted { "accepted" } else { "refused" });
         }
-        // A text has no folder in which a program could be.
+        // The text has no folder that could contain a program.
         Err(SetupError::ProgramUnreadable { span: Some(span), .. }) => {
             return text.get(span).map(|_| "program elsewhere").ok_or("a program without a place".to_owned());
         }
@@ -67,7 +67,7 @@ fn check_errors(text: &str, errors: &FileErrors) -> Result<(), String> {
     Ok(())
 }
 
-/// The same text as the unit file of a terminal: whether it gets power.
+/// The same text as the unit file of a terminal: returns whether it is powered on.
 fn terminal(text: &str) -> Result<bool, String> {
     let settings = match digital::UnitFile::parse(text) {
         Ok(file) => file.settings,
@@ -111,7 +111,7 @@ fn generate(seeds: &Seeds, random: &mut Random) -> String {
     if random.once_in(3) { text } else { damaged(&text, WORDS, &seeds.texts, random) }
 }
 
-/// A key, and what stands behind it.
+/// A key, and the text after it.
 type Key = (&'static str, fn(&mut Random) -> String);
 
 /// Those of every model.
@@ -174,7 +174,7 @@ const DIGITAL_KEYS: &[Key] = &[
     ("mailbox", |random| random.once_in(4).to_string()),
 ];
 
-/// A file of some keys in any order.
+/// A file with some keys in any order.
 fn file(random: &mut Random) -> String {
     let (model, own) =
         *random.one_of(&[("nx-ect101", NX_KEYS), ("nx-ect101", NX_KEYS), ("digital", DIGITAL_KEYS)]);

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use fuzz::{FUZZERS, Fuzzer, Plan, Seeds, Watch, examine, find, root, run};
 
-/// The inputs of a seed that are tried with every run of the tests.
+/// The inputs of a seed that are tried in every run of the tests.
 const INPUTS: u64 = 400;
 const SEED: u64 = 1;
 
@@ -23,7 +23,7 @@ fn inputs_that_once_failed_hold() {
     assert!(count > 0, "tests/fuzz is empty");
 }
 
-/// Tries the first inputs of a seed, among which these outcomes have to be.
+/// Tries the first inputs of a seed, which must include these results.
 fn tries(name: &str, wanted: &[&str]) {
     let fuzzer: &'static Fuzzer = find(name).expect("a fuzzer");
     let plan = Plan {

@@ -1,7 +1,8 @@
-//! Known vulnerabilities of what we depend on, by cargo-deny, where its index of advisories can be had.
+//! Known vulnerabilities of dependencies, found with cargo-deny if its index of advisories can be reached.
 //!
-//! The index lies in a Git repository on a host of its own. A machine that reaches crates.io alone cannot check: this is
-//! said in the summary, and is neither a failure of the change nor a skip, which installing a tool would mend.
+//! The index is in a Git repository on a separate host. A machine that reaches only crates.io cannot check: the
+//! summary reports this, and it is neither a failure of the change nor a skip, which installing a tool could
+//! avoid.
 
 use std::io::Read;
 use std::process::{Child, Stdio};
@@ -10,14 +11,14 @@ use std::time::{Duration, Instant};
 use crate::outcome::Ending;
 use crate::tools::{cargo, command, has_cargo, skip};
 
-/// How long fetching the index may take.
+/// Time limit for fetching the index.
 const FETCH_TIME: Duration = Duration::from_secs(120);
-/// How often a fetch is looked after.
+/// Interval at which a fetch is checked.
 const LOOK_AGAIN: Duration = Duration::from_millis(100);
-/// Most characters of the reason why a fetch failed.
+/// Maximum number of characters of the reason why a fetch failed.
 const REASON_CHARACTERS: usize = 160;
 
-/// Fetches the index and checks by it.
+/// Fetches the index and checks against it.
 pub(crate) fn check() -> Ending {
     if !has_cargo("deny") {
         return skip("advisories", "cargo-deny is not installed").into();
@@ -32,7 +33,7 @@ fn fetch() -> Result<(), String> {
     let mut command = command("cargo");
     command.args(["deny", "--log-level", "error", "fetch", "db"]);
     command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
-    // Git must not ask for a password.
+    // Git must not prompt for a password.
     command.env("GIT_TERMINAL_PROMPT", "0");
     let mut child = command.spawn().map_err(|error| error.to_string())?;
     if !ends_in_time(&mut child)? {

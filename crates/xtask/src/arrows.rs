@@ -1,5 +1,5 @@
-//! The floors of the house: which crate may use which, what the core must never touch, circles of files, and who names
-//! a unit model.
+//! The layers of the workspace: which crate may use which, what the core must never use, circles of files, and
+//! which files name a unit model.
 
 mod circles;
 mod list;
@@ -11,7 +11,7 @@ use crate::metadata::{self, Metadata, Package};
 use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
 
-/// One crate, its floor, and whom it may use.
+/// One crate, its layer, and the crates that it may use.
 struct Row {
     name: &'static str,
     floor: u8,
@@ -29,7 +29,7 @@ const fn row(name: &'static str, floor: u8, may_use: MayUse) -> Row {
     Row { name, floor, may_use }
 }
 
-/// docs/architecture.md says why. A new crate is a new row; an arrow that runs up is never one.
+/// docs/architecture.md gives the reasons. A new crate is a new row; an arrow must never go up.
 const FLOORS: &[Row] = &[
     row("time", 1, Only(&[])),
     row("wire", 1, Only(&[])),
@@ -64,20 +64,20 @@ const FLOORS: &[Row] = &[
 const TESTBED: &str = "testbed";
 const MASTER: &str = "master";
 
-/// Dev-dependencies may name these from any floor: namespaces and child processes, and the master that slaves are tested
-/// with.
+/// Dev-dependencies may include these from any layer: namespaces and child processes, and the master with which
+/// slaves are tested.
 const FOR_TESTS: &[&str] = &[TESTBED, MASTER];
 
-/// The floor of our own checks.
+/// The layer of this project's checks.
 const CHECKS_FLOOR: u8 = 11;
-/// The first floor that may do input and output.
+/// The first layer that may do input and output.
 const SHELL_FLOOR: u8 = 8;
 
-/// Crates of others that do input and output, ask the clock or start threads.
+/// External crates that do input and output, read the clock or start threads.
 const SHELL_CRATES: &[&str] =
     &["axum", "crossbeam-channel", "mio", "parking_lot", "pnet_datalink", "socket2", "tokio", "tun-rs"];
 
-/// What the core's code must not name: time is an argument, a frame goes in and a frame comes out.
+/// Names that must not occur in the core's code: time is an argument, a frame goes in and a frame comes out.
 const SHELL_WORDS: &[&str] = &[
     "std::fs",
     "std::net",
@@ -92,7 +92,7 @@ const SHELL_WORDS: &[&str] = &[
     "SystemTime::now",
 ];
 
-/// Checks all of it: crates, words, circles of files, names of models.
+/// Runs all checks: crates, words, circles of files, names of models.
 pub(crate) fn check() -> Outcome {
     let metadata = metadata::read()?;
     let sources = sources::read()?;
@@ -105,7 +105,7 @@ pub(crate) fn check() -> Outcome {
     Ok(())
 }
 
-/// Writes the lists of what is wrong today, where they only shrink.
+/// Writes the lists of present violations, if they only shrink.
 pub(crate) fn bless() -> Outcome {
     let sources = sources::read()?;
     circles::bless(&crates(), &sources)?;
@@ -116,7 +116,7 @@ fn crates() -> Vec<&'static str> {
     FLOORS.iter().map(|row| row.name).collect()
 }
 
-/// The crates that users get: without our own checks and what is for tests.
+/// The crates for users: without this project's checks and the crates for tests.
 fn of_the_product() -> Vec<&'static str> {
     FLOORS.iter().filter(|row| (1..CHECKS_FLOOR).contains(&row.floor)).map(|row| row.name).collect()
 }
@@ -154,8 +154,8 @@ fn wrong_arrows_of(row: &Row, package: &Package) -> Vec<String> {
     package.dependencies.iter().filter(wrong).map(line).collect()
 }
 
-/// Tests may look at any floor below their own, the code only at those in its row. The tests of the master may look at
-/// slaves of all kinds, which live above it.
+/// Tests may use any layer below their own, the code only the crates in its row. The tests of the master may
+/// use slaves of all kinds, which are in a higher layer.
 fn may_use(row: &Row, used: &str, for_tests: bool) -> bool {
     if for_tests && FOR_TESTS.contains(&used) {
         return true;

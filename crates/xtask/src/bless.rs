@@ -1,13 +1,13 @@
-//! `cargo xtask bless`: writes what is generated and kept in the repository. A review reads the difference.
+//! `cargo xtask bless`: writes the generated files of the repository. A review reads the differences.
 
 use crate::conformance;
 use crate::outcome::Outcome;
 use crate::tools;
 
-/// Makes the tests below write what they compare.
+/// Makes the tests below write the files that they otherwise compare.
 const BLESS: &str = "ECTWIN_BLESS";
 
-/// The tests, by package: each compares files with what it would write.
+/// The tests, by package: each compares files with the contents that it would write.
 const TESTS: &[(&str, &str)] = &[
     ("ectwin-nx-ect101", "allocation_page"),
     ("ectwin", "event_pages"),

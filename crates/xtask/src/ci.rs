@@ -1,4 +1,4 @@
-//! `cargo xtask ci`: the steps in order, all of them, then a table of how they ended.
+//! `cargo xtask ci`: runs all steps in order, then prints a table of their results.
 
 use std::process::ExitCode;
 use std::time::{Duration, Instant};
@@ -10,13 +10,13 @@ use crate::tests_step::{self, Scope};
 use crate::tools::{self, cargo};
 use crate::{advisories, arrows, conformance, fuzz, library, tidy};
 
-/// What `cargo xtask ci` may be told.
+/// The options of `cargo xtask ci`.
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Leave out what takes long: the real masters, fuzzers, optional features, doc tests, documentation, licences
+    /// Leave out slow checks: the real masters, fuzzers, optional features, doc tests, documentation, licences
     #[arg(long)]
     quick: bool,
-    /// A test that cannot run here is a failure (this is so too when CI=true)
+    /// Treat a test that cannot run here as a failure (also if CI=true)
     #[arg(long)]
     no_skips: bool,
 }
@@ -27,7 +27,7 @@ struct Step {
     run: fn(Scope) -> Ending,
 }
 
-/// The cheap ones first: who waits wants to hear of them early.
+/// The fast ones first, so that failures in them are reported early.
 const STEPS: &[Step] = &[
     Step { name: "format", in_quick: true, run: |_| cargo(&["fmt", "--all", "--check"]).into() },
     Step { name: "arrows", in_quick: true, run: |_| arrows::check().into() },
@@ -50,7 +50,7 @@ struct Ended {
     took: Duration,
 }
 
-/// Runs every step and prints the summary. The exit code says whether all passed.
+/// Runs every step and prints the summary. The exit code indicates whether all passed.
 pub(crate) fn run(options: &Options) -> ExitCode {
     let scope = if options.quick { Scope::Quick } else { Scope::All };
     tools::forget_skips();
@@ -105,7 +105,7 @@ const fn word(ending: &Ending) -> &'static str {
     }
 }
 
-/// A check that could not be made is counted by itself: it has not passed.
+/// A check that could not be made is counted separately: it has not passed.
 fn counts(ended: &[Ended]) -> String {
     let count = |wanted: &str| ended.iter().filter(|step| word(&step.ending) == wanted).count();
     let not_here = match count("not here") {
@@ -115,7 +115,7 @@ fn counts(ended: &[Ended]) -> String {
     format!("checks: {} passed, {} failed{not_here}", count("ok"), count("FAILED"))
 }
 
-/// The reasons in brackets, each once: a skip reads `what: reason`.
+/// The reasons in parentheses, each once: a skip has the form `what: reason`.
 fn reasons(skips: &[String]) -> String {
     let mut reasons: Vec<&str> =
         skips.iter().map(|skip| skip.split_once(": ").map_or(skip.as_str(), |(_, reason)| reason)).collect();

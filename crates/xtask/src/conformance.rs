@@ -1,7 +1,7 @@
-//! Whether the protocol reference, the code that cites it and the tests that pin it agree.
+//! Checks that the protocol reference, the code that cites it and the tests that cover it agree.
 //!
 //! A citation is `reference 1.7` (a heading of docs/reference) or `C056` (a conformance statement), in comments
-//! of the code and in pages. A test pins a statement by a mark: a line of its doc comment, or a comment of a
+//! of the code and in pages. A test covers a statement by a mark: a line of its doc comment, or a comment of a
 //! scenario, that begins with the number, `/// C056: …` or `# C056, C066: …`.
 
 mod citations;
@@ -20,7 +20,7 @@ use crate::tools::root;
 use citations::{Cited, Number};
 use page::{Page, Pinned};
 
-/// The pages that citations lead to.
+/// The pages to which citations refer.
 const REFERENCE: &str = "docs/reference/";
 /// The page with the statements.
 const STATEMENTS: &str = "docs/reference/conformance.md";
@@ -30,7 +30,7 @@ pub(crate) fn check() -> Outcome {
     report("conformance", &findings(&sources::read()?))
 }
 
-/// Writes the column that says where each statement is pinned.
+/// Writes the column with the tests of each statement.
 pub(crate) fn bless() -> Outcome {
     let sources = sources::read()?;
     let page = sources.iter().find(|source| source.path == STATEMENTS);
@@ -48,7 +48,7 @@ fn findings(sources: &[Source]) -> Vec<String> {
     findings
 }
 
-/// Citations of a heading or a statement that is not there.
+/// Citations of a heading or a statement that does not exist.
 fn wrong_citations(sources: &[Source], page: &Page<'_>) -> Vec<String> {
     let headings = headings(sources);
     let mut findings = Vec::new();
@@ -66,7 +66,7 @@ fn wrong_citations(sources: &[Source], page: &Page<'_>) -> Vec<String> {
     findings
 }
 
-/// The numbers that headings of the reference begin with.
+/// The numbers at the start of headings of the reference.
 fn headings(sources: &[Source]) -> BTreeSet<&str> {
     let pages = sources.iter().filter(|source| source.path.starts_with(REFERENCE));
     let lines = pages.flat_map(|page| page.text.lines()).filter(|line| line.starts_with('#'));
@@ -74,7 +74,7 @@ fn headings(sources: &[Source]) -> BTreeSet<&str> {
     numbers.filter(|number| number.starts_with(|first: char| first.is_ascii_digit())).collect()
 }
 
-/// Statements without test and reason, with both, or with other places than the marks say.
+/// Statements without test and reason, with both, or with other files than those with the marks.
 fn wrong_statements(page: &Page<'_>, places: &BTreeMap<Number, BTreeSet<&str>>) -> Vec<String> {
     let finding = |(number, pinned): (Number, Pinned<'_>)| {
         let marked = places.get(&number);
@@ -92,7 +92,7 @@ fn wrong_statements(page: &Page<'_>, places: &BTreeMap<Number, BTreeSet<&str>>) 
     page.statements().filter_map(finding).collect()
 }
 
-/// The files that pin each statement.
+/// The files with a test of each statement.
 fn places(sources: &[Source]) -> BTreeMap<Number, BTreeSet<&str>> {
     let mut places: BTreeMap<Number, BTreeSet<&str>> = BTreeMap::new();
     for source in sources {

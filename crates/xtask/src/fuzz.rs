@@ -1,4 +1,4 @@
-//! `cargo xtask fuzz`: our own fuzzers, in a process of their own.
+//! `cargo xtask fuzz`: the project's fuzzers, in a separate process.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus};
@@ -8,30 +8,30 @@ use clap::Args;
 use crate::outcome::Outcome;
 use crate::tools::{cargo, command, target_folder};
 
-/// The test of crates/fuzz for which cargo builds the program too.
+/// The test of crates/fuzz for which cargo also builds the program.
 const TEST: &str = "regressions";
 const PROGRAM: &str = "ectwin-fuzz";
 
-/// What `cargo xtask fuzz` may be told.
+/// The options of `cargo xtask fuzz`.
 #[derive(Args)]
 pub(crate) struct Options {
     /// frames, mailbox, unit-file, scenario, st, capture, sii; all of them if none is named
     names: Vec<String>,
-    /// How long each of them runs
+    /// Run time of each of them
     #[arg(long, default_value_t = 1.0)]
     minutes: f64,
-    /// The seed of the inputs; drawn if none is given
+    /// The seed of the inputs; random if none is given
     #[arg(long)]
     seed: Option<u64>,
-    /// Tries this input alone, such as one of target/fuzz or tests/fuzz
+    /// Try only this input, such as one of target/fuzz or tests/fuzz
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
-    /// Builds for speed first: for long runs
+    /// Build with optimization: for long runs
     #[arg(long)]
     release: bool,
 }
 
-/// A minute of each, as a step of the gate.
+/// One minute for each, as a step of the gate.
 pub(crate) fn in_gate() -> Outcome {
     run(&Options { names: Vec::new(), minutes: 1.0, seed: None, input: None, release: false })
 }
@@ -53,7 +53,7 @@ pub(crate) fn run(options: &Options) -> Outcome {
     careful(&program, options, seed)
 }
 
-/// Which input ends the process: it is in the file when the process is gone.
+/// The input that ends the process: it remains in the file after the process has ended.
 fn careful(program: &Path, options: &Options, seed: u64) -> Outcome {
     let mut command = with_seed(command_of(program, options), options, seed);
     command.arg("--careful");
@@ -64,7 +64,7 @@ fn careful(program: &Path, options: &Options, seed: u64) -> Outcome {
     }
 }
 
-/// The program. Without `--release` all of the workspace is named, so that what the tests have built is used again.
+/// The program. Without `--release` the whole workspace is built, so that the artifacts of the tests are used again.
 fn build(release: bool) -> Result<PathBuf, String> {
     if release {
         cargo(&["build", "--release", "--quiet", "--locked", "--package", PROGRAM])?;

@@ -1,13 +1,13 @@
-//! The library `ectwin` without features: small enough to be a dependency of anybody's tests.
+//! The library `ectwin` without features: small enough to be a dependency of other projects' tests.
 
 use std::process::Stdio;
 
 use crate::outcome::{Outcome, report};
 use crate::tools::{cargo, command};
 
-/// Most crates that the library pulls in, our own included.
+/// Maximum number of crates that the library needs, including those of this workspace.
 const CRATES_MAX: usize = 60;
-/// What only the command and the features need.
+/// Crates that only the command and the features need.
 const KEPT_OUT: &[&str] = &["clap", "miette", "tokio", "quick-junit", "ectwin-modbus"];
 
 pub(crate) fn check() -> Outcome {
@@ -15,7 +15,7 @@ pub(crate) fn check() -> Outcome {
     cargo(&["check", "--package", "ectwin", "--no-default-features", "--locked", "--quiet"])
 }
 
-/// The names of the crates that the library pulls in.
+/// The names of the crates that the library needs.
 fn crates() -> Result<Vec<String>, String> {
     let mut tree = command("cargo");
     tree.args(["tree", "--package", "ectwin", "--no-default-features", "--edges", "normal"]);
@@ -27,7 +27,7 @@ fn crates() -> Result<Vec<String>, String> {
     Ok(names(&String::from_utf8_lossy(&output.stdout)))
 }
 
-/// Each name once: a line reads `NAME vVERSION …`, or is empty between the trees of targets.
+/// Each name once: a line has the form `NAME vVERSION …`, or is empty between the trees of targets.
 fn names(tree: &str) -> Vec<String> {
     let mut names: Vec<String> =
         tree.lines().filter_map(|line| line.split_whitespace().next()).map(String::from).collect();

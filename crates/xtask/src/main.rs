@@ -1,4 +1,4 @@
-//! Our own checks: `cargo xtask ci` runs all of them and names those that failed.
+//! The project's checks: `cargo xtask ci` runs all of them and lists those that failed.
 
 mod advisories;
 mod arrows;
@@ -18,7 +18,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-/// Our own checks. Without root and without anything but Rust they run as far as they can and say what
+/// The project's checks. Without root and with only Rust installed they run as far as possible and report what
 /// they left out.
 #[derive(Parser)]
 #[command(name = "cargo xtask", bin_name = "cargo xtask")]
@@ -29,31 +29,32 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Everything that has to hold before a change lands
+    /// Everything that must pass before a change is merged
     Ci(ci::Options),
-    /// Which crate uses which, what the core must not touch, circles between files, and who names a unit model
+    /// Which crate uses which, what the core must not use, circles between files, and which files name a unit model
     Arrows {
         /// Write the lists of circles and of files that name a model, if they only shrink
         #[arg(long)]
         bless: bool,
     },
-    /// The protocol reference: citations lead somewhere, and every conformance statement has a test or a reason
+    /// The protocol reference: citations have a target, and every conformance statement has a test or a reason
     Conformance {
-        /// Write where statements are pinned, as `bless` does too
+        /// Write the files with the tests of each statement, as `bless` does too
         #[arg(long)]
         bless: bool,
     },
-    /// The library without features: how many crates it pulls in, and that it builds
+    /// The library without features: how many crates it needs, and that it builds
     Library,
-    /// The licences and origins of what we depend on
+    /// The licences and origins of the dependencies
     Licences,
-    /// Known vulnerabilities of what we depend on, where their index can be had
+    /// Known vulnerabilities of the dependencies, if their index can be reached
     Advisories,
-    /// The habits of the house: lengths, words, pages, purposes
+    /// The rules for files: lengths, words, pages, purposes
     Tidy,
-    /// Our own fuzzers: inputs that are generated or damaged, and what has to hold after each
+    /// The project's fuzzers: inputs that are generated or damaged, and conditions that hold after each
     Fuzz(fuzz::Options),
-    /// Write what is generated and kept: pages of events, the table of the setting rules, where statements are pinned
+    /// Write the generated files of the repository: pages of events, the table of the setting rules, the tests
+    /// of statements
     Bless,
 }
 

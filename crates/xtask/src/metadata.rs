@@ -1,4 +1,4 @@
-//! What `cargo metadata` says of our own crates.
+//! The crates of this workspace, from `cargo metadata`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,13 +7,13 @@ use serde::Deserialize;
 
 use crate::tools::root;
 
-/// Our crates.
+/// The crates of this workspace.
 #[derive(Deserialize)]
 pub(crate) struct Metadata {
     pub(crate) packages: Vec<Package>,
 }
 
-/// One crate of ours.
+/// One crate of this workspace.
 #[derive(Deserialize)]
 pub(crate) struct Package {
     pub(crate) name: String,
@@ -31,7 +31,7 @@ pub(crate) struct Dependency {
 }
 
 impl Package {
-    /// The name of its folder under crates/, which is also its name in our code.
+    /// The name of its folder under crates/, which is also its name in the code.
     pub(crate) fn short_name(&self) -> &str {
         self.manifest_path.parent().and_then(folder).unwrap_or(&self.name)
     }
@@ -43,12 +43,12 @@ impl Dependency {
         self.path.is_some()
     }
 
-    /// Whether only tests, examples and benchmarks see it.
+    /// Whether it is used only in tests, examples and benchmarks.
     pub(crate) fn is_for_tests(&self) -> bool {
         self.kind.as_deref() == Some("dev")
     }
 
-    /// The name of its folder, if it is a crate of ours.
+    /// The name of its folder, if it is a crate of this workspace.
     pub(crate) fn short_name(&self) -> &str {
         self.path.as_deref().and_then(folder).unwrap_or(&self.name)
     }
@@ -58,10 +58,10 @@ fn folder(path: &Path) -> Option<&str> {
     path.file_name()?.to_str()
 }
 
-/// Asks cargo.
+/// Runs `cargo metadata`.
 ///
 /// # Errors
-/// When cargo cannot be asked or answers something else.
+/// If cargo cannot be run or its output is not as expected.
 pub(crate) fn read() -> Result<Metadata, String> {
     let mut command = Command::new("cargo");
     command.args(["metadata", "--no-deps", "--format-version", "1", "--locked"]).current_dir(root());

@@ -1,19 +1,19 @@
-//! How a check ends.
+//! The result of a check.
 
-/// What a check says when something is wrong: lines for people, ready to print.
+/// The report of a failed check: lines for display, ready to print.
 pub(crate) type Outcome = Result<(), String>;
 
-/// How a step of the gate ends.
+/// The result of a step of the gate.
 pub(crate) enum Ending {
     Passed,
-    /// What is wrong.
+    /// The failure.
     Failed(String),
-    /// Why the machine cannot make this check, whatever is installed on it.
+    /// Why the machine cannot run this check, whatever is installed on it.
     NotHere(String),
 }
 
 impl Ending {
-    /// The outcome of a check that is made alone; one that cannot be made here says so.
+    /// The outcome of a check that is run alone; one that cannot run here reports it.
     pub(crate) fn told(self) -> Outcome {
         match self {
             Self::Passed => Ok(()),
@@ -35,7 +35,7 @@ impl From<Outcome> for Ending {
     }
 }
 
-/// Findings as an outcome: none is good, else one line each under `title`.
+/// Findings as an outcome: success if there are none, else one line each under `title`.
 pub(crate) fn report(title: &str, findings: &[String]) -> Outcome {
     if findings.is_empty() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The files of the checkout, as git sees them.
+//! The files of the checkout, according to git.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -13,12 +13,12 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// What the path ends in after the last dot.
+    /// The extension of the path.
     pub(crate) fn extension(&self) -> &str {
         self.path.rsplit_once('.').map_or("", |(_, extension)| extension)
     }
 
-    /// Whether the whole file is there for tests only.
+    /// Whether the whole file exists only for tests.
     pub(crate) fn is_test(&self) -> bool {
         let in_folder = |name: &str| {
             self.path.starts_with(&format!("{name}/")) || self.path.contains(&format!("/{name}/"))
@@ -27,7 +27,7 @@ impl Source {
     }
 
     /// The lines that are not tests, numbered from 1: without declarations of modules of tests, and up to the
-    /// module of tests that ends a file.
+    /// module of tests at the end of a file.
     pub(crate) fn code_lines(&self) -> impl Iterator<Item = (usize, &str)> {
         let lines: Vec<&str> = self.text.lines().collect();
         let is_for_tests = |line: &&str| line.trim() == "#[cfg(test)]";
@@ -42,10 +42,10 @@ impl Source {
     }
 }
 
-/// Every text file that is tracked, or would be with `git add`.
+/// Every text file that is tracked, or would be after `git add`.
 ///
 /// # Errors
-/// When git cannot list the files.
+/// If git cannot list the files.
 pub(crate) fn read() -> Result<Vec<Source>, String> {
     let mut command = Command::new("git");
     command.args(["ls-files", "--cached", "--others", "--exclude-standard", "-z"]).current_dir(root());
@@ -54,7 +54,7 @@ pub(crate) fn read() -> Result<Vec<Source>, String> {
         return Err(format!("git ls-files: {}", String::from_utf8_lossy(&output.stderr)));
     }
     let paths = String::from_utf8_lossy(&output.stdout);
-    // What is no text (captures), and what was removed and not yet told to git, is left out.
+    // Files that are not text (captures), and files that were removed without `git rm`, are left out.
     let read = |path: &str| {
         let text = std::fs::read_to_string(root().join(PathBuf::from(path))).ok()?;
         Some(Source { path: path.to_string(), text })

@@ -1,24 +1,25 @@
-//! The tests: by cargo-nextest where it is installed, else by `cargo test`.
+//! The tests: with cargo-nextest if it is installed, else with `cargo test`.
 
 use crate::outcome::Outcome;
 use crate::tools::{cargo, has_cargo};
 
-/// How much to run.
+/// Which tests to run.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scope {
     /// All of it.
     All,
-    /// What a developer waits for between two edits.
+    /// The tests that a developer runs between two edits.
     Quick,
 }
 
-/// The test binary in which real masters drive the built command: half a minute of real time.
+/// The test binary in which real masters use the built command: half a minute of real time.
 const MASTERS: &str = "masters";
 
 /// Features that are off by default: all of them are checked.
 const FEATURES: &str = "ectwin-cli/opcua,ectwin-cli/wasm";
-/// Those that are built and tested too, and their test binaries. OPC UA is not: its library alone takes more than
-/// six minutes of a processor to build. `cargo test -p ectwin-cli --features opcua --test opcua` runs its test.
+/// Those that are also built and tested, and their test binaries. OPC UA is not: its library alone takes more
+/// than six minutes of a processor to build. `cargo test -p ectwin-cli --features opcua --test opcua` runs its
+/// test.
 const TESTED_FEATURES: &str = "ectwin-cli/wasm";
 const FEATURE_TESTS: &[&str] = &["wasm_programs"];
 
@@ -42,9 +43,9 @@ fn cargo_test(scope: Scope) -> Outcome {
     cargo(&["test", "--workspace", "--locked", "--no-fail-fast", "--lib", "--bins", "--tests"])
 }
 
-/// What the default build leaves out: features of the command that are off unless one asks for them.
+/// The parts that the default build leaves out: features of the command that are off by default.
 ///
-/// All of the workspace is named, so that little but the command itself is built a second time.
+/// The whole workspace is built, so that little but the command itself is built a second time.
 pub(crate) fn features() -> Outcome {
     let all = ["--workspace", "--locked", "--features", FEATURES];
     cargo(&[&["clippy", "--all-targets", "--quiet"], &all[..], &["--", "-D", "warnings"]].concat())?;

@@ -1,18 +1,18 @@
-//! The habits of the house, checked by machine: lengths, words, links, purposes.
+//! The rules for files, checked automatically: lengths, words, links, purposes.
 
 use crate::metadata;
 use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
 use crate::tools::root;
 
-/// Lines of code that one file may have, tests beside it counted alike.
+/// Maximum number of lines of code in one file; tests in separate files count in the same way.
 const CODE_LINES: usize = 600;
-/// Lines that a page may have.
+/// Maximum number of lines of a page.
 const PAGE_LINES: usize = 400;
-/// Characters of the sentence that says what a crate is for.
+/// Maximum number of characters of the sentence that states the purpose of a crate.
 const PURPOSE_CHARACTERS: usize = 160;
 
-/// What must not stay in a file, split so that this table does not find itself, and why.
+/// Words that must not remain in a file, split so that this table does not match itself, and the reasons.
 const WORDS: &[(&str, &str, &[&str], &str)] = &[
     ("TO", "DO", ALL, "finish it, or file an issue"),
     ("FIX", "ME", ALL, "finish it, or file an issue"),
@@ -23,7 +23,7 @@ const WORDS: &[(&str, &str, &[&str], &str)] = &[
     ("pytest.mark.", "skip", PYTHON, "say the skip by testbed, so that it is counted"),
 ];
 
-/// What must not stand in a test.
+/// Words that must not occur in a test.
 const TEST_WORDS: &[(&str, &str, &[&str], &str)] =
     &[("sleep", "(", SCRIPTS, "a test waits for an event, not for time")];
 
@@ -32,10 +32,10 @@ const RUST: &[&str] = &["rs"];
 const PYTHON: &[&str] = &["py"];
 const SCRIPTS: &[&str] = &["rs", "py", "sh"];
 
-/// Names that say nothing of what is inside.
+/// Names that do not describe the contents.
 const EMPTY_NAMES: &[&str] = &["utils.rs", "util.rs", "helpers.rs", "helper.rs", "misc.rs", "part2.rs"];
 
-/// Checks all of it.
+/// Runs all checks.
 pub(crate) fn check() -> Outcome {
     let mut findings = purposes()?;
     for source in &sources::read()? {
@@ -89,7 +89,7 @@ fn words(source: &Source, table: &[(&str, &str, &[&str], &str)]) -> Vec<String> 
     findings
 }
 
-/// Links of a page to files that are not there.
+/// Links of a page to files that do not exist.
 fn dead_links(source: &Source) -> Vec<String> {
     if source.extension() != "md" {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The tools of others that we call, and the list of what was skipped for want of one.
+//! The external tools, and the list of steps that were skipped because one is missing.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -6,8 +6,8 @@ use std::process::{Command, Stdio};
 
 use crate::outcome::Outcome;
 
-/// Tests and steps append one line per thing they left out to the file that this variable names
-/// (crates/testbed writes it for tests).
+/// Tests and steps append one line for each skipped item to the file in this variable (crates/testbed writes it
+/// for tests).
 pub(crate) const SKIPS_VARIABLE: &str = "ECTWIN_SKIPS";
 
 /// The top folder of the checkout.
@@ -16,7 +16,7 @@ pub(crate) fn root() -> PathBuf {
     here.ancestors().nth(2).unwrap_or(here).to_path_buf()
 }
 
-/// Where build output goes, as cargo decides it.
+/// The folder for build output, as cargo determines it.
 pub(crate) fn target_folder() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root().join("target"), |folder| root().join(folder))
 }
@@ -26,14 +26,14 @@ pub(crate) fn skips_file() -> PathBuf {
     target_folder().join("skips.txt")
 }
 
-/// A command in the top folder that tells its skips to us.
+/// A command in the top folder whose skips are counted.
 pub(crate) fn command(program: &str) -> Command {
     let mut command = Command::new(program);
     command.current_dir(root()).env(SKIPS_VARIABLE, skips_file());
     command
 }
 
-/// Runs `command` with its output going to ours.
+/// Runs `command`; its output is printed.
 pub(crate) fn run(mut command: Command) -> Outcome {
     let line = format!("{command:?}").replace('"', "");
     match command.status() {
@@ -69,7 +69,7 @@ pub(crate) fn documentation() -> Outcome {
     run(command)
 }
 
-/// cargo-deny over deny.toml, but for the advisories, which are a step of their own.
+/// cargo-deny with deny.toml, without the advisories, which are a separate step.
 pub(crate) fn licences() -> Outcome {
     if !has_cargo("deny") {
         return skip("licences", "cargo-deny is not installed");
@@ -77,10 +77,10 @@ pub(crate) fn licences() -> Outcome {
     cargo(&["deny", "--log-level", "error", "check", "licenses", "bans", "sources"])
 }
 
-/// Says in one line that `what` was left out.
+/// Prints one line that `what` was left out.
 ///
 /// # Errors
-/// When the line cannot be written: a skip that is not counted is a failure.
+/// If the line cannot be written: a skip that is not counted is a failure.
 pub(crate) fn skip(what: &str, reason: &str) -> Outcome {
     println!("skipped: {what}: {reason}");
     let file = std::fs::OpenOptions::new().create(true).append(true).open(skips_file());
@@ -88,7 +88,7 @@ pub(crate) fn skip(what: &str, reason: &str) -> Outcome {
         .map_err(|error| format!("skips.txt: {error}"))
 }
 
-/// Begins a new list of skips.
+/// Starts a new list of skips.
 pub(crate) fn forget_skips() {
     let file = skips_file();
     if file.exists() && std::fs::remove_file(&file).is_err() {
@@ -96,7 +96,7 @@ pub(crate) fn forget_skips() {
     }
 }
 
-/// What this run left out so far, one line each.
+/// The skips of this run so far, one line each.
 pub(crate) fn skips() -> Vec<String> {
     std::fs::read_to_string(skips_file()).unwrap_or_default().lines().map(String::from).collect()
 }

@@ -1,4 +1,4 @@
-//! The memory of the controllers: reserved bits, and that a defective frame leaves it alone.
+//! The memory of the controllers: reserved bits are 0, and a defective frame changes nothing.
 
 use std::sync::LazyLock;
 
@@ -7,14 +7,14 @@ use time::Instant;
 
 use super::units::Units;
 
-/// Registers end here, and user RAM begins.
+/// End of the registers, and start of the user RAM.
 const REGISTER_BYTES: usize = 0x0F80;
-/// All that a datagram can reach.
+/// The whole memory that a datagram can access.
 const MEMORY_BYTES: usize = 0x3000;
 /// Error counters of ports and of the processing unit.
 const COUNTERS: std::ops::Range<usize> = 0x0300..0x0314;
 
-/// The bits of each register that can be other than 0 in any case.
+/// The bits of each register that can have a value other than 0.
 static POSSIBLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     let mut possible = vec![0; REGISTER_BYTES];
     for row in REGISTERS {
@@ -30,11 +30,11 @@ static POSSIBLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
     possible
 });
 
-/// What a write stores; all of a register that a master cannot write, or that only acts.
+/// The bits that a write stores; the whole register if a master cannot write it, or a write is only a command.
 fn possible_bits(row: &esc::Register, byte: usize) -> u8 {
     let is_kept = row.ecat == EcatAccess::ReadWrite && row.stored.iter().any(|bits| *bits != 0);
     match row.stored.get(byte).filter(|_| is_kept) {
-        // Status and PDI control of a SyncManager are the controller's.
+        // The controller sets status and PDI control of a SyncManager.
         Some(0) if row.offset == 0x0800 && byte == 5 => 0xFF,
         Some(0) if row.offset == 0x0800 && byte == 7 => 0x03,
         Some(stored) => *stored | (row.reset >> (8 * byte.min(3)) & if byte < 4 { 0xFF } else { 0 }) as u8,
@@ -55,10 +55,10 @@ pub(super) fn check(esc: &mut Esc, now: Instant) -> Result<(), String> {
     }
 }
 
-/// What each controller of the line holds.
+/// The memory of each controller of the line.
 pub(super) fn snapshot(network: &Units, now: Instant) -> Vec<Vec<u8>> {
     let memory = |position| {
-        // A copy: reading has effects.
+        // A copy: reading has side effects.
         let mut esc = network.esc(position)?.clone();
         let mut memory = vec![0; MEMORY_BYTES];
         esc.read(0, &mut memory, now);
@@ -67,7 +67,7 @@ pub(super) fn snapshot(network: &Units, now: Instant) -> Vec<Vec<u8>> {
     (0..network.len()).filter_map(memory).collect()
 }
 
-/// Nothing but error counters has changed, and those by 1 at most.
+/// Only error counters have changed, and those by 1 at most.
 pub(super) fn unchanged(before: &[Vec<u8>], after: &[Vec<u8>]) -> Result<(), String> {
     for (position, (before, after)) in before.iter().zip(after).enumerate() {
         for (at, (was, is)) in before.iter().zip(after).enumerate() {

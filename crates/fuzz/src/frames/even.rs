@@ -1,4 +1,4 @@
-//! A unit whose images show whether they are whole: all bytes of an image are equal.
+//! A unit whose images show whether they are complete: all bytes of an image are equal.
 
 use device::{
     Buffers, DataDirection, DataLength, DeviceConfig, Exchange, OutputsBeforeOp, ProcessDataConfig, SmIndex,
@@ -13,13 +13,13 @@ const IMAGE_BYTES: u16 = 64;
 const OUTPUTS_START: u16 = 0x1000;
 const INPUTS_START: u16 = 0x1100;
 
-/// 64 bytes each way, without mailbox. It fills its inputs with the number of the refresh.
+/// 64 bytes in each direction, without mailbox. It fills its inputs with the number of the refresh.
 #[derive(Debug, Default)]
 pub(super) struct Even {
     refreshes: u8,
     /// The outputs of the last refresh, if it had any.
     outputs: Option<Vec<u8>>,
-    /// What was wrong with a refresh.
+    /// The error of a refresh.
     wrong: Option<String>,
 }
 
@@ -56,7 +56,7 @@ impl Watched for Even {
     }
 }
 
-/// Its stack. Units differ in what the standard leaves open.
+/// Its stack. Units differ in the choices that the standard leaves open.
 pub(super) fn config(number: usize) -> DeviceConfig {
     let mut sii_image = vec![0; 256];
     sii_image[14] = wire::sii_checksum(&[0; 14]);

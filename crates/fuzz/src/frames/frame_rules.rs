@@ -1,15 +1,15 @@
-//! What a frame may look like when it has passed the line.
+//! The permitted changes of a frame that has passed the line.
 
 use device::FrameFate;
 use wire::{Command, FrameKind, Returned, returned_datagrams};
 
-/// Where the source address lies, and the bit that every ESC sets there.
+/// Position of the source address, and the bit that every ESC sets there.
 const SOURCE_ADDRESS: usize = 6;
 const PASSED: u8 = 0x02;
 /// The header of Ethernet II.
 const ETHERNET_BYTES: usize = 14;
 
-/// Where a frame comes from.
+/// The end from which a frame comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
     Master,
@@ -17,7 +17,7 @@ pub(super) enum End {
     Far,
 }
 
-/// Compares a frame with what was sent.
+/// Compares a frame with the frame that was sent.
 pub(super) fn check(sent: &[u8], came: &[u8], end: End, fate: FrameFate, units: usize) -> Result<(), String> {
     match FrameKind::of(sent) {
         FrameKind::Datagrams(_) => {
@@ -48,7 +48,7 @@ pub(super) fn check(sent: &[u8], came: &[u8], end: End, fate: FrameFate, units: 
     }
 }
 
-/// The Ethernet header stays, but for the mark of the ESCs.
+/// The Ethernet header is unchanged, except for the mark of the ESCs.
 fn header(sent: &[u8], came: &[u8]) -> Result<(), String> {
     let heads = sent.iter().zip(came).take(ETHERNET_BYTES).enumerate();
     for (at, (sent, came)) in heads {
@@ -101,7 +101,7 @@ const fn is_not_read(command: Command) -> bool {
     )
 }
 
-/// The most that the line adds to the working counter.
+/// The maximum that the line adds to the working counter.
 const fn counter_max(command: Command, units: usize) -> usize {
     match command {
         Command::Nop | Command::Other(_) => 0,

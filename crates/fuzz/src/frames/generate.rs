@@ -1,4 +1,4 @@
-//! Making inputs: a line that comes to some state, and frames that are more or less like those of a master.
+//! Generating inputs: a line that reaches some state, and frames that resemble those of a master.
 
 use esc::REGISTERS;
 use wire::{AlState, Command};
@@ -8,10 +8,10 @@ use crate::bytes;
 use crate::random::Random;
 
 const STATES: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];
-/// Where mailboxes and process data lie in one of the models.
+/// Positions of mailboxes and process data in one of the models.
 const AREAS: [u16; 8] = [0x1000, 0x1100, 0x103F, 0x113F, 0x1200, 0x13A0, 0x21B0, 0x0F80];
 
-/// A line and what is done to it.
+/// A line and the steps with it.
 pub(super) fn steps(random: &mut Random) -> Vec<Step> {
     let units = random.between(1, 3);
     let mut steps = vec![Step::Line(models(units, random))];
@@ -52,7 +52,7 @@ fn step(units: usize, random: &mut Random) -> Step {
     }
 }
 
-/// A frame that was damaged, or bytes that are none.
+/// A damaged frame, or bytes that are not a frame.
 fn raw(units: usize, random: &mut Random) -> Vec<u8> {
     let mut bytes = match random.below(8) {
         0 => {
@@ -93,7 +93,7 @@ fn in_udp(frame: &[u8]) -> Vec<u8> {
 fn chain(units: usize, random: &mut Random) -> Vec<Datagram> {
     let count = *random.one_of(&[1, 1, 1, 2, 2, 3, 5, 15]);
     let mut chain: Vec<Datagram> = (0..count).map(|_| datagram(units, random)).collect();
-    // What is too long for a frame is rarely wanted.
+    // Data too long for a frame are rarely useful.
     let mut room = if random.once_in(12) { 4_000 } else { 1_480_usize };
     chain.retain(|datagram| {
         let bytes = datagram.data.len() + 12;
@@ -204,7 +204,7 @@ fn fmmu(random: &mut Random) -> (u16, Vec<u8>) {
     (0x0600 + 16 * number, settings.to_vec())
 }
 
-/// Mailboxes and images, whole and in part.
+/// Mailboxes and images, complete and in part.
 fn process_data(random: &mut Random) -> (u16, Vec<u8>) {
     let start = *random.one_of(&AREAS);
     let shift = if random.once_in(2) { 0 } else { random.below(70) as u16 };
@@ -212,7 +212,7 @@ fn process_data(random: &mut Random) -> (u16, Vec<u8>) {
     (start + shift, random.bytes(length))
 }
 
-/// A CoE message that fills the mailbox of an NX-ECT101, a read of the other one, or a request to repeat.
+/// A CoE message that fills the mailbox of an NX-ECT101, a read of the other mailbox, or a request to repeat.
 fn mailbox(random: &mut Random) -> (u16, Vec<u8>) {
     const MAILBOX_BYTES: usize = 400;
     match random.below(5) {
@@ -232,7 +232,7 @@ fn mailbox(random: &mut Random) -> (u16, Vec<u8>) {
     }
 }
 
-/// Who owns the SII, its commands and its address.
+/// The owner of the SII, its commands and its address.
 fn sii(random: &mut Random) -> (u16, Vec<u8>) {
     let command = random.one_of(&[0x0100_u16, 0x0201, 0x0400, 0x0200, 0x0000]).to_le_bytes();
     match random.below(3) {

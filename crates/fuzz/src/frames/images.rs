@@ -1,8 +1,8 @@
-//! No image is torn: every byte of the outputs that a unit takes, and of the inputs that a master reads, belongs to the
-//! same writing.
+//! All images are consistent: all bytes of the outputs that a unit receives, and of the inputs that a master
+//! reads, belong to the same write.
 //!
-//! Looked at on units whose images have equal bytes, for as long as nobody but the scripted master has set up their
-//! SyncManagers and FMMUs, or ended a writing of their outputs.
+//! Checked for units whose images have equal bytes, while only the scripted master has set up their
+//! SyncManagers and FMMUs, and has completed the writes to their outputs.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use wire::{AlState, Command, Returned};
 use super::units::Units;
 use super::watched::length_bytes;
 
-/// What is known of the images of each unit.
+/// The known state of the images of each unit.
 pub(super) struct Images {
     units: Vec<Image>,
 }
@@ -23,27 +23,27 @@ struct Image {
     is_even: bool,
     /// The SyncManagers and FMMUs are those of the scripted master.
     is_set_up: bool,
-    /// The last outputs that came were whole and of one byte.
+    /// The last outputs received were complete and had equal bytes.
     has_whole_outputs: bool,
-    /// That byte, if outputs have come.
+    /// That byte, if outputs have been received.
     byte: Option<u8>,
 }
 
 impl Image {
-    /// The second and the third buffer of outputs and inputs, which a master reaches as RAM (reference 3.4).
+    /// The second and the third buffer of outputs and inputs, which a master can access as RAM (reference 3.4).
     fn behind(&self) -> [Range<u32>; 2] {
         [&self.outputs, &self.inputs].map(|first| first.end..first.end + 2 * (first.end - first.start))
     }
 }
 
-/// FMMUs and SyncManagers, and what resets them.
+/// FMMUs and SyncManagers, and registers that reset them.
 const SETUP: [Range<u32>; 3] = [0x0040..0x0041, 0x0600..0x0700, 0x0800..0x0880];
 
 impl Images {
     pub(super) fn of(configs: &[DeviceConfig], network: &Units) -> Self {
         let image = |(config, position): (&DeviceConfig, usize)| {
             let unit = network.device(position).map(|device| &**device.unit());
-            // Units whose images are looked at have one area each way.
+            // Units whose images are checked have one area in each direction.
             let area = |direction| {
                 let described = config.process_data.iter().find(|described| described.direction == direction);
                 let area = described.zip(unit).map(|(described, unit)| {
@@ -64,7 +64,7 @@ impl Images {
         Self { units: configs.iter().zip(0..).map(image).collect() }
     }
 
-    /// Nothing is known of a unit any more.
+    /// Nothing is known about a unit any more.
     pub(super) fn forget(&mut self, unit: usize) {
         if let Some(image) = self.units.get_mut(unit) {
             image.is_set_up = false;
@@ -72,7 +72,7 @@ impl Images {
         }
     }
 
-    /// The scripted master has set up a unit, which has had no outputs since.
+    /// The scripted master has set up a unit, which has not received outputs since.
     pub(super) fn is_set_up(&mut self, unit: usize) {
         if let Some(image) = self.units.get_mut(unit) {
             image.is_set_up = true;
@@ -81,7 +81,7 @@ impl Images {
         }
     }
 
-    /// Somebody has sent these datagrams.
+    /// These datagrams were sent.
     pub(super) fn master_sent(&mut self, datagrams: &[Returned]) {
         for datagram in datagrams.iter().filter(|datagram| writes(datagram.header.command)) {
             let logical = matches!(datagram.header.command, Command::Lwr | Command::Lrw);
@@ -97,7 +97,7 @@ impl Images {
         }
     }
 
-    /// A cycle of the scripted master came back: outputs and inputs of a unit.
+    /// A cycle of the scripted master has returned: outputs and inputs of a unit.
     pub(super) fn cycle_came_back(
         &mut self,
         unit: usize,
@@ -108,7 +108,7 @@ impl Images {
         let are_all_set_up = self.units.iter().all(|image| image.is_set_up);
         let [outputs, inputs] = returned else { return Ok(()) };
         let Some(image) = self.units.get_mut(unit).filter(|image| image.is_set_up) else { return Ok(()) };
-        // Where no other unit maps the same addresses, the counter is this unit's.
+        // If no other unit maps the same addresses, the counter belongs to this unit.
         let was_written = are_all_set_up && outputs.working_counter == 1;
         image.has_whole_outputs |= was_written;
         image.byte = was_written.then_some(byte);
@@ -119,7 +119,7 @@ impl Images {
         Ok(())
     }
 
-    /// Reads that begin with the first byte of a unit's inputs give inputs of one refresh.
+    /// Reads that begin with the first byte of a unit's inputs return inputs of one refresh.
     pub(super) fn check_inputs(
         &self,
         sent: &[Returned],
@@ -175,7 +175,7 @@ fn has_inputs(network: &Units, unit: usize) -> bool {
     device.is_some_and(|device| matches!(device.al_status().state, AlState::SafeOp | AlState::Op))
 }
 
-/// The memory that a datagram with a physical address is about.
+/// The memory that a datagram with a physical address accesses.
 fn physical_bytes(datagram: &Returned) -> Range<u32> {
     let start = u32::from(datagram.header.offset);
     start..start + datagram.data.len() as u32

@@ -1,4 +1,4 @@
-//! The line: steps are done to it, and after each the rules are looked at.
+//! The line: it executes steps, and after each the rules are checked.
 
 use allocation_counter::measure;
 use device::{DataDirection, DeviceConfig, FrameFate, Network, OutputsBeforeOp, ProcessDataConfig, Start};
@@ -14,13 +14,13 @@ use super::watched::length_bytes;
 use super::{end_state, line_rules};
 use crate::examine::without_panic;
 
-/// Most units of a line, and most time of an input.
+/// Maximum number of units of a line, and maximum time of an input.
 const UNITS_MAX: usize = 6;
 const TIME_MAX: Duration = Duration::from_secs(3);
 /// How long a master waits for a state.
 const PATIENCE: Duration = Duration::from_millis(200);
 
-/// A line of units at a moment.
+/// A line of units at one point in time.
 pub(super) struct Line {
     network: Units,
     configs: Vec<DeviceConfig>,
@@ -44,10 +44,10 @@ impl Line {
         line
     }
 
-    /// Does a step.
+    /// Executes a step.
     pub(super) fn step(&mut self, step: &Step) -> Rules {
         match step {
-            // A second line is none.
+            // A second line is ignored.
             Step::Line(_) => Ok(()),
             Step::Bring(unit, state) => self.bring(*unit, *state),
             Step::Cycle(byte) => (0..self.network.len()).try_for_each(|unit| self.cycle(unit, *byte)),
@@ -79,7 +79,7 @@ impl Line {
         }
     }
 
-    /// What has to hold at the end of an input.
+    /// The conditions at the end of an input.
     pub(super) fn end(&mut self) -> Rules {
         (0..self.network.len()).try_for_each(|position| {
             let Some((_, esc)) = self.network.slave_mut(position) else { return Ok(()) };
@@ -97,7 +97,7 @@ impl Line {
         }
     }
 
-    /// A frame of the input, which may be anything.
+    /// A frame of the input, which may be any bytes.
     fn any_frame(
         &mut self,
         frame: Vec<u8>,
@@ -110,7 +110,7 @@ impl Line {
         self.poll()
     }
 
-    /// Sends a frame and looks at what became of it.
+    /// Sends a frame and checks its fate.
     fn send(
         &mut self,
         mut frame: Vec<u8>,
@@ -140,7 +140,7 @@ impl Line {
         Ok(returned)
     }
 
-    /// Lets the units react, and looks at the line.
+    /// Lets the units react, and checks the line.
     fn poll(&mut self) -> Rules {
         let before = Before::of(&self.network);
         self.network.poll(self.now);
@@ -164,7 +164,7 @@ impl Line {
         Ok(())
     }
 
-    /// A master takes a unit to a state, step by step, and gives up where it does not come.
+    /// A master takes a unit to a state, step by step, and gives up if a state is not reached.
     fn bring(&mut self, unit: usize, state: AlState) -> Rules {
         let Some(config) = self.configs.get(unit).cloned() else { return Ok(()) };
         self.images.forget(unit);
@@ -202,7 +202,7 @@ impl Line {
         self.images.is_set_up(unit);
         if state == AlState::Op {
             self.request(unit, AlState::Op, false)?;
-            // The first outputs take it there.
+            // The first outputs take it to OP.
             self.cycle(unit, 0)?;
             if config.outputs_before_op == OutputsBeforeOp::NotRequired {
                 self.comes_to(unit, AlState::Op)?;
@@ -230,7 +230,7 @@ impl Line {
         Ok(false)
     }
 
-    /// How long the data of a SyncManager are now.
+    /// The present length of a SyncManager's data.
     fn length_bytes(&self, unit: usize, described: &ProcessDataConfig) -> u16 {
         let device = self.network.device(unit);
         device.map_or(0, |device| length_bytes(&**device.unit(), described))
@@ -246,7 +246,7 @@ impl Line {
         self.exchange(&[Datagram::new(Command::Apwr, position, offset, data.to_vec())]).map(|_| ())
     }
 
-    /// Whole outputs of one byte to a unit, and its inputs.
+    /// Sends complete outputs with equal bytes to a unit, and reads its inputs.
     fn cycle(&mut self, unit: usize, byte: u8) -> Rules {
         let Some(config) = self.configs.get(unit) else { return Ok(()) };
         let [outputs, inputs] = [DataDirection::Outputs, DataDirection::Inputs].map(|direction| {

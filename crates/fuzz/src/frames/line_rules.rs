@@ -1,4 +1,4 @@
-//! What holds of a line whenever its units have reacted.
+//! The conditions that a line meets whenever its units have reacted.
 
 use device::{DataDirection, DeviceConfig, transition};
 use esc::Esc;
@@ -19,7 +19,7 @@ impl Before {
     }
 }
 
-/// Looks at the whole line at `now`.
+/// Checks the whole line at `now`.
 pub(super) fn check(
     network: &mut Units,
     configs: &[DeviceConfig],
@@ -42,7 +42,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// A state of the standard, an error indication only with a code, and the same on the wire.
+/// A state of the standard, an error indication only with a code, and the same values in the registers.
 fn al_status(status: AlStatus, code: AlStatusCode, esc: &mut Esc) -> Result<(), String> {
     if !matches!(status.state, AlState::Init | AlState::PreOp | AlState::SafeOp | AlState::Op) {
         return Err(format!("it is in {}", status.state));
@@ -59,7 +59,7 @@ fn al_status(status: AlStatus, code: AlStatusCode, esc: &mut Esc) -> Result<(), 
     }
 }
 
-/// Upwards only by the rows of the state machine; downwards a slave may fall.
+/// Up only by the rows of the state machine; a slave may fall back.
 fn came_from(was: AlState, is: AlState) -> Result<(), String> {
     let is_legal = was == is || is.bits() < was.bits() || transition(was, is).is_some();
     if is_legal { Ok(()) } else { Err(format!("it came from {was} to {is}")) }
@@ -73,7 +73,7 @@ fn sync_managers(state: AlState, config: &DeviceConfig, esc: &mut Esc, now: Inst
         AlState::SafeOp => None,
         _ => Some(true),
     };
-    // A slave that comes to OP with an expired watchdog starts it again.
+    // A slave that reaches OP with an expired watchdog starts it again.
     let runs = esc.deadline() != Instant::NEVER;
     for described in &config.process_data {
         let number = described.sync_manager;
@@ -84,7 +84,7 @@ fn sync_managers(state: AlState, config: &DeviceConfig, esc: &mut Esc, now: Inst
         if must_be_closed.is_some_and(|closed| closed != is_closed) {
             return Err(format!("in {state} SyncManager {} has PDI control {pdi_control:02X}", number.0));
         }
-        // Bit 3 is a full mailbox, which a buffered SyncManager has not.
+        // Bit 3 is a full mailbox, which a buffered SyncManager does not have.
         if control & 3 == 0 && activate & 1 != 0 && status & 0x08 != 0 {
             return Err(format!("buffered SyncManager {} has status {status:02X}", number.0));
         }

@@ -1,4 +1,4 @@
-//! The steps of an input and how they are written.
+//! The steps of an input and their notation.
 //!
 //! ```text
 //! line even terminal          the units: nx, even or terminal
@@ -38,7 +38,7 @@ pub(super) enum Step {
     Power(usize, bool),
 }
 
-/// What a unit is.
+/// The kind of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Model {
     /// An NX-ECT101.
@@ -49,7 +49,7 @@ pub(super) enum Model {
     Terminal,
 }
 
-/// A datagram as a master sends it.
+/// A datagram of a master.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Datagram {
     pub(super) command: Command,
@@ -61,7 +61,7 @@ pub(super) struct Datagram {
 }
 
 impl Datagram {
-    /// One that nobody has touched.
+    /// One that no slave has changed.
     pub(super) const fn new(command: Command, address: u16, offset: u16, data: Vec<u8>) -> Self {
         Self { command, address, offset, data, circulating: false, counter: 0 }
     }
@@ -72,7 +72,7 @@ impl Datagram {
     }
 }
 
-/// The frame of these datagrams, of the least length of Ethernet.
+/// The frame with these datagrams, of at least the minimum length of Ethernet.
 pub(super) fn frame(datagrams: &[Datagram]) -> Vec<u8> {
     const LEAST_BYTES: usize = 60;
     let mut bytes = [&[0xFF; 6][..], &[0x10; 6], &ETHERTYPE_ETHERCAT.to_be_bytes(), &[0; 2]].concat();
@@ -158,7 +158,7 @@ impl fmt::Display for Chain<'_> {
     }
 }
 
-/// A line that is no step.
+/// A line that is not a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NoStep;
 

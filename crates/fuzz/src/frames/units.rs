@@ -9,13 +9,13 @@ use super::even::{self, Even};
 use super::step::Model;
 use super::watched::Watched;
 
-/// Units of several models under power.
+/// Units of several models with power.
 pub(super) type Units = Network<Box<dyn Watched>>;
 
 impl Watched for NxEct101 {}
 impl Watched for Terminal<BitImages> {}
 
-/// A unit without start-up time at this place of a line, and its stack.
+/// A unit without start-up time at this position of a line, and its stack.
 pub(super) fn unit(model: Model, number: usize) -> (DeviceConfig, Box<dyn Watched>) {
     match model {
         Model::Nx => nx(number),
@@ -24,7 +24,7 @@ pub(super) fn unit(model: Model, number: usize) -> (DeviceConfig, Box<dyn Watche
     }
 }
 
-/// Units differ in what the unit file leaves to the user.
+/// Units differ in the settings that the unit file permits.
 fn nx(number: usize) -> (DeviceConfig, Box<dyn Watched>) {
     let lenient = if number.is_multiple_of(2) { "" } else { "outputs_before_op = \"not-required\"\n" };
     let text = format!("model = \"nx-ect101\"\ntiming = \"fast\"\nid_switch = {}\n{lenient}", number + 1);

@@ -1,10 +1,10 @@
-//! What the rules ask of a unit.
+//! What the rules need from a unit.
 
 use device::{DataLength, ProcessDataConfig, Unit};
 
-/// A unit that may note what is wrong with its refresh.
+/// A unit that may record an error of its refresh.
 pub(super) trait Watched: Unit {
-    /// What was wrong since the last call.
+    /// The error since the last call.
     fn take_wrong(&mut self) -> Option<String> {
         None
     }
@@ -20,7 +20,7 @@ pub(super) trait Watched: Unit {
     }
 }
 
-/// How long the data of a SyncManager are by the mapping of a unit.
+/// The length of a SyncManager's data in the mapping of a unit.
 pub(super) fn length_bytes(unit: &dyn Watched, described: &ProcessDataConfig) -> u16 {
     match described.length {
         DataLength::Fixed(bytes) => bytes,

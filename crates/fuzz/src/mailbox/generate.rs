@@ -1,4 +1,4 @@
-//! Making inputs: conversations of a master that knows what it does, and messages that are damaged.
+//! Generating inputs: conversations of a correct master, and damaged messages.
 
 use std::fmt::Write;
 use std::sync::LazyLock;
@@ -20,7 +20,7 @@ const SMALL: [u16; 11] =
 static NX: LazyLock<Vec<u16>> =
     LazyLock::new(|| object_table().iter().map(|object| object.index.0).collect());
 
-/// What a master of one unit has in mind.
+/// The state of a generated master of one unit.
 struct Master<'a> {
     random: &'a mut Random,
     model: Model,
@@ -83,7 +83,7 @@ impl Master<'_> {
         };
         let mut message = [&header.pack()[..], &body].concat();
         if self.random.once_in(2) {
-            // As it lies in the SyncManager.
+            // With the length of the SyncManager.
             message.resize(message.len().max(self.receive_bytes), 0);
         }
         if self.random.once_in(5) {
@@ -105,7 +105,7 @@ impl Master<'_> {
         SdoTarget { index: ObjectIndex(index), sub: SubIndex(sub), access }
     }
 
-    /// As long as an entry of this kind may be.
+    /// Up to the length of an entry of this kind.
     fn value(&mut self) -> Vec<u8> {
         let length = *self.random.one_of(&[0, 1, 1, 2, 2, 4, 4, 8, 12, 18, 26, 30, 100, 482, 700, 701]);
         if self.random.once_in(2) {

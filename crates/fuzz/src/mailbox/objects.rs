@@ -1,4 +1,4 @@
-//! The objects behind the mailbox.
+//! The objects of the mailbox.
 
 use std::sync::Arc;
 
@@ -12,13 +12,13 @@ const RO: AccessRights = AccessRights::READ;
 const RW: AccessRights = AccessRights::READ.union(AccessRights::WRITE);
 const RW_PRE_OP: AccessRights = AccessRights::READ.union(AccessRights::WRITE_PRE_OP);
 
-/// Bytes of a text and of an entry that needs segments.
+/// Length in bytes of a text and of an entry that needs segments.
 const LONG_BYTES: u16 = 700;
 
 /// The objects of a unit.
 pub(super) struct Objects {
     values: Values,
-    /// The entries that can be read at all, with their lengths.
+    /// The readable entries, with their lengths.
     readable: Vec<(ObjectIndex, SubIndex, usize)>,
 }
 
@@ -45,12 +45,12 @@ impl Objects {
         }
     }
 
-    /// Whether what is written is what is read: a unit may do more than keep a value.
+    /// Whether reading returns the written value: a unit may do more than store it.
     pub(super) const fn keep_what_is_written(&self) -> bool {
         matches!(self.values, Values::Small(_))
     }
 
-    /// The values of all entries that can be read.
+    /// The values of all readable entries.
     pub(super) fn values(&mut self) -> Vec<u8> {
         let readable = core::mem::take(&mut self.readable);
         let mut values = Vec::new();
@@ -100,7 +100,7 @@ fn object(index: u16, code: ObjectCode, complete_access: bool, entries: Vec<Entr
     }
 }
 
-/// Entries behind a number of entries.
+/// Entries after a number of entries.
 fn list(index: u16, access: AccessRights, data_type: DataType, bits: u16, count: u8) -> Object {
     let first = entry(0, DataType::UNSIGNED8, 8, access, count.into());
     let rest = (1..=count).map(|sub| entry(sub, data_type, bits, access, 0x1600 + u64::from(sub)));

@@ -1,4 +1,4 @@
-//! The mailbox under test, beside what is known of it.
+//! The mailbox under test, with its known state.
 
 use std::collections::VecDeque;
 
@@ -13,7 +13,7 @@ use super::objects::Objects;
 use super::step::{Model, Step};
 use crate::examine::without_panic;
 
-/// How many emergencies wait at most.
+/// Maximum number of waiting emergencies.
 const EMERGENCIES_MAX: usize = 16;
 
 /// A mailbox and its master.
@@ -24,18 +24,18 @@ pub(super) struct Service {
     values: Vec<u8>,
     sizes: MailboxSizes,
     state: AlState,
-    /// Counter of the last counted message that came, and of the last that went; 0 for none.
+    /// Counter of the last counted message received, and of the last one sent; 0 for none.
     received_counter: u8,
     sent_counter: u8,
     outbox: Outbox,
     emergencies: VecDeque<Emergency>,
-    /// How many fragments of a list are still to come; none: nobody has asked for one.
+    /// Number of fragments of a list that have not been sent yet; none: no list was requested.
     fragments_left: Option<u16>,
-    /// How many SDOs were taken.
+    /// Number of accepted SDOs.
     taken: usize,
 }
 
-/// The messages that the master may ask for again.
+/// The messages that the master may request again.
 #[derive(Default)]
 struct Outbox {
     newest: Vec<u8>,
@@ -86,7 +86,7 @@ impl Service {
 
     pub(super) fn step(&mut self, step: &Step) -> Rules {
         match step {
-            // A second unit is none.
+            // A second unit is ignored.
             Step::Unit { .. } => Ok(()),
             Step::State(state) => {
                 self.state = *state;
@@ -113,7 +113,7 @@ impl Service {
         }
     }
 
-    /// A request is served only when the master's mailbox is free.
+    /// A request is served only while the master's mailbox is free.
     fn make_room(&mut self) -> Rules {
         self.read();
         if self.outbox.newest_waits {
@@ -159,7 +159,7 @@ impl Service {
         self.reply(own, &reply[MailboxHeader::LENGTH_BYTES..], body, changed)
     }
 
-    /// The reply to a request, which allocates nothing and stays in its mailbox.
+    /// The reply to a request; serving it allocates nothing and stays within the reply's mailbox.
     fn reply_to(&mut self, request: &[u8]) -> Result<Option<Vec<u8>>, String> {
         let mut reply = vec![0xEE; usize::from(self.sizes.send_bytes)];
         let Some(server) = self.objects.server() else { return Ok(None) };
@@ -194,7 +194,7 @@ impl Service {
         Ok(header)
     }
 
-    /// What the reply says fits the request, and values change only where a download is taken.
+    /// The contents of the reply match the request, and values change only if a download is accepted.
     fn reply(&mut self, header: MailboxHeader, body: &[u8], request: &[u8], changed: bool) -> Rules {
         if header.mailbox_type == MailboxType::Error {
             MailboxErrorReply::parse(body).ok_or("an error reply that is none")?;
@@ -250,7 +250,7 @@ impl Service {
         if refused || !self.objects.keep_what_is_written() { Ok(()) } else { self.is_kept(request, response) }
     }
 
-    /// What was written can be read, and what was read is what there is.
+    /// A written value can be read, and the value read is the stored one.
     fn is_kept(&mut self, request: Option<SdoRequest<'_>>, response: SdoResponse<'_>) -> Rules {
         let (target, value) = match (request, response) {
             (Some(SdoRequest::DownloadExpedited { target, field, length_bytes: Some(length) }), _)
@@ -278,7 +278,7 @@ impl Service {
         if kept == value { Ok(()) } else { Err(format!("{target:?} is {kept:02X?} and not {value:02X?}")) }
     }
 
-    /// What goes to the master without a further request.
+    /// Messages to the master without a further request.
     fn fetch(&mut self) -> Rules {
         if !matches!(self.state, AlState::PreOp | AlState::SafeOp | AlState::Op) {
             return Ok(());
@@ -355,7 +355,7 @@ impl Outbox {
     }
 }
 
-/// Bytes behind the CoE header.
+/// Bytes after the CoE header.
 fn body_bytes(header: Option<MailboxHeader>) -> usize {
     header.map_or(0, |header| usize::from(header.length_bytes)).saturating_sub(CoeHeader::LENGTH_BYTES)
 }

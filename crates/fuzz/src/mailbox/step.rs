@@ -1,4 +1,4 @@
-//! The steps of an input and how they are written.
+//! The steps of an input and their notation.
 //!
 //! ```text
 //! unit nx 400 400             the objects, nx or small, and the lengths of the mailboxes in bytes
@@ -32,7 +32,7 @@ pub(super) enum Step {
     Reset,
 }
 
-/// Whose objects there are.
+/// The objects of the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Model {
     /// Those of an NX-ECT101.
@@ -70,7 +70,7 @@ impl fmt::Display for Step {
     }
 }
 
-/// A line that is no step.
+/// A line that is not a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NoStep;
 

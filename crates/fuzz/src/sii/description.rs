@@ -8,10 +8,10 @@ use wire::{DataType, ObjectIndex, SubIndex};
 
 use crate::random::Random;
 
-/// Longest text that an EEPROM takes, and one that it does not.
+/// Text lengths up to the longest that an EEPROM accepts, and one that it does not.
 const TEXT_CHARACTERS: [usize; 6] = [0, 1, 12, 60, 255, 256];
 
-/// A description that mostly fits into its EEPROM.
+/// A description that usually fits into its EEPROM.
 pub(super) fn any(random: &mut Random) -> DeviceDescription {
     let mut description = nx_ect101::description(&nx_ect101::UnitSettings::default());
     description.vendor.id = random.number() as u32;
@@ -92,7 +92,7 @@ fn entry(random: &mut Random) -> PdoEntry {
     PdoEntry {
         index: ObjectIndex(random.word()),
         sub: SubIndex(random.byte()),
-        // Texts are numbered up to 255: most names come again.
+        // Texts are numbered up to 255: most names occur again.
         name: if random.once_in(10) { text(random) } else { format!("Entry {}", random.below(20)) },
         data_type: DataType(random.word()),
         bit_length: random.byte(),

@@ -1,4 +1,4 @@
-//! Programs of a grammar: declarations of every kind, and statements about them whose types mostly fit.
+//! Programs from a grammar: declarations of every kind, and statements with them whose types usually match.
 
 use crate::random::Random;
 
@@ -16,7 +16,7 @@ pub(super) const WORDS: &[&str] = &[
     "P_First_Run", "^", "@",
 ];
 
-/// Types with the values of their literals and the operators that they have.
+/// Types with the values of their literals and their operators.
 struct Kind {
     name: &'static str,
     literals: &'static [&'static str],
@@ -71,7 +71,7 @@ const KINDS: [&Kind; 6] = [&INT, &UDINT, &WORD, &LREAL, &TEXT, &TIME];
 
 /// Variables of each kind, and those of the structures.
 const VARIABLES: usize = 3;
-/// How deep expressions and statements go.
+/// Maximum depth of expressions and statements.
 const DEPTH_MAX: usize = 4;
 
 /// A whole program.

@@ -1,7 +1,7 @@
-//! Circles between the files of a crate: files each of which reaches the others by arrows.
+//! Circles between the files of a crate: each of the files reaches the others by arrows.
 //!
-//! An arrow goes from a file to the one in which a name ends that it imports or writes as a path. That a module
-//! declares its children and re-exports what they have is no arrow. Tests draw none.
+//! An arrow goes from a file to the file that defines a name which the first file imports or writes as a path.
+//! Declaring child modules and re-exporting their names is not an arrow. Tests have no arrows.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,24 +10,24 @@ use super::modules::Modules;
 use crate::outcome::{Outcome, report};
 use crate::sources::Source;
 
-/// The circles that there are: to take apart, never to add to.
+/// The existing circles: to be removed, never to be extended.
 const KNOWN: List = List { file: "crates/xtask/src/arrows/circles.txt", text: include_str!("circles.txt") };
 
 /// Files from the top folder, in order.
 type Circle<'a> = BTreeSet<&'a str>;
 
-/// Circles that are not in the list, and lines of the list that are no circle any more.
+/// Circles that are not in the list, and lines of the list that are no longer a circle.
 pub(super) fn findings(crates: &[&str], sources: &[Source]) -> Vec<String> {
     let found: Vec<Circle<'_>> = crates.iter().flat_map(|name| circles(name, sources)).collect();
     compare(&found, &known(KNOWN.text))
 }
 
-/// How many circles the list has.
+/// The number of circles in the list.
 pub(super) fn count() -> usize {
     KNOWN.items().count()
 }
 
-/// Writes the list, where no circle is new and none has grown.
+/// Writes the list, if no circle is new and none has grown.
 pub(super) fn bless(crates: &[&str], sources: &[Source]) -> Outcome {
     let found: Vec<Circle<'_>> = crates.iter().flat_map(|name| circles(name, sources)).collect();
     let known = known(KNOWN.text);
@@ -35,7 +35,7 @@ pub(super) fn bless(crates: &[&str], sources: &[Source]) -> Outcome {
     KNOWN.write(found.iter().map(line))
 }
 
-/// Circles that are in no known one.
+/// Circles that are not part of a known one.
 fn new(found: &[Circle<'_>], known: &[Circle<'_>]) -> Vec<String> {
     let is_new = |circle: &&Circle<'_>| !known.iter().any(|known| circle.is_subset(known));
     found.iter().filter(is_new).map(line).collect()
@@ -77,7 +77,7 @@ fn circles<'a>(crate_name: &str, sources: &'a [Source]) -> Vec<Circle<'a>> {
     circles.into_iter().collect()
 }
 
-/// The files behind the arrows of a file, and behind theirs.
+/// The files that a file reaches by arrows, directly or through others.
 fn reachable<'a>(file: &'a str, next: &BTreeMap<&str, Vec<&'a str>>) -> Circle<'a> {
     let mut reached = Circle::new();
     let mut open: Vec<&str> = vec![file];

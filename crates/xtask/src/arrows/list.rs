@@ -1,11 +1,11 @@
-//! Lists of what is wrong today: to make shorter, never to add to.
+//! Lists of present violations: to be shortened, never to be extended.
 
 use std::collections::BTreeSet;
 
 use crate::outcome::Outcome;
 use crate::tools::root;
 
-/// A list in a file beside this one: a head of lines that begin with `#`, then one item a line.
+/// A list in a file beside this one: a header of lines that begin with `#`, then one item per line.
 pub(super) struct List {
     /// Its file, from the top folder.
     pub(super) file: &'static str,
@@ -18,7 +18,7 @@ impl List {
         items(self.text)
     }
 
-    /// Writes these items, sorted, below the head that the list has.
+    /// Writes these items, sorted, below the header of the list.
     pub(super) fn write(&self, items: impl IntoIterator<Item = String>) -> Outcome {
         let head = self.text.lines().take_while(|line| line.starts_with('#')).map(String::from);
         let sorted: BTreeSet<String> = items.into_iter().collect();
@@ -27,7 +27,7 @@ impl List {
     }
 }
 
-/// The lines that are neither empty nor of the head.
+/// The lines that are neither empty nor part of the header.
 pub(super) fn items(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| !line.is_empty() && !line.starts_with('#'))
 }

@@ -1,14 +1,14 @@
-//! Names of unit models: code outside a model's own crate asks the registry of models.
+//! Names of unit models: code outside a model's own crate uses the registry of models.
 //!
-//! Comments may name a model, tests too. The files whose code does today are in a list; one that is only moved is
-//! renamed there by hand.
+//! Comments may name a model, and so may tests. The files whose code does so at present are in a list; if a
+//! file is only moved, rename it there by hand.
 
 use super::list::List;
 use super::tokens;
 use crate::outcome::{Outcome, report};
 use crate::sources::Source;
 
-/// The crates of the unit models, which are their names.
+/// The crates of the unit models; their names are the names of the crates.
 const MODELS: &[&str] = &["nx-ect101"];
 /// The one file that may name them all.
 const REGISTRY: &str = "crates/plant/src/registry.rs";
@@ -16,17 +16,17 @@ const REGISTRY: &str = "crates/plant/src/registry.rs";
 /// The files that name a model.
 const KNOWN: List = List { file: "crates/xtask/src/arrows/models.txt", text: include_str!("models.txt") };
 
-/// Files of these crates that name a model and are not in the list, and lines of the list that do not any more.
+/// Files of these crates that name a model and are not in the list, and lines of the list that no longer name one.
 pub(super) fn findings(crates: &[&str], sources: &[Source]) -> Vec<String> {
     compare(&naming(crates, sources), &KNOWN.items().collect::<Vec<_>>())
 }
 
-/// How many files the list has.
+/// The number of files in the list.
 pub(super) fn count() -> usize {
     KNOWN.items().count()
 }
 
-/// Writes the list, where no file is new.
+/// Writes the list, if no file is new.
 pub(super) fn bless(crates: &[&str], sources: &[Source]) -> Outcome {
     let (found, known) = (naming(crates, sources), KNOWN.items().collect::<Vec<_>>());
     report("files that name a model", &new(&found, &known))?;
@@ -59,7 +59,7 @@ fn naming<'a>(crates: &[&str], sources: &'a [Source]) -> Vec<&'a str> {
     sources.iter().filter(names_one).map(|source| source.path.as_str()).collect()
 }
 
-/// Whether code has the name, however it is spelled: as a crate, a module, a type, an order code.
+/// Whether code contains the name in any form: as a crate, a module, a type, an order code.
 fn is_named(model: &str, source: &Source) -> bool {
     let lines: Vec<&str> = source.code_lines().map(|(_, line)| line).collect();
     let code = tokens::without_comments(&lines.join("\n")).to_lowercase();

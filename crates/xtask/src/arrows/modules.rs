@@ -1,11 +1,11 @@
-//! The files of a crate as modules, and which of them names which.
+//! The files of a crate as modules, and which of them use which.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::tokens::{self, Path};
 use crate::sources::Source;
 
-/// How many imports an import may go through; behind it the path is left alone.
+/// Maximum number of imports through which an import is followed; after that the path is ignored.
 const HOPS: usize = 8;
 
 /// The files of one crate below `src`, by the path of their module.
@@ -15,14 +15,14 @@ pub(super) struct Modules<'a> {
 
 struct Module<'a> {
     file: &'a str,
-    /// Names that `use` brings in, private ones too, as a child sees them.
+    /// Names from `use`, including private ones, as a child module sees them.
     imports: BTreeMap<String, Path>,
-    /// Paths that this file needs: private imports, and paths in its code. Re-exports are none.
+    /// Paths that this file needs: private imports, and paths in its code, without re-exports.
     needs: Vec<Path>,
 }
 
 impl<'a> Modules<'a> {
-    /// The code of a crate. Files that are there for tests only are left out.
+    /// The code of a crate. Files that exist only for tests are left out.
     pub(super) fn of(crate_name: &str, sources: &'a [Source]) -> Self {
         let folder = format!("crates/{crate_name}/src/");
         let file = |source: &'a Source| {
@@ -32,7 +32,7 @@ impl<'a> Modules<'a> {
         Self { by_path: sources.iter().filter_map(file).collect() }
     }
 
-    /// The arrows between files: the first names something that is in the second.
+    /// The arrows between files: the first uses something in the second.
     pub(super) fn arrows(&self) -> BTreeSet<(&'a str, &'a str)> {
         let targets = |(at, module): (&Path, &Module<'a>)| {
             let named = module.needs.iter().filter_map(|path| self.resolve(at, path, HOPS));
@@ -42,7 +42,7 @@ impl<'a> Modules<'a> {
         self.by_path.iter().flat_map(targets).filter(|(from, to)| from != to).collect()
     }
 
-    /// The file in which a path ends that is written in the module `at`; none in another crate.
+    /// The file in which a path ends that is written in the module `at`; none if it is in another crate.
     fn resolve(&self, at: &Path, path: &[String], hops: usize) -> Option<&'a str> {
         let (mut module, rest) = self.start(at, path)?;
         for (done, name) in rest.iter().enumerate() {
@@ -59,7 +59,7 @@ impl<'a> Modules<'a> {
         self.by_path.get(&module).map(|module| module.file)
     }
 
-    /// The module in which a path begins, and what of it is left.
+    /// The module in which a path begins, and the rest of the path.
     fn start<'p>(&self, at: &Path, path: &'p [String]) -> Option<(Path, &'p [String])> {
         let (first, mut rest) = path.split_first()?;
         let mut module = match first.as_str() {

@@ -1,6 +1,6 @@
-//! As much of Rust's syntax as paths and imports need.
+//! The part of Rust's syntax that paths and imports need.
 
-/// A path as the source has it: `crate`, `super`, `self`, modules, items.
+/// A path as in the source: `crate`, `super`, `self`, modules, items.
 pub(super) type Path = Vec<String>;
 
 /// Words and punctuation, without comments, texts, characters and lifetimes.
@@ -72,7 +72,7 @@ fn text(rest: &str) -> usize {
     rest.len()
 }
 
-/// Whether what is in front of a `use` makes it a re-export.
+/// Whether the words before a `use` make it a re-export.
 pub(super) fn is_public(before: &[&str]) -> bool {
     let open = before.iter().rposition(|token| *token == "(").unwrap_or_default();
     match before.last() {
@@ -101,7 +101,7 @@ fn is_word(token: &str) -> bool {
     token.starts_with(|c: char| c.is_alphabetic() || c == '_')
 }
 
-/// Reads a tree of imports from `at`: names with their paths. Returns where it ends.
+/// Reads a tree of imports from `at`: names with their paths. Returns its end.
 pub(super) fn tree(
     tokens: &[&str],
     mut at: usize,

@@ -4,10 +4,10 @@ use core::fmt;
 
 use crate::sources::Source;
 
-/// The number behind the `C` of a conformance statement.
+/// The number after the `C` of a conformance statement.
 pub(super) type Number = u16;
 
-/// What a citation leads to.
+/// The target of a citation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Cited {
     /// A heading, by its number: `1.7`.
@@ -25,7 +25,7 @@ impl fmt::Display for Cited {
     }
 }
 
-/// The word in front of the number of a section.
+/// The word before the number of a section.
 const WORD: &str = "eference";
 
 /// All citations of a file with their lines, from 1.
@@ -41,7 +41,7 @@ pub(super) fn of(source: &Source) -> Vec<(usize, Cited)> {
     found
 }
 
-/// What of a line may cite, by the kind of the file.
+/// The part of a line that may contain citations, by the kind of the file.
 fn readable(extension: &str) -> Option<fn(&str) -> &str> {
     match extension {
         "md" => Some(|line| line),
@@ -51,13 +51,13 @@ fn readable(extension: &str) -> Option<fn(&str) -> &str> {
     }
 }
 
-/// A statement in code is the name of a check: a string of its own, such as `"C022"`.
+/// A statement in code is the name of a check: a separate string, such as `"C022"`.
 fn check_name(line: &str) -> &str {
     let is_name = |text: &&str| statement(text).is_some_and(|(_, rest)| rest.is_empty());
     line.split('"').skip(1).step_by(2).find(is_name).unwrap_or_default()
 }
 
-/// A line whose citation is broken before the number takes the next one with it.
+/// If a citation is split before its number at the end of a line, the next line is included.
 fn with_number(line: &str, next: &str) -> String {
     let broken = line.trim_end().trim_end_matches(',').ends_with(WORD);
     if broken {
@@ -93,7 +93,7 @@ fn numbers(mut text: &str) -> Vec<String> {
     numbers
 }
 
-/// A number of a section at the beginning, and what is behind it. `8-6` and `16#1` are none.
+/// A number of a section at the start, and the rest. `8-6` and `16#1` are not numbers of sections.
 fn number(text: &str) -> Option<(&str, &str)> {
     let digits = |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
     let chapter = digits(text);
@@ -111,7 +111,7 @@ fn statements(line: &str) -> Vec<Cited> {
     starts.filter_map(|(at, _)| statement(&line[at..])).map(|(number, _)| Cited::Statement(number)).collect()
 }
 
-/// A statement such as `C056` at the beginning, and what is behind it.
+/// A statement such as `C056` at the start, and the rest.
 pub(super) fn statement(text: &str) -> Option<(Number, &str)> {
     let digits = text.strip_prefix('C')?.get(..3)?;
     let rest = &text[1 + digits.len()..];

@@ -1,9 +1,9 @@
-//! Marks: the statements that a test pins.
+//! Marks: the statements that a test covers.
 
 use super::citations::{Number, statement};
 use crate::sources::Source;
 
-/// The numbers that a file's tests pin.
+/// The numbers that a file's tests cover.
 pub(super) fn of(source: &Source) -> Vec<Number> {
     match source.extension() {
         "rs" => of_tests(&source.text),
@@ -12,7 +12,7 @@ pub(super) fn of(source: &Source) -> Vec<Number> {
     }
 }
 
-/// Doc comments count where a test follows.
+/// Doc comments count if a test follows.
 fn of_tests(text: &str) -> Vec<Number> {
     let (mut marks, mut doc) = (Vec::new(), Vec::new());
     for line in text.lines().map(str::trim) {
@@ -38,7 +38,7 @@ fn of_comments(text: &str) -> Vec<Number> {
     text.lines().filter_map(|line| line.strip_prefix('#')).flat_map(leading).collect()
 }
 
-/// The numbers that a comment begins with.
+/// The numbers at the start of a comment.
 fn leading(comment: &str) -> Vec<Number> {
     let mut numbers = Vec::new();
     let mut text = comment.trim_start();

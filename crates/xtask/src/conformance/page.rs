@@ -1,10 +1,10 @@
-//! The page of conformance statements: tables of number, statement, and where it is pinned.
+//! The page of conformance statements: tables of number, statement, and the files with its tests.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::citations::Number;
 
-/// What a reason begins with: the slave does not have it, or does not do it yet.
+/// The start of a reason: the slave does not have the feature, or does not support it yet.
 const REASONS: &[&str] = &["not here: ", "not yet: "];
 
 /// The page, row by row.
@@ -24,7 +24,7 @@ struct Row<'a> {
 pub(super) enum Pinned<'a> {
     /// Files with tests.
     Places(&'a str),
-    /// Why there is none.
+    /// Why there are none.
     Reason(&'a str),
 }
 
@@ -41,13 +41,13 @@ impl<'a> Page<'a> {
         self.rows.iter().map(|row| (row.number, row.pinned))
     }
 
-    /// Numbers with two rows.
+    /// Numbers that occur in two rows.
     pub(super) fn doubled(&self) -> impl Iterator<Item = Number> {
         let mut seen = BTreeSet::new();
         self.rows.iter().map(|row| row.number).filter(move |number| !seen.insert(*number))
     }
 
-    /// The page with the places of the marks in its last column; reasons stay.
+    /// The page with the files of the marks in its last column; reasons are kept.
     pub(super) fn with_places(&self, marked: &BTreeMap<Number, BTreeSet<&str>>) -> String {
         let mut text = self.text.to_string();
         for row in self.rows.iter().filter(|row| matches!(row.pinned, Pinned::Places(_))) {
@@ -60,7 +60,7 @@ impl<'a> Page<'a> {
     }
 }
 
-/// A row of a statement: `| C056 | statement | where it is pinned |`.
+/// A row of a statement: `| C056 | statement | files with tests |`.
 fn row(line: &str) -> Option<Row<'_>> {
     let cells: Vec<&str> = line.strip_prefix('|')?.strip_suffix('|')?.split('|').map(str::trim).collect();
     let [number, _, pinned] = cells.as_slice() else { return None };
@@ -69,7 +69,7 @@ fn row(line: &str) -> Option<Row<'_>> {
     Some(Row { line, number: number.strip_prefix('C')?.parse().ok()?, pinned })
 }
 
-/// Files as the column shows them.
+/// Files in the form of the column.
 pub(super) fn places(files: &BTreeSet<&str>) -> String {
     let short = |file: &&str| format!("`{}`", file.strip_prefix("crates/").unwrap_or(file));
     files.iter().map(short).collect::<Vec<_>>().join(", ")

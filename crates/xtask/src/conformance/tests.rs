@@ -4,7 +4,7 @@ fn source(path: &str, text: &str) -> Source {
     Source { path: path.to_string(), text: text.to_string() }
 }
 
-/// A reference with sections 1 and 1.7, and three statements: pinned, left out, not yet there.
+/// A reference with sections 1 and 1.7, and three statements: covered, left out, not yet supported.
 fn reference() -> Vec<Source> {
     let statements = "| number | statement | pinned |\n\
                       | C001 | frames come back | `esc/tests/frames.rs` |\n\
