@@ -1,8 +1,8 @@
-//! Accesses: what one datagram asks of the memory of a slave, and what comes back.
+//! Accesses: the memory access of one datagram, and its result.
 
 use wire::{Command, FrameBuilder};
 
-/// Whom an access means.
+/// The slaves that an access addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {
     /// The slave at this position, counted from 0 (APRD, APWR).
@@ -33,14 +33,14 @@ impl Address {
 pub enum Access<'a> {
     /// Reads bytes.
     Read {
-        /// The first one.
+        /// Offset of the first byte.
         offset: u16,
-        /// How many, at most 1,486.
+        /// Number of bytes, at most 1,486.
         length_bytes: u16,
     },
     /// Writes bytes.
     Write {
-        /// Where the first one goes.
+        /// Offset of the first byte.
         offset: u16,
         /// The bytes, at most 1,486.
         data: &'a [u8],
@@ -56,7 +56,7 @@ impl Access<'_> {
         }
     }
 
-    /// Adds the datagram that carries it.
+    /// Adds its datagram.
     pub fn add_to(&self, frame: &mut FrameBuilder, address: Address) {
         let (command, field) = address.command(self);
         match *self {
@@ -67,7 +67,7 @@ impl Access<'_> {
         }
     }
 
-    /// How many bytes.
+    /// Number of bytes.
     #[must_use]
     pub const fn length_bytes(&self) -> usize {
         match self {
@@ -77,17 +77,17 @@ impl Access<'_> {
     }
 }
 
-/// What came back for an access.
+/// The result of an access.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Answer<'a> {
-    /// How many slaves have taken it.
+    /// Number of slaves that have accepted it.
     pub working_counter: u16,
-    /// The data as they came back.
+    /// The data as returned.
     pub data: &'a [u8],
 }
 
 impl<'a> Answer<'a> {
-    /// The data, if a slave has taken the access.
+    /// The data, if a slave has accepted the access.
     #[must_use]
     pub const fn taken(self) -> Option<&'a [u8]> {
         if self.working_counter == 0 { None } else { Some(self.data) }
@@ -97,32 +97,32 @@ impl<'a> Answer<'a> {
 /// How a dialogue continues after an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// With its next access, at once.
+    /// With its next access, immediately.
     Next,
-    /// With its next access, a poll period later.
+    /// With its next access, after a poll period.
     Later,
-    /// It got further: with its next access, at once, and its patience begins again.
+    /// It has made progress: with its next access, immediately, and its time-out restarts.
     NextStage,
-    /// It is over, and has its outcome.
+    /// It is complete, and has its outcome.
     Done,
 }
 
-/// What a dialogue waits for. Its runner ends it when it has got no further for too long.
+/// What a dialogue waits for. Its runner ends it after a time without progress.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Patience {
-    /// A slave takes a read or a write.
+    /// A slave accepts a read or a write.
     Access,
-    /// The SII carries out a command.
+    /// The SII executes a command.
     Sii,
     /// A state is reached.
     State(Wait),
-    /// The mailbox takes a request.
+    /// The mailbox accepts a request.
     MailboxRequest,
-    /// The reply lies in the mailbox.
+    /// The reply is in the mailbox.
     MailboxResponse,
 }
 
-/// The transitions that have time-outs of their own.
+/// The transitions with separate time-outs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wait {
     /// INIT to PRE-OP or BOOT.
@@ -135,8 +135,8 @@ pub enum Wait {
     BackToSafeOp,
 }
 
-/// A dialogue with one slave, or with all: one access at a time. It has no time: its runner repeats an access whose
-/// answer is lost, and ends a dialogue that waits for too long.
+/// A dialogue with one slave, or with all: one access at a time. It has no clock: its runner repeats an access
+/// whose answer is lost, and ends a dialogue that waits for too long.
 ///
 /// ```
 /// use master::{Access, Answer, Dialogue, Progress, RegisterRead};
@@ -148,10 +148,11 @@ pub enum Wait {
 /// assert_eq!(read.data(), [0x02, 0x00]);
 /// ```
 pub trait Dialogue {
-    /// The next access; the same one until its answer comes.
+    /// The next access; the same one until its answer is received.
     fn access(&self) -> Access<'_>;
 
-    /// Takes the answer to the last access; none: it is lost, and nobody knows whether a slave has taken it.
+    /// Processes the answer to the last access; none: it is lost, and it is unknown whether a slave has
+    /// accepted the access.
     fn answer(&mut self, answer: Option<Answer<'_>>) -> Progress;
 
     /// What it waits for.

@@ -1,11 +1,11 @@
-//! SyncManagers and FMMUs as a master writes them.
+//! SyncManagers and FMMUs as the master writes them.
 
 use esi::MailboxArea;
 
-/// A SyncManager, right or wrong.
+/// The settings of a SyncManager, correct or incorrect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SyncManagerSettings {
-    /// Which one, 0 to 15.
+    /// Its number, 0 to 15.
     pub number: u8,
     /// Physical start address.
     pub start: u16,
@@ -29,7 +29,7 @@ impl SyncManagerSettings {
         Self { number, start: area.start, length_bytes: area.length_bytes, control, activate: 1 }
     }
 
-    /// The eight bytes of its registers; status and PDI control are the slave's.
+    /// The eight bytes of its registers; the slave sets status and PDI control.
     #[must_use]
     pub const fn pack(&self) -> [u8; 8] {
         let ([s0, s1], [l0, l1]) = (self.start.to_le_bytes(), self.length_bytes.to_le_bytes());
@@ -37,14 +37,14 @@ impl SyncManagerSettings {
     }
 }
 
-/// An FMMU, right or wrong.
+/// The settings of an FMMU, correct or incorrect.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FmmuSettings {
-    /// Which one, 0 to 15.
+    /// Its number, 0 to 15.
     pub number: u8,
     /// First logical byte.
     pub logical_start: u32,
-    /// Length in bytes, from the first to the last one touched.
+    /// Length in bytes, from the first to the last byte touched.
     pub length_bytes: u16,
     /// First bit in the first logical byte, 0 to 7.
     pub logical_start_bit: u8,

@@ -9,19 +9,19 @@ use crate::registers;
 use crate::service::Service;
 use crate::state::{AlReport, StateRequest};
 
-/// What is at the other end of the cable: slaves that answer a frame at once.
+/// The other end of the cable: slaves that answer a frame immediately.
 pub trait Line {
-    /// A frame leaves the master; its answer takes its place. Whether it comes back.
+    /// A frame leaves the master; its answer replaces it. Returns whether it comes back.
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> bool;
 
-    /// The slaves do what is due, after each frame and at each deadline.
+    /// The slaves do due work, after each frame and at each deadline.
     fn poll(&mut self, now: Instant);
 
-    /// When [`Line::poll`] has to be called next.
+    /// The time at which [`Line::poll`] must be called next.
     fn deadline(&self) -> Instant;
 }
 
-/// A master with a line. Time passes only while an order is carried out, or as the owner says.
+/// A master with a line. Time advances only while an order is executed, or when the caller advances it.
 #[derive(Debug)]
 pub struct Connected<L> {
     /// The master.
@@ -30,7 +30,7 @@ pub struct Connected<L> {
     pub line: L,
     now: Instant,
     frame: Vec<u8>,
-    /// Events that nobody has taken yet.
+    /// Events that have not been taken yet.
     events: Vec<Event>,
 }
 
@@ -41,13 +41,13 @@ impl<L: Line> Connected<L> {
         Self { master, line, now, frame: Vec::new(), events: Vec::new() }
     }
 
-    /// The present moment.
+    /// The present time.
     #[must_use]
     pub const fn now(&self) -> Instant {
         self.now
     }
 
-    /// Lets time pass; what is due in it happens at its moment.
+    /// Advances the time; work that becomes due is done at its time.
     pub fn run_for(&mut self, duration: Duration) {
         let end = self.now + duration;
         while self.exchange() <= end {
@@ -56,7 +56,7 @@ impl<L: Line> Connected<L> {
         self.now = end;
     }
 
-    /// Sends what leaves now, and brings back the answers; when something is due next.
+    /// Sends the due frames, and passes on the answers; returns when something is due next.
     fn exchange(&mut self) -> Instant {
         let Self { master, line, now, frame, events } = self;
         line.poll(*now);
@@ -75,7 +75,7 @@ impl<L: Line> Connected<L> {
         self.master.deadline().min(self.line.deadline()).max(self.now)
     }
 
-    /// Runs until an order is done; how it ended at each slave, and for all of them.
+    /// Runs until an order is done; returns its result for each slave, and for all of them.
     pub fn complete(&mut self, request: RequestId) -> Vec<(Option<usize>, Result<Outcome, Failure>)> {
         while self.exchange() < Instant::NEVER && self.master.is_open(request) {
             self.now = self.deadline();
@@ -96,7 +96,7 @@ impl<L: Line> Connected<L> {
         self.complete(request).pop().map_or(Err(Failure::NoSlave), |(_, result)| result)
     }
 
-    /// Finds the slaves; how many there are.
+    /// Finds the slaves; returns their number.
     ///
     /// # Errors
     /// The first slave that cannot be identified.
@@ -106,10 +106,10 @@ impl<L: Line> Connected<L> {
         failure.map_or(Ok(self.master.slaves().len()), Err)
     }
 
-    /// Takes a slave to a state by the way of a real master.
+    /// Takes a slave to a state with the sequence of a real master.
     ///
     /// # Errors
-    /// What did not work on the way.
+    /// The step that failed.
     pub fn take_to(&mut self, slave: usize, state: AlState) -> Result<(), Failure> {
         let request = self.master.take_to(self.now, slave, state);
         self.one(request).map(drop)
@@ -118,14 +118,14 @@ impl<L: Line> Connected<L> {
     /// Takes all slaves to a state at the same time.
     ///
     /// # Errors
-    /// The first slave that does not come, and why.
+    /// The first slave that does not reach it, and why.
     pub fn take_all_to(&mut self, state: AlState) -> Result<(), (usize, Failure)> {
         let request = self.master.take_all_to(self.now, state);
         let failure = |(slave, result): (Option<usize>, Result<_, _>)| Some((slave?, result.err()?));
         self.complete(request).into_iter().find_map(failure).map_or(Ok(()), Err)
     }
 
-    /// Carries out a dialogue with the state machine of a slave; what AL status shows then.
+    /// Executes a dialogue with the state machine of a slave; returns AL status afterwards.
     ///
     /// # Errors
     /// The state is refused or not reached.
@@ -137,7 +137,7 @@ impl<L: Line> Connected<L> {
         }
     }
 
-    /// AL status and AL status code of a slave, at this moment.
+    /// AL status and AL status code of a slave, now.
     ///
     /// # Errors
     /// The slave does not answer.
@@ -149,7 +149,7 @@ impl<L: Line> Connected<L> {
     /// The Explicit Device ID of a slave.
     ///
     /// # Errors
-    /// The slave does not tell it.
+    /// The slave does not show it.
     pub fn device_id(&mut self, slave: usize) -> Result<u16, Failure> {
         let request = self.master.read_device_id(self.now, slave);
         match self.one(request)? {
@@ -161,7 +161,7 @@ impl<L: Line> Connected<L> {
     /// Reads an entry or a whole object by SDO.
     ///
     /// # Errors
-    /// The refusal, or why no reply came.
+    /// The refusal, or why there was no reply.
     pub fn upload(&mut self, slave: usize, target: SdoTarget) -> Result<Vec<u8>, Failure> {
         let request = self.master.upload(self.now, slave, target);
         self.data(request)
@@ -170,31 +170,31 @@ impl<L: Line> Connected<L> {
     /// Writes an entry or a whole object by SDO.
     ///
     /// # Errors
-    /// The refusal, or why no reply came.
+    /// The refusal, or why there was no reply.
     pub fn download(&mut self, slave: usize, target: SdoTarget, value: &[u8]) -> Result<(), Failure> {
         let request = self.master.download(self.now, slave, target, value);
         self.one(request).map(drop)
     }
 
-    /// Asks about the object dictionary of a slave. [`crate::SdoInformation`] says what the answer is.
+    /// Queries the object dictionary of a slave. [`crate::SdoInformation`] describes the answer.
     ///
     /// # Errors
-    /// The refusal, or why no reply came.
+    /// The refusal, or why there was no reply.
     pub fn information(&mut self, slave: usize, question: SdoInfoRequest) -> Result<Vec<u8>, Failure> {
         let request = self.master.information(self.now, slave, question);
         self.data(request)
     }
 
-    /// Carries out a service by the mailbox of a slave.
+    /// Executes a mailbox service of a slave.
     ///
     /// # Errors
-    /// The refusal, or why no reply came.
+    /// The refusal, or why there was no reply.
     pub fn service(&mut self, slave: usize, service: Service) -> Result<Vec<u8>, Failure> {
         let request = self.master.service(self.now, slave, service);
         self.data(request)
     }
 
-    /// Events that belong to no order that was completed: emergencies, and the ends of orders that went on meanwhile.
+    /// Events that do not belong to a completed order: emergencies, and the ends of orders that were running meanwhile.
     pub fn take_events(&mut self) -> Vec<Event> {
         core::mem::take(&mut self.events)
     }
@@ -218,7 +218,7 @@ impl<L: Line> Connected<L> {
     /// Writes bytes of a slave's memory.
     ///
     /// # Errors
-    /// The slave does not take them.
+    /// The slave does not accept them.
     pub fn write(&mut self, slave: usize, offset: u16, data: &[u8]) -> Result<(), Failure> {
         let request = self.master.write(self.now, slave, offset, data);
         self.one(request).map(drop)

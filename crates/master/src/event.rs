@@ -1,4 +1,4 @@
-//! What a master has to report, and how orders end.
+//! The events that a master reports, and the results of orders.
 
 use core::fmt;
 
@@ -10,41 +10,41 @@ use crate::reaction::ServiceFailure;
 use crate::sii::SiiFailure;
 use crate::state::AlReport;
 
-/// An order of the owner. Its parts report under it.
+/// An order of the caller. The events of its parts carry it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct RequestId(pub(crate) u64);
 
-/// Something that has happened.
+/// An event.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
-    /// The part of an order that is about one slave, or about all of them together, is over.
+    /// The part of an order that concerns one slave, or all of them together, is complete.
     Finished {
         /// The order.
         request: RequestId,
         /// The slave's position; none for all.
         slave: Option<usize>,
-        /// How it ended.
+        /// Its result.
         result: Result<Outcome, Failure>,
     },
     /// A slave has sent an emergency.
     Emergency {
         /// The slave's position.
         slave: usize,
-        /// What it says.
+        /// The message.
         emergency: Emergency,
     },
 }
 
-/// How an order ended well.
+/// The result of a successful order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// It is done, and there is nothing to tell.
+    /// It is done, without a value.
     Done,
     /// This many slaves were found.
     Found(u16),
-    /// What was read: memory, the value of an SDO, the reply to a message. Nothing for what was written by mailbox.
+    /// The data read: memory, the value of an SDO, the reply to a message. Empty after a write by mailbox.
     Data(Vec<u8>),
-    /// What a datagram came back with.
+    /// The returned datagram.
     Datagram {
         /// Its working counter.
         working_counter: u16,
@@ -64,24 +64,24 @@ pub enum Outcome {
 pub enum Failure {
     /// There is no such slave.
     NoSlave,
-    /// More bytes than one datagram holds, which are 1,486.
+    /// More bytes than one datagram can carry, which are 1,486.
     TooLong {
-        /// How many.
+        /// Their number.
         length_bytes: usize,
     },
-    /// The frame did not come back.
+    /// The frame did not return.
     Lost,
-    /// The slave takes no access.
+    /// The slave does not accept the access.
     NoAnswer,
-    /// The SII is busy for too long.
+    /// The SII was busy for too long.
     SiiBusy,
     /// The SII cannot be read.
     Sii(SiiFailure),
-    /// The slave refuses the state, or has left it; what it shows.
+    /// The slave refuses the state, or has left it; the AL status that it shows.
     Refused(AlReport),
-    /// The state was not reached in time; what the slave shows.
+    /// The state was not reached in time; the AL status that the slave shows.
     NotReached(AlReport),
-    /// A service by mailbox failed.
+    /// A mailbox service failed.
     Mailbox(ServiceFailure),
 }
 

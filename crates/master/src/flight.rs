@@ -1,24 +1,24 @@
-//! Frames on their way: tickets, what each datagram was for, what counts as lost.
+//! Frames on their way: tickets, the purpose of each datagram, and which frames count as lost.
 
 use time::Instant;
 use wire::{Command, DatagramView, datagrams};
 
 use crate::event::RequestId;
 
-/// A frame that was sent. Its owner hands it back with the answer.
+/// A frame that was sent. The caller returns the ticket with the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ticket(u64);
 
-/// What a datagram was sent for.
+/// The purpose of a datagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sender {
     /// A dialogue with all slaves; the number of the datagram in its queue.
     Everybody(u32),
     /// A dialogue with the slave at this position; the number of the datagram in its queue.
     Slave(usize, u32),
-    /// A datagram that the owner has ordered.
+    /// A datagram that the caller has ordered.
     Owner(RequestId),
-    /// The datagram of this number in the cycle.
+    /// The datagram with this number in the cycle.
     Cycle(usize),
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// Whether this is its answer. Address and offset change on the way of some commands.
+    /// Whether this is its answer. Some commands change address and offset on the way.
     fn is_answered_by(&self, datagram: &DatagramView<'_>, index: u8) -> bool {
         datagram.header.command == self.command
             && datagram.header.index == index
@@ -44,7 +44,7 @@ impl Part {
 pub(crate) struct Flight {
     ticket: Ticket,
     first_index: u8,
-    /// From then on it counts as lost.
+    /// After this time it counts as lost.
     due: Instant,
     parts: Vec<Part>,
 }
@@ -69,12 +69,12 @@ pub(crate) struct Flights {
     last: u64,
     next_index: u8,
     flying: Vec<Flight>,
-    /// Parts of flights that are over, for later ones.
+    /// The lists of completed flights, for reuse.
     spare: Vec<Vec<Part>>,
 }
 
 impl Flights {
-    /// The index of the first datagram of the next frame, where indexes are running.
+    /// The index of the first datagram of the next frame, if indexes count on.
     pub(crate) const fn next_index(&self) -> u8 {
         self.next_index
     }
@@ -84,7 +84,7 @@ impl Flights {
         self.spare.pop().unwrap_or_default()
     }
 
-    /// A frame with these datagrams leaves.
+    /// A frame with these datagrams is sent.
     pub(crate) fn depart(&mut self, first_index: u8, parts: Vec<Part>, due: Instant) -> Ticket {
         self.last += 1;
         let ticket = Ticket(self.last);
@@ -93,13 +93,13 @@ impl Flights {
         ticket
     }
 
-    /// The datagrams of the frame that this one answers; none if it is late, comes twice or is damaged.
+    /// The datagrams of the frame to which this one is the answer; none if it is late, a duplicate or damaged.
     pub(crate) fn arrive(&mut self, ticket: Ticket, frame: &[u8]) -> Option<Vec<Part>> {
         let at = self.flying.iter().position(|flight| flight.ticket == ticket)?;
         self.flying[at].is_answered_by(frame).then(|| self.flying.remove(at).parts)
     }
 
-    /// The ticket of a frame that nobody has kept it for.
+    /// The ticket of a frame, for a caller that does not keep tickets.
     pub(crate) fn recognize(&self, frame: &[u8]) -> Option<Ticket> {
         self.flying.iter().find(|flight| flight.is_answered_by(frame)).map(|flight| flight.ticket)
     }
@@ -110,7 +110,7 @@ impl Flights {
         Some(self.flying.remove(at).parts)
     }
 
-    /// What is still on its way of the last cycle does not count any more.
+    /// Answers to the last cycle that are still missing are ignored from now on.
     pub(crate) fn forget_cycle(&mut self) {
         let is_cyclic = |flight: &Flight| {
             flight.parts.first().is_some_and(|part| matches!(part.sender, Sender::Cycle(_)))
@@ -121,7 +121,7 @@ impl Flights {
         }
     }
 
-    /// The memory of a list serves the next frame.
+    /// The memory of a list is reused for the next frame.
     pub(crate) fn recycle(&mut self, mut parts: Vec<Part>) {
         parts.clear();
         self.spare.push(parts);
@@ -132,7 +132,7 @@ impl Flights {
         self.flying.iter().any(|flight| flight.parts.iter().any(|part| part.sender == sender))
     }
 
-    /// When the next frame counts as lost.
+    /// The time at which the next frame counts as lost.
     pub(crate) fn deadline(&self) -> Instant {
         self.flying.iter().map(|flight| flight.due).min().unwrap_or(Instant::NEVER)
     }

@@ -7,28 +7,28 @@ use crate::access::{Address, Patience, Wait};
 use crate::mailbox::MailboxConduct;
 use crate::process_data::Exchange;
 
-/// The habits of a master. The default is a patient one that fills its frames.
+/// The habits of a master. The default has long time-outs and fills its frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Habits {
     /// How slaves are addressed.
     pub addressing: Addressing,
-    /// Most datagrams of one frame, beside those of process data. At least 1.
+    /// Maximum number of datagrams in one frame, in addition to those of process data. At least 1.
     pub datagrams_max: usize,
-    /// What is in the index field of datagrams.
+    /// The contents of the index field of datagrams.
     pub indexes: Indexes,
-    /// How long an answer may take before the frame counts as lost.
+    /// Time-out for an answer; then the frame counts as lost.
     pub answer_patience: Duration,
-    /// From one look at a status to the next.
+    /// Time between two reads of a status.
     pub poll_period: Duration,
-    /// How long a slave may leave accesses alone: a write that nobody takes, a read that nobody answers.
+    /// Time-out for an access that no slave accepts or answers.
     pub access_patience: Duration,
-    /// How long one command of the SII may take.
+    /// Time-out for one command of the SII.
     pub sii_patience: Duration,
-    /// From one look into a mailbox, for emergencies, to the next one; none: it never looks unasked.
+    /// Time between two reads of a mailbox for emergencies; none: it reads the mailbox only after a request.
     pub listen_period: Option<Duration>,
-    /// How mailboxes are treated at first.
+    /// The initial handling of mailboxes.
     pub mailbox: MailboxConduct,
-    /// How process data are exchanged at first.
+    /// The initial settings for the exchange of process data.
     pub exchange: Exchange,
 }
 
@@ -37,15 +37,15 @@ pub struct Habits {
 pub enum Addressing {
     /// By position: APRD, APWR.
     Position,
-    /// By station addresses, which count from this one on: FPRD, FPWR.
+    /// By station addresses, which count up from this one: FPRD, FPWR.
     Station {
-        /// Of the first slave.
+        /// Address of the first slave.
         first: u16,
     },
 }
 
 impl Addressing {
-    /// How the slave at a position is addressed when it was identified.
+    /// The address of the slave at a position when it has been identified.
     #[must_use]
     pub const fn of(self, position: u16) -> Address {
         match self {
@@ -55,10 +55,10 @@ impl Addressing {
     }
 }
 
-/// What is in the index field of datagrams.
+/// The contents of the index field of datagrams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexes {
-    /// They count on from frame to frame, so that an answer is known by its first index.
+    /// They count on from frame to frame, so that an answer is identified by its first index.
     Running,
     /// They count from 0 in each frame.
     FromZero,
@@ -82,7 +82,7 @@ impl Default for Habits {
 }
 
 impl Habits {
-    /// How long a dialogue may wait for this; a state and a mailbox as long as the device says.
+    /// Time-out of a dialogue that waits for this; for a state and a mailbox it is the device's time-out.
     pub(crate) const fn patience(&self, patience: Patience, timeouts: &Timeouts) -> Duration {
         match patience {
             Patience::Access => self.access_patience,

@@ -1,4 +1,4 @@
-//! What a master reads of a controller before it knows the device: its information registers and DL status.
+//! What a master reads from a controller before it knows the device: its information registers and DL status.
 
 use bitflags::bitflags;
 
@@ -13,9 +13,9 @@ pub struct EscInformation {
     pub revision: u8,
     /// Build.
     pub build: u16,
-    /// How many FMMUs it has, 0 to 16.
+    /// Number of FMMUs, 0 to 16.
     pub fmmus: u8,
-    /// How many SyncManagers it has, 0 to 16.
+    /// Number of SyncManagers, 0 to 16.
     pub sync_managers: u8,
     /// Process data RAM in KiB.
     pub ram_kib: u8,
@@ -29,7 +29,7 @@ impl EscInformation {
     /// Bytes of the registers.
     pub const LENGTH_BYTES: u16 = 10;
 
-    /// Takes the registers apart; none if the bytes are too few.
+    /// Decodes the registers; none if the bytes are too few.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Option<Self> {
         let &[esc_type, revision, b0, b1, fmmus, sync_managers, ram_kib, ports, f0, f1, ..] = bytes else {
@@ -68,7 +68,7 @@ bitflags! {
 pub struct DlStatus(pub u16);
 
 impl DlStatus {
-    /// Reads the register.
+    /// Decodes the register.
     pub(crate) fn parse(bytes: &[u8]) -> Self {
         Self(word(bytes))
     }
@@ -91,7 +91,7 @@ impl DlStatus {
         self.0 >> (8 + 2 * (port & 3)) & 3 == 2
     }
 
-    /// How many ports are open: 1 at the end of a line, 2 within it, more where it forks.
+    /// Number of open ports: 1 at the end of a line, 2 within it, more at a branch.
     #[must_use]
     pub fn open_ports(self) -> usize {
         (0..4).filter(|&port| self.is_open(port)).count()

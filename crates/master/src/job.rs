@@ -1,4 +1,4 @@
-//! Jobs: the dialogues that a slave's queue holds, and how each one ends.
+//! Jobs: the dialogues in a slave's queue, and their results.
 
 use crate::access::Dialogue;
 use crate::event::{Failure, Outcome};
@@ -63,7 +63,7 @@ impl Job {
         }
     }
 
-    /// How it ended, when it is done.
+    /// Its result when it is done.
     pub(crate) fn result(self) -> Result<Outcome, Failure> {
         match self {
             Self::Read(read) => Ok(Outcome::Data(read.into_data())),
@@ -85,7 +85,7 @@ impl Job {
         }
     }
 
-    /// How it ended, when it has waited for too long.
+    /// Its result when it has waited for too long.
     pub(crate) fn failure(&self) -> Failure {
         match self {
             Self::Read(_) | Self::Write(_) | Self::Search(_) => Failure::NoAnswer,

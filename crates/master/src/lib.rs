@@ -1,11 +1,11 @@
 //! An EtherCAT master without I/O: time and frames are arguments.
 //!
-//! A [`Master`] finds the slaves of a line, sets them up by their SII or ESI, transfers SDOs and exchanges process
-//! data. Its owner asks [`Master::transmit`] for frames, brings the answers to [`Master::receive`], and comes again at
-//! [`Master::deadline`].
+//! A [`Master`] finds the slaves of a line, sets them up according to their SII or ESI, transfers SDOs and
+//! exchanges process data. The caller gets frames from [`Master::transmit`], passes the answers to
+//! [`Master::receive`], and calls again at [`Master::deadline`].
 //!
-//! Everything that a master says to a slave is a [`Dialogue`]: one access at a time, without a clock. Each of them can
-//! be used alone, also for what a right master never does.
+//! All communication of a master with a slave is a [`Dialogue`]: one access at a time, without a clock. Each
+//! dialogue can be used separately, also for sequences that a correct master never uses.
 
 mod access;
 mod channels;

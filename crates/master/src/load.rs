@@ -1,4 +1,4 @@
-//! A frame that is being loaded: its bytes, and whose its datagrams are.
+//! A frame that is being loaded: its bytes, and the purpose of its datagrams.
 
 use wire::{Command, FrameBuilder};
 
@@ -14,7 +14,7 @@ pub(crate) struct Load {
 }
 
 impl Load {
-    /// An empty frame of at most so many datagrams.
+    /// An empty frame with at most this number of datagrams.
     pub(crate) const fn new(builder: FrameBuilder, parts: Vec<Part>, datagrams_max: usize) -> Self {
         Self { builder, parts, datagrams_max }
     }
@@ -23,7 +23,7 @@ impl Load {
         self.parts.is_empty()
     }
 
-    /// Whether one more datagram with as many data bytes goes in.
+    /// Whether one more datagram with this number of data bytes fits.
     pub(crate) fn has_room(&self, length_bytes: usize) -> bool {
         self.parts.len() < self.datagrams_max
             && self.builder.room_bytes().is_some_and(|room| length_bytes <= room)
@@ -49,7 +49,7 @@ impl Load {
         }
     }
 
-    /// The bytes of the frame, and whose its datagrams are.
+    /// The bytes of the frame, and the purpose of its datagrams.
     pub(crate) fn finish(self) -> (Vec<u8>, Vec<Part>) {
         (self.builder.finish(), self.parts)
     }

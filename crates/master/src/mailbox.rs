@@ -1,4 +1,4 @@
-//! The mailbox from the master's side: a request in, replies out, and what to do when one of them is lost.
+//! The mailbox from the master's side: a request in, replies out, and the recovery of a lost reply.
 
 use wire::{CoeHeader, CoeService, Emergency, MailboxErrorReply, MailboxHeader, MailboxType};
 
@@ -8,23 +8,23 @@ use crate::reaction::{Reaction, ServiceFailure};
 use crate::registers::{SYNC_MANAGER_ACTIVATE, SYNC_MANAGER_STATUS, sync_manager};
 use crate::service::Service;
 
-/// SyncManager status, bit 3: a message lies in the mailbox.
+/// SyncManager status, bit 3: a message is in the mailbox.
 const FULL: u8 = 0x08;
-/// Activate, bit 1: its change asks for the last message once more.
+/// Activate, bit 1: its change requests the last message again.
 const REPEAT_REQUEST: u8 = 0x02;
-/// Messages in a row that belong to nobody and are read at once. Behind them every look takes a poll period.
+/// Number of consecutive unexpected messages that are read immediately. After that every read takes a poll period.
 const STRAYS_MAX: u8 = 16;
 
-/// How a master treats the mailbox of a slave, right or wrong, and how far its counters are.
+/// How a master handles the mailbox of a slave, correctly or incorrectly, and the present counters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct MailboxConduct {
     /// The counter of its messages.
     pub counter: Counter,
-    /// Whether it reads what lies in the mailbox.
+    /// Whether it reads the messages in the mailbox.
     pub reading: Reading,
-    /// What it does when a read has got lost.
+    /// What it does after a read is lost.
     pub lost_read: LostRead,
-    /// The counter of the last message that came; 0 before the first one.
+    /// The counter of the last message received; 0 before the first one.
     pub received: u8,
 }
 
@@ -33,7 +33,7 @@ pub struct MailboxConduct {
 pub struct Counter {
     /// The last one, 1 to 7, then 1 again; 0 before the first message.
     pub last: u8,
-    /// What every message has in its place, 0 to 7; 0 is a message that is not counted. None: right counting.
+    /// The fixed counter of every message, 0 to 7; 0 is a message that is not counted. None: correct counting.
     pub fixed: Option<u8>,
 }
 
@@ -44,28 +44,28 @@ impl Counter {
     }
 }
 
-/// Whether a master reads what lies in a mailbox.
+/// Whether a master reads the messages in a mailbox.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reading {
-    /// It does.
+    /// It reads them.
     #[default]
     Always,
-    /// It lets everything lie where it is.
+    /// It leaves all messages in the mailbox.
     Never,
 }
 
-/// What a master does when a read of the mailbox has got lost: nobody knows whether the slave was read.
+/// What a master does after a read of the mailbox is lost: it is unknown whether the slave was read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LostRead {
-    /// Asks for the last message once more, as SOEM does. A message that comes twice is known by its counter.
+    /// Requests the last message again, like SOEM. A message that is received twice is identified by its counter.
     #[default]
     AskAgain,
-    /// Reads once more, and asks for the last message if the mailbox is empty.
+    /// Reads again, and requests the last message if the mailbox is empty.
     ReadAgain,
 }
 
 impl MailboxConduct {
-    /// Right, and nothing was sent yet.
+    /// Correct handling; nothing has been sent yet.
     pub const NEW: Self = Self {
         counter: Counter { last: 0, fixed: None },
         reading: Reading::Always,
@@ -73,12 +73,12 @@ impl MailboxConduct {
         received: 0,
     };
 
-    /// The slave starts its mailbox: it has sent nothing yet.
+    /// The slave starts its mailbox: it has not sent anything yet.
     pub(crate) const fn restart(&mut self) {
         self.received = 0;
     }
 
-    /// Whether a message came before; those with counter 0 never have.
+    /// Whether a message has been received before; messages with counter 0 never have.
     const fn came_before(&mut self, counter: u8) -> bool {
         let again = counter != 0 && counter == self.received;
         self.received = counter;
@@ -98,32 +98,32 @@ pub struct MailboxDialogue {
     phase: Phase,
     emergencies: Vec<Emergency>,
     strays: u8,
-    /// It has asked for a message once more, so that one may come twice.
+    /// It has requested a message again, so that one may be received twice.
     has_asked_again: bool,
 }
 
-/// How far a dialogue is.
+/// The phase of a dialogue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
-    /// Writes the request. If an answer to it was lost, the slave may have it already.
+    /// Writes the request. If an answer to it was lost, the slave may already have it.
     Ask {
         may_be_taken: bool,
     },
-    /// Looks whether a message lies in the mailbox.
+    /// Checks whether a message is in the mailbox.
     Wait,
     /// Reads it.
     Read,
-    /// A reply may be lost: looks at the activate byte, and writes it with the repeat request changed.
+    /// A reply may be lost: reads the activate byte, and writes it with the repeat request changed.
     LookAtRepeat,
     AskToRepeat {
         activate: [u8; 1],
     },
-    /// The request cannot be put into the mailbox.
+    /// The request does not fit into the mailbox.
     Failed,
 }
 
 impl MailboxDialogue {
-    /// A service by this mailbox. [`MailboxDialogue::begin`] begins it.
+    /// A service of this mailbox. [`MailboxDialogue::begin`] starts it.
     #[must_use]
     pub const fn new(out: SyncManagerSettings, inward: SyncManagerSettings, service: Service) -> Self {
         Self {
@@ -139,24 +139,24 @@ impl MailboxDialogue {
         }
     }
 
-    /// Begins, with the counters that the mailbox has.
+    /// Starts, with the present counters of the mailbox.
     pub fn begin(&mut self, conduct: MailboxConduct) {
         self.conduct = conduct;
         if self.service.asks() { self.ask() } else { self.phase = Phase::Wait }
     }
 
-    /// How it treats the mailbox, and how far the counters are.
+    /// How it handles the mailbox, and the present counters.
     #[must_use]
     pub const fn conduct(&self) -> MailboxConduct {
         self.conduct
     }
 
-    /// Changes how it treats the mailbox from now on.
+    /// Changes how it handles the mailbox from now on.
     pub const fn conduct_mut(&mut self) -> &mut MailboxConduct {
         &mut self.conduct
     }
 
-    /// The oldest emergency that came meanwhile and was not taken yet.
+    /// The oldest emergency that was received meanwhile and has not been taken yet.
     pub fn take_emergency(&mut self) -> Option<Emergency> {
         (!self.emergencies.is_empty()).then(|| self.emergencies.remove(0))
     }
@@ -173,7 +173,7 @@ impl MailboxDialogue {
         self.service
     }
 
-    /// Whether the slave has taken the request, so that a reply is what it waits for.
+    /// Whether the slave has accepted the request, so that the service waits for a reply.
     #[must_use]
     pub const fn is_taken(&self) -> bool {
         !matches!(self.phase, Phase::Ask { .. } | Phase::Failed)
@@ -222,7 +222,7 @@ impl MailboxDialogue {
         Progress::Next
     }
 
-    /// A mailbox that was full and is empty was read by a frame that got lost.
+    /// A mailbox that was full and is empty was read by a frame that was lost.
     const fn not_taken(&mut self) -> Progress {
         match self.phase {
             Phase::Ask { may_be_taken: true } => self.phase = Phase::Wait,
@@ -255,11 +255,11 @@ impl MailboxDialogue {
         Progress::Next
     }
 
-    /// A message lay in the mailbox.
+    /// A message was in the mailbox.
     fn message(&mut self, mailbox: &[u8]) -> Progress {
         self.phase = Phase::Wait;
         let Some((header, body)) = open(mailbox) else { return self.stray() };
-        // Otherwise a slave that has started again may come to the same counter.
+        // Otherwise a slave that has restarted may reach the same counter.
         if self.conduct.came_before(header.counter) && self.has_asked_again {
             return self.stray();
         }
@@ -287,14 +287,14 @@ impl MailboxDialogue {
         Progress::NextStage
     }
 
-    /// The message belongs to nobody; the reply may still come.
+    /// The message is not expected; the reply may still follow.
     const fn stray(&mut self) -> Progress {
         self.strays = self.strays.saturating_add(1);
         if self.strays > STRAYS_MAX { Progress::Later } else { Progress::Next }
     }
 }
 
-/// The header of a message and what it says is behind it; none if it is too short.
+/// The header of a message and the bytes after it; none if it is too short.
 fn open(mailbox: &[u8]) -> Option<(MailboxHeader, &[u8])> {
     let header = MailboxHeader::parse(mailbox)?;
     let body = mailbox.get(MailboxHeader::LENGTH_BYTES..)?.get(..usize::from(header.length_bytes))?;

@@ -20,8 +20,8 @@ use crate::process_data::ProcessData;
 use crate::queue::Queue;
 use crate::slave::Slave;
 
-/// A master of one line. It has no clock and no socket: its owner asks it for frames, brings it the answers, and
-/// comes again when its deadline is due.
+/// A master of one line. It has no clock and no socket: the caller gets frames from it, passes it the answers,
+/// and calls again when its deadline is due.
 ///
 /// ```
 /// use master::Master;
@@ -48,11 +48,11 @@ pub struct Master {
     events: VecDeque<Event>,
     emergencies_lost: u64,
     requests: u64,
-    /// The slave that comes first when not all find room in a frame.
+    /// The slave that comes first if not all fit into a frame.
     turn: usize,
 }
 
-/// A datagram that the owner has ordered.
+/// A datagram that the caller has ordered.
 #[derive(Debug)]
 struct OwnDatagram {
     request: RequestId,
@@ -64,11 +64,11 @@ struct OwnDatagram {
 
 /// Time-outs of dialogues with all slaves.
 const EVERYBODYS: Timeouts = Timeouts::USUAL;
-/// What nobody has ordered.
+/// Work without an order.
 const NOBODYS: RequestId = RequestId(0);
 
 impl Master {
-    /// A master with these habits that knows of no slave yet.
+    /// A master with these habits, without any known slaves.
     #[must_use]
     pub fn new(habits: Habits) -> Self {
         Self {
@@ -91,7 +91,7 @@ impl Master {
         &self.slaves
     }
 
-    /// Whether something of an order is still to be done.
+    /// Whether parts of an order are not complete yet.
     #[must_use]
     pub fn is_open(&self, request: RequestId) -> bool {
         self.everybody.holds(request)
@@ -105,13 +105,13 @@ impl Master {
         self.events.pop_front()
     }
 
-    /// Emergencies that were dropped because nobody took the events before them.
+    /// Emergencies that were dropped because the events before them were not taken.
     #[must_use]
     pub const fn emergencies_lost(&self) -> u64 {
         self.emergencies_lost
     }
 
-    /// When [`Master::transmit`] has to be called next, whatever comes back.
+    /// The time at which [`Master::transmit`] must be called next, independent of answers.
     #[must_use]
     pub fn deadline(&self) -> Instant {
         let slaves = self.slaves.iter().map(Slave::deadline).min().unwrap_or(Instant::NEVER);
@@ -123,8 +123,8 @@ impl Master {
             .min(self.flights.deadline())
     }
 
-    /// Writes the next frame that leaves now into `frame`, in place of what it holds; none if no further one leaves.
-    /// Process data come first. Nothing is allocated for a frame if `frame` has room for 1,518 bytes.
+    /// Writes the next frame to be sent now into `frame`, replacing its contents; none if there is no further
+    /// one. Process data come first. Allocates nothing for a frame if `frame` has room for 1,518 bytes.
     pub fn transmit(&mut self, now: Instant, frame: &mut Vec<u8>) -> Option<Ticket> {
         self.lose_frames(now);
         self.give_up(now);
@@ -146,8 +146,8 @@ impl Master {
         Some(self.flights.depart(first_index, parts, now + self.habits.answer_patience))
     }
 
-    /// Process data; when those of this cycle have left, accesses that are due, as many as find room. A dialogue with
-    /// all slaves has its frame for itself.
+    /// Process data first; when those of this cycle have been sent, accesses that are due, as many as fit. A
+    /// dialogue with all slaves has a frame of its own.
     fn load(&mut self, now: Instant, load: &mut Load) {
         if self.process_data.next_cycle(now) {
             self.flights.forget_cycle();
@@ -192,7 +192,7 @@ impl Master {
         }
     }
 
-    /// A frame comes back for a ticket. Late and doubled answers, and those that do not fit, are passed over.
+    /// A frame returns for a ticket. Late, duplicate and invalid answers are ignored.
     pub fn receive(&mut self, now: Instant, ticket: Ticket, frame: &[u8]) {
         if let Some(parts) = self.flights.arrive(ticket, frame) {
             for (part, datagram) in parts.iter().zip(datagrams(frame)) {
@@ -202,8 +202,9 @@ impl Master {
         }
     }
 
-    /// The same for an owner that keeps no tickets: a frame is known by the indexes of its datagrams, which have to be
-    /// [`Indexes::Running`]. A frame that has passed no slave, and what is no answer, is passed over.
+    /// The same for a caller that keeps no tickets: a frame is identified by the indexes of its datagrams,
+    /// which must be [`Indexes::Running`]. A frame that has not passed a slave, and a frame that is not an
+    /// answer, are ignored.
     pub fn receive_frame(&mut self, now: Instant, frame: &[u8]) {
         let has_passed = frame.get(6).is_some_and(|first| first & 0x02 != 0);
         if let Some(ticket) = self.flights.recognize(frame).filter(|_| has_passed) {
@@ -211,7 +212,7 @@ impl Master {
         }
     }
 
-    /// Frames whose answers have not come are lost.
+    /// Frames without an answer in time are lost.
     fn lose_frames(&mut self, now: Instant) {
         while let Some(parts) = self.flights.lose(now) {
             for part in &parts {

@@ -1,4 +1,4 @@
-//! Process data of all slaves: where they lie in the logical address space, what they hold, when they go.
+//! Process data of all slaves: their places in the logical address space, their values, and the cycle.
 
 mod datagrams;
 mod exchange;
@@ -20,8 +20,8 @@ use layout::{Layout, Place};
 
 pub use exchange::{Commands, CycleReport, Exchange, Grouping, StatusRead};
 
-/// The cyclic exchange with all slaves. It sends nothing itself: at its deadline a cycle begins, whose frames are
-/// loaded one after the other and whose answers are brought back, datagram by datagram.
+/// The cyclic exchange with all slaves. It sends nothing itself: at its deadline a cycle begins, whose frames
+/// are loaded one after the other and whose answers are passed in, datagram by datagram.
 #[derive(Debug)]
 pub struct ProcessData {
     exchange: Exchange,
@@ -32,10 +32,10 @@ pub struct ProcessData {
     datagrams: Vec<CyclicDatagram>,
     /// The datagrams of each frame.
     frames: Vec<Range<usize>>,
-    /// The frame that is loaded next; behind the last one the cycle is sent.
+    /// The frame that is loaded next; after the last one the cycle has been sent.
     next_frame: usize,
     next: Instant,
-    /// Nobody begins a cycle until [`ProcessData::start`].
+    /// No cycle begins until [`ProcessData::start`].
     is_stopped: bool,
     cycles: u64,
     status: Option<(u16, AlStatus)>,
@@ -51,7 +51,7 @@ struct Participant {
 }
 
 impl ProcessData {
-    /// An exchange with slaves of these addresses, which have no process data yet.
+    /// An exchange with slaves at these addresses, which have no process data yet.
     #[must_use]
     pub fn new(exchange: Exchange, addresses: impl IntoIterator<Item = Address>) -> Self {
         let participant = |address| Participant { address, is_open: false, separate_commands: false };
@@ -72,13 +72,13 @@ impl ProcessData {
         }
     }
 
-    /// How process data are exchanged.
+    /// The settings of the exchange.
     #[must_use]
     pub const fn exchange(&self) -> Exchange {
         self.exchange
     }
 
-    /// Gives the process data of these slaves places, and forgets those that any slave has. Nobody exchanges them.
+    /// Places the process data of these slaves, and removes those of all slaves before. No slave exchanges them yet.
     pub fn place_all<'a>(&mut self, slaves: impl IntoIterator<Item = (usize, &'a SlaveSettings)>) {
         self.layout = Layout::default();
         let slaves: Vec<_> = slaves.into_iter().collect();
@@ -89,7 +89,7 @@ impl ProcessData {
         self.arrange();
     }
 
-    /// Gives the process data of a slave a place behind all others, in place of the one that it has.
+    /// Places the process data of a slave after all others, instead of its present place.
     pub fn place(&mut self, slave: usize, settings: &SlaveSettings) {
         self.layout.remove(slave);
         self.layout.place_all(&[(slave, settings)], self.exchange.grouping);
@@ -105,7 +105,7 @@ impl ProcessData {
         }
     }
 
-    /// Whether the process data of a slave have a place, and these settings still fit it.
+    /// Whether the process data of a slave have a place that still fits these settings.
     #[must_use]
     pub fn holds(&self, slave: usize, settings: &SlaveSettings) -> bool {
         self.layout.holds(slave, settings)
@@ -137,7 +137,7 @@ impl ProcessData {
         }
     }
 
-    /// A slave takes part from now on. Its inputs are zero at first, unless it takes part already.
+    /// A slave takes part from now on. Its inputs are zero at first, unless it already takes part.
     pub fn open(&mut self, slave: usize, now: Instant) {
         let (Some(participant), Some(image)) = (self.slaves.get_mut(slave), self.images.get_mut(slave))
         else {
@@ -150,7 +150,7 @@ impl ProcessData {
         self.begin(now);
     }
 
-    /// A slave takes part no more. Without any the exchange ends.
+    /// A slave no longer takes part. Without any slaves the exchange ends.
     pub fn close(&mut self, slave: usize) {
         if let Some(participant) = self.slaves.get_mut(slave) {
             participant.is_open = false;
@@ -173,7 +173,7 @@ impl ProcessData {
         self.slaves.iter().any(|participant| participant.is_open)
     }
 
-    /// Whether process data go and come.
+    /// Whether process data are exchanged.
     #[must_use]
     pub fn is_running(&self) -> bool {
         self.next != Instant::NEVER
@@ -186,7 +186,7 @@ impl ProcessData {
         }
     }
 
-    /// Exchanges with this period. If a slave takes part, a cycle begins now, and the others keep its phase.
+    /// Exchanges with this period. If a slave takes part, a cycle begins now, and the following ones keep its phase.
     pub fn start(&mut self, now: Instant, period: Duration) {
         self.exchange.period = period;
         self.is_stopped = false;
@@ -202,7 +202,7 @@ impl ProcessData {
         self.end();
     }
 
-    /// Slaves that are opened from now on let the exchange begin again.
+    /// Slaves that are opened from now on start the exchange again.
     pub const fn allow(&mut self) {
         self.is_stopped = false;
     }
@@ -218,7 +218,7 @@ impl ProcessData {
         self.next
     }
 
-    /// The first moment behind `now` that lies on the phase.
+    /// The first time after `now` that is in phase.
     fn after(&self, now: Instant) -> Instant {
         let first = Instant::ZERO + self.exchange.phase;
         if now < first {
@@ -229,7 +229,7 @@ impl ProcessData {
         first + self.exchange.period * (passed / period + 1)
     }
 
-    /// Begins the next cycle if it is due. What has not come back of the one before it counts no more.
+    /// Begins the next cycle if it is due. Missing answers of the cycle before it are ignored from now on.
     pub fn next_cycle(&mut self, now: Instant) -> bool {
         if self.next > now {
             return false;
@@ -243,7 +243,8 @@ impl ProcessData {
         true
     }
 
-    /// Loads the next frame of this cycle; the numbers of its datagrams, none at all if the cycle is sent.
+    /// Loads the next frame of this cycle; returns the numbers of its datagrams, an empty range if the cycle
+    /// has been sent.
     pub fn load(&mut self, frame: &mut FrameBuilder) -> Range<usize> {
         let Some(numbers) = self.frames.get(self.next_frame).cloned() else { return 0..0 };
         self.next_frame += 1;
@@ -258,7 +259,7 @@ impl ProcessData {
         self.datagrams.get(number).map(CyclicDatagram::shape)
     }
 
-    /// Takes what came back for a datagram; the AL status of a slave, if it was that.
+    /// Processes the result of a datagram; returns the AL status of a slave, if the datagram reads it.
     pub fn answer(&mut self, number: usize, answer: Answer<'_>) -> Option<(usize, AlStatus)> {
         let datagram = self.datagrams.get_mut(number)?;
         datagram.working_counter = Some(answer.working_counter);
@@ -280,7 +281,7 @@ impl ProcessData {
         }
     }
 
-    /// What the present cycle has come to so far.
+    /// The present result of the current cycle.
     #[must_use]
     pub fn report(&self) -> CycleReport {
         let mut report = CycleReport { cycles: self.cycles, status: self.status, ..CycleReport::default() };
@@ -298,25 +299,26 @@ impl ProcessData {
         report
     }
 
-    /// The working counters of the datagrams that carry the process data of a slave, added up, of the last cycle of
-    /// which one of them came back. Of a datagram that carries those of other slaves too, theirs are in it.
+    /// The sum of the working counters of the datagrams that carry the process data of a slave, in the last
+    /// cycle for which one of them returned. If a datagram also carries process data of other slaves, their
+    /// part is included.
     #[must_use]
     pub fn working_counter(&self, slave: usize) -> Option<u16> {
         self.images.get(slave)?.working_counter
     }
 
-    /// What goes to a slave with the next cycle. Areas of fewer than eight bits begin with a byte each.
+    /// The outputs for a slave in the next cycle. Areas of fewer than eight bits begin with a byte each.
     #[must_use]
     pub fn outputs(&self, slave: usize) -> &[u8] {
         self.images.get(slave).map_or(&[], |image| &image.outputs)
     }
 
-    /// The same, to be changed. Empty for a slave without a place.
+    /// The same, for changes. Empty for a slave without a place.
     pub fn outputs_mut(&mut self, slave: usize) -> &mut [u8] {
         self.images.get_mut(slave).map_or(&mut [], |image| &mut image.outputs)
     }
 
-    /// What has come from a slave last.
+    /// The inputs last received from a slave.
     #[must_use]
     pub fn inputs(&self, slave: usize) -> &[u8] {
         self.images.get(slave).map_or(&[], |image| &image.inputs)

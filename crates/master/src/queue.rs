@@ -1,4 +1,4 @@
-//! The queue of one slave: jobs one after the other, each with its time.
+//! The queue of one slave: jobs one after the other, each with its deadline.
 
 use std::collections::VecDeque;
 
@@ -14,7 +14,7 @@ use crate::job::Job;
 use crate::load::Load;
 use crate::mailbox::MailboxConduct;
 
-/// A job and what its end leads to.
+/// A job and the consequence of its end.
 #[derive(Clone, Debug)]
 pub(crate) struct Task {
     pub(crate) request: RequestId,
@@ -22,18 +22,18 @@ pub(crate) struct Task {
     pub(crate) then: Then,
 }
 
-/// What is done with the outcome of a job.
+/// What is done with the result of a job.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Then {
     /// Nothing.
     Continue,
     /// The slave has its station address from now on.
     UseStationAddress(u16),
-    /// It is something that the search wants to know.
+    /// It is information for the search.
     Keep(Found),
     /// It is AL status, from which the way to this state begins.
     Walk(AlState),
-    /// It is AL status, which has to show this state.
+    /// It is AL status, which must show this state.
     Arrive(AlState),
     /// The slave exchanges process data from now on.
     Open,
@@ -43,7 +43,7 @@ pub(crate) enum Then {
     DeviceId,
 }
 
-/// What the search wants to know of a slave.
+/// The information that the search needs about a slave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Found {
     Information,
@@ -52,7 +52,7 @@ pub(crate) enum Found {
     Sii,
 }
 
-/// A job that is over.
+/// A completed job.
 #[derive(Debug)]
 pub(crate) struct Over {
     pub(crate) request: RequestId,
@@ -64,17 +64,17 @@ pub(crate) struct Over {
 #[derive(Debug)]
 pub(crate) struct Queue {
     tasks: VecDeque<Task>,
-    /// The first job sends then.
+    /// The first job sends at this time.
     at: Instant,
-    /// It gives up then.
+    /// It gives up at this time.
     until: Instant,
-    /// The number of its datagram that is on its way.
+    /// The number of its datagram that is in flight.
     on_its_way: Option<u32>,
-    /// Datagrams that have left so far.
+    /// Number of datagrams sent so far.
     departed: u32,
-    /// How the mailbox is treated, and its counters.
+    /// How the mailbox is handled, and its counters.
     pub(crate) conduct: MailboxConduct,
-    /// Emergencies that nobody has taken yet.
+    /// Emergencies that have not been taken yet.
     emergencies: VecDeque<Emergency>,
 }
 
@@ -95,7 +95,7 @@ impl Queue {
         self.tasks.is_empty()
     }
 
-    /// Whether jobs of this order are still to be done.
+    /// Whether jobs of this order are not complete yet.
     pub(crate) fn holds(&self, request: RequestId) -> bool {
         self.tasks.iter().any(|task| task.request == request)
     }
@@ -107,7 +107,7 @@ impl Queue {
         }
     }
 
-    /// Puts jobs in front of all others, in their order.
+    /// Puts jobs before all others, in their order.
     pub(crate) fn push_front(&mut self, tasks: Vec<Task>, pace: &Pace<'_>) {
         for task in tasks.into_iter().rev() {
             self.tasks.push_front(task);
@@ -131,7 +131,7 @@ impl Queue {
         }
     }
 
-    /// When it sends next; never while it waits for an answer.
+    /// The time at which it sends next; never while it waits for an answer.
     pub(crate) const fn deadline(&self) -> Instant {
         if self.on_its_way.is_some() { Instant::NEVER } else { self.at }
     }
@@ -141,7 +141,7 @@ impl Queue {
         !self.tasks.is_empty() && self.deadline() <= now
     }
 
-    /// Data bytes of the first job's access.
+    /// Number of data bytes of the first job's access.
     pub(crate) fn access_bytes(&self) -> usize {
         self.tasks.front().map_or(0, |task| task.job.dialogue().access().length_bytes())
     }
@@ -153,7 +153,7 @@ impl Queue {
         }
     }
 
-    /// The access of the first job leaves; the number of its datagram.
+    /// The access of the first job is sent; returns the number of its datagram.
     pub(crate) const fn depart(&mut self) -> u32 {
         self.departed = self.departed.wrapping_add(1);
         self.on_its_way = Some(self.departed);
@@ -169,8 +169,8 @@ impl Queue {
         Some(Over { request, then, result: Err(job.failure()) })
     }
 
-    /// Takes the answer to a datagram, or its loss; what is over by it. The answer to a job that was dropped
-    /// meanwhile is nothing.
+    /// Processes the answer to a datagram, or its loss; returns the completed job, if any. The answer to a job
+    /// that was dropped meanwhile is ignored.
     pub(crate) fn answer(
         &mut self,
         number: u32,
@@ -199,7 +199,7 @@ impl Queue {
         }
     }
 
-    /// The first job takes an answer.
+    /// The first job processes an answer.
     fn take(&mut self, answer: Option<Answer<'_>>) -> Option<Progress> {
         let task = self.tasks.front_mut()?;
         let progress = task.job.dialogue_mut().answer(answer);
@@ -209,7 +209,7 @@ impl Queue {
         Some(progress)
     }
 
-    /// Takes the first job out; the next one begins.
+    /// Removes the first job; the next one begins.
     fn pop(&mut self, pace: &Pace<'_>) -> Option<Task> {
         let task = self.tasks.pop_front()?;
         if let Job::Mailbox(mailbox) = &task.job {
@@ -219,7 +219,7 @@ impl Queue {
         Some(task)
     }
 
-    /// Drops what is left of an order.
+    /// Drops the remaining jobs of an order.
     pub(crate) fn drop_order(&mut self, request: RequestId, pace: &Pace<'_>) {
         if self.holds(request) {
             self.tasks.retain(|task| task.request != request);
@@ -227,7 +227,7 @@ impl Queue {
         }
     }
 
-    /// Changes how the mailbox is treated, by the present job too.
+    /// Changes how the mailbox is handled, including by the present job.
     pub(crate) fn change_conduct(&mut self, mut change: impl FnMut(&mut MailboxConduct)) {
         change(&mut self.conduct);
         if let Some(Task { job: Job::Mailbox(mailbox), .. }) = self.tasks.front_mut() {
@@ -241,7 +241,7 @@ impl Queue {
     }
 }
 
-/// The present moment and what decides how long things take.
+/// The present time and the settings that determine time-outs.
 pub(crate) struct Pace<'a> {
     pub(crate) now: Instant,
     pub(crate) habits: &'a Habits,

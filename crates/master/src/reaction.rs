@@ -1,25 +1,25 @@
-//! What a reply by mailbox leads to, and how a service fails.
+//! The consequence of a mailbox reply, and why a service fails.
 
 use core::fmt;
 
 use wire::{MailboxErrorCode, SdoAbort};
 
-/// Why a service by mailbox failed.
+/// Why a mailbox service failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ServiceFailure {
     /// The slave has no mailbox.
     NoMailbox,
     /// The request does not fit into the mailbox.
     MailboxTooSmall,
-    /// The mailbox takes no request.
+    /// The mailbox does not accept the request.
     NotTaken,
-    /// The slave has taken the request, and no reply comes.
+    /// The slave has accepted the request, and there is no reply.
     NoReply,
     /// The slave refuses the message.
     Mailbox(MailboxErrorCode),
     /// The slave refuses the SDO.
     Abort(SdoAbort),
-    /// The master ends the SDO: this is wrong with a reply.
+    /// The master aborts the SDO because of this error in a reply.
     WrongReply(SdoAbort),
 }
 
@@ -39,15 +39,15 @@ impl fmt::Display for ServiceFailure {
 
 impl core::error::Error for ServiceFailure {}
 
-/// What a reply leads to.
+/// The consequence of a reply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reaction {
-    /// It is no reply to this request.
+    /// It is not a reply to this request.
     NotMine,
-    /// A further reply follows by itself.
+    /// Another reply follows without a request.
     Wait,
-    /// A further request.
+    /// Another request follows.
     Ask,
-    /// It is over.
+    /// It is complete.
     Done,
 }

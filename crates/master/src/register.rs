@@ -11,19 +11,19 @@ pub struct RegisterRead {
 }
 
 impl RegisterRead {
-    /// Reads as many bytes from `offset` on.
+    /// Reads this number of bytes from `offset` on.
     #[must_use]
     pub const fn new(offset: u16, length_bytes: u16) -> Self {
         Self { offset, length_bytes, data: Vec::new() }
     }
 
-    /// What was read; empty before the answer.
+    /// The data read; empty before the answer.
     #[must_use]
     pub fn data(&self) -> &[u8] {
         &self.data
     }
 
-    /// What was read.
+    /// The data read.
     #[must_use]
     pub fn into_data(self) -> Vec<u8> {
         self.data
@@ -47,7 +47,7 @@ impl Dialogue for RegisterRead {
     }
 }
 
-/// Writes bytes until a slave takes them.
+/// Writes bytes until a slave accepts them.
 #[derive(Clone, Debug)]
 pub struct RegisterWrite {
     offset: u16,

@@ -1,4 +1,4 @@
-//! Offsets of the registers that a master touches. The ESC's own table has widths and access; a test compares.
+//! Offsets of the registers that a master uses. The ESC's table has widths and access rights; a test compares them.
 
 /// Type, revision, build, FMMUs, SyncManagers, RAM size, port descriptor, features: 10 bytes.
 pub const INFORMATION: u16 = 0x0000;
@@ -14,7 +14,7 @@ pub const READ_WRITE_OFFSET: u16 = 0x0108;
 pub const DL_STATUS: u16 = 0x0110;
 /// AL control, 2 bytes.
 pub const AL_CONTROL: u16 = 0x0120;
-/// AL status, 2 bytes; with two reserved ones and the AL status code behind them 6.
+/// AL status, 2 bytes; together with two reserved bytes and the AL status code 6.
 pub const AL_STATUS: u16 = 0x0130;
 /// AL status code, 2 bytes.
 pub const AL_STATUS_CODE: u16 = 0x0134;
@@ -28,7 +28,7 @@ pub const WATCHDOG_DIVIDER: u16 = 0x0400;
 pub const PDI_WATCHDOG: u16 = 0x0410;
 /// Process data watchdog time, 2 bytes.
 pub const PROCESS_DATA_WATCHDOG: u16 = 0x0420;
-/// SII owner, 1 byte: bit 0 offers the SII to the PDI, bit 1 takes it back by force.
+/// SII owner, 1 byte: bit 0 offers the SII to the PDI, bit 1 forces it back.
 pub const SII_OWNER: u16 = 0x0500;
 /// SII control and status, 2 bytes.
 pub const SII_CONTROL: u16 = 0x0502;

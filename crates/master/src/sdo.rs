@@ -4,11 +4,11 @@ use wire::{CoeHeader, CoeService, SdoAbort, SdoRequest, SdoResponse, SdoTarget};
 
 use crate::reaction::{Reaction, ServiceFailure};
 
-/// Longest value that is read, 1 MiB.
+/// Maximum length of a value that is read, 1 MiB.
 const UPLOAD_BYTES_MAX: usize = 1 << 20;
-/// Bytes of an SDO in front of the data of a normal download.
+/// Bytes of an SDO before the data of a normal download.
 const DOWNLOAD_OVERHEAD_BYTES: usize = 8;
-/// Bytes of an SDO in front of the data of a segment.
+/// Bytes of an SDO before the data of a segment.
 const SEGMENT_OVERHEAD_BYTES: usize = 1;
 const EXPEDITED_BYTES_MAX: usize = 4;
 
@@ -16,13 +16,13 @@ const EXPEDITED_BYTES_MAX: usize = 4;
 #[derive(Clone, Debug)]
 pub struct SdoTransfer {
     target: SdoTarget,
-    /// The value to write, or what was read of one so far.
+    /// The value to write, or the part of it that has been read so far.
     data: Vec<u8>,
     step: Step,
     result: Option<Result<(), ServiceFailure>>,
 }
 
-/// What is asked next, and answered then.
+/// The next request, and then the response that it needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
     Download(Size),
@@ -35,14 +35,15 @@ enum Step {
 /// How a short value is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Size {
-    /// Up to four bytes in the header.
+    /// Up to four bytes, in the header.
     Expedited,
-    /// Behind the header. The first message, when it is packed, has so many of them.
+    /// After the header. When the first message is packed, this is set to its number of data bytes.
     Normal { packed_bytes: usize },
 }
 
 impl SdoTransfer {
-    /// Writes a value: up to four bytes expedited, more of them normal, and in segments what one message cannot hold.
+    /// Writes a value: up to four bytes expedited, longer values normal, with segments for the part that does
+    /// not fit into one message.
     #[must_use]
     pub fn download(target: SdoTarget, value: &[u8]) -> Self {
         let is_short = (1..=EXPEDITED_BYTES_MAX).contains(&value.len());
@@ -50,7 +51,7 @@ impl SdoTransfer {
         Self { target, data: value.to_vec(), step: Step::Download(size), result: None }
     }
 
-    /// The same with its size in front, also for up to four bytes.
+    /// The same with an explicit size, also for up to four bytes.
     #[must_use]
     pub fn download_normal(target: SdoTarget, value: &[u8]) -> Self {
         let step = Step::Download(Size::Normal { packed_bytes: 0 });
@@ -63,7 +64,7 @@ impl SdoTransfer {
         Self { target, data: Vec::new(), step: Step::Upload, result: None }
     }
 
-    /// What it is about.
+    /// Its target.
     #[must_use]
     pub const fn target(&self) -> SdoTarget {
         self.target
@@ -83,7 +84,7 @@ impl SdoTransfer {
         Ok(if is_download { Vec::new() } else { self.data })
     }
 
-    /// Packs the next request; its length, none if it does not fit.
+    /// Packs the next request; returns its length, none if it does not fit.
     pub(crate) fn request(&mut self, room: &mut [u8]) -> Option<usize> {
         let (head, room) = room.split_first_chunk_mut::<{ CoeHeader::LENGTH_BYTES }>()?;
         *head = CoeHeader::new(CoeService::SdoRequest).pack();
@@ -115,7 +116,7 @@ impl SdoTransfer {
         Some(CoeHeader::LENGTH_BYTES + length_bytes?)
     }
 
-    /// Takes a CoE message.
+    /// Processes a CoE message.
     pub(crate) fn reply(&mut self, body: &[u8]) -> Reaction {
         let Some((coe, data)) = CoeHeader::parse(body) else { return Reaction::NotMine };
         match (coe.service, SdoResponse::parse(data)) {
@@ -128,7 +129,7 @@ impl SdoTransfer {
     fn response(&mut self, response: SdoResponse<'_>) -> Reaction {
         match (self.step, response) {
             (_, SdoResponse::Abort { index, sub, code }) => {
-                // The refusal of a segment that belongs to no transfer names no object.
+                // The refusal of a segment without a transfer contains no object.
                 let is_mine = (index, sub) == (self.target.index, self.target.sub) || index.0 == 0;
                 if is_mine { self.end(Err(ServiceFailure::Abort(code))) } else { Reaction::NotMine }
             }
@@ -205,7 +206,7 @@ impl SdoTransfer {
                 self.end(Err(ServiceFailure::WrongReply(SdoAbort::LENGTH_TOO_LOW)))
             }
             _ if last => self.end(Ok(())),
-            // Segments without data would never come to an end.
+            // Segments without data would never end.
             _ if data.is_empty() => self.abort(SdoAbort::LENGTH_TOO_LOW),
             _ => {
                 if let Step::UploadSegment { toggle, .. } = &mut self.step {
@@ -221,7 +222,7 @@ impl SdoTransfer {
         Reaction::Done
     }
 
-    /// Something is wrong with a reply: the slave is told, and answers nothing to that.
+    /// A reply is wrong: the slave gets an abort, and does not answer it.
     const fn abort(&mut self, code: SdoAbort) -> Reaction {
         self.result = Some(Err(ServiceFailure::WrongReply(code)));
         self.step = Step::Abort(code);

@@ -4,24 +4,25 @@ use wire::{CoeHeader, CoeService, SdoAbort, SdoInfoHeader, SdoInfoOpcode, SdoInf
 
 use crate::reaction::{Reaction, ServiceFailure};
 
-/// Longest answer: a list of every index there can be.
+/// Maximum length of an answer: a list of all possible indexes.
 const ANSWER_BYTES_MAX: usize = 2 * 0x1_0000;
 
 /// One question about the object dictionary.
 ///
-/// Its result is what stands behind the SDO information header, of all fragments together: of a list the indexes,
-/// without the type of the list; of a description what [`wire::ObjectDescription`] and [`wire::EntryDescription`] parse.
+/// Its result is the bytes after the SDO information header, of all fragments together: for a list the indexes,
+/// without the type of the list; for a description what [`wire::ObjectDescription`] and
+/// [`wire::EntryDescription`] parse.
 #[derive(Clone, Debug)]
 pub struct SdoInformation {
     request: SdoInfoRequest,
     answer: Vec<u8>,
-    /// Fragments that are still to come; none before the first one.
+    /// Fragments that are still missing; none before the first one.
     fragments_left: Option<u16>,
     result: Option<Result<(), ServiceFailure>>,
 }
 
 impl SdoInformation {
-    /// Asks this.
+    /// A dialogue with this question.
     #[must_use]
     pub const fn new(request: SdoInfoRequest) -> Self {
         Self { request, answer: Vec::new(), fragments_left: None, result: None }
@@ -41,7 +42,7 @@ impl SdoInformation {
         Some(CoeHeader::LENGTH_BYTES + self.request.pack(room)?)
     }
 
-    /// Takes a CoE message.
+    /// Processes a CoE message.
     pub(crate) fn reply(&mut self, body: &[u8]) -> Reaction {
         let parsed = CoeHeader::parse(body).filter(|(coe, _)| coe.service == CoeService::SdoInformation);
         let Some((header, data)) = parsed.and_then(|(_, data)| SdoInfoHeader::parse(data)) else {
@@ -58,7 +59,7 @@ impl SdoInformation {
         }
     }
 
-    /// What of a fragment belongs to the answer; none if it answers something else.
+    /// The part of a fragment that belongs to the answer; none if it is the answer to something else.
     fn part<'a>(&self, header: SdoInfoHeader, data: &'a [u8]) -> Option<&'a [u8]> {
         let is_first = self.fragments_left.is_none();
         let begins_with = |expected: &[u8]| !is_first || data.starts_with(expected);

@@ -1,16 +1,16 @@
-//! Finding slaves: what is written to all of them first, in SOEM's order, and how they are counted.
+//! Finding slaves: the initial writes to all of them, in SOEM's order, and how they are counted.
 
 use crate::access::{Access, Answer, Dialogue, Patience, Progress};
 use crate::registers::{self as at, FMMU_BYTES, SYNC_MANAGER_BYTES};
 
-/// FMMUs and SyncManagers that are cleared: as many as an ET1100 has.
+/// FMMUs and SyncManagers that are cleared: the number of an ET1100.
 const CHANNELS: usize = 8;
 const ZEROS: [u8; CHANNELS * FMMU_BYTES as usize] = [0; CHANNELS * FMMU_BYTES as usize];
 
 /// One step of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
-    /// A write to all slaves, whether anyone takes it or not.
+    /// A write to all slaves, whether a slave accepts it or not.
     Clear { offset: u16, data: &'static [u8] },
     /// The working counter of a read by all slaves is their number.
     Count,
@@ -26,11 +26,11 @@ const fn zeros(offset: u16, length_bytes: usize) -> Step {
 
 /// Reference 5.8, lines 1 to 10.
 const STEPS: &[Step] = &[
-    // No station alias, so that no address means two slaves; INIT, with an acknowledge.
+    // No station alias, so that every address refers to one slave; INIT, with an acknowledge.
     zeros(at::DL_CONTROL + 3, 1),
     clear(at::AL_CONTROL, &[0x11, 0]),
     Step::Count,
-    // All ports open and close by themselves.
+    // All ports open and close automatically.
     zeros(at::DL_CONTROL + 1, 1),
     clear(at::ECAT_EVENT_MASK, &[0x04, 0]),
     zeros(at::PORT_ERRORS, 8),
@@ -40,13 +40,13 @@ const STEPS: &[Step] = &[
     zeros(at::SYSTEM_TIME, 4),
     clear(at::SPEED_COUNTER_START, &[0x00, 0x10]),
     clear(at::TIME_FILTERS, &[0x00, 0x0C]),
-    // Nobody keeps an address of an earlier search.
+    // No slave keeps an address of an earlier search.
     zeros(at::STATION_ADDRESS, 2),
     // Receive times of this frame at all ports.
     zeros(at::RECEIVE_TIMES, 4),
 ];
 
-/// Takes all slaves to INIT, clears what an earlier master has set, and counts them.
+/// Takes all slaves to INIT, clears the settings of an earlier master, and counts the slaves.
 #[derive(Clone, Debug, Default)]
 pub struct Search {
     step: usize,
@@ -54,7 +54,7 @@ pub struct Search {
 }
 
 impl Search {
-    /// How many slaves have answered.
+    /// Number of slaves that have answered.
     #[must_use]
     pub const fn found(&self) -> u16 {
         self.found

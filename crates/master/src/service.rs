@@ -1,4 +1,4 @@
-//! What is said by mailbox: requests and what their replies lead to.
+//! Mailbox services: requests and the consequences of their replies.
 
 use wire::{MailboxErrorReply, MailboxType};
 
@@ -6,16 +6,16 @@ use crate::reaction::{Reaction, ServiceFailure};
 use crate::sdo::SdoTransfer;
 use crate::sdo_information::SdoInformation;
 
-/// One service by mailbox.
+/// One mailbox service.
 #[derive(Clone, Debug)]
 pub enum Service {
     /// An SDO.
     Sdo(SdoTransfer),
     /// A question about the object dictionary.
     Information(SdoInformation),
-    /// A message of any kind, right or wrong.
+    /// A message of any kind, correct or incorrect.
     Message(Message),
-    /// Nothing: whatever lies in the mailbox is read.
+    /// No request: whatever is in the mailbox is read.
     Listen,
 }
 
@@ -24,14 +24,14 @@ pub enum Service {
 pub struct Message {
     /// The protocol in the mailbox header.
     pub mailbox_type: MailboxType,
-    /// What is behind the mailbox header.
+    /// The bytes after the mailbox header.
     pub data: Vec<u8>,
-    /// Whether a reply is waited for.
+    /// Whether the service waits for a reply.
     pub reply: Reply,
     received: Option<Result<Vec<u8>, ServiceFailure>>,
 }
 
-/// Whether a reply is waited for.
+/// The reply that the service waits for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reply {
     /// The next message of the same protocol, or a mailbox error.
@@ -54,7 +54,7 @@ impl Service {
         !matches!(self, Self::Listen)
     }
 
-    /// Whether a reply follows to the request that was packed last.
+    /// Whether a reply follows the request that was packed last.
     pub(crate) fn awaits_reply(&self) -> bool {
         match self {
             Self::Sdo(transfer) => transfer.awaits_reply(),
@@ -63,7 +63,7 @@ impl Service {
         }
     }
 
-    /// Packs the next request behind the mailbox header; its protocol and length, none if it does not fit.
+    /// Packs the next request after the mailbox header; returns its protocol and length, none if it does not fit.
     pub(crate) fn request(&mut self, room: &mut [u8]) -> Option<(MailboxType, usize)> {
         match self {
             Self::Sdo(transfer) => Some((MailboxType::Coe, transfer.request(room)?)),
@@ -76,7 +76,7 @@ impl Service {
         }
     }
 
-    /// Takes a message of a protocol other than mailbox errors and emergencies.
+    /// Processes a message of a protocol other than mailbox errors and emergencies.
     pub(crate) fn reply(&mut self, mailbox_type: MailboxType, body: &[u8]) -> Reaction {
         match (self, mailbox_type) {
             (Self::Sdo(transfer), MailboxType::Coe) => transfer.reply(body),
@@ -90,7 +90,7 @@ impl Service {
         }
     }
 
-    /// Takes a mailbox error.
+    /// Processes a mailbox error.
     pub(crate) fn mailbox_error(&mut self, reply: Option<MailboxErrorReply>) -> Reaction {
         let Some(MailboxErrorReply { detail }) = reply else { return Reaction::NotMine };
         self.fail(ServiceFailure::Mailbox(detail));
@@ -107,10 +107,10 @@ impl Service {
         }
     }
 
-    /// How it ended: the value that was read or the reply; nothing for what has none.
+    /// Its result: the value that was read or the reply; empty for a service without one.
     ///
     /// # Errors
-    /// Why it failed. Before the end no reply has come.
+    /// Why it failed. Before its end, that there is no reply.
     pub fn into_result(self) -> Result<Vec<u8>, ServiceFailure> {
         match self {
             Self::Sdo(transfer) => transfer.into_result(),

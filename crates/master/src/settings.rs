@@ -1,4 +1,4 @@
-//! What is set at a slave on its way up: from its SII, from its description, or as somebody wants it.
+//! The settings of a slave on its way up: from its SII, from its description, or from the caller.
 
 use esi::sii::SiiContents;
 use esi::{
@@ -10,21 +10,21 @@ use wire::SdoTarget;
 use crate::channels::SyncManagerSettings;
 use crate::registers;
 
-/// Everything that a master sets at one slave. All of it may be changed before it is written.
+/// All settings that a master writes to one slave. All of them may be changed before they are written.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SlaveSettings {
     /// The mailbox; none for a slave without one.
     pub mailbox: Option<MailboxSettings>,
-    /// Process data, one area for each SyncManager that carries some.
+    /// Process data, one area for each SyncManager with process data.
     pub process_data: Vec<ProcessDataArea>,
     /// Registers that are written on the way up, before the state of the transition is requested.
     pub registers: Vec<RegisterSetting>,
-    /// SDOs that are written on the way up, in this order: those of IP when PRE-OP is reached, those of PS and SO
-    /// before SAFE-OP and OP are requested.
+    /// SDOs that are written on the way up, in this order: those of IP when PRE-OP is reached, those of PS and
+    /// SO before SAFE-OP and OP are requested.
     pub start_up: Vec<StartUpSdo>,
-    /// How long the slave may take.
+    /// Time-outs for the slave.
     pub timeouts: Timeouts,
-    /// The slave asks for LRD and LWR in place of LRW.
+    /// The slave requires LRD and LWR instead of LRW.
     pub separate_commands: bool,
     /// The FMMUs of the slave map whole bytes only.
     pub bytewise_fmmus: bool,
@@ -41,9 +41,9 @@ pub struct MailboxSettings {
     pub inward: SyncManagerSettings,
     /// Both in BOOT; none for a slave without BOOT.
     pub bootstrap: Option<(MailboxArea, MailboxArea)>,
-    /// What is spoken.
+    /// The protocols.
     pub protocols: MailboxProtocols,
-    /// What CoE can do.
+    /// The services of CoE.
     pub coe_details: CoeDetails,
 }
 
@@ -82,9 +82,9 @@ impl Direction {
 /// Process data of one SyncManager.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ProcessDataArea {
-    /// Which way they go.
+    /// Their direction.
     pub direction: Direction,
-    /// How many bits they are. The length of the SyncManager is a setting of its own, which may be wrong.
+    /// Their number of bits. The length of the SyncManager is a separate setting, which may be wrong.
     pub bits: u32,
     /// Its SyncManager.
     pub sync_manager: SyncManagerSettings,
@@ -97,36 +97,36 @@ pub struct ProcessDataArea {
 pub struct RegisterSetting {
     /// Before the state of this transition is requested.
     pub transition: Transition,
-    /// Where.
+    /// Its offset.
     pub offset: u16,
-    /// What.
+    /// The bytes.
     pub data: Vec<u8>,
 }
 
 /// An SDO that is written on the way up.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StartUpSdo {
-    /// When: IP, PS or SO.
+    /// The transition: IP, PS or SO.
     pub transition: Transition,
-    /// Where to.
+    /// The target.
     pub target: SdoTarget,
-    /// What.
+    /// The value.
     pub data: Vec<u8>,
 }
 
 /// Where a slave shows its Explicit Device ID (reference 5.7).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DeviceIdSource {
-    /// Nowhere but in the configured station alias.
+    /// Only in the configured station alias.
     #[default]
     StationAlias,
-    /// In the AL status code, when AL control bit 5 asks for it.
+    /// In the AL status code, when AL control bit 5 requests it.
     AlStatusCode,
     /// In the word at this register.
     Register(u16),
 }
 
-/// A SyncManager as SII and description show it.
+/// A SyncManager, as in SII and description.
 struct Channel {
     number: u8,
     usage: SyncManagerType,
@@ -136,11 +136,11 @@ struct Channel {
     enable: u8,
 }
 
-/// Enable bit 2 of SII and ESI: a SyncManager that no controller has.
+/// Enable bit 2 of SII and ESI: a SyncManager that does not exist in the controller.
 const VIRTUAL: u8 = 0x04;
 
 impl SlaveSettings {
-    /// What the SII says: mailbox, SyncManagers, and the PDOs that are assigned by default.
+    /// The settings in the SII: mailbox, SyncManagers, and the PDOs that are assigned by default.
     #[must_use]
     pub fn from_sii(sii: &SiiContents) -> Self {
         let general = sii.general.as_ref();
@@ -174,7 +174,8 @@ impl SlaveSettings {
         }
     }
 
-    /// What a description says: all of the SII, and time-outs, registers and SDOs for the way up besides.
+    /// The settings in a description: everything that an SII has, and in addition time-outs, registers and SDOs
+    /// for the way up.
     #[must_use]
     pub fn from_description(description: &DeviceDescription) -> Self {
         let channels = (0..).zip(&description.sync_managers).map(|(number, sm)| Channel {
@@ -226,8 +227,8 @@ impl SlaveSettings {
         self.process_data.iter().filter(move |area| area.direction == direction)
     }
 
-    /// Sets how many bits of process data a SyncManager carries, and its length with them. Without bits it is
-    /// disabled. A SyncManager that carries no process data is left alone.
+    /// Sets the number of bits of a SyncManager's process data, and its length. Without bits it is disabled. A
+    /// SyncManager without process data is unchanged.
     pub fn set_bits(&mut self, sync_manager: u8, bits: u32) {
         for area in self.process_data.iter_mut().filter(|area| area.sync_manager.number == sync_manager) {
             area.bits = bits;
@@ -253,7 +254,7 @@ fn length_bytes(bits: u32) -> u16 {
     u16::try_from(bits.div_ceil(8)).unwrap_or(u16::MAX)
 }
 
-/// The process data of a SyncManager; none for a mailbox and for one that carries nothing.
+/// The process data of a SyncManager; none for a mailbox and for one without data.
 fn area(channel: &Channel, assigned_bits: u32, free: &mut FreeFmmus<'_>) -> Option<ProcessDataArea> {
     let direction = match usage(channel) {
         SyncManagerType::Outputs => Direction::Outputs,
@@ -274,7 +275,7 @@ fn area(channel: &Channel, assigned_bits: u32, free: &mut FreeFmmus<'_>) -> Opti
     Some(ProcessDataArea { direction, bits, sync_manager, fmmu: free.take(direction) })
 }
 
-/// What a SyncManager is for. Old SIIs do not say it; then its control byte does.
+/// The purpose of a SyncManager. Old SIIs do not contain it; then the control byte is used.
 fn usage(channel: &Channel) -> SyncManagerType {
     match (channel.usage, channel.control & 0x0F) {
         _ if channel.enable & VIRTUAL != 0 => SyncManagerType::Unused,
@@ -287,7 +288,7 @@ fn usage(channel: &Channel) -> SyncManagerType {
     }
 }
 
-/// The mailbox, on the SyncManagers that say they are for it; otherwise on the first two.
+/// The mailbox, on the SyncManagers with that purpose; otherwise on the first two.
 fn mailbox_settings(channels: &[Channel], mailbox: &Mailbox) -> MailboxSettings {
     let channel = |wanted| channels.iter().find(|channel| usage(channel) == wanted);
     let settings = |wanted, area, number, control| {
@@ -319,14 +320,14 @@ fn presets(description: &DeviceDescription) -> Vec<RegisterSetting> {
     written.collect()
 }
 
-/// FMMUs that no area has taken yet.
+/// FMMUs that are not used by an area yet.
 struct FreeFmmus<'a> {
     usages: &'a [FmmuUsage],
     taken: Vec<u8>,
 }
 
 impl FreeFmmus<'_> {
-    /// The first one that is for this direction; otherwise the first one that is for nothing.
+    /// The first one for this direction; otherwise the first one without a purpose.
     fn take(&mut self, direction: Direction) -> u8 {
         let wanted = match direction {
             Direction::Outputs => FmmuUsage::Outputs,

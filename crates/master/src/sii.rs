@@ -24,9 +24,9 @@ const SIZE: usize = 0x3E;
 const WORDS_PER_KIBIT: usize = 64;
 /// The first category.
 const CATEGORIES: usize = 0x40;
-/// Most words that are read, whatever the SII says of its size: 64 KiB.
+/// Maximum number of words that are read, whatever the size in the SII is: 64 KiB.
 const WORDS_MAX: usize = 0x8000;
-/// Commands in a row that the SII may refuse.
+/// Number of consecutive commands that the SII may refuse.
 const REFUSALS_MAX: u8 = 3;
 
 /// The categories that a master needs; the others are skipped.
@@ -42,19 +42,19 @@ const NEEDED: &[u16] = &[
 /// Why an SII could not be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SiiFailure {
-    /// It refuses read commands; its status register as it shows them.
+    /// It refuses read commands; the status register shows this.
     Refused {
         /// Register 0x0502.
         status: u16,
     },
-    /// Its categories run beyond its end.
+    /// Its categories exceed its end.
     TooLong {
-        /// Where the category begins, in words.
+        /// Start of the category, in words.
         category_at: usize,
-        /// Where the SII ends, in words.
+        /// End of the SII, in words.
         end: usize,
     },
-    /// What it holds is no SII.
+    /// Its contents are not an SII.
     Malformed(SiiError),
 }
 
@@ -72,17 +72,17 @@ impl fmt::Display for SiiFailure {
 
 impl core::error::Error for SiiFailure {}
 
-/// Reads header and categories, 4 or 8 bytes with each command, as the controller offers.
+/// Reads header and categories, 4 or 8 bytes with each command, as the controller supports.
 #[derive(Clone, Debug)]
 pub struct SiiReader {
     phase: Phase,
-    /// The SII as far as it was read; what is skipped is zero.
+    /// The SII as far as it has been read; skipped parts are zero.
     image: Vec<u8>,
     /// The next word to read.
     next: usize,
-    /// The word before which reading pauses, to look at what was read.
+    /// The word before which reading pauses, to check what was read.
     until: usize,
-    /// Where the category that is read begins.
+    /// Start of the category that is being read.
     category_at: usize,
     refusals: u8,
     /// Status and address of the command, as they are written.
@@ -162,7 +162,7 @@ impl SiiReader {
         progress
     }
 
-    /// Looks at what was read, and sets what is read next.
+    /// Checks what was read, and sets what is read next.
     fn follow(&mut self) -> Progress {
         if self.until == RESERVED.start {
             self.skip_to(RESERVED.end);
@@ -208,7 +208,7 @@ impl SiiReader {
         self.image.get(2 * at..).map_or(0, word)
     }
 
-    /// The word behind the last one, by what the SII says of its size.
+    /// The word after the last one, according to the size in the SII.
     fn end(&self) -> usize {
         ((usize::from(self.word(SIZE)) + 1) * WORDS_PER_KIBIT).min(WORDS_MAX)
     }
@@ -234,7 +234,7 @@ impl Dialogue for SiiReader {
 
     fn answer(&mut self, answer: Option<Answer<'_>>) -> Progress {
         let Some(answer) = answer else { return Progress::Next };
-        // A command that is not taken finds the SII busy.
+        // A command that is not accepted finds the SII busy.
         let Some(data) = answer.taken() else { return Progress::Later };
         match self.phase {
             Phase::TakeByForce => self.phase = Phase::Own,

@@ -1,4 +1,4 @@
-//! What the master knows of one slave.
+//! What the master knows about one slave.
 
 use esi::sii::SiiContents;
 use time::Instant;
@@ -20,7 +20,7 @@ pub struct Slave {
     pub(crate) queue: Queue,
     pub(crate) settings: SlaveSettings,
     pub(crate) report: AlReport,
-    /// The next look into its mailbox, if nothing else is to be done.
+    /// The next read of its mailbox, if there are no other jobs.
     pub(crate) next_listen: Instant,
     information: EscInformation,
     dl_status: DlStatus,
@@ -43,25 +43,25 @@ impl Slave {
         }
     }
 
-    /// How it is addressed.
+    /// Its address.
     #[must_use]
     pub const fn address(&self) -> Address {
         self.address
     }
 
-    /// What its controller is.
+    /// The information of its controller.
     #[must_use]
     pub const fn information(&self) -> EscInformation {
         self.information
     }
 
-    /// Its links, when it was found.
+    /// Its links at the time when it was found.
     #[must_use]
     pub const fn dl_status(&self) -> DlStatus {
         self.dl_status
     }
 
-    /// Its configured station alias, when it was found.
+    /// Its configured station alias at the time when it was found.
     #[must_use]
     pub const fn station_alias(&self) -> u16 {
         self.alias
@@ -73,31 +73,31 @@ impl Slave {
         self.sii.as_ref()
     }
 
-    /// AL status as it was read last.
+    /// AL status as last read.
     #[must_use]
     pub const fn al_report(&self) -> AlReport {
         self.report
     }
 
-    /// What is set at it on its way up.
+    /// The settings that are written on its way up.
     #[must_use]
     pub const fn settings(&self) -> &SlaveSettings {
         &self.settings
     }
 
-    /// When something of it is due: its first job, or a look into its mailbox.
+    /// When its next work is due: its first job, or a read of its mailbox.
     pub(crate) fn deadline(&self) -> Instant {
         if self.queue.is_empty() { self.next_listen } else { self.queue.deadline() }
     }
 
-    /// The SyncManagers of the mailbox that its state has; none for a slave without one.
+    /// The SyncManagers of the mailbox in its present state; none for a slave without one.
     pub(crate) fn mailbox(&self) -> Option<(SyncManagerSettings, SyncManagerSettings)> {
         let mailbox = self.settings.mailbox.as_ref()?;
         let in_boot = mailbox.in_boot().filter(|_| self.state() == AlState::Boot);
         Some(in_boot.unwrap_or((mailbox.out, mailbox.inward)))
     }
 
-    /// Keeps what a job has found. By its SII it is set up, unless somebody changes that.
+    /// Stores the result of a job. The settings are made from its SII, unless the caller has changed them.
     pub(crate) fn keep(&mut self, found: Found, outcome: Outcome) {
         match (found, outcome) {
             (Found::Information, Outcome::Data(data)) => {
@@ -114,14 +114,14 @@ impl Slave {
         }
     }
 
-    /// What the controller cannot do is not asked of it.
+    /// Features that the controller does not support are not used.
     pub(crate) const fn adapt_settings(&mut self) {
         let features = self.information.features;
         self.settings.bytewise_fmmus |= features.contains(EscFeatures::FMMU_BYTEWISE);
         self.settings.separate_commands |= features.contains(EscFeatures::NO_LRW);
     }
 
-    /// Notes the state that a job has seen.
+    /// Stores the state that a job has read.
     pub(crate) fn note_state(&mut self, result: &Result<Outcome, Failure>) {
         if let Ok(Outcome::State(report)) | Err(Failure::Refused(report) | Failure::NotReached(report)) =
             result
@@ -130,13 +130,13 @@ impl Slave {
         }
     }
 
-    /// Notes AL status without its code.
+    /// Stores AL status without its code.
     pub(crate) fn note_status(&mut self, status: AlStatus) {
         let code = if status.error { self.report.code } else { AlStatusCode::NO_ERROR };
         self.report = AlReport { status, code };
     }
 
-    /// Its state, as it was read last.
+    /// Its state, as last read.
     #[must_use]
     pub const fn state(&self) -> AlState {
         self.report.status.state

@@ -7,12 +7,12 @@ use wire::{AlControl, AlState, AlStatus, AlStatusCode};
 use crate::access::{Access, Answer, Dialogue, Patience, Progress, Wait, word};
 use crate::registers;
 
-/// AL status and AL status code, as one read shows them.
+/// AL status and AL status code, from one read.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct AlReport {
     /// The actual state, and whether an error is indicated.
     pub status: AlStatus,
-    /// What the error is; the Explicit Device ID where that was asked for.
+    /// The error; the Explicit Device ID if that was requested.
     pub code: AlStatusCode,
 }
 
@@ -20,7 +20,7 @@ impl AlReport {
     /// Bytes from AL status to the end of the AL status code.
     pub const LENGTH_BYTES: u16 = 6;
 
-    /// Nothing was read yet.
+    /// Nothing has been read yet.
     pub(crate) const NOTHING: Self = Self {
         status: AlStatus { state: AlState::Other(0), error: false, device_id_loaded: false },
         code: AlStatusCode::NO_ERROR,
@@ -32,7 +32,7 @@ impl AlReport {
         !self.status.error && !matches!(self.status.state, AlState::Other(_))
     }
 
-    /// What a read of 6 bytes from 0x0130 on gave; of 2 bytes the code is 0.
+    /// The result of a read of 6 bytes from 0x0130; for 2 bytes the code is 0.
     #[must_use]
     pub fn parse(bytes: &[u8]) -> Self {
         let code = bytes.get(4..).map_or(0, word);
@@ -50,11 +50,11 @@ impl fmt::Display for AlReport {
 const READ_AL_STATUS: Access<'static> =
     Access::Read { offset: registers::AL_STATUS, length_bytes: AlReport::LENGTH_BYTES };
 
-/// Writes AL control until a slave takes it.
+/// Writes AL control until a slave accepts it.
 #[derive(Clone, Copy, Debug)]
 struct Request {
     bits: [u8; 2],
-    /// It was sent without an answer: if nobody takes the next one, the slave has this one.
+    /// It was sent without an answer: if no slave accepts the next one, the slave has this one.
     may_be_taken: bool,
 }
 
@@ -67,7 +67,7 @@ impl Request {
         Access::Write { offset: registers::AL_CONTROL, data: &self.bits }
     }
 
-    /// Whether the slave has the request; what to do otherwise.
+    /// Whether the slave has the request; otherwise how to continue.
     fn answer(&mut self, answer: Option<Answer<'_>>) -> Result<(), Progress> {
         match answer {
             None => {
@@ -80,13 +80,13 @@ impl Request {
     }
 }
 
-/// Requests a state and waits until AL status shows it. An error that is shown then is a refusal, but for a request that
-/// acknowledges: the slave may not have seen it yet.
+/// Requests a state and waits until AL status shows it. An error that AL status shows then is a refusal, except
+/// after a request that acknowledges: the slave may not have seen that yet.
 #[derive(Clone, Debug)]
 pub struct StateRequest {
     control: AlControl,
     wait: Wait,
-    /// Until it is taken.
+    /// Until it is accepted.
     request: Option<Request>,
     report: AlReport,
 }
@@ -99,7 +99,7 @@ impl StateRequest {
         Self::of(control, wait, AlReport::NOTHING)
     }
 
-    /// Acknowledges the error that `shown` indicates, in the state that it shows.
+    /// Acknowledges the error in `shown`, in the state in `shown`.
     #[must_use]
     pub const fn acknowledge(shown: AlReport) -> Self {
         let state = shown.status.state;
@@ -107,7 +107,7 @@ impl StateRequest {
         Self::of(control, Wait::BackToInit, shown)
     }
 
-    /// Requests `state`, which is INIT mostly, and acknowledges whatever error may be shown.
+    /// Requests `state`, which is usually INIT, and acknowledges any error.
     #[must_use]
     pub const fn reset(state: AlState) -> Self {
         let control = AlControl { state, acknowledge: true, device_id_request: false, reserved: 0 };
@@ -118,19 +118,19 @@ impl StateRequest {
         Self { control, wait, request: Some(Request::new(control)), report }
     }
 
-    /// The state that is requested.
+    /// The requested state.
     #[must_use]
     pub const fn state(&self) -> AlState {
         self.control.state
     }
 
-    /// What AL status showed last.
+    /// AL status as last read.
     #[must_use]
     pub const fn report(&self) -> AlReport {
         self.report
     }
 
-    /// Whether the slave has taken the request, or may have.
+    /// Whether the slave has accepted the request, or may have.
     #[must_use]
     pub const fn is_taken(&self) -> bool {
         self.request.is_none()
@@ -168,13 +168,13 @@ impl Dialogue for StateRequest {
         answer.taken().map_or(Progress::Later, |data| self.watch(data))
     }
 
-    /// A slow slave keeps the request before this one until it has carried that out.
+    /// A slow slave keeps the previous request until it has executed it.
     fn patience(&self) -> Patience {
         Patience::State(self.wait)
     }
 }
 
-/// Asks a slave for its Explicit Device ID and takes the request back.
+/// Requests the Explicit Device ID of a slave, and then clears the request.
 #[derive(Clone, Debug)]
 pub struct DeviceIdRequest {
     state: AlState,
@@ -184,7 +184,7 @@ pub struct DeviceIdRequest {
 }
 
 impl DeviceIdRequest {
-    /// Asks a slave that is in `state`, without an error.
+    /// A request to a slave in `state`, without an error.
     #[must_use]
     pub const fn new(state: AlState) -> Self {
         let report = AlReport {
@@ -194,13 +194,13 @@ impl DeviceIdRequest {
         Self { state, request: Some(Request::new(Self::control(state, true))), id: None, report }
     }
 
-    /// The ID; none if the slave shows an error in its place, or before it is done.
+    /// The ID; none if the slave shows an error instead, or before it is done.
     #[must_use]
     pub const fn id(&self) -> Option<u16> {
         self.id
     }
 
-    /// What AL status showed last.
+    /// AL status as last read.
     #[must_use]
     pub const fn report(&self) -> AlReport {
         self.report

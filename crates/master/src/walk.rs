@@ -19,7 +19,7 @@ const WAY_UP: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, Al
 /// Offers the SII to the PDI.
 const OWNED_BY_PDI: [u8; 1] = [0x01];
 
-/// The floor of a state on the way up; none for BOOT and what is no state.
+/// The level of a state on the way up; none for BOOT and for a value that is not a state.
 fn floor(state: AlState) -> Option<usize> {
     WAY_UP.iter().position(|&step| step == state)
 }
@@ -34,12 +34,12 @@ pub(crate) fn has_mailbox(state: AlState) -> bool {
     floor(state).is_some_and(|floor| floor >= 1)
 }
 
-/// Whether the way passes PRE-OP to SAFE-OP, so that process data are set.
+/// Whether the way includes PRE-OP to SAFE-OP, so that process data are set.
 pub(crate) fn sets_process_data(from: AlState, target: AlState) -> bool {
     has_process_data(target) && !has_process_data(from)
 }
 
-/// The jobs that take a slave from what it shows to `target`.
+/// The jobs that take a slave from the state that it shows to `target`.
 pub(crate) fn way(
     shown: AlReport,
     target: AlState,
@@ -51,7 +51,7 @@ pub(crate) fn way(
     if shown.status.error {
         way.push(Job::State(StateRequest::acknowledge(shown)));
     }
-    // BOOT has only INIT for a neighbour.
+    // The only neighbour of BOOT is INIT.
     let leaves_the_way = floor(at).is_none() || floor(target).is_none();
     if leaves_the_way && at != target && at != AlState::Init {
         way.request(AlState::Init, Wait::BackToInit);
@@ -127,7 +127,7 @@ impl Way<'_> {
         self.request(AlState::Op, Wait::SafeOpOp);
     }
 
-    /// BOOT, or a number that is no state.
+    /// BOOT, or a number that is not a state.
     fn boot(&mut self, target: AlState) {
         let areas = self.settings.mailbox.as_ref().and_then(MailboxSettings::in_boot);
         if let (Some((out, inward)), AlState::Boot) = (areas, target) {
@@ -137,7 +137,7 @@ impl Way<'_> {
         self.jobs.push((Job::State(StateRequest::new(target, Wait::PreOp)), Then::RestartMailbox));
     }
 
-    /// A SyncManager takes new settings only while it is disabled.
+    /// A SyncManager accepts new settings only while it is disabled.
     fn sync_manager(&mut self, settings: &SyncManagerSettings) {
         let offset = registers::sync_manager(settings.number);
         self.push(Job::write(offset + SYNC_MANAGER_ACTIVATE, &[0]));
@@ -158,7 +158,7 @@ impl Way<'_> {
         }
     }
 
-    /// The last job shows the state that is reached.
+    /// The last job shows the reached state.
     fn arrive(mut self, target: AlState) -> Vec<(Job, Then)> {
         if !matches!(self.jobs.last(), None | Some((Job::State(_), _))) {
             self.jobs.push((Job::read_al_status(), Then::Arrive(target)));

@@ -1,4 +1,4 @@
-//! Dialogues without a line: every answer is made by hand, right or wrong.
+//! Dialogues without a line: every answer is written by hand, correct or incorrect.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -19,7 +19,7 @@ const IN: SyncManagerSettings =
     SyncManagerSettings { number: 1, start: 0x1200, length_bytes: MAILBOX_BYTES, control: 0x22, activate: 1 };
 const TARGET: SdoTarget = SdoTarget::entry(0x2000, 1);
 
-/// A slave that answers each request by this function, with a mailbox of one message.
+/// A slave that answers each request with this function, with a mailbox for one message.
 struct Slave<F> {
     answer: F,
     mailbox: Option<Vec<u8>>,
@@ -35,7 +35,7 @@ impl<F: FnMut(&[u8]) -> Option<Vec<u8>>> Slave<F> {
         Self { answer, mailbox: None, counter: 0, asked: 0, read: None }
     }
 
-    /// Puts a CoE message behind a mailbox header.
+    /// Puts a CoE message after a mailbox header.
     fn put(&mut self, coe: Vec<u8>) {
         self.counter = self.counter % 7 + 1;
         let header = MailboxHeader {
@@ -87,7 +87,7 @@ impl<F: FnMut(&[u8]) -> Option<Vec<u8>>> Slave<F> {
     }
 }
 
-/// Carries a service out; accesses whose number is in `lost` get no answer.
+/// Executes a service; accesses whose number is in `lost` get no answer.
 fn carry_out<F>(
     service: Service,
     slave: &mut Slave<F>,
@@ -128,7 +128,7 @@ fn request(coe: &[u8]) -> SdoRequest<'_> {
     SdoRequest::parse(sdo).expect("well formed")
 }
 
-/// A server of one value that is as wrong as `wrong` makes its responses.
+/// A server of one value, whose responses have the error `wrong`.
 fn server(
     value: Vec<u8>,
     wrong: impl Fn(SdoResponse<'_>) -> Vec<u8>,
@@ -286,7 +286,7 @@ fn fragments_have_to_count_down() {
     assert_eq!(stuck, wrong_reply(SdoAbort::INVALID_SEQUENCE_NUMBER));
 }
 
-/// C089: the repeated message has the counter of the lost one, so that one that comes twice is known.
+/// C089: the repeated message has the counter of the lost one, so that a duplicate is identified.
 #[test]
 fn a_lost_reply_is_asked_for_again_and_one_that_comes_twice_is_dropped() {
     for lost_read in [LostRead::AskAgain, LostRead::ReadAgain] {

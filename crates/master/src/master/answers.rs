@@ -1,4 +1,4 @@
-//! What comes back: whose answer it is, what is over by it, what follows.
+//! Answers: the job to which an answer belongs, what it completes, and what follows.
 
 use time::Instant;
 use wire::{AlState, DatagramView};
@@ -11,11 +11,11 @@ use crate::queue::{Over, Pace, Task, Then};
 use crate::state::AlReport;
 use crate::walk::{has_mailbox, has_process_data, sets_process_data, way};
 
-/// Events that may wait before emergencies are dropped.
+/// Maximum number of waiting events before emergencies are dropped.
 const EVENTS_MAX: usize = 4_096;
 
 impl Master {
-    /// Takes the answer to a datagram; none: its frame is lost.
+    /// Processes the answer to a datagram; none: its frame is lost.
     pub(super) fn answer(&mut self, now: Instant, sender: Sender, datagram: Option<DatagramView<'_>>) {
         let answer = datagram
             .map(|datagram| Answer { working_counter: datagram.working_counter, data: datagram.data });
@@ -78,7 +78,7 @@ impl Master {
         }
     }
 
-    /// A job of a slave is over. With the last job of an order, or a failed one, its order is over.
+    /// A job of a slave is complete. With the last job of an order, or a failed one, its order is complete.
     fn over(&mut self, now: Instant, position: usize, Over { request, then, result }: Over) {
         let result = result.and_then(|outcome| self.follow(now, position, request, then, outcome));
         let Some(slave) = self.slaves.get_mut(position) else { return };
@@ -92,7 +92,7 @@ impl Master {
         }
     }
 
-    /// What a job leads to.
+    /// The consequence of a job.
     fn follow(
         &mut self,
         now: Instant,
@@ -127,7 +127,7 @@ impl Master {
         Ok(Outcome::Done)
     }
 
-    /// Orders the jobs of the way from what a slave shows to a state.
+    /// Adds the jobs of the way from the state that a slave shows to a state.
     fn walk(&mut self, now: Instant, position: usize, request: RequestId, shown: AlReport, target: AlState) {
         if !has_process_data(target) {
             self.process_data.close(position);
@@ -159,7 +159,7 @@ impl Master {
     }
 }
 
-/// Whether a slave is where its way has led.
+/// Whether a slave has reached the target of its way.
 fn arrived(report: AlReport, target: AlState) -> Result<Outcome, Failure> {
     let is_there = report.status.state == target && !report.status.error;
     if is_there { Ok(Outcome::State(report)) } else { Err(Failure::Refused(report)) }

@@ -1,4 +1,4 @@
-//! Process data: who takes part, what goes out, what has come.
+//! Process data: which slaves take part, which data are sent, which were received.
 
 use time::{Duration, Instant};
 
@@ -6,17 +6,17 @@ use super::Master;
 use crate::process_data::CycleReport;
 
 impl Master {
-    /// Exchanges process data with this period, from SAFE-OP on; if a slave does so already, beginning now.
+    /// Exchanges process data with this period, from SAFE-OP on; if a slave already does so, starting now.
     pub fn exchange(&mut self, now: Instant, period: Duration) {
         self.process_data.start(now, period);
     }
 
-    /// Sends no process data any more, until [`Master::exchange`].
+    /// Stops sending process data, until [`Master::exchange`].
     pub const fn stop_exchange(&mut self) {
         self.process_data.stop();
     }
 
-    /// What the present cycle has come to so far.
+    /// The present result of the current cycle.
     #[must_use]
     pub fn cycle(&self) -> CycleReport {
         self.process_data.report()
@@ -34,26 +34,26 @@ impl Master {
         self.process_data.is_open(slave)
     }
 
-    /// What goes to a slave with the next cycle, to be changed. Areas of fewer than eight bits begin with a byte each.
-    /// Empty before the slave was on its way to SAFE-OP.
+    /// The outputs for a slave in the next cycle, for changes. Areas of fewer than eight bits begin with a byte
+    /// each. Empty before the slave was on its way to SAFE-OP.
     pub fn outputs_mut(&mut self, slave: usize) -> &mut [u8] {
         self.process_data.outputs_mut(slave)
     }
 
-    /// What goes to a slave with the next cycle.
+    /// The outputs for a slave in the next cycle.
     #[must_use]
     pub fn outputs(&self, slave: usize) -> &[u8] {
         self.process_data.outputs(slave)
     }
 
-    /// What has come from a slave last.
+    /// The inputs last received from a slave.
     #[must_use]
     pub fn inputs(&self, slave: usize) -> &[u8] {
         self.process_data.inputs(slave)
     }
 
-    /// Gives the process data of a slave a place in the logical address space, if they have none that fits. While
-    /// others exchange theirs, it goes behind them; otherwise all are placed again.
+    /// Places the process data of a slave in the logical address space, if they have no suitable place. While
+    /// other slaves exchange theirs, they are placed after them; otherwise all are placed again.
     pub(super) fn place(&mut self, position: usize) {
         let Some(slave) = self.slaves.get(position) else { return };
         if self.process_data.holds(position, &slave.settings) {

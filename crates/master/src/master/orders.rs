@@ -1,4 +1,4 @@
-//! Orders of the owner, and the jobs that they come down to.
+//! Orders of the caller, and the jobs that they consist of.
 
 use esi::DeviceDescription;
 use time::Instant;
@@ -23,12 +23,12 @@ use crate::settings::{DeviceIdSource, SlaveSettings};
 use crate::slave::Slave;
 use crate::state::{DeviceIdRequest, StateRequest};
 
-/// Most data bytes of one datagram.
+/// Maximum number of data bytes of one datagram.
 const DATAGRAM_BYTES_MAX: usize = 1_486;
 
 impl Master {
-    /// Finds the slaves of the line: counts them, takes them to INIT, gives them station addresses, and reads what
-    /// their controllers and their SIIs say. What was known of slaves is forgotten.
+    /// Finds the slaves of the line: counts them, takes them to INIT, gives them station addresses, and reads
+    /// their controllers and their SIIs. Everything known about slaves before is discarded.
     pub fn search(&mut self, now: Instant) -> RequestId {
         let request = self.next_request();
         self.slaves.clear();
@@ -39,7 +39,7 @@ impl Master {
         request
     }
 
-    /// So many slaves have answered: each of them is asked who it is.
+    /// This number of slaves have answered: each of them is identified.
     pub(super) fn identify(&mut self, now: Instant, request: RequestId, count: u16) {
         self.slaves = (0..count).map(|position| Slave::new(position, self.habits.mailbox)).collect();
         let addresses = (0..count).map(|position| self.habits.addressing.of(position));
@@ -64,7 +64,7 @@ impl Master {
         }
     }
 
-    /// Sends a datagram once, whatever comes back.
+    /// Sends a datagram once, whatever the result is.
     pub fn datagram(&mut self, command: Command, address: u16, offset: u16, data: &[u8]) -> RequestId {
         let request = self.next_request();
         let data = data.to_vec();
@@ -82,13 +82,13 @@ impl Master {
         self.order(now, slave, usize::from(length_bytes), job)
     }
 
-    /// Writes bytes of a slave's memory, until it takes them.
+    /// Writes bytes to a slave's memory, until it accepts them.
     pub fn write(&mut self, now: Instant, slave: usize, offset: u16, data: &[u8]) -> RequestId {
         self.order(now, slave, data.len(), Job::Write(RegisterWrite::new(offset, data.to_vec())))
     }
 
-    /// Takes a slave to a state by the way of a real master: errors are acknowledged, SyncManagers, FMMUs, registers
-    /// and SDOs are written, process data begin with SAFE-OP.
+    /// Takes a slave to a state with the sequence of a real master: errors are acknowledged, SyncManagers,
+    /// FMMUs, registers and SDOs are written, process data begin with SAFE-OP.
     pub fn take_to(&mut self, now: Instant, slave: usize, state: AlState) -> RequestId {
         let request = self.next_request();
         self.push(now, slave, request, [(Job::read_al_status(), Then::Walk(state))]);
@@ -104,12 +104,12 @@ impl Master {
         request
     }
 
-    /// Carries out a dialogue with the state machine of a slave, as it is: nothing is set up and nothing acknowledged.
+    /// Executes a dialogue with the state machine of a slave as it is: without set-up or acknowledge.
     pub fn request_state(&mut self, now: Instant, slave: usize, state: StateRequest) -> RequestId {
         self.order(now, slave, 0, Job::State(state))
     }
 
-    /// Asks a slave for its Explicit Device ID, where its settings say that it shows it.
+    /// Requests the Explicit Device ID of a slave, from the place given in its settings.
     pub fn read_device_id(&mut self, now: Instant, slave: usize) -> RequestId {
         let request = self.next_request();
         let job = match self.slaves.get(slave).map(|slave| (slave.settings.device_id, slave.state())) {
@@ -136,12 +136,12 @@ impl Master {
         self.service(now, slave, Service::Sdo(SdoTransfer::download(target, value)))
     }
 
-    /// Asks about the object dictionary. [`SdoInformation`] says what the answer is.
+    /// Queries the object dictionary. [`SdoInformation`] describes the answer.
     pub fn information(&mut self, now: Instant, slave: usize, question: SdoInfoRequest) -> RequestId {
         self.service(now, slave, Service::Information(SdoInformation::new(question)))
     }
 
-    /// Carries out a service by the mailbox of a slave.
+    /// Executes a mailbox service of a slave.
     pub fn service(&mut self, now: Instant, slave: usize, service: Service) -> RequestId {
         let request = self.next_request();
         let mailbox = self.slaves.get(slave).map(Slave::mailbox);
@@ -156,7 +156,7 @@ impl Master {
         request
     }
 
-    /// Looks into the mailboxes of slaves that have nothing else to do.
+    /// Reads the mailboxes of slaves that have no other jobs.
     pub(super) fn listen(&mut self, now: Instant) {
         let Some(period) = self.habits.listen_period else { return };
         for slave in self.slaves.iter_mut().filter(|slave| slave.queue.is_empty() && slave.next_listen <= now)
@@ -170,12 +170,12 @@ impl Master {
         }
     }
 
-    /// What is set at a slave on its way up, to be changed. It holds from its next way up on.
+    /// The settings that are written to a slave on its way up, for changes. They apply from its next way up.
     pub fn settings_mut(&mut self, slave: usize) -> Option<&mut SlaveSettings> {
         self.slaves.get_mut(slave).map(|slave| &mut slave.settings)
     }
 
-    /// Sets a slave up as a description says, in place of its SII.
+    /// Sets a slave up according to a description instead of its SII.
     pub fn describe(&mut self, slave: usize, description: &DeviceDescription) {
         if let Some(slave) = self.slaves.get_mut(slave) {
             slave.settings = SlaveSettings::from_description(description);
@@ -183,7 +183,7 @@ impl Master {
         }
     }
 
-    /// Changes how the mailbox of a slave is treated from now on.
+    /// Changes how the mailbox of a slave is handled from now on.
     pub fn change_mailbox(&mut self, slave: usize, change: impl FnMut(&mut MailboxConduct)) {
         if let Some(slave) = self.slaves.get_mut(slave) {
             slave.queue.change_conduct(change);

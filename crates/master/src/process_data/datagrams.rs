@@ -1,4 +1,4 @@
-//! The datagrams of one cycle: over the logical address space, as few as possible, in as few frames as possible.
+//! The datagrams of one cycle: for the logical address space, as few as possible, in as few frames as possible.
 
 use core::ops::Range;
 
@@ -11,9 +11,9 @@ use crate::access::{Access, Address};
 use crate::registers;
 use crate::settings::Direction;
 
-/// Bytes of all datagrams of one frame.
+/// Maximum length of all datagrams of one frame in bytes.
 const FRAME_BYTES_MAX: usize = 1_498;
-/// Most data of one datagram.
+/// Maximum data length of one datagram.
 const DATAGRAM_BYTES_MAX: usize = FRAME_BYTES_MAX - DATAGRAM_OVERHEAD_BYTES;
 const AL_STATUS_BYTES: u16 = 2;
 
@@ -25,7 +25,7 @@ pub(crate) struct CyclicDatagram {
     pub(crate) working_counter: Option<u16>,
 }
 
-/// What a datagram carries.
+/// The contents of a datagram.
 #[derive(Clone, Debug)]
 pub(crate) enum Content {
     /// Process data of these places, from this byte of the logical address space on.
@@ -34,7 +34,7 @@ pub(crate) enum Content {
         first_byte: usize,
         length_bytes: usize,
         places: Range<usize>,
-        /// Whose they are, each slave once.
+        /// The slaves to which they belong, each once.
         slaves: Vec<usize>,
         expected: u16,
     },
@@ -77,7 +77,7 @@ impl CyclicDatagram {
         (command, self.length_bytes())
     }
 
-    /// Puts it into a frame, with what the images hold.
+    /// Puts it into a frame, with the contents of the images.
     pub(crate) fn load(&self, frame: &mut FrameBuilder, origin: u32, places: &[Place], images: &[Image]) {
         match &self.content {
             Content::ProcessData { command, first_byte, length_bytes, places: range, .. } => {
@@ -93,7 +93,7 @@ impl CyclicDatagram {
         }
     }
 
-    /// Takes the inputs that came back.
+    /// Stores the received inputs.
     pub(crate) fn take(&self, data: &[u8], places: &[Place], images: &mut [Image]) {
         if let Content::ProcessData { first_byte, places: range, .. } = &self.content {
             for place in &places[range.clone()] {
@@ -102,7 +102,7 @@ impl CyclicDatagram {
         }
     }
 
-    /// Sets the working counter that is right: that of the slaves that take part.
+    /// Sets the expected working counter: that of the slaves that take part.
     pub(crate) fn expect(&mut self, all: &[Place], takes_part: impl Fn(usize) -> bool) {
         if let Content::ProcessData { command, places, expected, .. } = &mut self.content {
             *expected = expected_counter(*command, &all[places.clone()], takes_part);
@@ -117,12 +117,12 @@ impl CyclicDatagram {
     }
 }
 
-/// Places that share bytes, or one alone: what goes into one datagram as far as it fits.
+/// Places that share bytes, or a single place: they form one datagram if they fit.
 #[derive(Clone, Debug)]
 struct Cluster {
     places: Range<usize>,
     bytes: Range<usize>,
-    /// Whose they are; none: of several slaves.
+    /// The slave to which they belong; none: several slaves.
     slave: Option<usize>,
     has_outputs: bool,
     has_inputs: bool,
@@ -152,7 +152,7 @@ impl Cluster {
     }
 }
 
-/// Joins neighbours as long as `may_join` allows.
+/// Joins neighbours if `may_join` permits it.
 fn join(clusters: Vec<Cluster>, may_join: impl Fn(&Cluster, &Cluster) -> bool) -> Vec<Cluster> {
     let mut joined: Vec<Cluster> = Vec::new();
     for cluster in clusters {
@@ -180,7 +180,7 @@ fn process_data(places: &[Place], exchange: &Exchange) -> Vec<CyclicDatagram> {
     fitting.iter().flat_map(|cluster| datagrams_of(cluster, exchange.commands, places)).collect()
 }
 
-/// The datagrams of a cluster: one, but for an area that is longer than a datagram.
+/// The datagrams of a cluster: one, unless an area is longer than a datagram.
 fn datagrams_of(
     cluster: &Cluster,
     commands: Commands,
@@ -227,7 +227,7 @@ pub(crate) fn frames(datagrams: &[CyclicDatagram]) -> Vec<Range<usize>> {
     frames
 }
 
-/// What a datagram counts when all slaves that take part answer; two areas of one slave count once.
+/// The expected working counter of a datagram if all slaves that take part answer; two areas of one slave count once.
 fn expected_counter(command: Command, places: &[Place], takes_part: impl Fn(usize) -> bool) -> u16 {
     let mut counter = 0;
     let mut last = None;
@@ -248,8 +248,8 @@ fn load_status(frame: &mut FrameBuilder, address: Address) {
     access.add_to(frame, address);
 }
 
-/// The bits of a place that are in a datagram: where they begin in the image of the slave, how many they are, and where
-/// they begin in the datagram.
+/// The bits of a place that are in a datagram: their start in the image of the slave, their number, and their
+/// start in the datagram.
 fn within(place: &Place, first_byte: usize, length_bytes: usize) -> (Bits, usize) {
     let datagram = 8 * first_byte..8 * (first_byte + length_bytes);
     let (start, end) = (place.start.max(datagram.start), place.end().min(datagram.end));
@@ -257,7 +257,7 @@ fn within(place: &Place, first_byte: usize, length_bytes: usize) -> (Bits, usize
     (bits, start - datagram.start)
 }
 
-/// Outputs go out; inputs go as they came last, so that those of a slave that does not answer stay.
+/// Outputs are sent; inputs are sent as last received, so that those of a slave that does not answer are unchanged.
 fn fill(data: &mut [u8], first_byte: usize, place: &Place, images: &[Image]) {
     let (bits, at) = within(place, first_byte, data.len());
     if let Some(image) = images.get(place.slave) {

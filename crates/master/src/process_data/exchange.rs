@@ -1,4 +1,4 @@
-//! How process data are exchanged, and what a cycle comes to.
+//! The settings of the exchange of process data, and the result of a cycle.
 
 use time::Duration;
 use wire::AlStatus;
@@ -8,23 +8,23 @@ use wire::AlStatus;
 pub enum Commands {
     /// LRW.
     Lrw,
-    /// LRW where a datagram has both directions in it, LWR and LRD where it has one.
+    /// LRW if a datagram contains both directions, LWR or LRD if it contains one.
     Fitting,
     /// LWR for outputs, LRD for inputs.
     Separate,
 }
 
-/// Whose process data share a datagram.
+/// Which slaves share a datagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// Those of as many slaves as fit: outputs of all slaves, then inputs of all.
+    /// As many as fit: outputs of all slaves, then inputs of all.
     Filled,
-    /// Those of one slave, outputs before inputs; of several only where they share a byte. So each slave has a working
-    /// counter of its own.
+    /// One slave per datagram, outputs before inputs; several only if they share a byte. So each slave has a
+    /// separate working counter.
     EachSlave,
 }
 
-/// Which AL status is read with each cycle.
+/// Which AL status is read in each cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StatusRead {
     /// None.
@@ -35,25 +35,25 @@ pub enum StatusRead {
     EachSlave,
 }
 
-/// How process data are exchanged. Datagrams share frames in any case.
+/// The settings of the exchange of process data. Datagrams share frames in any case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Exchange {
-    /// From one cycle to the next.
+    /// Time between two cycles.
     pub period: Duration,
-    /// Where in the period a cycle begins, counted from time 0.
+    /// Start of a cycle within the period, counted from time 0.
     pub phase: Duration,
     /// Which commands carry them.
     pub commands: Commands,
-    /// Whose process data share a datagram.
+    /// Which slaves share a datagram.
     pub grouping: Grouping,
-    /// Which AL status is read besides.
+    /// Which AL status is read in addition.
     pub status: StatusRead,
     /// The first logical address.
     pub origin: u32,
 }
 
 impl Default for Exchange {
-    /// Each millisecond, by LRW, in datagrams that are filled.
+    /// Every millisecond, by LRW, in full datagrams.
     fn default() -> Self {
         Self {
             period: Duration::from_millis(1),
@@ -66,17 +66,17 @@ impl Default for Exchange {
     }
 }
 
-/// What the present cycle has come to so far.
+/// The present result of the current cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CycleReport {
-    /// Cycles that were sent so far.
+    /// Number of cycles sent so far.
     pub cycles: u64,
-    /// The working counters of all process data that came back, added up.
+    /// The sum of the working counters of all process data that have returned.
     pub working_counter: u16,
-    /// What they add up to when every slave that exchanges process data takes part.
+    /// The expected sum if every slave that exchanges process data takes part.
     pub expected: u16,
-    /// Datagrams of process data that did not come back.
+    /// Datagrams of process data that did not return.
     pub lost: u16,
-    /// How many slaves have answered with their AL status, where it is read by BRD, and the OR of it.
+    /// Number of slaves that have answered with their AL status, if it is read by BRD, and the OR of it.
     pub status: Option<(u16, AlStatus)>,
 }

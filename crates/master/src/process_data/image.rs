@@ -1,4 +1,4 @@
-//! What process data hold: outputs and inputs of each slave as bytes of its own.
+//! The values of process data: outputs and inputs of each slave as separate bytes.
 
 use crate::settings::{Direction, SlaveSettings};
 
@@ -9,12 +9,12 @@ pub(crate) struct Image {
     pub(crate) inputs: Vec<u8>,
     /// The working counters of this cycle so far, added up.
     pub(crate) counted: u16,
-    /// The same, of the last cycle of which something came back.
+    /// The same for the last cycle for which a datagram returned.
     pub(crate) working_counter: Option<u16>,
 }
 
 impl Image {
-    /// Zeros, as many as the settings say.
+    /// Zeros, with the lengths in the settings.
     pub(crate) fn of(settings: &SlaveSettings) -> Self {
         let zeros = |direction| {
             let length_bytes = settings.areas(direction).map(|area| area.bits.div_ceil(8) as usize).sum();
@@ -31,7 +31,7 @@ impl Image {
         }
     }
 
-    /// A datagram with its process data came back.
+    /// A datagram with its process data has returned.
     pub(crate) fn count(&mut self, working_counter: u16) {
         self.counted = self.counted.saturating_add(working_counter);
         self.working_counter = Some(self.counted);
@@ -55,7 +55,7 @@ impl Bits {
     }
 }
 
-/// Copies a run of bits to another place. Runs that leave their bytes are cut off there.
+/// Copies a run of bits to another place. Bits beyond the end of the bytes are cut off.
 pub(crate) fn copy(from: &[u8], source: Bits, to: &mut [u8], target_start: usize) {
     let target = Bits { start: target_start, count: source.count };
     if source.is_bytewise() && target.is_bytewise() {

@@ -4,14 +4,14 @@ use super::exchange::Grouping;
 use crate::channels::FmmuSettings;
 use crate::settings::{Direction, ProcessDataArea, SlaveSettings};
 
-/// Where an area of process data is.
+/// The place of an area of process data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     pub(crate) slave: usize,
     pub(crate) direction: Direction,
     /// The first bit, counted from the first logical byte.
     pub(crate) start: usize,
-    /// How many bits are mapped: those of the area, filled up to whole bytes where it has eight or more.
+    /// Number of mapped bits: those of the area, rounded up to whole bytes if there are eight or more.
     pub(crate) bits: usize,
     /// The first bit in the outputs or inputs of its slave.
     pub(crate) image_start: usize,
@@ -20,12 +20,12 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// The bit behind the last one.
+    /// The bit after the last one.
     pub(crate) const fn end(&self) -> usize {
         self.start + self.bits
     }
 
-    /// The FMMU that maps it, where the logical address space begins at this address.
+    /// The FMMU that maps it, if the logical address space begins at this address.
     fn fmmu(&self, origin: u32) -> FmmuSettings {
         let (first, last) = (self.start / 8, (self.end() - 1) / 8);
         FmmuSettings {
@@ -64,7 +64,7 @@ impl Layout {
         of_slave.map(unplaced).eq(wanted.places.iter().map(unplaced))
     }
 
-    /// Places the process data of these slaves behind what is there already.
+    /// Places the process data of these slaves after the existing places.
     pub(crate) fn place_all(&mut self, slaves: &[(usize, &SlaveSettings)], grouping: Grouping) {
         match grouping {
             Grouping::Filled => self.place_group(slaves),
@@ -82,7 +82,7 @@ impl Layout {
         }
     }
 
-    /// Takes its places from a slave. What lies behind them stays where it is.
+    /// Removes the places of a slave. The places after them are unchanged.
     pub(crate) fn remove(&mut self, slave: usize) {
         self.places.retain(|place| place.slave != slave);
         if self.places.is_empty() {
@@ -90,7 +90,7 @@ impl Layout {
         }
     }
 
-    /// Fewer than eight bits go directly behind others of their kind; all else begins with a byte of its own.
+    /// Fewer than eight bits directly follow others of the same kind; all other areas begin at a new byte.
     fn place(&mut self, slave: usize, settings: &SlaveSettings, direction: Direction) {
         let mut image_start = 0;
         for area in settings.areas(direction).filter(|area| area.bits > 0) {

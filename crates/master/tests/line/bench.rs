@@ -8,7 +8,7 @@ use segment::FrameFate;
 use time::Instant;
 use wire::AlState;
 
-/// Slaves under power, and every frame that the master has sent.
+/// Slaves with power, and every frame that the master has sent.
 pub(crate) struct Slaves<U> {
     pub(crate) network: Network<U>,
     pub(crate) frames: Vec<Vec<u8>>,
@@ -39,7 +39,7 @@ impl<U: Unit> Line for Slaves<U> {
     }
 }
 
-/// A master with this many NX-ECT101 with the factory setting, changed as `change` says.
+/// A master with this many NX-ECT101 in the factory setting, changed by `change`.
 pub(crate) fn connected_with(
     master: Master,
     count: usize,
@@ -61,13 +61,13 @@ pub(crate) fn connected(count: usize) -> Connected<Slaves<NxEct101>> {
     connected_with(Master::default(), count, |_, _| {})
 }
 
-/// What a terminal of so many outputs and inputs is set up with; without any it is a coupler.
+/// The settings of a terminal with this number of outputs and inputs; without any it is a coupler.
 pub(crate) fn channels(outputs: u8, inputs: u8) -> TerminalSettings {
     let channels = |count| Channels::new(count).expect("0 to 64");
     TerminalSettings { outputs: channels(outputs), inputs: channels(inputs), ..TerminalSettings::default() }
 }
 
-/// A master with terminals of so many outputs and inputs each.
+/// A master with terminals of these numbers of outputs and inputs.
 pub(crate) fn terminals(master: Master, bits: &[(u8, u8)]) -> Connected<Slaves<Terminal<BitImages>>> {
     let powered = bits.iter().map(|&(outputs, inputs)| {
         let settings = channels(outputs, inputs);

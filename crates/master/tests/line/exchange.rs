@@ -16,7 +16,7 @@ fn habits(commands: Commands, status: StatusRead) -> Master {
 
 /// Frames of one cycle: command and data length of each datagram.
 fn cycle<U: device::Unit>(bench: &mut Connected<Slaves<U>>) -> Vec<Vec<(Command, usize)>> {
-    // Behind the frames of the present moment.
+    // After the frames of the present time.
     bench.run_for(Duration::from_micros(1));
     bench.line.frames.clear();
     bench.run_for(CYCLE);
@@ -32,7 +32,7 @@ fn terminals_share_one_datagram_and_bytes_of_it() {
         terminals(habits(Commands::Lrw, StatusRead::Never), &[(4, 0), (4, 0), (0, 4), (0, 4), (2, 12)]);
     bench.search().expect("five terminals");
     bench.take_all_to(AlState::Op).expect("OP");
-    // Outputs 4 + 4 + 2 bits, inputs 4 + 4 bits and 12 in two bytes of their own.
+    // Outputs 4 + 4 + 2 bits, inputs 4 + 4 bits and 12 in two separate bytes.
     assert_eq!(cycle(&mut bench), [[(Command::Lrw, 2 + 1 + 2)]]);
     let set = |bench: &mut Connected<Slaves<Terminal<BitImages>>>, position: usize, value| {
         bench.line.network.device_mut(position).expect("a terminal").unit_mut().wiring_mut().inputs = value;
@@ -55,14 +55,14 @@ fn terminals_share_one_datagram_and_bytes_of_it() {
     assert_eq!((report.working_counter, report.expected, report.lost), (2 + 2 + 1 + 1 + 3, 9, 0));
 }
 
-/// 25 units of 180 and 183 bytes: 9,075 bytes in seven frames, where one for each unit would be 25.
+/// 25 units of 180 and 183 bytes: 9,075 bytes in seven frames; one frame for each unit would need 25.
 #[test]
 fn frames_are_filled_and_no_process_data_are_torn() {
     let mut bench = connected_with(habits(Commands::Lrw, StatusRead::Never), 25, |_, _| {});
     bench.search().expect("25 units");
     bench.take_all_to(AlState::Op).expect("OP");
     let frames = cycle(&mut bench);
-    // Eight areas fit into 1,486 bytes, and none is cut in two.
+    // Eight areas fit into 1,486 bytes, and none is split.
     assert_eq!(frames.len(), 7);
     assert!(frames.iter().all(|frame| frame.len() == 1 && frame[0].1 <= 1_486));
     let total: usize = frames.iter().map(|frame| frame[0].1).sum();
@@ -183,6 +183,6 @@ fn the_period_is_kept_and_may_change() {
     bench.master.exchange(bench.now(), CYCLE * 5);
     let before = bench.master.cycle().cycles;
     bench.run_for(CYCLE * 100);
-    // One at once, then one each 5 ms.
+    // One immediately, then one every 5 ms.
     assert_eq!(bench.master.cycle().cycles - before, 21);
 }

@@ -1,5 +1,5 @@
-//! Frames that are lost, late, doubled and damaged: the master always comes to an end, takes no wrong answer for a right
-//! one, and never asks a slave for a state before it has acknowledged a refusal.
+//! Frames that are lost, late, duplicated and damaged: the master always terminates, takes no wrong answer for
+//! a right one, and never requests a state of a slave before it has acknowledged a refusal.
 
 use master::{Event, Failure, Habits, LostRead, Master, Outcome, RequestId};
 use nx_ect101::NxEct101;
@@ -9,7 +9,7 @@ use wire::{AlControl, AlState, AlStatus, Command, SdoInfoList, SdoInfoRequest, S
 
 use crate::bench::{Slaves, connected_with};
 
-/// What happens to a frame.
+/// The fault of a frame.
 #[derive(Clone, Copy, Debug)]
 enum Fate {
     Passes,
@@ -35,7 +35,7 @@ fn any_fate() -> impl Strategy<Value = Fate> {
     prop_oneof![8 => fate(), 1 => (12..80_u16, 1..=255_u8).prop_map(|(at, bits)| Fate::Damaged(at, bits))]
 }
 
-/// A line that treats each frame as the list says, and then again from the beginning.
+/// A line that treats each frame according to the list, and then starts again from the beginning of the list.
 struct BadLine {
     master: Master,
     slaves: Slaves<NxEct101>,
@@ -43,9 +43,9 @@ struct BadLine {
     next: usize,
     late: Vec<(Instant, master::Ticket, Vec<u8>)>,
     now: Instant,
-    /// Slaves that have shown an error to the master, and no state without one since.
+    /// Slaves that have shown an error to the master, and since then no state without one.
     refused: [bool; 2],
-    /// A damaged answer has come: from then on the master may believe of a slave what was never so.
+    /// A damaged answer has been delivered: from then on the master may have a wrong image of a slave.
     is_deceived: bool,
 }
 
@@ -68,7 +68,7 @@ impl BadLine {
         }
     }
 
-    /// Runs until an order is done; how it ended at each slave.
+    /// Runs until an order is done; returns its result for each slave.
     fn complete(&mut self, request: RequestId) -> Vec<(Option<usize>, Result<Outcome, Failure>)> {
         let limit = self.now + Duration::from_secs(120);
         let mut results = Vec::new();
@@ -133,7 +133,7 @@ impl BadLine {
         }
     }
 
-    /// The master takes what comes at once.
+    /// The master receives the answer immediately.
     fn deliver_at_once(&mut self, ticket: master::Ticket, frame: &[u8]) {
         for (slave, status) in statuses(frame) {
             self.refused[slave] = status.error;
@@ -141,7 +141,7 @@ impl BadLine {
         self.master.receive(self.now, ticket, frame);
     }
 
-    /// Whether the master takes a late answer is its own affair: it may know by it that an error is gone.
+    /// The master is free to use or ignore a late answer: it may detect by it that an error is gone.
     fn deliver_late(&mut self, ticket: master::Ticket, frame: &[u8]) {
         for (slave, status) in statuses(frame) {
             self.refused[slave] &= status.error;
@@ -149,7 +149,7 @@ impl BadLine {
         self.master.receive(self.now, ticket, frame);
     }
 
-    /// After a refusal there is an acknowledge, or INIT.
+    /// After a refusal there must be an acknowledge, or INIT.
     fn check_requests(&self, frame: &[u8]) {
         for datagram in datagrams(frame).filter(|datagram| datagram.header.offset == 0x0120) {
             if let (Command::Fpwr, Some(bits)) = (datagram.header.command, datagram.data.first_chunk()) {
@@ -164,7 +164,7 @@ impl BadLine {
         }
     }
 
-    /// Search, OP, SDOs, a refused state, and INIT again. Every order ends, whatever becomes of it.
+    /// Search, OP, SDOs, a refused state, and INIT again. Every order ends, whatever happens to it.
     fn do_everything(&mut self) {
         let request = self.master.search(self.now);
         self.complete(request);
@@ -175,7 +175,7 @@ impl BadLine {
         }
     }
 
-    /// What is read is right, or not read at all.
+    /// The data read are correct, or there are none.
     fn check_values(&mut self) {
         let values: [(SdoTarget, &[u8]); 4] = [
             (SdoTarget::entry(0x1018, 1), &[0x83, 0, 0, 0]),
@@ -194,7 +194,7 @@ impl BadLine {
     }
 }
 
-/// AL status of each slave that a frame has read it of.
+/// The AL status of each slave that a frame has read.
 fn statuses(frame: &[u8]) -> Vec<(usize, AlStatus)> {
     let of = |datagram: wire::DatagramView<'_>| {
         let is_read = datagram.header.command == Command::Fprd && datagram.header.offset == 0x0130;
@@ -250,7 +250,7 @@ proptest! {
         let (mut frame, mut answers) = (Vec::new(), bytes.iter().cycle());
         for _ in 0..200 {
             while let Some(ticket) = line.master.transmit(line.now, &mut frame) {
-                // Data and working counters of the right frame are anything at all.
+                // Data and working counters of the right frame have any values.
                 let answer = answers.next().map_or(&[][..], Vec::as_slice);
                 for (byte, any) in frame.iter_mut().skip(26).zip(answer) {
                     *byte = *any;

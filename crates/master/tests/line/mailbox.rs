@@ -1,4 +1,4 @@
-//! SDOs, SDO information, emergencies, and mailboxes that are treated wrongly.
+//! SDOs, SDO information, emergencies, and mailboxes that are handled incorrectly.
 
 use master::{
     Connected, Event, Failure, Master, Message, Reading, Reply, SdoTransfer, Service, ServiceFailure,
@@ -12,7 +12,7 @@ use wire::{
 
 use crate::bench::{Slaves, connected, connected_with};
 
-/// The smallest mailbox that a unit has.
+/// The smallest mailbox of a unit.
 const SMALL_BYTES: u16 = 34;
 
 type Bench = Connected<Slaves<NxEct101>>;
@@ -23,7 +23,7 @@ fn in_pre_op(mut bench: Bench) -> Bench {
     bench
 }
 
-/// One unit whose mailboxes are so long.
+/// One unit with mailboxes of this length.
 fn with_mailbox_bytes(length_bytes: u16) -> Bench {
     let mut bench = connected_with(Master::default(), 1, |_, config| {
         let mailbox = config.mailbox.as_mut().expect("a mailbox");
@@ -142,7 +142,7 @@ fn a_protocol_that_a_slave_does_not_speak_is_a_mailbox_error() {
     let message = Message::new(MailboxType::Foe, vec![1, 0, 0, 0, 0, 0, b'f'], Reply::Awaited);
     let refused = bench.service(0, Service::Message(message));
     assert_eq!(refused, failed(ServiceFailure::Mailbox(MailboxErrorCode::UNSUPPORTED_PROTOCOL)));
-    // A CoE message of any content: an SDO upload, byte by byte.
+    // A CoE message with any content: an SDO upload, byte by byte.
     let upload = vec![0x00, 0x20, 0x40, 0x18, 0x10, 1, 0, 0, 0, 0];
     let reply = bench.service(0, Service::Message(Message::new(MailboxType::Coe, upload, Reply::Awaited)));
     assert_eq!(reply, Ok(vec![0x00, 0x30, 0x43, 0x18, 0x10, 1, 0x83, 0, 0, 0]));
@@ -182,7 +182,7 @@ fn a_master_that_reads_no_mailbox_gets_no_reply_until_it_does() {
     let mut bench = in_pre_op(connected(1));
     bench.master.change_mailbox(0, |conduct| conduct.reading = Reading::Never);
     assert_eq!(bench.upload(0, DEVICE_NAME), failed(ServiceFailure::NoReply));
-    // The reply to the first one keeps the second one out.
+    // The reply to the first one blocks the second one.
     bench.master.change_mailbox(0, |conduct| conduct.reading = Reading::Always);
     assert_eq!(bench.upload(0, SdoTarget::entry(0x1018, 0)), Ok(vec![4]));
 }

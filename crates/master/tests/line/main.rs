@@ -1,4 +1,4 @@
-//! The master against our own slaves, in one process and in virtual time.
+//! The master with slaves of this project, in one process and in virtual time.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 

@@ -1,4 +1,4 @@
-//! The search: how many slaves there are, and who they are.
+//! The search: the number of slaves, and their identities.
 
 use crate::bench::{connected, connected_with};
 use esc::SiiTiming;
@@ -33,7 +33,7 @@ fn every_slave_is_identified_by_its_sii() {
     }
 }
 
-/// What was skipped is not asked for; all else is as the image has it.
+/// Skipped parts are not read; everything else equals the image.
 #[test]
 fn what_was_read_is_what_the_image_holds() {
     let mut bench = connected(1);
@@ -64,7 +64,7 @@ fn a_blank_sii_has_no_categories_and_a_broken_one_is_refused() {
     let (result, blank) = with(vec![0xFF; 2048]);
     let blank = blank.expect("contents");
     assert_eq!((result, blank.header.vendor_id, blank.categories.len()), (Ok(1), u32::MAX, 0));
-    // The size word says 128 bytes, and the first category is behind them.
+    // The size word is 128 bytes, and the first category is after them.
     let (result, zeros) = with(vec![0; 2048]);
     let failure = SiiFailure::TooLong { category_at: 0x40, end: 0x40 };
     assert_eq!((result, zeros), (Err(Failure::Sii(failure)), None));

@@ -133,7 +133,7 @@ fn an_acknowledge_that_is_ignored_ends_the_way() {
     assert_eq!(report.code, AlStatusCode::INVALID_REQUESTED_STATE_CHANGE);
 }
 
-/// AL control as it was written, in order.
+/// AL control as written, in order.
 fn al_controls(frames: &[Vec<u8>]) -> Vec<AlControl> {
     let written = frames.iter().flat_map(|frame| datagrams(frame)).filter(|datagram| {
         datagram.header.offset == 0x0120 && matches!(datagram.header.command, Command::Fpwr | Command::Apwr)
