@@ -40,6 +40,7 @@ mod unit_side;
 pub mod user_files;
 mod watched_program;
 
+pub use coe_kit::indicators::Pattern;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
@@ -49,7 +50,7 @@ pub use modbus::{self, ModbusMap, Server as ModbusServer};
 pub use nx_ect101::unit_file;
 pub use nx_ect101::{
     CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, Lights,
-    LogRecord, Pattern,
+    LogRecord,
 };
 #[cfg(feature = "opcua")]
 pub use opcua::{self, Server as OpcUaServer};

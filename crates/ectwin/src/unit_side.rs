@@ -1,10 +1,10 @@
 //! The side of a unit that no master sees: its state inside, its CPU Unit, its faults and logs.
 
+use coe_kit::indicators::PortCondition;
 use device::{Device, Network, Start};
 use esc::Port;
 use nx_ect101::{
     CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, NxEct101,
-    PortCondition,
 };
 use plc::{CpuUnit, Io};
 use time::Instant;

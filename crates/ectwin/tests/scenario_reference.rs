@@ -2,7 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use nx_ect101::{Event, Fault, Pattern};
+use coe_kit::indicators::Pattern;
+use nx_ect101::{Event, Fault};
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
 
 /// If this variable is set, the test writes the page instead of comparing it.

@@ -11,17 +11,16 @@
 //! | L/A | the port alone |
 //! | TS | one condition at a time; [`NxCondition::or_worse`] picks it |
 
-mod pattern;
 mod table;
 
+use coe_kit::indicators::{self, Pattern, PortCondition};
 use time::Instant;
 use wire::{AlState, AlStatusCode};
 
-use crate::events::{Event, EventCode};
-use table::{Cause, PrimaryCause, pattern_for, primary};
+use crate::events::{Event, EventCode, IndicatorStatus};
+use table::{PrimaryCause, primary};
 
-pub use pattern::Pattern;
-pub use table::{Colour, Indicator, IndicatorMeaning};
+pub use table::{Colour, Indicator, IndicatorMeaning, pattern_source};
 
 /// All that decides on the indicators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,38 +116,6 @@ impl NxCondition {
     }
 }
 
-/// How a port stands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum PortCondition {
-    /// No link.
-    #[default]
-    NoLink,
-    /// A link, and no frames.
-    Link,
-    /// A link, and frames pass.
-    Active,
-}
-
-impl PortCondition {
-    /// From what a segment knows of the port: whether there is a link, and whether frames pass.
-    #[must_use]
-    pub const fn new(link: bool, active: bool) -> Self {
-        match (link, active) {
-            (false, _) => Self::NoLink,
-            (true, false) => Self::Link,
-            (true, true) => Self::Active,
-        }
-    }
-
-    fn pattern(self) -> Pattern {
-        pattern_for(match self {
-            Self::NoLink => Cause::NoLink,
-            Self::Link => Cause::Link,
-            Self::Active => Cause::Active,
-        })
-    }
-}
-
 /// What each indicator does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Indicators {
@@ -203,7 +170,7 @@ impl Indicators {
         let (ts_green, ts_red) = causes.nx.ts();
         let row = primary(causes.nx.primary());
         let (run, err) = if causes.nx.application_runs() {
-            (run(causes.state), err(causes.esc_error, causes.al_error))
+            (indicators::run(causes.state), err(causes.esc_error, causes.al_error))
         } else {
             (row.run, row.err)
         };
@@ -238,24 +205,29 @@ impl Indicators {
     }
 }
 
-/// RUN by state. BOOT, which the unit does not have, shows as INIT.
-fn run(state: AlState) -> Pattern {
-    pattern_for(match state {
-        AlState::Op => Cause::Op,
-        AlState::SafeOp => Cause::SafeOp,
-        AlState::PreOp => Cause::PreOp,
-        AlState::Init | AlState::Boot | AlState::Other(_) => Cause::Init,
-    })
-}
-
 /// ERR by the event whose AL status code the master reads: events that share a code share the pattern. A code of
-/// no event comes from the state machine, which refuses a request.
+/// no event is one of the standard.
 fn err(esc_error: bool, al_error: Option<AlStatusCode>) -> Pattern {
     let esc_error = esc_error.then(|| Event::find(EventCode::ESC_ERROR)).flatten();
-    if let Some(pattern) = esc_error.and_then(|event| event.err.pattern()) {
-        return pattern;
+    let of_code = |code| Event::all().iter().find(|event| event.al_status_code == Some(code));
+    let event = esc_error.or_else(|| al_error.and_then(of_code));
+    event.and_then(|event| event.err.pattern()).unwrap_or_else(|| indicators::err(al_error))
+}
+
+impl IndicatorStatus {
+    /// The pattern that an event shows; none if the event leaves the indicator alone.
+    #[must_use]
+    pub const fn pattern(self) -> Option<Pattern> {
+        Some(match self {
+            Self::NotLit => Pattern::NotLit,
+            Self::Lit => Pattern::Lit,
+            Self::Flickering => Pattern::Flickering,
+            Self::Blinking => Pattern::Blinking,
+            Self::SingleFlash => Pattern::SingleFlash,
+            Self::DoubleFlash => Pattern::DoubleFlash,
+            Self::Flashing1s => Pattern::Flashing1s,
+            Self::Flashing2s => Pattern::Flashing2s,
+            Self::Undefined | Self::NotListed => return None,
+        })
     }
-    let Some(code) = al_error else { return pattern_for(Cause::NoError) };
-    let event = Event::all().iter().find(|event| event.al_status_code == Some(code));
-    event.and_then(|event| event.err.pattern()).unwrap_or_else(|| pattern_for(Cause::StateOrSettingError))
 }

@@ -46,8 +46,7 @@ pub use exchange::{ByteCopy, ExchangePlan};
 pub use fault::Fault;
 pub use finding::{Amount, Fact, Finding, Side};
 pub use indicators::{
-    Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition, Pattern,
-    PortCondition,
+    Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition, pattern_source,
 };
 pub use memory::{
     ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogRecord, MemoryAtPowerOn, NonVolatileMemory,

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use nx_ect101::{Indicator, IndicatorMeaning, Pattern};
+use coe_kit::indicators::Pattern;
+use nx_ect101::{Indicator, IndicatorMeaning, pattern_source};
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -71,7 +72,7 @@ fn status_row(status: &'static IndicatorMeaning) -> StatusRow {
 }
 
 fn pattern_row(pattern: Pattern) -> PatternRow {
-    PatternRow { name: pattern.id(), steps_ms: pattern.steps_ms(), source: pattern.source() }
+    PatternRow { name: pattern.id(), steps_ms: pattern.steps_ms(), source: pattern_source(pattern) }
 }
 
 fn as_text(document: &Document) -> String {

@@ -1,6 +1,7 @@
 //! Indicators and their patterns, from the indicator table of the model.
 
-use nx_ect101::{Indicator, IndicatorMeaning, Pattern};
+use coe_kit::indicators::Pattern;
+use nx_ect101::{Indicator, IndicatorMeaning, pattern_source};
 
 use super::{Explanation, Fact, Subject};
 
@@ -42,7 +43,7 @@ fn times(pattern: Pattern) -> Option<String> {
 
 pub(super) fn pattern(pattern: Pattern) -> Explanation {
     let name = times(pattern).unwrap_or_else(|| "steady".into());
-    let source = pattern.source().map(|source| Fact::new("source", source));
+    let source = pattern_source(pattern).map(|source| Fact::new("source", source));
     let shown = Indicator::all().iter().flat_map(|indicator| {
         let status = indicator.status.iter().filter(move |status| status.pattern == pattern);
         status.map(|status| {

@@ -2,8 +2,9 @@
 
 use std::sync::LazyLock;
 
+use coe_kit::indicators::Pattern;
 use esc::REGISTERS;
-use nx_ect101::{Event, MINOR_FAULT_BIT, NxObject, OBSERVATION_BIT, Pattern, object_table};
+use nx_ect101::{Event, MINOR_FAULT_BIT, NxObject, OBSERVATION_BIT, object_table};
 use objects::ObjectCode;
 
 use super::{Subject, glossary, indicator, key, object, port};

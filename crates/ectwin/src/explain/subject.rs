@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use nx_ect101::{EventCode, Pattern};
+use coe_kit::indicators::Pattern;
+use nx_ect101::EventCode;
 use wire::{AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
 /// Something that can be explained.

@@ -1,6 +1,7 @@
 //! Codes, objects, indicators and words in every usual way of writing, and what each is.
 
-use nx_ect101::{EventCode, Pattern};
+use coe_kit::indicators::Pattern;
+use nx_ect101::EventCode;
 use objects::ObjectCode;
 use wire::{AlState, AlStatusCode, Command, ObjectIndex, SubIndex};
 

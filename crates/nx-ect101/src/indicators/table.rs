@@ -2,9 +2,9 @@
 
 use std::sync::LazyLock;
 
+use coe_kit::indicators::Pattern;
 use serde::{Deserialize, Serialize};
 
-use super::Pattern;
 use crate::events::{Event, EventCode};
 use crate::tables;
 
@@ -23,7 +23,6 @@ struct IndicatorsFile {
 #[serde(deny_unknown_fields)]
 struct PatternRow {
     name: Pattern,
-    steps_ms: Vec<u64>,
     source: String,
 }
 
@@ -47,8 +46,6 @@ pub struct IndicatorMeaning {
     pub colour: Colour,
     /// The pattern.
     pub pattern: Pattern,
-    /// What the unit decides by.
-    cause: Option<Cause>,
     /// Which events show it.
     events: Option<EventColumn>,
     /// What it tells.
@@ -115,21 +112,6 @@ impl Colour {
     }
 }
 
-/// What makes RUN, ERR and L/A show a pattern, where no event does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub(super) enum Cause {
-    Op,
-    SafeOp,
-    PreOp,
-    Init,
-    StateOrSettingError,
-    NoError,
-    Active,
-    Link,
-    NoLink,
-}
-
 /// A row of 8-2-2 that is no event.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -152,20 +134,6 @@ pub(super) enum PrimaryCause {
     CpuUnitMalfunction,
 }
 
-/// The steps of a pattern; none for those that are steady and have no row.
-pub(super) fn steps_ms(pattern: Pattern) -> &'static [u64] {
-    TABLE.pattern.iter().find(|row| row.name == pattern).map_or(&[], |row| &row.steps_ms)
-}
-
-/// The pattern for a cause.
-pub(super) fn pattern_for(cause: Cause) -> Pattern {
-    let mut rows = TABLE.indicator.iter().flat_map(|indicator| &indicator.status);
-    match rows.find(|row| row.cause == Some(cause)) {
-        Some(row) => row.pattern,
-        None => panic!("tables/indicators.toml: no row for {cause:?}"),
-    }
-}
-
 /// The row for a cause.
 pub(super) fn primary(cause: PrimaryCause) -> PrimaryRow {
     match TABLE.primary.iter().find(|row| row.cause == cause) {
@@ -174,10 +142,9 @@ pub(super) fn primary(cause: PrimaryCause) -> PrimaryRow {
     }
 }
 
-impl Pattern {
-    /// The document that gives its times; none for a steady one.
-    #[must_use]
-    pub fn source(self) -> Option<&'static str> {
-        TABLE.pattern.iter().find(|row| row.name == self).map(|row| row.source.as_str())
-    }
+/// The document that gives the times of a pattern: the standard, or the manual; none for a steady one.
+#[must_use]
+pub fn pattern_source(pattern: Pattern) -> Option<&'static str> {
+    let of_manual = || TABLE.pattern.iter().find(|row| row.name == pattern).map(|row| row.source.as_str());
+    pattern.standard().or_else(of_manual)
 }

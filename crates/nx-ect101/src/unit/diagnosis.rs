@@ -7,10 +7,11 @@ use wire::{AlStatus, AlStatusCode};
 use crate::diagnosis::{CurrentError, OCCURRED_MAX, Occurrence};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
-use crate::indicators::{IndicatorCauses, Indicators, NxCondition, PortCondition};
+use crate::indicators::{IndicatorCauses, Indicators, NxCondition};
 use crate::memory::ErrorLog;
 use crate::settings::LevelNotChangeable;
 use crate::unit::NxEct101;
+use coe_kit::indicators::PortCondition;
 
 impl NxEct101 {
     /// The cause of a fault appears. Some faults are found at once, others when the unit starts or when the

@@ -1,8 +1,9 @@
 //! What conditions look at.
 
+use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Unit};
 use esc::Port;
-use nx_ect101::{EventCode, EventLevel, Indicators, NxEct101, Pattern, PortCondition};
+use nx_ect101::{EventCode, EventLevel, Indicators, NxEct101};
 use plc::Io;
 use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 

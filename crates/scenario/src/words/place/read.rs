@@ -100,7 +100,10 @@ pub(super) fn fault(word: &str) -> Option<Value> {
 }
 
 pub(super) fn pattern(word: &str) -> Option<Value> {
-    nx_ect101::Pattern::ALL.iter().find(|pattern| pattern.id() == word).map(|_| Value::Text(word.to_owned()))
+    coe_kit::indicators::Pattern::ALL
+        .iter()
+        .find(|pattern| pattern.id() == word)
+        .map(|_| Value::Text(word.to_owned()))
 }
 
 /// An indicator has one word or two.

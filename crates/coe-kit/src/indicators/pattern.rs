@@ -1,10 +1,7 @@
-//! Patterns of light over time (manual, 3-2-4; times of ETG.1300).
+//! Patterns of light over time.
 
 use serde::{Deserialize, Serialize};
 use time::{Duration, Instant};
-
-use super::table;
-use crate::events::IndicatorStatus;
 
 /// What an indicator does over time.
 ///
@@ -34,38 +31,75 @@ pub enum Pattern {
     Flashing2s,
 }
 
+/// The document that gives the times of a pattern.
+const ETG_1300: Option<&str> = Some("ETG.1300");
+
+struct Row {
+    pattern: Pattern,
+    id: &'static str,
+    /// Lit, dark, lit, dark …, and again from the start.
+    steps_ms: &'static [u64],
+    /// None for a steady pattern, and for those that only makers' documents have.
+    source: Option<&'static str>,
+}
+
+const fn row(
+    pattern: Pattern,
+    id: &'static str,
+    steps_ms: &'static [u64],
+    source: Option<&'static str>,
+) -> Row {
+    Row { pattern, id, steps_ms, source }
+}
+
+/// In the order of the enumeration.
+const ROWS: [Row; 8] = [
+    row(Pattern::NotLit, "not_lit", &[], None),
+    row(Pattern::Lit, "lit", &[], None),
+    row(Pattern::Flickering, "flickering", &[50, 50], ETG_1300),
+    row(Pattern::Blinking, "blinking", &[200, 200], ETG_1300),
+    row(Pattern::SingleFlash, "single_flash", &[200, 1_000], ETG_1300),
+    row(Pattern::DoubleFlash, "double_flash", &[200, 200, 200, 1_000], ETG_1300),
+    row(Pattern::Flashing1s, "flashing_1s", &[500, 500], None),
+    row(Pattern::Flashing2s, "flashing_2s", &[1_000, 1_000], None),
+];
+
+const _: () = {
+    let mut at = 0;
+    while at < ROWS.len() {
+        assert!(ROWS[at].pattern as usize == at, "rows are in the order of the enumeration");
+        at += 1;
+    }
+};
+
 impl Pattern {
     /// All patterns.
-    pub const ALL: [Self; 8] = [
-        Self::NotLit,
-        Self::Lit,
-        Self::Flickering,
-        Self::Blinking,
-        Self::SingleFlash,
-        Self::DoubleFlash,
-        Self::Flashing1s,
-        Self::Flashing2s,
-    ];
+    pub const ALL: [Self; 8] = {
+        let mut all = [Self::NotLit; 8];
+        let mut at = 0;
+        while at < ROWS.len() {
+            all[at] = ROWS[at].pattern;
+            at += 1;
+        }
+        all
+    };
 
-    /// The word of the tables for it.
+    /// Its word in tables and sentences.
     #[must_use]
     pub const fn id(self) -> &'static str {
-        match self {
-            Self::NotLit => "not_lit",
-            Self::Lit => "lit",
-            Self::Flickering => "flickering",
-            Self::Blinking => "blinking",
-            Self::SingleFlash => "single_flash",
-            Self::DoubleFlash => "double_flash",
-            Self::Flashing1s => "flashing_1s",
-            Self::Flashing2s => "flashing_2s",
-        }
+        ROWS[self as usize].id
     }
 
     /// How long it is lit, dark, lit, dark … in milliseconds, before it begins again; empty if it never changes.
     #[must_use]
-    pub fn steps_ms(self) -> &'static [u64] {
-        table::steps_ms(self)
+    pub const fn steps_ms(self) -> &'static [u64] {
+        ROWS[self as usize].steps_ms
+    }
+
+    /// The standard that gives its times; none for a steady pattern and for one that only makers' documents have.
+    #[must_use]
+    pub const fn standard(self) -> Option<&'static str> {
+        ROWS[self as usize].source
     }
 
     /// Whether the indicator is lit at this moment.
@@ -102,22 +136,4 @@ struct Step {
     lit: bool,
     /// Until the next step.
     rest: Duration,
-}
-
-impl IndicatorStatus {
-    /// The pattern that an event shows; none if the event leaves the indicator alone.
-    #[must_use]
-    pub const fn pattern(self) -> Option<Pattern> {
-        Some(match self {
-            Self::NotLit => Pattern::NotLit,
-            Self::Lit => Pattern::Lit,
-            Self::Flickering => Pattern::Flickering,
-            Self::Blinking => Pattern::Blinking,
-            Self::SingleFlash => Pattern::SingleFlash,
-            Self::DoubleFlash => Pattern::DoubleFlash,
-            Self::Flashing1s => Pattern::Flashing1s,
-            Self::Flashing2s => Pattern::Flashing2s,
-            Self::Undefined | Self::NotListed => return None,
-        })
-    }
 }

@@ -1,0 +1,9 @@
+//! Indicators of ETG.1300: patterns of light over time, and what RUN, ERR and L/A show (reference 9).
+//!
+//! A model adds its own indicators, and its own rows where its documents differ from the standard.
+
+mod pattern;
+mod standard;
+
+pub use pattern::Pattern;
+pub use standard::{PortCondition, err, run};

@@ -1,0 +1,3 @@
+//! Parts that unit models share, each driven by the tables of the model.
+
+pub mod indicators;
