@@ -1,6 +1,6 @@
-//! From the tree of a file to code: names are resolved, types checked, conversions written out, memory laid out.
+//! From the tree of a file to code: resolves names, checks types, makes conversions explicit, lays out memory.
 //!
-//! The library's own blocks and the device variables come in as trees of their own, read by the same parser.
+//! The library's blocks and the device variables are added as separate trees, read by the same parser.
 
 mod calls;
 mod configuration;
@@ -30,26 +30,26 @@ use crate::system::System;
 use crate::types::Type;
 use scope::{Scope, Symbol};
 
-/// Most slots of a program: 8 MiB.
+/// Maximum number of slots of a program: 8 MiB.
 const SLOTS_MAX: u32 = 1 << 20;
 
-/// What a program is made of.
+/// The results of checking a program.
 #[derive(Debug, Default)]
 pub(crate) struct Checked {
     pub(crate) units: Vec<Unit>,
     /// The PROGRAMs that run, in this order.
     pub(crate) tasks: Vec<Task>,
-    /// How long a scan is by the CONFIGURATION; none: it says nothing.
+    /// The length of a scan from the CONFIGURATION; none: it does not define one.
     pub(crate) period_ns: Option<u64>,
     pub(crate) initial: Vec<u64>,
     pub(crate) layouts: Vec<Layout>,
     pub(crate) variables: Vec<Variable>,
     pub(crate) externals: Vec<External>,
-    /// Where the system-defined variables lie that the program names.
+    /// The slots of the system-defined variables that the program uses.
     pub(crate) system: Vec<(System, Slot)>,
 }
 
-/// Trees that a program is checked against.
+/// Trees against which a program is checked.
 pub(crate) struct Surroundings<'t> {
     /// Types and blocks of the library.
     pub(crate) prelude: &'t File,
@@ -58,10 +58,10 @@ pub(crate) struct Surroundings<'t> {
     pub(crate) globals: &'t [Global],
 }
 
-/// What a program is checked for.
+/// The purpose of checking a program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Purpose {
-    /// It is to run, so that it needs a PROGRAM.
+    /// It is to run, so it needs a PROGRAM.
     Run,
     /// It may be a part of a program: blocks, functions or types alone.
     Judge,
@@ -86,28 +86,28 @@ pub(crate) fn check(
     if checker.problems.is_empty() { Ok(checker.out) } else { Err(checker.problems) }
 }
 
-/// Whose a declaration is.
+/// The owner of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Origin {
     Library,
     User,
 }
 
-/// A name for a type or a program organization unit, from its declaration to what it means.
+/// A name of a type or a program organization unit, from its declaration to its meaning.
 enum Named<'t> {
     Type(&'t TypeDeclaration),
     Block(&'t Pou, Origin),
     Function(&'t Pou),
     Program,
-    /// It is being resolved: who meets it now meets himself.
+    /// It is being resolved: a reference to it now is a reference to itself.
     Resolving,
-    /// It is wrong, and that has been told.
+    /// It is wrong, and this has been reported.
     Wrong,
     Shape(Shape),
     Signature(std::rc::Rc<Signature>),
 }
 
-/// A type with the value that its variables have at the beginning.
+/// A type with the initial value of its variables.
 #[derive(Clone)]
 struct Shape {
     type_: Type,
@@ -118,7 +118,7 @@ struct Shape {
 struct Signature {
     name: String,
     unit: u32,
-    /// Where its inputs, in-outs and outputs lie in the memory: the offset is a slot.
+    /// The positions of its inputs, in-outs and outputs in the memory: the offset is a slot.
     pins: Vec<crate::types::Member>,
     result: Option<(Slot, Type)>,
 }
@@ -127,24 +127,24 @@ struct Checker<'t> {
     problems: Vec<Problem>,
     /// By names in capitals.
     named: HashMap<String, Named<'t>>,
-    /// Enumeration values that may be named without their type: all types that have one of this name.
+    /// Enumeration values that may be used without their type: all types that have one with this name.
     enum_values: HashMap<String, Vec<(std::sync::Arc<crate::types::Enumeration>, i64)>>,
     /// VAR_GLOBAL of the file.
     globals: HashMap<String, Symbol>,
     surroundings: &'t Surroundings<'t>,
-    /// Of each device variable that is used: its symbol.
+    /// For each device variable in use: its symbol.
     devices: HashMap<usize, Symbol>,
     /// The scopes of units that are declared and have no code yet.
     pending: Vec<Pending<'t>>,
-    /// Where text literals lie.
+    /// The slots of text literals.
     literals: std::collections::HashSet<Slot>,
-    /// How many types are being resolved.
+    /// Number of types that are being resolved.
     type_depth: u32,
-    /// How many slots all types have together.
+    /// Total number of slots of all types.
     type_slots: usize,
-    /// How deep the code of each unit lies in itself.
+    /// Nesting depth of the code of each unit.
     own_depths: HashMap<u32, u32>,
-    /// Who calls whom.
+    /// Caller and called unit of each call.
     calls: Vec<(u32, u32, Span)>,
     /// Whether library names with a leading underscore may be called.
     origin: Origin,
@@ -175,12 +175,12 @@ impl<'t> Checker<'t> {
             own_depths: HashMap::new(),
             calls: Vec::new(),
             origin: Origin::User,
-            // Slot 0 belongs to nobody, so that no reference is it.
+            // Slot 0 is not used, so that no reference leads to it.
             out: Checked { initial: vec![0], ..Checked::default() },
         }
     }
 
-    /// Tells a problem, and has no value to give.
+    /// Reports a problem, and returns no value.
     fn refuse<T>(&mut self, problem: Problem) -> Option<T> {
         if self.problems.len() < PROBLEMS_SOUGHT {
             self.problems.push(problem);
@@ -188,7 +188,7 @@ impl<'t> Checker<'t> {
         None
     }
 
-    /// Whether so much is wrong that the rest is left aside.
+    /// Whether there are so many problems that the rest is not checked.
     fn is_given_up(&self) -> bool {
         self.problems.len() >= PROBLEMS_SOUGHT
     }

@@ -1,4 +1,4 @@
-//! What a program is made into before it runs: names are slots, types are settled, conversions are written out.
+//! The compiled form of a program: names are slots, types are resolved, conversions are explicit.
 
 use crate::elementary::Elementary;
 use crate::library::Native;
@@ -8,14 +8,14 @@ use crate::problem::Span;
 /// A slot of the memory.
 pub(crate) type Slot = u32;
 
-/// An expression. Its value is 64 bits: of an elementary value what [`crate::value`] says, of everything else the
-/// slot where it begins.
+/// An expression. Its value is 64 bits: for an elementary value as in [`crate::value`], for everything else the
+/// slot at which it begins.
 #[derive(Clone, Debug)]
 pub(crate) enum Code {
     Constant(u64),
     /// The value in one slot.
     Load(Place),
-    /// The slot where a variable begins.
+    /// The slot at which a variable begins.
     Address(Place),
     Unary {
         operator: Unary,
@@ -27,7 +27,7 @@ pub(crate) enum Code {
         elementary: Elementary,
         operands: Box<(Code, Code)>,
     },
-    /// AND and OR of BOOLs: the right operand is left aside when the left one decides.
+    /// AND and OR of BOOLs: the right operand is not evaluated if the left one determines the result.
     Decide {
         stop_at: bool,
         operands: Box<(Code, Code)>,
@@ -46,7 +46,7 @@ pub(crate) enum Code {
     Native(Box<NativeCall>),
 }
 
-/// Where a variable lies.
+/// The position of a variable.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     pub(crate) base: Base,
@@ -56,11 +56,11 @@ pub(crate) struct Place {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Base {
-    /// The memory's beginning.
+    /// The start of the memory.
     Memory,
-    /// The beginning of the function block instance whose body runs.
+    /// The start of the function block instance whose body is executed.
     Instance,
-    /// What the slot behind the offset of this base names: a VAR_IN_OUT.
+    /// The position stored in the slot at the offset of this base: a VAR_IN_OUT.
     ReferenceInMemory(Slot),
     /// The same, counted from the instance.
     ReferenceInInstance(u32),
@@ -74,11 +74,11 @@ pub(crate) struct Element {
     pub(crate) extent: Extent,
 }
 
-/// How many elements an array has in all its dimensions.
+/// Total number of elements of an array in all its dimensions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Extent {
     Fixed(u32),
-    /// An array of any length: its bounds lie behind the reference at which the place begins.
+    /// An array of any length: its bounds follow the reference with which the position begins.
     Open {
         dimensions: u32,
     },
@@ -89,22 +89,22 @@ pub(crate) struct Dimension {
     pub(crate) index: Code,
     /// Type of the index.
     pub(crate) elementary: Elementary,
-    /// The bounds; of an array of any length they and the stride say nothing.
+    /// The bounds; for an array of any length they and the stride are not used.
     pub(crate) lower: i64,
     pub(crate) upper: i64,
-    /// How many elements one step of this index is.
+    /// Number of elements per step of this index.
     pub(crate) stride: u32,
     pub(crate) span: Span,
 }
 
-/// How a value is put into its place.
+/// How a value is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Put {
     /// One slot; the code's value is stored.
     Value,
-    /// So many slots from the slot that the code names.
+    /// This number of slots from the slot in the code's value.
     Slots(u32),
-    /// A STRING from the slot that the code names; the target holds so many characters.
+    /// A STRING from the slot in the code's value; the target holds this number of characters.
     Text(u16),
     /// A reference and the number of a layout: two slots.
     Any { layout: u32 },
@@ -152,7 +152,7 @@ pub(crate) struct Assign {
     pub(crate) put: Put,
 }
 
-/// What a CASE looks at.
+/// The selector of a CASE.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) value: Code,
@@ -161,7 +161,7 @@ pub(crate) struct Case {
 
 #[derive(Clone, Debug)]
 pub(crate) struct CaseArm {
-    /// Ranges of values, both ends in them.
+    /// Ranges of values, including both ends.
     pub(crate) labels: Vec<(i128, i128)>,
     pub(crate) body: Vec<Statement>,
 }
@@ -181,9 +181,9 @@ pub(crate) struct For {
 pub(crate) struct FunctionCall {
     pub(crate) unit: u32,
     pub(crate) inputs: Vec<(Slot, Code, Put)>,
-    /// Taken from the function's variables when it has run.
+    /// Taken from the function's variables after its execution.
     pub(crate) outputs: Vec<Assign>,
-    /// The result: its slot and how it is given on.
+    /// The result: its slot and how it is returned.
     pub(crate) result: FunctionResult,
 }
 
@@ -192,7 +192,7 @@ pub(crate) enum FunctionResult {
     None,
     /// The value in this slot.
     Value(Slot),
-    /// So many slots, copied to a place of the caller's own: a later call would write over them.
+    /// This number of slots, copied to a separate position of the caller: a later call would overwrite them.
     Copied {
         from: Slot,
         to: Slot,
@@ -204,23 +204,24 @@ pub(crate) enum FunctionResult {
 #[derive(Clone, Debug)]
 pub(crate) struct NativeCall {
     pub(crate) native: Native,
-    /// The type that its generic inputs have in this call.
+    /// The type of its generic inputs in this call.
     pub(crate) elementary: Elementary,
     pub(crate) arguments: Vec<NativeArgument>,
-    /// Where a STRING result goes, and the most characters that fit there.
+    /// The position of a STRING result, and the maximum number of characters there.
     pub(crate) text: (Slot, u16),
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum NativeArgument {
-    /// One argument: the value; of a STRING the slot where it begins.
+    /// One argument: the value; for a STRING the slot at which it begins.
     Value(Code),
-    /// One argument: where a variable of one slot lies, to be read and written; or a STRING or enumeration.
+    /// One argument: the position of a variable of one slot, to be read and written; or of a STRING or enumeration.
     Reference(Place),
-    /// Three arguments: where an element lies, how many elements there are from it on, how many slots each has.
-    /// Of what is no element of an array there is one.
+    /// Three arguments: the position of an element, the number of elements from it on, the number of slots of
+    /// each. For a variable that is not an element of an array, the number of elements is one.
     Elements { place: Place, element_slots: u32, in_array: bool },
-    /// Two arguments: where a variable lies, and its layout's number; both stand in a reference of the type ANY.
+    /// Two arguments: the position of a variable, and the number of its layout; both are stored in a reference
+    /// of the type ANY.
     Any(Place),
 }
 
@@ -228,9 +229,9 @@ pub(crate) enum NativeArgument {
 pub(crate) struct BlockCall {
     pub(crate) unit: u32,
     pub(crate) instance: Place,
-    /// Offset in the instance, and what is put there.
+    /// Offset in the instance, and the value stored there.
     pub(crate) inputs: Vec<(u32, Code, Put)>,
-    /// Offset in the instance, whether it is negated, and where it goes; a conversion is written out in `convert`.
+    /// Offset in the instance, whether it is negated, and its target; a conversion is explicit in `convert`.
     pub(crate) outputs: Vec<BlockOutput>,
 }
 
@@ -249,6 +250,6 @@ pub(crate) struct Unit {
     pub(crate) body: Vec<Statement>,
     /// Slots in the memory that get their initial values at each call: variables of a function, VAR_TEMP.
     pub(crate) fresh: Vec<core::ops::Range<Slot>>,
-    /// Whether its places lie in the library's text, and not in the program's.
+    /// Whether its source positions are in the library's text, and not in the program's.
     pub(crate) is_library: bool,
 }

@@ -1,4 +1,4 @@
-//! Conversions between elementary types: which happen by themselves, and what they do.
+//! Conversions between elementary types: which are implicit, and what they do.
 
 use crate::calendar;
 use crate::elementary::Class;
@@ -6,9 +6,10 @@ use crate::elementary::Elementary::{self, *};
 use crate::value::{integer, range, real, real_bits, wrap};
 
 /// Converts a value. Integers and bit strings are cut to the width of the target (overflow wraps); to BOOL
-/// everything but zero is TRUE. A floating point number is rounded to the nearest integer, halves to the even one.
-/// Beyond the target it is the target's limit, and NaN is zero. A bit string takes the integer as a pattern, so that
-/// negative numbers fit too (W502, real number-to-bit string conversion group).
+/// every value except zero is TRUE. A floating point number is rounded to the nearest integer, halves to the
+/// even one. Beyond the target's range it is the target's limit, and NaN is zero. A bit string takes the
+/// integer as a pattern, so that negative numbers are possible too (W502, real number-to-bit string conversion
+/// group).
 pub(crate) fn convert(from: Elementary, to: Elementary, bits: u64) -> u64 {
     match (from.class(), to.class()) {
         _ if from == to => bits,
@@ -29,7 +30,7 @@ fn from_real(to: Elementary, number: f64) -> u64 {
         (Class::BitString, (_, greatest)) => (-(greatest / 2) - 1, greatest),
         (_, limits) => limits,
     };
-    // `as` saturates and makes zero of NaN.
+    // `as` saturates and converts NaN to zero.
     let rounded = (number.round_ties_even() as i128).clamp(least, greatest);
     wrap(to, rounded as u64)
 }
@@ -42,9 +43,9 @@ fn from_integer(to: Elementary, number: i128) -> u64 {
     }
 }
 
-/// Whether a value of the one type becomes a value of the other by itself (W501, 6-5-3, implicit casts). An integer
-/// becomes every integer that is as wide or wider: between signed and unsigned the pattern stays. All else becomes
-/// wider only, and keeps its value (IEC 61131-3, 6.6.1.6, figure 12).
+/// Whether a value of one type is converted to the other implicitly (W501, 6-5-3, implicit casts). An integer
+/// is converted to every integer that is as wide or wider: between signed and unsigned the pattern is kept. All
+/// other types are converted only to wider ones, and keep their value (IEC 61131-3, 6.6.1.6, figure 12).
 pub(crate) fn widens(from: Elementary, to: Elementary) -> bool {
     if from == to {
         return true;
@@ -60,8 +61,8 @@ pub(crate) fn widens(from: Elementary, to: Elementary) -> bool {
     }
 }
 
-/// The type in which two operands meet; none if there is none. It is the wider of two integers, and of two of one
-/// width the unsigned one (W501, 6-5-3).
+/// The common type of two operands; none if there is none. It is the wider of two integers, and for two of the
+/// same width the unsigned one (W501, 6-5-3).
 pub(crate) fn common(left: Elementary, right: Elementary) -> Option<Elementary> {
     match (widens(left, right), widens(right, left)) {
         (true, true) if left.class() == Class::Unsigned => Some(left),
@@ -71,12 +72,12 @@ pub(crate) fn common(left: Elementary, right: Elementary) -> Option<Elementary> 
     }
 }
 
-/// The narrowest type of a number that is written without one: a signed one, and ULINT beyond.
+/// The narrowest type of a number that is written without one: a signed type, and ULINT for larger numbers.
 pub(crate) fn natural(number: i128) -> Option<Elementary> {
     [Sint, Int, Dint, Lint, Ulint].into_iter().find(|candidate| fits(*candidate, number))
 }
 
-/// Whether a type holds a number.
+/// Whether a type can hold a number.
 pub(crate) fn fits(elementary: Elementary, number: i128) -> bool {
     let (least, greatest) = range(elementary);
     (least..=greatest).contains(&number)

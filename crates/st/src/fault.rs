@@ -1,8 +1,8 @@
-//! What ends a scan before its end.
+//! Faults that end a scan early.
 
 use core::fmt;
 
-/// What went wrong while a program ran. The scan ends there; what it wrote before stays written.
+/// The fault of a running program. The scan ends there; earlier writes are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// An integer divided by zero, or MOD zero.
@@ -16,29 +16,29 @@ pub enum Fault {
         /// The last.
         upper: i64,
     },
-    /// A library function was asked for more elements than there are.
+    /// More elements were requested from a library function than there are.
     TooManyElements {
-        /// How many it was asked for.
+        /// The requested number.
         asked: u64,
-        /// How many there are from the given one on.
+        /// The number of elements from the given one on.
         available: u64,
     },
-    /// A bit, a position or a number that the library function does not take.
+    /// A bit, a position or a number that the library function does not accept.
     ArgumentOutOfRange {
         /// The argument.
         value: i64,
-        /// The least that is taken.
+        /// The minimum.
         lower: i64,
-        /// The most.
+        /// The maximum.
         upper: i64,
     },
-    /// A text that is no value of the type.
+    /// A text that is not a value of the type.
     NotConvertible,
-    /// A text longer than the STRING that it is put into.
+    /// A text longer than the STRING in which it is stored.
     TextTooLong {
-        /// How many characters it has.
+        /// Its number of characters.
         characters: usize,
-        /// How many the STRING holds.
+        /// The maximum of the STRING.
         capacity: u16,
     },
     /// FOR with a step of zero would never end.
@@ -50,7 +50,7 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// Whether an instruction of the program went wrong: then P_Error, if it is named so, is set.
+    /// Whether an instruction of the program failed: then P_Error, if the program uses it, is set.
     pub(crate) const fn is_instruction_error(self) -> bool {
         !matches!(self, Self::BudgetUsedUp | Self::SwitchedOff)
     }

@@ -1,36 +1,36 @@
-//! What a program asks of the world around it.
+//! The interface of a program to its environment.
 
 use core::task::Poll;
 
-/// A call of NX_ReadObj or NX_WriteObj that is under way: a number that its host gave.
+/// A call of NX_ReadObj or NX_WriteObj in progress: a number assigned by its host.
 pub type NxCallNumber = u64;
 
-/// Most bytes of an NX object.
+/// Maximum length of an NX object in bytes.
 pub const NX_OBJECT_BYTES_MAX: usize = 200;
 
-/// What answers the calls of a program. Nothing waits: what takes longer is asked for again in a later scan.
+/// Executes the calls of programs. No call waits: the result of a longer one is queried again in a later scan.
 pub trait Host {
-    /// Begins to read the NX object `index`:`sub` of the unit with this NX Unit number.
+    /// Starts to read the NX object `index`:`sub` of the unit with this NX Unit number.
     ///
     /// # Errors
     /// Error ID and extended error ID of NX_ReadObj.
     fn nx_read(&mut self, unit: u16, index: u16, sub: u8) -> Result<NxCallNumber, NxFault>;
 
-    /// Begins to write it; `value` is little endian.
+    /// Starts to write it; `value` is little endian.
     ///
     /// # Errors
     /// Error ID and extended error ID of NX_WriteObj.
     fn nx_write(&mut self, unit: u16, index: u16, sub: u8, value: &[u8]) -> Result<NxCallNumber, NxFault>;
 
-    /// What became of a call: how many bytes were read into `value`, none after a write. Pending until it has come,
-    /// then told once.
+    /// The result of a call: the number of bytes read into `value`, none after a write. Pending until it is
+    /// available; then it is returned once.
     fn nx_result(
         &mut self,
         call: NxCallNumber,
         value: &mut [u8; NX_OBJECT_BYTES_MAX],
     ) -> Poll<Result<usize, NxFault>>;
 
-    /// ResetNXBError: begins to reset the errors of the NX Bus Function Module.
+    /// ResetNXBError: starts to reset the errors of the NX Bus Function Module.
     ///
     /// # Errors
     /// Error ID: there is no NX bus here.
@@ -38,7 +38,7 @@ pub trait Host {
         Err(NxFault::of(NxFault::OUT_OF_RANGE))
     }
 
-    /// Whether the reset that was begun last is complete.
+    /// Whether the reset that was started last is complete.
     fn nx_bus_is_reset(&self) -> bool {
         true
     }
@@ -46,17 +46,17 @@ pub trait Host {
     /// SetAlarm: a user-defined error with its code and attached information.
     fn set_alarm(&mut self, alarm: Alarm);
 
-    /// ResetAlarm: the user-defined error of this code is reset; of code 0, all of them.
+    /// ResetAlarm: resets the user-defined error with this code; with code 0, all of them.
     fn reset_alarm(&mut self, code: u16);
 
-    /// Whether the scan is to end where it is, because its CPU Unit is switched off. A long scan asks about once a
-    /// millisecond.
+    /// Whether the scan must end immediately, because its CPU Unit is switched off. A long scan calls this
+    /// about once a millisecond.
     fn ends_scan(&self) -> bool {
         false
     }
 }
 
-/// Why an NX object was not read or written, by the numbers that the instruction's pins tell.
+/// Why an NX object was not read or written, with the numbers for the instruction's pins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NxFault {
     /// ErrorID.
@@ -67,16 +67,16 @@ pub struct NxFault {
 
 /// Error IDs of NX_ReadObj and NX_WriteObj. The blocks of the library add 16#2C02, a call that timed out.
 impl NxFault {
-    /// NX Message Error: the unit refused the message, and ErrorIDEx says why.
+    /// NX Message Error: the unit refused the message, and ErrorIDEx contains the reason.
     pub const MESSAGE_ERROR: u16 = 0x2C00;
     /// NX Message Resources Exceeded: too many calls at once.
     pub const RESOURCES_EXCEEDED: u16 = 0x2C01;
-    /// Incorrect NX Message Length: the object and the variable are not equally long.
+    /// Incorrect NX Message Length: the object and the variable have different lengths.
     pub const INCORRECT_LENGTH: u16 = 0x2C03;
     /// Input Value Out of Range: there is no such unit.
     pub const OUT_OF_RANGE: u16 = 0x0400;
 
-    /// An error that has no more to say.
+    /// An error without further information.
     #[must_use]
     pub const fn of(error_id: u16) -> Self {
         Self { error_id, error_id_ex: 0 }
@@ -94,7 +94,7 @@ pub struct Alarm {
     pub info_2: u64,
 }
 
-/// A host for programs that ask for nothing: it refuses NX objects and drops alarms.
+/// A host for programs without such calls: it refuses NX objects and drops alarms.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct NoHost;
 

@@ -10,7 +10,7 @@ use crate::types::{Role, Type, member};
 
 impl Instance {
     /// The value of a variable as text: `x`, `Main.x`, `timer.Q`, `table[3].speed`. None if there is no such
-    /// variable. Arrays and structures are written with all their parts.
+    /// variable. Arrays and structures include all their parts.
     #[must_use]
     pub fn value(&self, path: &str) -> Option<String> {
         let (type_, slot) = self.find(path)?;
@@ -19,8 +19,8 @@ impl Instance {
         Some(text)
     }
 
-    /// Sets a variable of an elementary type, as [`Instance::value`] writes it. False if there is no such
-    /// variable, or the text is no value of its type.
+    /// Sets a variable of an elementary type, in the notation of [`Instance::value`]. False if there is no such
+    /// variable, or the text is not a value of its type.
     pub fn set(&mut self, path: &str, text: &str) -> bool {
         let Some((Type::Elementary(elementary), slot)) = self.find(path) else { return false };
         let Some(bits) = value_of(elementary, text) else { return false };
@@ -28,7 +28,7 @@ impl Instance {
         true
     }
 
-    /// The names of all variables that lie under a name: `x`, or `Main.x` with the PROGRAM that has it.
+    /// The names of all variables for a name: `x`, or `Main.x` with its PROGRAM.
     pub fn names(&self) -> impl Iterator<Item = String> {
         self.variables().iter().map(|variable| match &variable.owner {
             Some(owner) if !owner.name.is_empty() => format!("{}.{}", owner.name, variable.name),
@@ -44,12 +44,12 @@ impl Instance {
                 variable.name.eq_ignore_ascii_case(name) && is_owner(variable.owner.as_ref())
             })
         };
-        // A program's own variable hides the global one of its name.
+        // A program's own variable hides the global one with the same name.
         let own = named(first, &|owner| owner.is_some()).or_else(|| named(first, &|owner| owner.is_none()));
         let start = match own {
             Some(variable) => variable,
             None => {
-                // The first that runs of a PROGRAM is found by the PROGRAM's name too.
+                // The first running instance of a PROGRAM is also found by the PROGRAM's name.
                 let name = parts.next()?;
                 let own =
                     |owner: Option<&Owner>| owner.is_some_and(|owner| owner.name.eq_ignore_ascii_case(first));
@@ -115,7 +115,7 @@ impl Instance {
     }
 }
 
-/// Bit strings in hexadecimal, as engineers read them; everything else as its conversion to STRING writes it.
+/// Bit strings in hexadecimal, as usual for engineers; everything else like its conversion to STRING.
 fn written(elementary: Elementary, bits: u64) -> String {
     match elementary.class() {
         Class::BitString => format!("16#{bits:X}"),

@@ -31,5 +31,5 @@ pub use program::{External, Global, Instance, Program, Stopped, compile, judge};
 pub use sources::{Place, Sources};
 pub use task_period::{TASK_PERIODS, is_task_period};
 
-/// The longest source in bytes, all files of a program together.
+/// Maximum length of the source in bytes, all files of a program together.
 pub const SOURCE_BYTES_MAX: usize = 1 << 20;

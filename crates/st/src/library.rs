@@ -1,4 +1,4 @@
-//! The functions of the library: one table, which the checker, the machine and the documents read.
+//! The functions of the library: one table for the checker, the machine and the documents.
 
 mod bits;
 mod blocks;
@@ -34,19 +34,19 @@ pub(crate) use prelude::PRELUDE;
 pub use reference::{Entry, reference};
 pub use value_text::{text_of, value_of};
 
-/// How many characters a function looks at for one of the budget.
+/// Number of characters that a function processes for one step of the budget.
 const CHARACTERS_FOR_ONE: u64 = 128;
 
 /// A function of the library.
 pub(crate) struct Function {
-    /// Its name, as the standard or the maker prints it.
+    /// Its name, as in the standard or the manufacturer's manual.
     pub(crate) name: &'static str,
     /// Its inputs and in-outs, in the order of a call without names.
     pub(crate) pins: &'static [Pin],
     /// Whether more values may follow, of the type of the last pin: `MAX(a, b, c)`.
     pub(crate) variadic: bool,
     pub(crate) result: ResultType,
-    /// What it does, in a line of the documents.
+    /// Its description, one line of the documents.
     pub(crate) does: &'static str,
     pub(crate) run: fn(&mut Call<'_, '_>) -> Result<u64, Fault>,
 }
@@ -54,32 +54,33 @@ pub(crate) struct Function {
 /// A pin of a function.
 pub(crate) struct Pin {
     pub(crate) name: &'static str,
-    /// Another name of it: the standard and the maker do not always agree. Empty: none.
+    /// Another name: the standard and the manufacturer do not always agree. Empty: none.
     pub(crate) alias: &'static str,
     pub(crate) takes: Takes,
-    /// What it is when a call leaves it out; none: it must not be left out.
+    /// Its value if a call leaves it out; none: it must not be left out.
     pub(crate) default: Option<u64>,
 }
 
-/// What a pin takes.
+/// The arguments that a pin accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Takes {
-    /// A value of a type of these classes: one type for all such pins of a call, the common one of their arguments.
+    /// A value of a type of these classes: the same type for all such pins of a call, the common type of their
+    /// arguments.
     Generic(&'static [Class]),
-    /// The same, and a STRING too: then all of them are.
+    /// The same, or a STRING: then all of them are.
     GenericOrText(&'static [Class]),
-    /// A value of a type of these classes, whatever the other pins have; it is given as it is.
+    /// A value of a type of these classes, independent of the other pins; it is passed unchanged.
     Any(&'static [Class]),
     /// A value of this type.
     Fixed(Elementary),
-    /// A STRING; the argument is the slot where it begins.
+    /// A STRING; the argument is the slot at which it begins.
     Text,
-    /// A variable of a type of these classes, exactly the type of the generic pins; read and written. The argument is
-    /// its slot.
+    /// A variable of a type of these classes, exactly the type of the generic pins; it is read and written. The
+    /// argument is its slot.
     Variable(&'static [Class]),
-    /// An element of an array, or a variable, of whatever type, and those behind it: three arguments, the slot, how
-    /// many elements there are from it on, the slots of an element. All such pins of a call have one type. An array
-    /// without an index stands for its first element.
+    /// An element of an array, or a variable, of any type, and the elements after it: three arguments, the
+    /// slot, the number of elements from it on, the slots of an element. All such pins of a call have one type.
+    /// An array without an index is passed as its first element.
     Elements { written: bool },
     /// A reference of the type ANY: two arguments, the slot and the number of its layout. For blocks of the library.
     Reference,
@@ -90,19 +91,19 @@ pub(crate) enum Takes {
 pub(crate) enum ResultType {
     /// The type of the generic pins; a STRING when they are.
     Generic,
-    /// The signed integer that is as wide as the REAL or LREAL of the generic pins: DINT or LINT.
+    /// The signed integer with the width of the REAL or LREAL of the generic pins: DINT or LINT.
     Whole,
     Fixed(Elementary),
     /// A STRING as long as the longest of its STRINGs.
     Text,
     /// A STRING as long as all of them together.
     TextOfAll,
-    /// A STRING of so many characters.
+    /// A STRING of this number of characters.
     TextOf(u16),
 }
 
 impl ResultType {
-    /// The elementary type of the result, by the type of the generic pins; none for a STRING.
+    /// The elementary type of the result, for the type of the generic pins; none for a STRING.
     pub(crate) fn elementary(self, generic: Elementary) -> Option<Elementary> {
         match self {
             Self::Generic => Some(generic),
@@ -114,7 +115,7 @@ impl ResultType {
     }
 }
 
-/// A row of the table, to be copied about.
+/// A row of the table, as a small value.
 #[derive(Clone, Copy)]
 pub(crate) struct Native(pub(crate) &'static Function);
 
@@ -127,11 +128,11 @@ impl fmt::Debug for Native {
 /// A call of a function while a program runs.
 pub(crate) struct Call<'c, 'm> {
     pub(crate) machine: &'c mut Machine<'m>,
-    /// What the pins got, in their order; see [`Takes`].
+    /// The arguments of the pins, in their order; see [`Takes`].
     pub(crate) arguments: &'c [u64],
     /// The type of the generic pins.
     pub(crate) elementary: Elementary,
-    /// Where a STRING result goes, and the most characters that fit there.
+    /// The position of a STRING result, and the maximum number of characters there.
     pub(crate) text: (Slot, u16),
 }
 
@@ -141,7 +142,7 @@ impl Call<'_, '_> {
         self.arguments[place]
     }
 
-    /// The argument at `place`, an integer, if it lies between the two limits.
+    /// The argument at `place`, an integer, if it is between the two limits.
     fn number(&self, place: usize, lower: i64, upper: i64) -> Result<u32, Fault> {
         let value = self.bits(place) as i64;
         match u32::try_from(value) {
@@ -160,19 +161,19 @@ impl Call<'_, '_> {
         value::real_bits(self.elementary, number)
     }
 
-    /// The slot that the argument at `place` names.
+    /// The slot in the argument at `place`.
     fn slot(&self, place: usize) -> Slot {
         slot_of(self.bits(place))
     }
 
-    /// The STRING that the argument at `place` names.
+    /// The STRING at the slot in the argument at `place`.
     fn text(&mut self, place: usize) -> Result<Text, Fault> {
         let text = self.machine.memory.text(self.slot(place));
         self.machine.spend(text.len() as u64 / CHARACTERS_FOR_ONE)?;
         Ok(text)
     }
 
-    /// Gives a STRING back.
+    /// Returns a STRING.
     pub(crate) fn give_text(&mut self, text: &[u8]) -> Result<u64, Fault> {
         let (slot, capacity) = self.text;
         self.machine.memory.put_text(slot, capacity, text)?;
@@ -180,12 +181,12 @@ impl Call<'_, '_> {
     }
 }
 
-/// The function of this name, in whatever case.
+/// The function with this name, in upper or lower case.
 pub(crate) fn function(name: &str) -> Option<Native> {
     table::all().find(|function| function.name.eq_ignore_ascii_case(name)).map(Native)
 }
 
-/// All functions that a program may name, in the order of the table.
+/// All functions that a program may call, in the order of the table.
 pub(crate) fn functions() -> impl Iterator<Item = &'static Function> {
     table::all().filter(|function| !function.name.starts_with('_'))
 }

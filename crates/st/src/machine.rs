@@ -1,4 +1,4 @@
-//! Runs the code of a program on its memory.
+//! Executes the code of a program on its memory.
 
 mod budget;
 mod places;
@@ -18,42 +18,43 @@ use crate::value::{integer, wrap};
 
 pub(crate) use budget::Budget;
 
-/// Most arguments of a call in slots.
+/// Maximum number of argument slots of a call.
 pub(crate) const ARGUMENTS_MAX: usize = 64;
 
-/// How many steps cost as much as a statement: operators and variables that are evaluated, labels of CASE that are
-/// compared.
+/// Number of steps that cost as much as a statement: operators and variables that are evaluated, labels of CASE
+/// that are compared.
 const STEPS_FOR_ONE: u64 = 32;
-/// How many steps it is to copy a slot.
+/// Number of steps to copy a slot.
 const STEPS_FOR_SLOT: u64 = 2;
 
-/// A program while it scans.
+/// A program during a scan.
 pub(crate) struct Machine<'m> {
     pub(crate) memory: &'m mut Memory,
     pub(crate) initial: &'m [u64],
     pub(crate) units: &'m [Unit],
     pub(crate) layouts: &'m [Layout],
     pub(crate) host: &'m mut dyn Host,
-    /// The present moment in nanoseconds, the same in the whole scan.
+    /// The present time in nanoseconds, constant during the scan.
     pub(crate) now_ns: u64,
-    /// How many statements may still run.
+    /// Number of statements that may still run.
     pub(crate) budget: Budget,
     /// Steps that have not been taken from the budget yet.
     pub(crate) steps: u64,
-    /// Where the function block instance begins whose body runs.
+    /// The start of the function block instance whose body is executed.
     pub(crate) instance: Slot,
-    /// The statement or index that runs, to tell where a fault was.
+    /// The statement or index that is executed, as the position of a fault.
     pub(crate) at: Span,
 }
 
-/// A variable behind a reference of the type ANY, as it lies on a wire: elementary values one after the other.
+/// A variable referred to by a reference of the type ANY, in the form of a message: elementary values one after
+/// the other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Layout {
     /// Offset in slots, and type.
     pub(crate) values: Vec<(u32, Elementary)>,
 }
 
-/// How a statement ended.
+/// How a statement has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Flow {
     Next,
@@ -63,14 +64,14 @@ enum Flow {
 }
 
 impl Machine<'_> {
-    /// Runs the body of a program organization unit on the instance that is set.
+    /// Executes the body of a program organization unit on the instance that is set.
     pub(crate) fn run(&mut self, unit: u32) -> Result<(), Fault> {
         self.freshen(unit)?;
         let units = self.units;
         self.body(&units[unit as usize].body).map(|_| ())
     }
 
-    /// Gives the variables their initial values that have them at each call.
+    /// Initializes the variables that get their initial values at each call.
     fn freshen(&mut self, unit: u32) -> Result<(), Fault> {
         for range in &self.units[unit as usize].fresh {
             let slots = range.end - range.start;
@@ -81,12 +82,12 @@ impl Machine<'_> {
         Ok(())
     }
 
-    /// Uses up some of the budget.
+    /// Consumes part of the budget.
     pub(crate) fn spend(&mut self, statements: u64) -> Result<(), Fault> {
         if self.budget.take(statements) { Ok(()) } else { self.refill(statements) }
     }
 
-    /// The present share of the budget is too small. The scan continues with another one, unless it is to end.
+    /// The present share of the budget is too small. The scan continues with another one, unless it must end.
     #[cold]
     fn refill(&mut self, statements: u64) -> Result<(), Fault> {
         if self.host.ends_scan() {
@@ -95,13 +96,13 @@ impl Machine<'_> {
         if self.budget.refill(statements) { Ok(()) } else { Err(Fault::BudgetUsedUp) }
     }
 
-    /// Uses up a statement, or a turn of a loop: its first steps cost no more.
+    /// Consumes a statement, or an iteration of a loop: its first steps are included.
     fn spend_one(&mut self) -> Result<(), Fault> {
         self.steps = 0;
         self.spend(1)
     }
 
-    /// Uses up a part of a statement: what one statement evaluates has no end of its own.
+    /// Consumes a part of a statement: one statement may evaluate any number of operands.
     pub(crate) fn step(&mut self, steps: u64) -> Result<(), Fault> {
         self.steps += steps;
         if self.steps < STEPS_FOR_ONE {
@@ -196,8 +197,8 @@ impl Machine<'_> {
         self.body(otherwise)
     }
 
-    /// FOR: the limit and the step are evaluated once; the variable is beyond the limit when it is over. Where the
-    /// variable's type ends, the loop ends too.
+    /// FOR: the limit and the step are evaluated once; the variable is beyond the limit at the end. If the
+    /// range of the variable's type ends, the loop ends too.
     fn count(&mut self, ring: &For) -> Result<Flow, Fault> {
         let (at, elementary) = (self.at, ring.elementary);
         let from = self.value(&ring.from)?;
@@ -237,7 +238,7 @@ impl Machine<'_> {
                 Flow::Next | Flow::Continue => {}
             }
             self.spend_one()?;
-            // What goes wrong in the condition lies at the loop, not at its last statement.
+            // The position of a fault in the condition is the loop, not its last statement.
             self.at = at;
         }
         Ok(Flow::Next)
@@ -295,7 +296,7 @@ impl Machine<'_> {
         Ok(self.order_of_texts(operator, left, right).into())
     }
 
-    // Its texts are large: they must not lie in the frames of the evaluation around them.
+    // Its texts are large: they must not be in the stack frames of the surrounding evaluation.
     #[inline(never)]
     fn order_of_texts(&self, operator: Binary, left: Slot, right: Slot) -> bool {
         compare(operator, Some(self.memory.text(left).cmp(&self.memory.text(right))))
@@ -321,7 +322,7 @@ impl Machine<'_> {
         for output in &call.outputs {
             values.push(self.value(&output.value)?);
         }
-        // An index of an output's target may call the same function again: its elementary values have been taken by now.
+        // An index of an output's target may call the same function again: its elementary values have been read by now.
         for (output, value) in call.outputs.iter().zip(values) {
             let to = self.slot(&output.to)?;
             self.put(to, value, output.put)?;
@@ -397,7 +398,7 @@ impl Machine<'_> {
     }
 }
 
-/// The slot that a value names.
+/// The slot in a value.
 pub(crate) fn slot_of(value: u64) -> Slot {
     Slot::try_from(value).unwrap_or_else(|_| unreachable!("{value} is no slot: the checker gives slots only"))
 }

@@ -6,10 +6,10 @@ use crate::code::Slot;
 use crate::fault::Fault;
 use crate::types::STRING_CHARACTERS_MAX;
 
-/// The characters of a STRING, taken out of the memory.
+/// The characters of a STRING, copied from the memory.
 pub(crate) type Text = ArrayVec<u8, STRING_CHARACTERS_MAX>;
 
-/// The slots; every place in a program lies in them, which the checker has seen to.
+/// The slots; every position in a program is inside them, which the checker has ensured.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
     slots: Vec<u64>,
@@ -36,13 +36,13 @@ impl Memory {
         &mut self.slots[from as usize..][..slots as usize]
     }
 
-    /// Copies slots; both places may overlap.
+    /// Copies slots; the two ranges may overlap.
     pub(crate) fn copy(&mut self, from: Slot, to: Slot, slots: u32) {
         let from = from as usize;
         self.slots.copy_within(from..from + slots as usize, to as usize);
     }
 
-    /// How many characters the STRING at `slot` has.
+    /// Number of characters of the STRING at `slot`.
     pub(crate) fn text_length(&self, slot: Slot) -> usize {
         usize::try_from(self.get(slot)).unwrap_or(STRING_CHARACTERS_MAX).min(STRING_CHARACTERS_MAX)
     }
@@ -54,10 +54,10 @@ impl Memory {
         words.iter().flat_map(|word| word.to_le_bytes()).take(length).collect()
     }
 
-    /// Puts a STRING at `slot`.
+    /// Stores a STRING at `slot`.
     ///
     /// # Errors
-    /// It has more than `capacity` characters; what is there stays.
+    /// It has more than `capacity` characters; the old contents are kept.
     pub(crate) fn put_text(&mut self, slot: Slot, capacity: u16, text: &[u8]) -> Result<(), Fault> {
         if text.len() > usize::from(capacity) {
             return Err(Fault::TextTooLong { characters: text.len(), capacity });

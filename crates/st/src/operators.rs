@@ -45,7 +45,7 @@ pub(crate) fn unary(operator: Unary, elementary: Elementary, operand: u64) -> u6
     }
 }
 
-/// An operator with two operands of the type `elementary`; what is added to a date or taken from it is a TIME.
+/// An operator with two operands of the type `elementary`; the operand added to a date or subtracted from it is a TIME.
 pub(crate) fn binary(operator: Binary, elementary: Elementary, left: u64, right: u64) -> Result<u64, Fault> {
     match (operator, elementary.class()) {
         (Binary::And, _) => Ok(left & right),
@@ -66,7 +66,7 @@ pub(crate) fn binary(operator: Binary, elementary: Elementary, left: u64, right:
     }
 }
 
-/// Whether `left operator right` holds, by their order; none of the two comes first when one is NaN.
+/// Whether `left operator right` is true, for their order; there is no order if one of them is NaN.
 pub(crate) fn compare(operator: Binary, order: Option<core::cmp::Ordering>) -> bool {
     match operator {
         Binary::Equal => order.is_some_and(core::cmp::Ordering::is_eq),
@@ -132,7 +132,7 @@ fn double(operator: Binary, left: u64, right: u64) -> u64 {
     number.to_bits()
 }
 
-/// Rounded to the nanosecond; what is too long is the longest.
+/// Rounded to the nanosecond; a longer duration is limited to the longest.
 fn scale_time(time: u64, factor: f64) -> u64 {
     (time as i64 as f64 * factor).round_ties_even() as i64 as u64
 }

@@ -1,28 +1,28 @@
-//! What is wrong with a program, and where.
+//! The problems of a program, with their positions.
 
 use core::fmt;
 use core::ops::Range;
 
 use crate::sources::{Place, Sources};
 
-/// How many problems of a program are told at once.
+/// Maximum number of problems of a program that are reported at once.
 pub const PROBLEMS_MAX: usize = 20;
-/// How many are looked for: one more shows that there are more than are told.
+/// Number of problems to search for: one more shows that not all are reported.
 pub(crate) const PROBLEMS_SOUGHT: usize = PROBLEMS_MAX + 1;
-/// Longest message that is told as it is.
+/// Maximum length of a message that is reported unchanged.
 const MESSAGE_BYTES_MAX: usize = 300;
 
-/// A place in the source, in bytes.
+/// A position in the source, in bytes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Span {
     /// The first byte.
     pub start: u32,
-    /// The byte behind the last.
+    /// The byte after the last.
     pub end: u32,
 }
 
 impl Span {
-    /// From the beginning of the one to the end of the other.
+    /// From the start of one to the end of the other.
     #[must_use]
     pub const fn to(self, other: Self) -> Self {
         Self { start: self.start, end: other.end }
@@ -34,7 +34,7 @@ impl Span {
         self.start as usize..self.end as usize
     }
 
-    /// Line and column of its beginning in `source`, both counted from 1, columns in characters.
+    /// Line and column of its start in `source`, both counted from 1, columns in characters.
     #[must_use]
     pub fn line_and_column(self, source: &str) -> (usize, usize) {
         let before = source.get(..self.start as usize).unwrap_or(source);
@@ -45,21 +45,21 @@ impl Span {
 }
 
 impl From<Range<usize>> for Span {
-    /// A source is at most [`crate::SOURCE_BYTES_MAX`] long, so that a place fits.
+    /// A source is at most [`crate::SOURCE_BYTES_MAX`] long, so that a position fits.
     fn from(range: Range<usize>) -> Self {
         let place = |byte: usize| u32::try_from(byte).unwrap_or(u32::MAX);
         Self { start: place(range.start), end: place(range.end) }
     }
 }
 
-/// One thing that is wrong with a program.
+/// One problem of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {
-    /// Where.
+    /// The position.
     pub span: Span,
-    /// What, as a lower-case fragment.
+    /// The message, a lower-case fragment.
     pub message: String,
-    /// The way out, if there is one to tell.
+    /// The remedy, if there is one.
     pub help: Option<String>,
 }
 
@@ -70,7 +70,7 @@ impl Problem {
         Self { span, message: shortened(message.into()), help: None }
     }
 
-    /// The same with help.
+    /// The same with a remedy.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(shortened(help.into()));
@@ -78,7 +78,7 @@ impl Problem {
     }
 }
 
-/// A message without its middle where that is long: what it quotes of a source may have no end.
+/// A message without its middle part if it is long: the text quoted from a source may have any length.
 fn shortened(text: String) -> String {
     if text.len() <= MESSAGE_BYTES_MAX {
         return text;
@@ -89,10 +89,10 @@ fn shortened(text: String) -> String {
     start + "…" + &end.into_iter().rev().collect::<String>()
 }
 
-/// What is wrong with a program, in the order of its files; never empty, and [`PROBLEMS_MAX`] at most.
+/// The problems of a program, in the order of its files; never empty, and [`PROBLEMS_MAX`] at most.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problems {
-    /// The files, to tell names, lines and columns.
+    /// The files, for names, lines and columns.
     sources: Sources,
     list: Vec<Problem>,
     are_cut: bool,
@@ -113,20 +113,20 @@ impl Problems {
         &self.list
     }
 
-    /// Where a problem lies.
+    /// The position of a problem.
     #[must_use]
     pub fn place(&self, problem: &Problem) -> Place<'_> {
         self.sources.place(problem.span)
     }
 
-    /// Whether there are more than the list has: reading stopped behind the last of it.
+    /// Whether there are more than in the list: reading ended after the last of them.
     #[must_use]
     pub const fn are_cut(&self) -> bool {
         self.are_cut
     }
 }
 
-/// A line for each: `file:line:column: message (help)`, without the file if the source has none.
+/// One line for each: `file:line:column: message (help)`, without the file if the source has none.
 impl fmt::Display for Problems {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (place, problem) in self.list.iter().enumerate() {
@@ -149,7 +149,7 @@ impl fmt::Display for Problems {
     }
 }
 
-/// What is told behind the last problem when there are more.
+/// The line after the last problem if there are more.
 #[must_use]
 pub fn stopped_words() -> String {
     format!("stopped at {PROBLEMS_MAX} problems; there are more")

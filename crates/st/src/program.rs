@@ -1,4 +1,4 @@
-//! A program that has been checked, and its run.
+//! A program that has been checked, and its execution.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -21,25 +21,25 @@ use crate::system::System;
 use crate::types::Type;
 use crate::value;
 
-/// A variable that is there without being declared: a device variable or a system-defined one.
+/// A variable that exists without a declaration: a device variable or a system-defined one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Global {
     /// Its name.
     pub name: String,
     /// Its AT specification, such as `IOBus://unit#1/UDINT 01 C to M`; none if it has none.
     pub at: Option<String>,
-    /// Its type as it is written in a declaration, such as `ARRAY[0..14] OF UINT`.
+    /// Its type in the notation of a declaration, such as `ARRAY[0..14] OF UINT`.
     pub type_name: String,
     /// Whether a program may write it.
     pub writable: bool,
-    /// The value of one that never changes, as it is written in a declaration; none: it is refreshed.
+    /// The value of a constant one, in the notation of a declaration; none: it is refreshed.
     pub constant: Option<String>,
 }
 
 /// A device variable that a program uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct External {
-    /// Its place among the globals that the program was compiled with.
+    /// Its position among the globals with which the program was compiled.
     pub global: usize,
     pub(crate) slot: Slot,
     pub(crate) layout: Layout,
@@ -50,22 +50,22 @@ pub struct External {
 /// PROGRAMs that run together.
 #[derive(Clone, Debug)]
 pub(crate) struct Task {
-    /// In each scan, or in each so many of them.
+    /// In each scan, or in every n-th scan, where n is this number.
     pub(crate) every: u64,
     /// Their units, in the order in which they run.
     pub(crate) programs: Vec<u32>,
 }
 
-/// A PROGRAM that runs.
+/// A PROGRAM instance.
 #[derive(Clone, Debug)]
 pub(crate) struct Owner {
-    /// Its name, which may be empty: that of the PROGRAM, or the one that a CONFIGURATION gives it.
+    /// Its name, which may be empty: that of the PROGRAM, or the one in a CONFIGURATION.
     pub(crate) name: String,
     /// The name of the PROGRAM.
     pub(crate) program: String,
 }
 
-/// A variable that lies in the memory under a name.
+/// A variable in the memory, with its name.
 #[derive(Clone, Debug)]
 pub(crate) struct Variable {
     /// None: it is global.
@@ -76,7 +76,7 @@ pub(crate) struct Variable {
     pub(crate) retain: bool,
 }
 
-/// A program that can run: compile it once, start it as often as you like.
+/// An executable program: it is compiled once and can be started any number of times.
 #[derive(Clone, Debug)]
 pub struct Program {
     inner: Arc<Inner>,
@@ -89,13 +89,13 @@ struct Inner {
     retained: Vec<Retained>,
 }
 
-/// Reads and checks a program. What it takes for granted are the library and `globals`.
+/// Reads and checks a program. It may use the library and `globals`.
 ///
 /// # Errors
-/// What is wrong with it, with places.
+/// The problems, with positions.
 ///
 /// # Panics
-/// If a global has a type that cannot be read: whoever gives globals knows their types.
+/// If a global has a type that cannot be parsed: the caller must pass valid types.
 pub fn compile(sources: impl Into<Sources>, globals: &[Global]) -> Result<Program, Problems> {
     let sources = sources.into();
     match checked(&sources, globals, Purpose::Run) {
@@ -107,10 +107,10 @@ pub fn compile(sources: impl Into<Sources>, globals: &[Global]) -> Result<Progra
     }
 }
 
-/// Checks files that may be only a part of a program: blocks, functions or types without a PROGRAM.
+/// Checks files that may be only part of a program: blocks, functions or types without a PROGRAM.
 ///
 /// # Errors
-/// What is wrong with them, with places.
+/// The problems, with positions.
 ///
 /// # Panics
 /// As [`compile`].
@@ -130,7 +130,7 @@ fn checked(sources: &Sources, globals: &[Global], purpose: Purpose) -> Result<Ch
     check(&file, &Surroundings { prelude: &PRELUDE, declared: &declared, globals }, purpose)
 }
 
-/// All files as one tree. Each is read by itself: what one leaves open does not reach into the next.
+/// All files as one tree. Each is read separately: a block left open in one does not extend into the next.
 fn read(sources: &Sources) -> Result<File, Vec<Problem>> {
     if sources.size_bytes() > SOURCE_BYTES_MAX {
         let size_bytes = sources.size_bytes();
@@ -147,7 +147,7 @@ fn read(sources: &Sources) -> Result<File, Vec<Problem>> {
     if problems.is_empty() { Ok(whole) } else { Err(problems) }
 }
 
-/// Statements without a PROGRAM around them can be in one file only: of two, no one knows which is first.
+/// Statements without a PROGRAM around them are permitted in one file only: the order of two would be undefined.
 fn second_unnamed(file: &File) -> Option<Problem> {
     let mut unnamed = file.units.iter().filter(|unit| unit.is_unnamed_program());
     let second = unnamed.nth(1)?;
@@ -172,21 +172,21 @@ impl Program {
         &self.inner.checked.externals
     }
 
-    /// The files that it was made of.
+    /// The files from which it was made.
     #[must_use]
     pub fn sources(&self) -> &Sources {
         &self.inner.sources
     }
 
-    /// The program at its beginning: every variable has its initial value.
+    /// The program at its start: every variable has its initial value.
     #[must_use]
     pub fn start(&self) -> Instance {
         let memory = Memory::new(self.inner.checked.initial.clone());
         Instance { program: self.clone(), memory, used: 0, scans: 0 }
     }
 
-    /// How long a task period is by the shortest INTERVAL of the CONFIGURATION, in nanoseconds; none if the program says
-    /// nothing of it.
+    /// The length of a task period according to the shortest INTERVAL of the CONFIGURATION, in nanoseconds;
+    /// none if the program does not define it.
     #[must_use]
     pub fn period_ns(&self) -> Option<u64> {
         self.inner.checked.period_ns
@@ -199,25 +199,26 @@ pub struct Instance {
     program: Program,
     pub(crate) memory: Memory,
     used: u64,
-    /// How many scans have begun.
+    /// Number of scans that have been started.
     scans: u64,
 }
 
-/// Where and why a scan ended before its end.
+/// Position and reason of the early end of a scan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stopped {
-    /// What went wrong.
+    /// The fault.
     pub fault: Fault,
     /// The statement, or the index.
     pub span: Span,
 }
 
 impl Instance {
-    /// Runs each PROGRAM that is due once, by the priorities of their tasks, else in the order of the file. `now_ns` is the time of its timers: nanoseconds from
-    /// whatever moment, never less than before. `budget` is how many statements may run.
+    /// Executes each PROGRAM that is due once, in the order of the priorities of their tasks, else in the order
+    /// of the file. `now_ns` is the time of its timers: nanoseconds from any origin, never decreasing. `budget`
+    /// is the number of statements that may run.
     ///
     /// # Errors
-    /// Where and why it ended before its end; what it has written until then stays.
+    /// Position and reason of its early end; what it has written before is kept.
     pub fn scan(&mut self, now_ns: u64, budget: u64, host: &mut dyn Host) -> Result<(), Stopped> {
         let scans = self.scans;
         self.scans += 1;
@@ -252,19 +253,19 @@ impl Instance {
         }
     }
 
-    /// How many statements the last scan used of its budget.
+    /// Number of statements of its budget that the last scan has used.
     #[must_use]
     pub const fn used(&self) -> u64 {
         self.used
     }
 
-    /// The program that runs.
+    /// The program being executed.
     #[must_use]
     pub const fn program(&self) -> &Program {
         &self.program
     }
 
-    /// Begins again: variables have their initial values, but those with RETAIN, which stay.
+    /// Restarts: variables have their initial values, except those with RETAIN, which keep their values.
     pub fn restart(&mut self) {
         let mut next = self.program.start();
         for kept in &self.program.inner.retained {
@@ -274,7 +275,8 @@ impl Instance {
         *self = next;
     }
 
-    /// Gives over to a changed program: variables with RETAIN keep their values where name and type are the same.
+    /// Hands the values over to a changed program: variables with RETAIN keep their values if name and type are
+    /// the same.
     #[must_use]
     pub fn succeeded_by(&self, mut next: Self) -> Self {
         let old = self.program.inner.retained.iter();
@@ -282,7 +284,7 @@ impl Instance {
         let program = next.program.clone();
         for kept in &program.inner.retained {
             let before = old.get(&(&kept.path, &kept.shape));
-            // The same shape is as long.
+            // The same shape has the same length.
             if let Some(before) = before.filter(|before| before.slots == kept.slots) {
                 let values = self.memory.slice(before.slot, before.slots);
                 next.memory.slice_mut(kept.slot, kept.slots).copy_from_slice(values);
@@ -291,7 +293,7 @@ impl Instance {
         next
     }
 
-    /// Takes in a device variable: its bytes, little endian, value after value.
+    /// Reads a device variable: its bytes, little endian, value after value.
     pub fn load(&mut self, external: &External, octets: &[u8]) {
         let mut rest = octets;
         for (offset, elementary) in &external.layout.values {
@@ -301,7 +303,7 @@ impl Instance {
         }
     }
 
-    /// Gives out a device variable.
+    /// Writes a device variable.
     pub fn store(&self, external: &External, octets: &mut [u8]) {
         let mut rest = octets;
         for (offset, elementary) in &external.layout.values {
@@ -317,7 +319,7 @@ impl Instance {
 }
 
 impl External {
-    /// How many bytes it has.
+    /// Its number of bytes.
     #[must_use]
     pub fn size_bytes(&self) -> usize {
         self.layout.values.iter().map(|(_, elementary): &(u32, Elementary)| elementary.size_bytes()).sum()

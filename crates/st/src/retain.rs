@@ -1,4 +1,4 @@
-//! Which parts of a program's memory outlive a restart and a change of the program: variables with RETAIN.
+//! Which parts of a program's memory survive a restart and a change of the program: variables with RETAIN.
 
 use core::fmt::{self, Write};
 
@@ -6,12 +6,12 @@ use crate::code::Slot;
 use crate::program::Variable;
 use crate::types::{Member, Role, Type};
 
-/// A part of the memory that stays.
+/// A part of the memory that is kept.
 #[derive(Clone, Debug)]
 pub(crate) struct Retained {
-    /// Whose it is, in capitals.
+    /// Its owner, in upper case.
     pub(crate) path: String,
-    /// Everything that its slots depend on: what was declared otherwise is another variable.
+    /// Everything on which its slots depend: a variable with a different declaration is another variable.
     pub(crate) shape: String,
     pub(crate) slot: Slot,
     pub(crate) slots: u32,
@@ -61,7 +61,7 @@ fn collect_parts(all: &mut Vec<Retained>, path: &str, type_: &Type, slot: Slot) 
     }
 }
 
-/// A VAR_IN_OUT lies where its caller says, not in the instance.
+/// A VAR_IN_OUT is a variable of its caller, not in the instance.
 fn own(members: &[Member]) -> impl Iterator<Item = &Member> {
     members.iter().filter(|member| member.role != Role::InOut)
 }
@@ -76,7 +76,7 @@ fn holds_retained(type_: &Type) -> bool {
     }
 }
 
-/// A type with all that it is made of.
+/// A type with all its parts.
 struct Shape<'a>(&'a Type);
 
 impl fmt::Display for Shape<'_> {
@@ -104,7 +104,7 @@ fn write_members(formatter: &mut fmt::Formatter<'_>, members: &[Member]) -> fmt:
     for member in members {
         let name = member.name.to_ascii_uppercase();
         match member.role {
-            // Of a reference only its place counts.
+            // For a reference only its position counts.
             Role::InOut => write!(formatter, "{name}@{}:reference;", member.offset)?,
             _ => write!(formatter, "{name}@{}:{};", member.offset, Shape(&member.type_))?,
         }

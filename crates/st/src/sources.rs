@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use crate::problem::Span;
 
-/// The files of a program, one behind the other in one text, so that a [`Span`] names a file too.
+/// The files of a program, one after the other in one text, so that a [`Span`] also identifies a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sources {
     text: String,
@@ -18,7 +18,7 @@ struct SourceFile {
     range: Range<usize>,
 }
 
-/// Where something lies in the files of a program.
+/// A position in the files of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place<'s> {
     /// The name of the file; none if the text has no file.
@@ -45,7 +45,7 @@ impl Sources {
 
     fn add(&mut self, name: Option<String>, text: &str) {
         if !self.files.is_empty() {
-            // The end of one file is another place than the beginning of the next.
+            // The end of one file is a different position than the start of the next.
             self.text.push('\n');
         }
         let start = self.text.len();
@@ -59,7 +59,7 @@ impl Sources {
         self.files.len() > 1
     }
 
-    /// Where a span lies. One that begins beyond all files lies at the end of the last.
+    /// The position of a span. One that begins after all files is at the end of the last.
     #[must_use]
     pub fn place(&self, span: Span) -> Place<'_> {
         let range = span.range();
@@ -74,12 +74,12 @@ impl Sources {
         Place { file: name.as_deref(), text, range, line, column }
     }
 
-    /// How many bytes all files have.
+    /// Total number of bytes of all files.
     pub(crate) const fn size_bytes(&self) -> usize {
         self.text.len()
     }
 
-    /// Each file: the text up to its end, and where in that it begins.
+    /// Each file: the text up to its end, and the file's start in it.
     pub(crate) fn each(&self) -> impl Iterator<Item = (&str, usize)> {
         self.files.iter().map(|file| (self.text.get(..file.range.end).unwrap_or_default(), file.range.start))
     }
@@ -112,7 +112,7 @@ mod tests {
             (place.file, place.line, place.column)
         };
         assert_eq!([place(0), place(2)], [(Some("a.st"), 1, 1), (Some("a.st"), 2, 1)]);
-        // The end of the file, where a missing END_… is missing.
+        // The end of the file, as the position of a missing END_….
         assert_eq!(place(3), (Some("a.st"), 2, 2));
         assert_eq!([place(4), place(6)], [(Some("b.st"), 1, 1), (Some("c.st"), 1, 2)]);
         assert_eq!(place(1_000), (Some("c.st"), 1, 3));

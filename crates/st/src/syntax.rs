@@ -1,4 +1,4 @@
-//! From text to what it says: tokens, and the tree of a file.
+//! From text to its structure: tokens, and the tree of a file.
 
 pub(crate) mod ast;
 mod keyword;
@@ -12,8 +12,8 @@ mod token;
 use crate::problem::Problem;
 use ast::File;
 
-/// Reads the file that begins at byte `start` of `source` and ends with it: the tree of what could be read, and what
-/// could not.
+/// Reads the file that begins at byte `start` of `source` and ends with it: the tree of the parts that could be
+/// read, and the problems.
 pub(crate) fn parse_from(source: &str, start: usize) -> (File, Vec<Problem>) {
     parser::Parser::new(source, start).file()
 }

@@ -1,4 +1,5 @@
-//! System-defined variables of the CPU Unit that tell of its programs (W501, A-3): there without a declaration.
+//! System-defined variables of the CPU Unit with the status of its programs (W501, A-3): they exist without a
+//! declaration.
 
 /// One of them. All are BOOLs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -7,11 +8,11 @@ pub(crate) enum System {
     AlwaysFalse,
     /// TRUE in the first scan with RUN mode.
     FirstScan,
-    /// TRUE from an instruction error on, until the program makes it FALSE.
+    /// TRUE from an instruction error on, until the program sets it to FALSE.
     InstructionError,
 }
 
-/// A program begins with RUN mode, so that both flags of a first period are one.
+/// A program starts with RUN mode, so both flags for a first period are the same.
 const NAMES: [(&str, System); 5] = [
     ("P_On", System::AlwaysTrue),
     ("P_Off", System::AlwaysFalse),
@@ -21,12 +22,12 @@ const NAMES: [(&str, System); 5] = [
 ];
 
 impl System {
-    /// The one of this name, in whatever case.
+    /// The one with this name, in upper or lower case.
     pub(crate) fn named(name: &str) -> Option<Self> {
         NAMES.iter().find(|(own, _)| own.eq_ignore_ascii_case(name)).map(|(_, system)| *system)
     }
 
-    /// Its value, if it never changes.
+    /// Its value, if it is constant.
     pub(crate) const fn constant(self) -> Option<bool> {
         match self {
             Self::AlwaysTrue => Some(true),

@@ -1,6 +1,6 @@
-//! Task periods of the primary periodic task that CPU Units have.
+//! Task periods of the primary periodic task of CPU Units.
 
-/// The periods in words: some CPU Unit has each of them, and none has another one.
+/// The periods as text: each of them is available in some CPU Unit, and no others are.
 pub const TASK_PERIODS: &str = "125us, or 250us to 32ms in steps of 250us";
 
 const SHORTEST_NS: u64 = 125_000;

@@ -1,8 +1,8 @@
-//! Types after their names are resolved, and how many slots their values take.
+//! Types after their names are resolved, and the number of slots of their values.
 //!
-//! The memory of a program is a row of slots of 64 bits. An elementary value takes one slot, whatever its width; a
-//! STRING takes one for its length and then one for each eight characters; arrays, structures and function block
-//! instances take the slots of their parts, one after the other.
+//! The memory of a program is a row of slots of 64 bits. An elementary value has one slot, whatever its width;
+//! a STRING has one for its length and then one for every eight characters; arrays, structures and function
+//! block instances have the slots of their parts, one after the other.
 
 use core::fmt;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use std::sync::Arc;
 use crate::code::Extent;
 use crate::elementary::Elementary;
 
-/// Most bytes of a STRING with the NUL at its end, which every STRING has (W501, 6-3-5).
+/// Maximum length of a STRING in bytes, including the NUL at its end, which every STRING has (W501, 6-3-5).
 pub(crate) const STRING_BYTES_MAX: u16 = 1986;
 
-/// Most characters of a STRING.
+/// Maximum number of characters of a STRING.
 pub(crate) const STRING_CHARACTERS_MAX: usize = STRING_BYTES_MAX as usize - 1;
 
 /// Characters of a STRING that is declared without a length: 256 bytes with the NUL.
@@ -23,16 +23,16 @@ pub(crate) const STRING_CHARACTERS_DEFAULT: u16 = 255;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Type {
     Elementary(Elementary),
-    /// With the most characters that it holds: one less than the bytes of its declaration.
+    /// With the maximum number of characters: one less than the bytes of its declaration.
     String(u16),
     Array(Arc<Array>),
-    /// A VAR_IN_OUT that takes arrays of any length. Its slots say where the array lies, and its lower and upper bound in
-    /// each dimension.
+    /// A VAR_IN_OUT that accepts arrays of any length. Its slots hold the position of the array, and its lower
+    /// and upper bound in each dimension.
     Open(Arc<OpenArray>),
     Struct(Arc<Structure>),
     Enum(Arc<Enumeration>),
     Block(Arc<Block>),
-    /// Whatever variable: a VAR_IN_OUT of a library block. Two slots: where it lies, and the number of its layout.
+    /// Any variable: a VAR_IN_OUT of a library block. Two slots: its position, and the number of its layout.
     Any,
 }
 
@@ -55,12 +55,12 @@ pub(crate) struct Bound {
 }
 
 impl Bound {
-    /// How many indices lie in it; the bounds were in order when they were read.
+    /// Number of indices in it; the bounds were in order when they were read.
     pub(crate) const fn count(self) -> u32 {
         (self.upper - self.lower + 1) as u32
     }
 
-    /// Whether an index lies in it.
+    /// Whether an index is in it.
     pub(crate) fn holds(self, index: i128) -> bool {
         (i128::from(self.lower)..=self.upper.into()).contains(&index)
     }
@@ -83,7 +83,7 @@ pub(crate) struct Enumeration {
 #[derive(Debug)]
 pub(crate) struct Block {
     pub(crate) name: String,
-    /// Place of its code among the units.
+    /// The position of its code among the units.
     pub(crate) unit: u32,
     pub(crate) members: Vec<Member>,
     pub(crate) slots: u32,
@@ -98,7 +98,7 @@ pub(crate) struct Member {
     pub(crate) retain: bool,
 }
 
-/// What a variable is to its program organization unit.
+/// The role of a variable in its program organization unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
     Input,
@@ -107,7 +107,7 @@ pub(crate) enum Role {
     Internal,
 }
 
-/// Named types are the same by their names' declaration, not by what they hold.
+/// Named types are the same if their declarations are the same, independent of their contents.
 macro_rules! same_by_identity {
     ($($name:ty),*) => {$(
         impl PartialEq for $name {
@@ -122,7 +122,7 @@ same_by_identity!(Structure, Enumeration, Block);
 impl Type {
     pub(crate) const BOOL: Self = Self::Elementary(Elementary::Bool);
 
-    /// How many slots a value takes.
+    /// Number of slots of a value.
     pub(crate) fn slots(&self) -> u32 {
         match self {
             Self::Elementary(_) | Self::Enum(_) => 1,
@@ -134,7 +134,7 @@ impl Type {
         }
     }
 
-    /// How many slots a VAR_IN_OUT of the type takes.
+    /// Number of slots of a VAR_IN_OUT of the type.
     pub(crate) fn reference_slots(&self) -> u32 {
         match self {
             Self::Any => 2,
@@ -162,7 +162,7 @@ impl Type {
 }
 
 impl Array {
-    /// How many elements it has in all its dimensions.
+    /// Total number of elements in all its dimensions.
     pub(crate) fn elements(&self) -> u32 {
         self.bounds.iter().map(|bound| bound.count()).product()
     }
@@ -174,12 +174,12 @@ impl OpenArray {
     }
 }
 
-/// Slots of a STRING of so many characters.
+/// Number of slots of a STRING with this number of characters.
 pub(crate) const fn string_slots(capacity: u16) -> u32 {
     1 + (capacity as u32).div_ceil(8)
 }
 
-/// The member of this name, in whatever case.
+/// The member with this name, in upper or lower case.
 pub(crate) fn member<'a>(members: &'a [Member], name: &str) -> Option<&'a Member> {
     members.iter().find(|member| member.name.eq_ignore_ascii_case(name))
 }

@@ -1,8 +1,8 @@
-//! How the values of elementary types stand in 64 bits.
+//! The representation of elementary values in 64 bits.
 //!
-//! Signed integers and TIME are sign-extended; unsigned integers, bit strings and BOOL have zeros above; REAL and
-//! LREAL are their IEEE 754 bits; dates and times of day are what [`crate::calendar`] says. So each value has one representation, and equal values are equal slots, but for
-//! NaN and the two zeros.
+//! Signed integers and TIME are sign-extended; unsigned integers, bit strings and BOOL have zeros in the upper
+//! bits; REAL and LREAL are their IEEE 754 bits; dates and times of day are as in [`crate::calendar`]. So each
+//! value has one representation, and equal values are equal slots, except for NaN and the two zeros.
 
 use crate::calendar;
 use crate::elementary::{Class, Elementary};
@@ -18,7 +18,7 @@ pub(crate) const TIME_UNITS: [(&str, u64); 7] = [
     ("ns", 1),
 ];
 
-/// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps. Other values stay.
+/// Cuts `bits` to the width of an integer, a bit string, a BOOL or a TIME: overflow wraps. Other values are unchanged.
 pub(crate) const fn wrap(elementary: Elementary, bits: u64) -> u64 {
     let unused = 64 - elementary.bits();
     match elementary.class() {
@@ -28,7 +28,7 @@ pub(crate) const fn wrap(elementary: Elementary, bits: u64) -> u64 {
     }
 }
 
-/// The least and the greatest value of all types but the floating point ones.
+/// The minimum and maximum value of all types except the floating point ones.
 pub(crate) const fn range(elementary: Elementary) -> (i128, i128) {
     let bits = elementary.bits();
     match elementary.class() {
@@ -39,7 +39,7 @@ pub(crate) const fn range(elementary: Elementary) -> (i128, i128) {
     }
 }
 
-/// The number that the bits of an integer, a bit string, a BOOL or a TIME stand for.
+/// The number represented by the bits of an integer, a bit string, a BOOL or a TIME.
 pub(crate) const fn integer(elementary: Elementary, bits: u64) -> i128 {
     match elementary.class() {
         Class::Signed | Class::Time => bits as i64 as i128,
@@ -47,7 +47,7 @@ pub(crate) const fn integer(elementary: Elementary, bits: u64) -> i128 {
     }
 }
 
-/// The number that the bits of a REAL or an LREAL stand for.
+/// The number represented by the bits of a REAL or an LREAL.
 pub(crate) fn real(elementary: Elementary, bits: u64) -> f64 {
     match elementary {
         Elementary::Real => f64::from(f32::from_bits(bits as u32)),
@@ -63,14 +63,14 @@ pub(crate) fn real_bits(elementary: Elementary, number: f64) -> u64 {
     }
 }
 
-/// Writes a value little endian; `octets` is as long as the type on the wire.
+/// Writes a value little endian; `octets` has the length of the type in a message.
 pub(crate) fn pack(bits: u64, octets: &mut [u8]) {
     for (octet, value) in octets.iter_mut().zip(bits.to_le_bytes()) {
         *octet = value;
     }
 }
 
-/// Reads a little-endian value; what is missing is zero.
+/// Reads a little-endian value; missing bytes are zero.
 pub(crate) fn unpack(elementary: Elementary, octets: &[u8]) -> u64 {
     let mut all = [0; 8];
     for (octet, value) in all.iter_mut().zip(octets) {

@@ -1,4 +1,4 @@
-//! Programs in several files, and files that are only a part of a program.
+//! Programs in several files, and files that are only part of a program.
 
 use st::{NoHost, PROBLEMS_MAX, Sources, compile, judge};
 

@@ -11,8 +11,9 @@ use tokio::task::{JoinHandle, yield_now};
 use crate::connection;
 use crate::unit::Unit;
 
-/// Most clients at a time. One more takes the place of one that has never sent a request, the oldest first; if there is
-/// none, of the one whose last request is longest ago. So it is too where file descriptors are used up before.
+/// Maximum number of clients at a time. A further client replaces a client that has never sent a request, the
+/// oldest first; if there is none, the one whose last request is longest ago. The same applies if the file
+/// descriptors are used up before.
 pub const CONNECTIONS_MAX: usize = 16;
 
 pub(super) struct Clients {
@@ -70,7 +71,7 @@ impl Clients {
         closed
     }
 
-    /// Closes a client, so that another one can have its file descriptor. None: there is no client.
+    /// Closes a client, so that another one can use its file descriptor. None: there is no client.
     pub(super) async fn free_descriptor(&mut self) -> Option<Closed> {
         // As above: requests that have arrived count.
         yield_now().await;

@@ -20,10 +20,10 @@ use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Argument, Call, Expression, ExpressionKind, Name};
 use crate::types::{Block, Member, Role, Type, member};
 
-/// Most values of a variable that is passed as ANY: more than the bytes of an NX object.
+/// Maximum number of values of a variable that is passed as ANY: more than the bytes of an NX object.
 const ANY_SLOTS_MAX: u32 = 256;
 
-/// An argument with the pin that it is for.
+/// An argument with its pin.
 enum Given<'a> {
     Input(&'a Expression),
     Output { to: &'a Expression, negated: bool, span: Span },
@@ -116,7 +116,7 @@ impl<'t> Body<'_, 't> {
         self.call(call, None).map(|value| StatementKind::Evaluate(value.code))
     }
 
-    /// The function block instance that is called, if a variable is.
+    /// The function block instance that is called, if the name is a variable.
     fn instance(&mut self, callee: &Expression) -> Option<Option<(Arc<Block>, Located)>> {
         let located = match &callee.kind {
             ExpressionKind::Name(name) => match self.symbol(name) {
@@ -262,7 +262,7 @@ impl<'t> Body<'_, 't> {
         self.checker.refuse(Problem::new(span, format!("NOT is for a BOOL output, and this is {type_}")))
     }
 
-    /// What an input or in-out gets: where in the unit it goes, and what is put there.
+    /// The argument of an input or in-out: its position in the unit, and its value.
     fn pin_input(&mut self, pin: &Member, expression: &Expression) -> Option<Vec<(u32, Code, Put)>> {
         let at_pin = |fitting: Fitting| vec![(pin.offset, fitting.code, fitting.put)];
         if pin.role != Role::InOut {
@@ -285,7 +285,8 @@ impl<'t> Body<'_, 't> {
     }
 
     fn any(&mut self, located: &Located, span: Span) -> Option<Fitting> {
-        // A variable that is a little too long is told by the instruction's ErrorID; a huge one is not laid out at all.
+        // For a variable that is slightly too long, the instruction returns an ErrorID; a huge one is not laid
+        // out at all.
         if located.type_.slots() > ANY_SLOTS_MAX {
             let message = format!(
                 "{} is far longer than an NX object, which has {NX_OBJECT_BYTES_MAX} bytes at most",
@@ -305,7 +306,7 @@ impl<'t> Body<'_, 't> {
         Some(Fitting { code: Code::Address(located.place.clone()), put: Put::Any { layout } })
     }
 
-    /// What a pin without an argument means: an in-out has to have one, everything else keeps what it has.
+    /// The value of a pin without an argument: an in-out must have one, every other pin keeps its value.
     fn required(&mut self, pin: &Member, name: &str, span: Span) -> Option<()> {
         if pin.role != Role::InOut {
             return Some(());
@@ -314,7 +315,7 @@ impl<'t> Body<'_, 't> {
         self.checker.refuse(Problem::new(span, message))
     }
 
-    /// Which argument is for which pin.
+    /// Assigns the arguments to the pins.
     fn assign_pins<'a>(
         &mut self,
         name: &str,
@@ -359,7 +360,7 @@ impl<'t> Body<'_, 't> {
         Some(given)
     }
 
-    /// The place of the pin of this name that is an output, or that is none.
+    /// The position of the pin with this name, if it is an output or, as `role` requires, not one.
     fn pin(&mut self, of: &str, pins: &[Member], name: &Name, role: Role) -> Option<usize> {
         let wanted = library::block_pin(of, &name.text).unwrap_or(&name.text);
         let place =
@@ -423,7 +424,7 @@ impl<'t> Body<'_, 't> {
         self.checker.refuse(Problem::new(value.span, message))
     }
 
-    /// `INT_TO_REAL(x)` and its like.
+    /// `INT_TO_REAL(x)` and similar functions.
     fn convert(&mut self, conversion: library::Conversion, call: &Call) -> Option<Value> {
         let [argument] = call.arguments.as_slice() else {
             return self.checker.refuse(Problem::new(call.span, "a conversion has one argument"));
@@ -467,7 +468,7 @@ impl<'t> Body<'_, 't> {
     }
 }
 
-/// Why values of the one type have no value of the other, and the way out.
+/// Why values of one type cannot be converted to the other, and the remedy.
 fn no_conversion(from: Elementary, to: Elementary) -> Option<(&'static str, &'static str)> {
     const OF_DATES: &str = "use DT_TO_DATE, DT_TO_TOD, CONCAT_DATE_TOD, DtToSec, SecToDt and their like";
     const OF_TIME: &str = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";

@@ -1,4 +1,4 @@
-//! Which PROGRAMs run, and when: what a CONFIGURATION says, or all of them in each scan.
+//! Which PROGRAMs run, and when: according to a CONFIGURATION, or all of them in each scan.
 
 use super::constants::Constants;
 use super::places::nearest;
@@ -11,7 +11,7 @@ use crate::syntax::ast::{
 };
 use crate::task_period::{TASK_PERIODS, is_task_period};
 
-/// A PRIORITY that is left out comes behind all others.
+/// A PRIORITY that is left out is the lowest.
 const PRIORITY_LAST: i128 = i128::MAX;
 
 /// The shortest task period of a CPU Unit.
@@ -20,14 +20,14 @@ const INTERVAL_MIN_NS: u64 = 125_000;
 /// A task of a CONFIGURATION.
 struct Planned<'t> {
     name: &'t Name,
-    /// How long its period is, and where that is said; none: it runs in each scan.
+    /// Its period, and the position of that in the source; none: it runs in each scan.
     interval: Option<(u64, Span)>,
     priority: i128,
     programs: Vec<u32>,
 }
 
 impl<'t> Checker<'t> {
-    /// Notes the PROGRAMs of a file, those that do not run too.
+    /// Stores the PROGRAMs of a file, including those that do not run.
     pub(super) fn programs(&mut self, file: &'t File) {
         let programs: Vec<&'t Pou> = file.units.iter().filter(|pou| pou.kind == PouKind::Program).collect();
         let Some((configuration, others)) = file.configurations.split_first() else {
@@ -48,7 +48,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// A PROGRAM under a name of its own.
+    /// A PROGRAM under its own name.
     fn program(&mut self, pou: &'t Pou, name: &Name) -> u32 {
         let scope = self.program_scope(pou, &name.text);
         let unit = self.new_unit();
@@ -97,7 +97,7 @@ impl<'t> Checker<'t> {
         self.refuse(Problem::new(priority.span, "a PRIORITY is 0 to 65535, and 0 is the highest"))
     }
 
-    /// How long a period is. What is wrong with it has been reported, and the task is known all the same.
+    /// The length of a period. If it is wrong, this has been reported, and the task is known nevertheless.
     fn interval(&mut self, interval: &'t Expression, scope: &Scope) -> Option<(u64, Span)> {
         let duration_ns = Constants::new(self, scope).duration(interval)?;
         match u64::try_from(duration_ns) {
@@ -140,8 +140,8 @@ impl<'t> Checker<'t> {
         })
     }
 
-    /// By their priorities, those of one priority as they are declared; programs without a task come last. A scan is as
-    /// long as the shortest INTERVAL, and each other one is several of them.
+    /// In the order of their priorities, within one priority in the order of declaration; programs without a
+    /// task come last. A scan is as long as the shortest INTERVAL, and every other one is a multiple of it.
     fn order(&mut self, mut tasks: Vec<Planned<'t>>, free: Vec<u32>) {
         tasks.retain(|task| !task.programs.is_empty());
         tasks.sort_by_key(|task| task.priority);

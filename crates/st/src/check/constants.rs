@@ -56,7 +56,7 @@ impl<'c, 't> Constants<'c, 't> {
         self.checker.refuse(Problem::new(expression.span, message))
     }
 
-    /// Writes the value of a type into the image of its variable.
+    /// Writes the value of a type to the image of its variable.
     pub(super) fn write(mut self, type_: &Type, expression: &Expression, image: &mut [u64]) -> Option<()> {
         let value = self.body().expression_for(expression, type_)?;
         if let (Type::String(capacity), Kind::Type(Type::String(length)), Code::Address(place)) =

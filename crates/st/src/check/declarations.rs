@@ -1,4 +1,4 @@
-//! VAR sections: where variables lie, and what their names mean.
+//! VAR sections: the positions of variables, and the meaning of their names.
 
 use super::scope::{Access, Located, Scope, Symbol, key};
 use super::{Checker, Origin, Pending, Shape, Signature};
@@ -17,17 +17,17 @@ const CONSTANT: &str = "it is a constant";
 /// Why an input of the unit that is being called cannot be written.
 const OWN_INPUT: &str = "it is an input";
 
-/// Where the variables of a unit go.
+/// The positions of the variables of a unit.
 enum Home {
-    /// Into the memory: PROGRAM, and VAR_GLOBAL without an owner.
+    /// In the memory: PROGRAM, and VAR_GLOBAL without an owner.
     Memory { owner: Option<Owner> },
-    /// Into the memory, with their initial values at each call: FUNCTION.
+    /// In the memory, with their initial values at each call: FUNCTION.
     Fresh,
-    /// Into the instances of a function block.
+    /// In the instances of a function block.
     Instance,
 }
 
-/// What a VAR section becomes.
+/// The result of a VAR section.
 struct Plan {
     home: Home,
     members: Vec<Member>,
@@ -36,7 +36,7 @@ struct Plan {
 
 impl<'t> Checker<'t> {
     /// VAR_GLOBAL of the file, in an order in which each finds what it needs: constants are bounds of types and
-    /// numbers of enumerations, and blocks may name all other variables as VAR_EXTERNAL.
+    /// numbers of enumerations, and blocks may use all other variables as VAR_EXTERNAL.
     pub(super) fn declare_globals(&mut self, file: &'t File) {
         let all = || {
             file.globals.iter().flat_map(|section| section.variables.iter().map(move |own| (section, own)))
@@ -94,7 +94,7 @@ impl<'t> Checker<'t> {
         self.origin = outer;
         self.limit_names("variables", plan.members.len(), pou.name.span)?;
         if plan.initial.is_empty() {
-            // An instance without variables is somewhere all the same.
+            // An instance without variables has a position nevertheless.
             plan.initial.push(0);
         }
         let slots = plan.initial.len() as u32;
@@ -266,7 +266,7 @@ impl<'t> Checker<'t> {
         Some(slot)
     }
 
-    /// A variable of the caller's: a slot of ours says where it lies.
+    /// A variable of the caller: a slot of the unit holds its position.
     fn in_out(
         &mut self,
         declaration: &VarDeclaration,
@@ -300,7 +300,7 @@ impl<'t> Checker<'t> {
         Some(Symbol::Variable(located))
     }
 
-    /// A global variable with the name of a device variable is that one, as in a list of global variables.
+    /// A global variable with the name of a device variable is that device variable, as in a list of global variables.
     fn is_device(&self, section: &VarSection, declaration: &VarDeclaration) -> bool {
         let name = &declaration.name.text;
         section.kind == VarKind::Global
@@ -367,7 +367,7 @@ impl<'t> Checker<'t> {
         self.device(place)
     }
 
-    /// Takes a device variable into the memory when it is named first.
+    /// Adds a device variable to the memory when it is first used.
     fn device(&mut self, place: usize) -> Option<Symbol> {
         if let Some(symbol) = self.devices.get(&place) {
             return Some(symbol.clone());
@@ -415,7 +415,7 @@ impl<'t> Checker<'t> {
         Some(Symbol::Variable(Located::in_memory(slot, Type::BOOL, access)))
     }
 
-    /// Notes a device variable that is refreshed before and behind each scan.
+    /// Records a device variable that is refreshed before and after each scan.
     fn refreshed(&mut self, place: usize, slot: Slot, type_: &Type) -> Option<Access> {
         let layout = Layout { values: super::places::flatten(type_)? };
         self.out.externals.push(External { global: place, slot, layout, written: false });

@@ -18,16 +18,18 @@ use crate::syntax::ast::{
 use crate::types::{Type, string_slots};
 use crate::value::{real_bits, wrap};
 
-/// The inside of a unit while it is checked.
+/// The context of a unit while it is checked.
 pub(super) struct Body<'c, 't> {
     pub(super) checker: &'c mut Checker<'t>,
     pub(super) scope: &'c Scope,
-    /// The unit whose code this becomes; none for constant expressions.
+    /// The unit to which the code belongs; none for constant expressions.
     pub(super) unit: Option<u32>,
     pub(super) loops: u32,
-    /// The type of what the next expression is for: numbers without a type that a function takes become it.
+    /// The type that the context of the next expression requires: numbers without a type in a function call
+    /// become this type.
     pub(super) wanted: Option<Elementary>,
-    /// How deep the expression or statement lies that is being checked, and the deepest so far: it runs as deep.
+    /// Nesting depth of the expression or statement that is being checked, and the maximum so far: it has the
+    /// same depth at run time.
     pub(super) depth: u32,
     pub(super) deepest: u32,
 }
@@ -36,18 +38,18 @@ pub(super) struct Body<'c, 't> {
 #[derive(Debug)]
 pub(super) struct Value {
     pub(super) kind: Kind,
-    /// Of a number without a type: nothing that counts.
+    /// For a number without a type: without meaning.
     pub(super) code: Code,
     pub(super) span: Span,
 }
 
-/// What an expression is.
+/// The kind of an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
     Type(Type),
-    /// A whole number that takes the type that is needed.
+    /// A whole number that takes the type that its context requires.
     Integer(i128),
-    /// A number with a fraction that becomes REAL or LREAL, as needed.
+    /// A number with a fraction that becomes REAL or LREAL, as its context requires.
     Real(f64),
     /// A function without a result.
     Nothing,
@@ -98,7 +100,7 @@ impl<'c, 't> Body<'c, 't> {
         Self { checker, scope, unit, loops: 0, wanted: None, depth: 0, deepest: 0 }
     }
 
-    /// Goes one level deeper.
+    /// Increments the nesting depth.
     pub(super) fn nested<T>(&mut self, check: impl FnOnce(&mut Self) -> T) -> T {
         self.depth += 1;
         self.deepest = self.deepest.max(self.depth);
@@ -111,12 +113,12 @@ impl<'c, 't> Body<'c, 't> {
         self.checker.origin == Origin::Library
     }
 
-    /// Checks an expression; none if it is wrong, which has been told.
+    /// Checks an expression; none if it is wrong, which has been reported.
     pub(super) fn expression(&mut self, expression: &Expression) -> Option<Value> {
         self.nested(|body| body.expression_here(expression))
     }
 
-    /// The same, where a value of a type is needed.
+    /// The same, for a context that requires a value of a type.
     pub(super) fn expression_for(&mut self, expression: &Expression, type_: &Type) -> Option<Value> {
         self.wanted = type_.elementary();
         self.expression(expression)
@@ -147,9 +149,9 @@ impl<'c, 't> Body<'c, 't> {
         }
     }
 
-    /// Operators one behind the other, `a + b + c`: a loop, because there may be hundreds. The first two operands lie
-    /// deepest. All operands are looked at, so that each tells what is wrong with it. A function that has only numbers
-    /// without a type gets the type of what is on its left, or else the wanted one.
+    /// A chain of operators, `a + b + c`: a loop, because there may be hundreds. The first two operands are the
+    /// most deeply nested. All operands are checked, so that every mistake in them is reported. A function that
+    /// has only numbers without a type gets the type of the operand on its left, or else the required one.
     fn chain(&mut self, expression: &Expression, wanted: Option<Elementary>) -> Option<Value> {
         let mut operations = Vec::new();
         let mut first = expression;
@@ -330,7 +332,8 @@ impl<'c, 't> Body<'c, 't> {
         self.combine(code, elementary, left, right, span)
     }
 
-    /// An operand as the type of the operation; the power of integers is one of LREALs, which they become here.
+    /// An operand as the type of the operation; the power of integers is a power of LREALs, to which they are
+    /// converted here.
     fn operand(&mut self, operator: Binary, value: Value, elementary: Elementary) -> Option<Code> {
         match value.kind {
             Kind::Type(Type::Elementary(from)) if operator == Binary::Power => {
@@ -341,7 +344,7 @@ impl<'c, 't> Body<'c, 't> {
     }
 
     fn time_binary(&mut self, operator: Binary, left: Value, right: Value, span: Span) -> Option<Value> {
-        // A number by a TIME is the TIME by the number.
+        // A number times a TIME is the TIME times the number.
         let swapped = left.kind != Kind::Type(Type::Elementary(Elementary::Time));
         let (time, other) = if swapped { (right, left) } else { (left, right) };
         let time = elementary_of(self.checker, time, Elementary::Time)?;
@@ -354,7 +357,7 @@ impl<'c, 't> Body<'c, 't> {
         self.combine(operator, Elementary::Time, time, other, span)
     }
 
-    /// The code of an operation; of two constants, its result.
+    /// The code of an operation; for two constants, its result.
     fn combine(
         &mut self,
         operator: Binary,
@@ -382,7 +385,7 @@ impl<'c, 't> Body<'c, 't> {
         Some(Value::elementary(result, code, span))
     }
 
-    /// Numbers without types: as many bits as it takes.
+    /// Numbers without types: with as many bits as necessary.
     fn fold_integers(&mut self, operator: Binary, a: i128, b: i128, span: Span) -> Option<Value> {
         let number = match operator {
             Binary::Add => a.checked_add(b),
@@ -449,7 +452,7 @@ impl Checker<'_> {
         Some((slot, length))
     }
 
-    /// Whether a text literal lies there.
+    /// Whether there is a text literal at `slot`.
     pub(super) fn is_literal(&self, slot: Slot) -> bool {
         self.literals.contains(&slot)
     }
@@ -473,7 +476,7 @@ fn unary(operator: Unary, elementary: Elementary, operand: Code, span: Span) -> 
     Value::elementary(elementary, code, span)
 }
 
-/// What two constants of LREAL make stays a number without a type, unless it is a comparison.
+/// The result of two LREAL constants remains a number without a type, unless it is a comparison.
 fn as_untyped_real(value: Value) -> Value {
     match (&value.kind, &value.code) {
         (Kind::Type(Type::Elementary(Elementary::Lreal)), Code::Constant(bits)) => {

@@ -1,4 +1,4 @@
-//! Initial values: written into the image that a variable begins with.
+//! Initial values: written to the initial image of a variable.
 
 use super::constants::Constants;
 use super::scope::Scope;
@@ -7,7 +7,7 @@ use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Initial, InitialElement, Name};
 use crate::types::{Array, Member, Role, Type, member};
 
-/// Where an initial value stands.
+/// The position of an initial value in the source.
 pub(super) fn span(initial: &Initial) -> Span {
     match initial {
         Initial::Expression(expression) => expression.span,

@@ -13,10 +13,10 @@ use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Argument, Call, Expression, Name};
 use crate::types::{STRING_CHARACTERS_MAX, Type, string_slots};
 
-/// Most arguments of a call: each is three slots at most.
+/// Maximum number of arguments of a call: each has three slots at most.
 const GIVEN_MAX: usize = ARGUMENTS_MAX / 3;
 
-/// An argument that has been looked at.
+/// An argument that has been checked.
 enum Looked {
     Value(Value),
     Variable(Located, Span),
@@ -24,7 +24,7 @@ enum Looked {
     Default(u64),
 }
 
-/// What the generic pins of a call are.
+/// The types of the generic pins of a call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Generic {
     Elementary(Elementary),
@@ -32,7 +32,7 @@ enum Generic {
 }
 
 impl Body<'_, '_> {
-    /// `wanted` is the type that numbers without a type become, where nothing else says it.
+    /// `wanted` is the type that numbers without a type become if nothing else determines it.
     pub(super) fn call_native(
         &mut self,
         native: Native,
@@ -68,7 +68,7 @@ impl Body<'_, '_> {
         self.native_value(native, Generic::Elementary(from), Some(capacity), arguments, span)
     }
 
-    /// A value with a type: a number without one gets the narrowest from DINT on, or LREAL.
+    /// A value with a type: a number without a type gets the narrowest one from DINT on, or LREAL.
     pub(super) fn typed(&mut self, value: Value) -> Value {
         let elementary = match value.kind {
             Kind::Integer(number) => natural(number).map(|natural| natural.max(Elementary::Dint)),
@@ -237,7 +237,8 @@ impl Body<'_, '_> {
         }
     }
 
-    /// Numbers only: the type that the result is for if it holds them all, else the narrowest from DINT on, or LREAL.
+    /// Only numbers: the type that the context requires if it can hold them all, else the narrowest from DINT
+    /// on, or LREAL.
     fn literal_type(
         &mut self,
         function: &Function,
@@ -335,14 +336,14 @@ impl Body<'_, '_> {
         }
     }
 
-    /// A whole array stands for its first element.
+    /// A whole array is passed as its first element.
     fn native_elements(
         &mut self,
         located: Located,
         span: Span,
         elements: &mut Option<Type>,
     ) -> Option<NativeArgument> {
-        // Behind a member of an element lie the other members of that element, not its like.
+        // The slots after a member of an element hold the other members of that element, not more of the same kind.
         let is_element = located.is_element || matches!(located.type_, Type::Array(_) | Type::Open(_));
         let located = match &located.type_ {
             Type::Array(array) => first_element(&located, &array.element, Extent::Fixed(array.elements())),
@@ -394,7 +395,7 @@ impl Body<'_, '_> {
     }
 }
 
-/// The place of a pin behind the last one of the table: `In3` behind `In2`.
+/// The position of a pin after the last one of the table: `In3` after `In2`.
 fn further_pin(function: &Function, name: &str) -> Option<usize> {
     let last = function.pins.last().filter(|_| function.variadic)?;
     let letters = last.name.trim_end_matches(|last: char| last.is_ascii_digit());
@@ -433,11 +434,11 @@ fn holds(elementary: Elementary, kind: &Kind) -> bool {
     }
 }
 
-/// The type that holds a number besides.
+/// The narrowest type that holds a number and fits this one.
 fn with_literal(elementary: Elementary, kind: &Kind) -> Option<Elementary> {
     match kind {
         Kind::Integer(number) => match elementary.class() {
-            // What does not fit is told with its place.
+            // A value that does not fit is reported with its position.
             Class::Bool | Class::Time | Class::Date => Some(elementary),
             _ => with_number(elementary, *number),
         },
@@ -448,7 +449,7 @@ fn with_literal(elementary: Elementary, kind: &Kind) -> Option<Elementary> {
     }
 }
 
-/// The type itself if it is of one of the classes, else the REAL that it becomes, if that is.
+/// The type itself if it is in one of the classes, else the REAL to which it is converted, if that is.
 fn of_classes(elementary: Elementary, classes: &[Class]) -> Option<Elementary> {
     if classes.contains(&elementary.class()) {
         return Some(elementary);
@@ -457,7 +458,7 @@ fn of_classes(elementary: Elementary, classes: &[Class]) -> Option<Elementary> {
     reals.into_iter().find(|real| classes.contains(&Class::Real) && widens(elementary, *real))
 }
 
-/// The most characters of a STRING result.
+/// The maximum number of characters of a STRING result.
 fn text_capacity(function: &Function, looked: &[(&Pin, Looked)]) -> Option<u16> {
     let capacities = looked.iter().filter_map(|(_, looked)| match looked {
         Looked::Value(Value { kind: Kind::Type(Type::String(capacity)), .. }) => Some(usize::from(*capacity)),

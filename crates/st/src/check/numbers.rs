@@ -1,4 +1,4 @@
-//! Which value becomes which type by itself.
+//! Which value is converted to which type implicitly.
 
 use super::Checker;
 use super::expressions::{Kind, Value};
@@ -9,14 +9,14 @@ use crate::problem::Problem;
 use crate::types::Type;
 use crate::value::{range, real, real_bits};
 
-/// A value that fits its target, and how it is put there.
+/// A value that fits its target, and how it is stored there.
 #[derive(Debug)]
 pub(super) struct Fitting {
     pub(super) code: Code,
     pub(super) put: Put,
 }
 
-/// Makes a value of a type; refuses what does not become it by itself.
+/// Converts a value to a type; refuses a value that cannot be converted implicitly.
 pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> Option<Fitting> {
     match (&value.kind, target) {
         (_, Type::Elementary(elementary)) => {
@@ -43,7 +43,7 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
     }
 }
 
-/// Makes a value of an elementary type.
+/// Converts a value to an elementary type.
 pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Elementary) -> Option<Code> {
     match value.kind {
         Kind::Integer(number) => integer_of(checker, number, target, &value),
@@ -77,8 +77,8 @@ pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Ele
     }
 }
 
-/// Makes an operand of the type in which the operands meet: beside an unsigned one, a negative number without a type
-/// keeps its bits, as a signed variable does.
+/// Converts an operand to the common type of the operands: together with an unsigned one, a negative number
+/// without a type keeps its bits, as a signed variable does.
 pub(super) fn operand_of(checker: &mut Checker<'_>, value: Value, target: Elementary) -> Option<Code> {
     match value.kind {
         Kind::Integer(number) if number < 0 && target.class() == Class::Unsigned => match natural(number) {
@@ -130,7 +130,7 @@ fn conversion_help(from: Elementary, target: Elementary) -> String {
     }
 }
 
-/// The code of a conversion; a constant is converted now.
+/// The code of a conversion; a constant is converted immediately.
 pub(super) fn converted(code: Code, from: Elementary, to: Elementary) -> Code {
     match code {
         _ if from == to => code,

@@ -1,4 +1,4 @@
-//! Arrays of any length: what a VAR_IN_OUT takes, and the bounds of what it got.
+//! Arrays of any length: the arguments of a VAR_IN_OUT, and the bounds of its array.
 
 use super::expressions::{Body, Value};
 use super::numbers::converted;
@@ -10,7 +10,7 @@ use crate::syntax::ast::{Argument, Call, Expression};
 use crate::types::{Member, OpenArray, Type};
 
 impl Body<'_, '_> {
-    /// An array for an in-out of any length: where it lies, and its bounds.
+    /// An array for an in-out of any length: its position, and its bounds.
     pub(super) fn open(
         &mut self,
         pin: &Member,
@@ -60,7 +60,7 @@ impl Body<'_, '_> {
     }
 }
 
-/// The lower and the upper bound of each dimension of an array, as LINT; none if it is no array.
+/// The lower and the upper bound of each dimension of an array, as LINT; none if it is not an array.
 fn bounds_of(located: &Located) -> Option<Vec<[Code; 2]>> {
     match &located.type_ {
         Type::Array(array) => {

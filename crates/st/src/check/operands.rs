@@ -1,4 +1,4 @@
-//! Operators by the types of their operands: in which type two operands meet, and which operations there are.
+//! Operators by the types of their operands: the common type of two operands, and the operations that exist.
 
 use super::expressions::Kind;
 use crate::convert::{common, fits, natural, widens};
@@ -7,7 +7,7 @@ use crate::operators::Binary;
 use crate::syntax::ast::BinaryOperator;
 use crate::types::Type;
 
-/// The type in which two operands meet.
+/// The common type of two operands.
 pub(super) fn operand_type(operator: Binary, left: &Kind, right: &Kind) -> Option<Elementary> {
     if operator == Binary::Power {
         return power_type(left, right);
@@ -24,9 +24,9 @@ pub(super) fn operand_type(operator: Binary, left: &Kind, right: &Kind) -> Optio
     }
 }
 
-/// A number without a type takes the type of the other operand if it fits there. Otherwise its own is the narrowest
-/// signed one, and the two meet as operands with types do: a negative number becomes unsigned beside an unsigned
-/// operand that is as wide or wider (W501, 6-5-3).
+/// A number without a type takes the type of the other operand if it fits. Otherwise its own type is the
+/// narrowest signed one, and the common type is determined as for operands with types: a negative number
+/// becomes unsigned together with an unsigned operand that is as wide or wider (W501, 6-5-3).
 pub(super) fn with_number(elementary: Elementary, number: i128) -> Option<Elementary> {
     match elementary.class() {
         Class::Time | Class::Date => None,
@@ -41,7 +41,7 @@ pub(super) fn with_number(elementary: Elementary, number: i128) -> Option<Elemen
     }
 }
 
-/// The power of two REALs, or of a REAL and a narrow integer, is a REAL; of all others an LREAL.
+/// The power of two REALs, or of a REAL and a narrow integer, is a REAL; all other powers are LREAL.
 fn power_type(left: &Kind, right: &Kind) -> Option<Elementary> {
     let numeric = |kind: &Kind| match kind {
         Kind::Integer(_) | Kind::Real(_) => Some(Elementary::Real),
@@ -76,7 +76,7 @@ pub(super) fn time_operator(operator: Binary, left: &Kind, right: &Kind) -> Opti
     }
 }
 
-/// What a date or a time of day with a TIME gives, and two of one type: the type of the operation and its result.
+/// A date or a time of day with a TIME, or two of the same type: the type of the operation and its result.
 pub(super) fn date_operation(operator: Binary, left: &Kind, right: &Kind) -> Option<Elementary> {
     let [left, right] = [left, right].map(|kind| match kind {
         Kind::Type(Type::Elementary(elementary)) => Some(*elementary),
@@ -85,13 +85,13 @@ pub(super) fn date_operation(operator: Binary, left: &Kind, right: &Kind) -> Opt
     let moment = left.filter(|moment| moment.class() == Class::Date)?;
     match (operator, right?) {
         (Binary::Add | Binary::Subtract, Elementary::Time) if moment != Elementary::Date => Some(moment),
-        // Both are nanoseconds from the same moment on.
+        // Both are nanoseconds from the same origin.
         (Binary::Subtract, other) if other == moment => Some(Elementary::Time),
         _ => None,
     }
 }
 
-/// Whether an operation is there for a class of types.
+/// Whether an operation exists for a class of types.
 pub(super) fn suits(operator: Binary, class: Class) -> bool {
     match operator {
         Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide => {

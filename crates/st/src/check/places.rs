@@ -10,7 +10,7 @@ use crate::syntax::ast::{Expression, ExpressionKind, Name};
 use crate::types::{Array, Bound, Role, Type, member};
 use crate::value::integer;
 
-/// How alike two names have to be for a suggestion.
+/// The minimum similarity of two names for a suggestion.
 const LIKENESS: f64 = 0.8;
 
 /// The name that is nearest to a misspelt one.
@@ -21,7 +21,7 @@ pub(super) fn nearest(name: &str, candidates: impl Iterator<Item = String>) -> O
     best.filter(|(score, _)| *score >= LIKENESS).map(|(_, candidate)| candidate)
 }
 
-/// The elementary values of a type, one after the other; none for a type that has others too.
+/// The elementary values of a type, one after the other; none for a type that also has others.
 pub(super) fn flatten(type_: &Type) -> Option<Vec<(u32, Elementary)>> {
     match type_ {
         Type::Elementary(elementary) => Some(vec![(0, *elementary)]),
@@ -49,7 +49,7 @@ pub(super) fn flatten(type_: &Type) -> Option<Vec<(u32, Elementary)>> {
 }
 
 impl Checker<'_> {
-    /// Refuses a write to what cannot be written, and notes a write to a device variable.
+    /// Refuses a write to a variable that cannot be written, and records a write to a device variable.
     pub(super) fn written(&mut self, located: &Located, span: Span) -> Option<()> {
         match located.access {
             Access::Write => Some(()),
@@ -65,7 +65,7 @@ impl Checker<'_> {
 }
 
 impl Body<'_, '_> {
-    /// The variable that an expression names; told and none if it names none.
+    /// The variable that an expression refers to; none, after a report, if it is not a variable.
     pub(super) fn place(&mut self, expression: &Expression) -> Option<Located> {
         match &expression.kind {
             ExpressionKind::Name(name) => match self.symbol(name) {
@@ -83,7 +83,7 @@ impl Body<'_, '_> {
         }
     }
 
-    /// What a name stands for, unless it is no variable.
+    /// The meaning of a name, unless it is not a variable.
     pub(super) fn symbol(&mut self, name: &str) -> Option<Symbol> {
         let key = key(name);
         if let Some(symbol) = self.scope.symbols.get(&key) {
@@ -169,7 +169,7 @@ impl Body<'_, '_> {
         Some(Located { place, type_: element, access: located.access, is_element: true })
     }
 
-    /// a[1] of two dimensions would be a row: IEC 61131-3 names elements only.
+    /// a[1] of two dimensions would be a row: IEC 61131-3 permits only elements.
     fn count_indices(&mut self, dimensions: usize, indices: &[Expression], span: Span) -> Option<()> {
         if indices.len() == dimensions {
             return Some(());
@@ -210,7 +210,7 @@ impl Body<'_, '_> {
     fn whole_index(&mut self, index: &Expression) -> Option<(Code, Elementary)> {
         let value = self.expression(index)?;
         match value.kind {
-            // Numbers without a type lie between the least LINT and the greatest ULINT.
+            // Numbers without a type are between the minimum LINT and the maximum ULINT.
             Kind::Integer(number) if number >= 0 => Some((Code::Constant(number as u64), Elementary::Ulint)),
             Kind::Integer(number) => Some((Code::Constant(number as u64), Elementary::Lint)),
             Kind::Type(Type::Elementary(elementary))

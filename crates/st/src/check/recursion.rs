@@ -1,17 +1,17 @@
-//! No program organization unit calls itself (IEC 61131-3, 6.6.1), and no code lies too deep.
+//! No program organization unit calls itself (IEC 61131-3, 6.6.1), and no code is nested too deeply.
 
 use super::Checker;
 use crate::problem::{Problem, Span};
 
-/// How deep statements, expressions and calls may lie in each other, from the PROGRAM on: the stack of a thread
-/// holds that.
+/// Maximum nesting depth of statements, expressions and calls, counted from the PROGRAM: the stack of a thread
+/// is sufficient for this.
 const DEPTH_MAX: u32 = 1_000;
 
-/// A call takes as much of the stack as so many levels besides: its arguments lie there.
+/// A call takes as much of the stack as this number of additional levels: its arguments are there.
 const CALL_LEVELS: u32 = 3;
 
 impl Checker<'_> {
-    /// Refuses calls that come back to where they began, and those that go too deep.
+    /// Refuses calls that return to their own unit, and those that are nested too deeply.
     pub(super) fn refuse_recursion(&mut self) {
         let units = self.out.units.len();
         let mut graph = Graph { callees: vec![Vec::new(); units], depths: vec![Depth::Unknown; units] };
@@ -23,7 +23,7 @@ impl Checker<'_> {
         }
     }
 
-    /// How deep the code of a unit lies with all that it calls; `level` calls have led here.
+    /// Nesting depth of the code of a unit including all its calls; `level` calls have led here.
     fn depth(&mut self, unit: usize, span: Span, level: u32, graph: &mut Graph) -> u32 {
         match graph.depths[unit] {
             Depth::Known(depth) => return depth,
@@ -32,7 +32,7 @@ impl Checker<'_> {
                 self.refuse::<()>(problem.help("no function or block calls itself: use a loop"));
                 return 0;
             }
-            // Each call is at least one level of its own, so the limit below has been passed.
+            // Each call is at least one level, so the limit below has been exceeded.
             Depth::Unknown if level > DEPTH_MAX => return DEPTH_MAX,
             Depth::Unknown => {}
         }
@@ -53,7 +53,7 @@ impl Checker<'_> {
     }
 }
 
-/// Who calls whom, by their numbers.
+/// Callers and called units, by their numbers.
 struct Graph {
     callees: Vec<Vec<(u32, Span)>>,
     depths: Vec<Depth>,

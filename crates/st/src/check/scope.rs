@@ -1,4 +1,4 @@
-//! What a name means inside a program organization unit.
+//! The meaning of a name inside a program organization unit.
 
 use std::collections::HashMap;
 
@@ -17,9 +17,9 @@ pub(super) struct Scope {
 #[derive(Clone, Debug)]
 pub(super) enum Symbol {
     Variable(Located),
-    /// VAR CONSTANT of an elementary type: its value stands in the code.
+    /// VAR CONSTANT of an elementary type: its value is in the code.
     Constant(Type, u64),
-    /// Its declaration is wrong, and that has been told.
+    /// Its declaration is wrong, and this has been reported.
     Wrong,
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Located {
     pub(super) place: Place,
     pub(super) type_: Type,
     pub(super) access: Access,
-    /// Whether it is an element of an array, and others lie behind it.
+    /// Whether it is an element of an array, and others follow it.
     pub(super) is_element: bool,
 }
 
@@ -37,7 +37,7 @@ pub(super) struct Located {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Access {
     Write,
-    /// A device variable with its place among the externals; writing it is noted there.
+    /// A device variable with its position among the externals; a write to it is recorded there.
     Device(usize),
     /// Why it cannot be written.
     ReadOnly(&'static str),
@@ -58,7 +58,7 @@ impl Located {
     }
 }
 
-/// A name as a key: names are the same in whatever case.
+/// A name as a key: upper and lower case are equal.
 pub(super) fn key(name: &str) -> String {
     name.to_ascii_uppercase()
 }

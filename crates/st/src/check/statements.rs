@@ -11,7 +11,7 @@ use crate::types::Type;
 use crate::value::integer;
 
 impl Body<'_, '_> {
-    /// Checks statements; those that are wrong are left out, and nothing runs.
+    /// Checks statements; wrong ones are left out, and the program does not run.
     pub(super) fn statements(&mut self, statements: &[ast::Statement]) -> Vec<Statement> {
         self.nested(|body| statements.iter().filter_map(|statement| body.statement(statement)).collect())
     }
@@ -72,7 +72,7 @@ impl Body<'_, '_> {
 
     fn assign(&mut self, to: &Expression, value: &Expression) -> Option<StatementKind> {
         let Some(target) = self.target(to) else {
-            // Both sides are looked at, so that both tell what is wrong.
+            // Both sides are checked, so that mistakes in both are reported.
             self.expression(value);
             return None;
         };
@@ -81,7 +81,7 @@ impl Body<'_, '_> {
         Some(StatementKind::Assign(Assign { to: target.place, value: fitting.code, put: fitting.put }))
     }
 
-    /// A variable that may be written.
+    /// A variable that is writable.
     pub(super) fn target(&mut self, expression: &Expression) -> Option<Located> {
         let located = self.place(expression)?;
         self.checker.written(&located, expression.span)?;

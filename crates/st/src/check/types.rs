@@ -1,4 +1,4 @@
-//! The names of types, and what they stand for.
+//! The names of types, and their meanings.
 
 use std::sync::Arc;
 
@@ -12,16 +12,17 @@ use crate::syntax::ast::{
 };
 use crate::types::*;
 
-/// Most slots of all types together.
+/// Maximum number of slots of all types together.
 const TYPE_SLOTS_MAX: usize = 8 * SLOTS_MAX as usize;
 
-/// How deep types may lie in each other.
+/// Maximum nesting depth of types.
 const TYPE_DEPTH_MAX: u32 = 32;
 
-/// Most members of a structure, most values of an enumeration, as an NJ/NX-series CPU Unit; most variables of a block.
+/// Maximum number of members of a structure and of values of an enumeration, as in an NJ/NX-series CPU Unit;
+/// maximum number of variables of a block.
 const NAMES_MAX: usize = 2048;
 
-/// Types of the standard that the CPU Unit does not have, and what takes their place. Their names are free.
+/// Types of the standard that the CPU Unit does not have, and their replacements. Their names are free.
 const FOREIGN_TYPES: &[(&str, &str)] = &[
     ("LTIME", "TIME"),
     ("LDATE", "DATE"),
@@ -34,11 +35,11 @@ const FOREIGN_TYPES: &[(&str, &str)] = &[
     ("WSTRING", "STRING"),
 ];
 
-/// Most dimensions of an array.
+/// Maximum number of dimensions of an array.
 const DIMENSIONS_MAX: usize = 3;
 
 impl<'t> Checker<'t> {
-    /// Enters the names of a file's types and program organization units.
+    /// Adds the names of a file's types and program organization units.
     pub(super) fn enter(&mut self, file: &'t File, origin: Origin) {
         for declaration in &file.types {
             self.enter_name(&declaration.name, Named::Type(declaration));
@@ -53,7 +54,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// Resolves the enumerations of a file: their values are named without their types.
+    /// Resolves the enumerations of a file: their values are used without their types.
     pub(super) fn resolve_enumerations(&mut self, file: &'t File) {
         let enumerations = file.types.iter().filter(|declaration| is_enumeration(declaration));
         for declaration in enumerations {
@@ -61,7 +62,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// Resolves the types of a file, those that nobody uses too.
+    /// Resolves the types of a file, including unused ones.
     pub(super) fn resolve_types(&mut self, file: &'t File) {
         for declaration in &file.types {
             if !self.is_given_up() {
@@ -70,7 +71,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// Whether a type is one of function block instances, as far as can be told before it is resolved.
+    /// Whether a type consists of function block instances, as far as this is known before it is resolved.
     pub(super) fn is_of_blocks(&self, kind: &TypeKind, level: u32) -> bool {
         match kind {
             _ if level > TYPE_DEPTH_MAX => false,
@@ -101,7 +102,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// The type behind a type name; none if it is wrong, which has been told.
+    /// The type for a type name; none if it is wrong, which has been reported.
     pub(super) fn shape(&mut self, type_name: &TypeName, scope: &Scope) -> Option<Shape> {
         match &type_name.kind {
             TypeKind::Elementary(elementary) => Some(Shape::zero(Type::Elementary(*elementary))),
@@ -162,7 +163,7 @@ impl<'t> Checker<'t> {
         self.limit_dimensions(bounds.len(), span)?;
         let element = self.shape(element, scope)?;
         let mut bound_list = Vec::new();
-        // A structure without members takes no slots, and its arrays are limited all the same.
+        // A structure without members takes no slots, but its arrays are limited nevertheless.
         let mut slots = i128::from(element.type_.slots().max(1));
         for (lower, upper) in bounds {
             let span = lower.span.to(upper.span);
@@ -187,7 +188,7 @@ impl<'t> Checker<'t> {
         Some(Shape { type_: Type::Array(Arc::new(array)), initial })
     }
 
-    /// The type of this name.
+    /// The type with this name.
     pub(super) fn named_shape(&mut self, name: &str, span: Span) -> Option<Shape> {
         let Some(named) = self.named.get_mut(&key(name)) else {
             return self.unknown_type(name, span);
@@ -226,7 +227,7 @@ impl<'t> Checker<'t> {
         shape
     }
 
-    /// Refuses types that are too large all together: of each, an initial value is kept.
+    /// Refuses types that are too large together: an initial value of each is stored.
     fn limit_types(&mut self, shape: Shape, span: Span) -> Option<Shape> {
         self.type_slots += shape.initial.len();
         if self.type_slots <= TYPE_SLOTS_MAX {
@@ -292,7 +293,7 @@ impl<'t> Checker<'t> {
             members.push(Member { name, type_: shape.type_, offset, role: Role::Internal, retain: false });
         }
         if initial.is_empty() {
-            // A structure without members is somewhere all the same, and many of them fill a memory.
+            // A structure without members has a position nevertheless, and many of them fill a memory.
             initial.push(0);
         }
         let structure = Structure { name: name.text.clone(), members, slots: initial.len() as u32 };
@@ -306,7 +307,7 @@ impl<'t> Checker<'t> {
         self.refuse(Problem::new(span, format!("this type has {count} {what}, {NAMES_MAX} are the most")))
     }
 
-    /// Refuses what no memory would hold.
+    /// Refuses types that exceed any memory.
     pub(super) fn limit(&mut self, slots: usize, span: Span) -> Option<()> {
         if slots <= SLOTS_MAX as usize {
             return Some(());

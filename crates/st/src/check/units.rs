@@ -7,7 +7,7 @@ use crate::problem::{Problem, Span};
 use crate::syntax::ast::{File, Pou, PouKind};
 
 impl<'t> Checker<'t> {
-    /// Checks all of them: those that nobody calls too.
+    /// Checks all of them, including those that are never called.
     pub(super) fn units(&mut self, file: &'t File) {
         self.programs(file);
         for pou in &file.units {
@@ -20,13 +20,13 @@ impl<'t> Checker<'t> {
                 PouKind::Function => self.uncalled_function(pou),
             }
         }
-        // A body may be the first to name a block or a function, which has a body too.
+        // A body may be the first to use a block or a function, which also has a body.
         while let Some(pending) = self.pending.pop() {
             self.body(&pending);
         }
     }
 
-    /// Refuses a file that is right and has nothing to run, or nothing at all.
+    /// Refuses a file that is correct but has no PROGRAM, or is empty.
     pub(super) fn refuse_lack(&mut self, file: &File, purpose: Purpose) {
         let has_program = file.units.iter().any(|pou| pou.kind == PouKind::Program);
         let is_empty = file.units.is_empty() && file.types.is_empty() && file.globals.is_empty();
@@ -41,7 +41,7 @@ impl<'t> Checker<'t> {
         }
     }
 
-    /// Whether the unit could be entered under its name.
+    /// Whether the name of the unit could be added.
     fn is_named(&self, pou: &Pou) -> bool {
         self.named.contains_key(&super::scope::key(&pou.name.text))
     }

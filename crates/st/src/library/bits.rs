@@ -54,7 +54,7 @@ fn shift_right(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     Ok(call.bits(0).checked_shr(by).unwrap_or(0))
 }
 
-/// By how many bits less than a whole turn.
+/// By this number of bits less than a full rotation.
 fn turn(call: &Call<'_, '_>) -> Result<u32, Fault> {
     Ok(call.number(1, 0, u32::MAX.into())? % call.elementary.bits())
 }

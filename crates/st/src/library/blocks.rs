@@ -2,7 +2,7 @@
 
 use super::prelude::COUNTER_TYPES;
 
-/// Block, another name of a pin, the pin. Case does not count, so that `CLK` needs no row.
+/// Block, another name of a pin, the pin. Upper and lower case are equal, so `CLK` needs no row.
 const PIN_ALIASES: &[(&str, &str, &str)] = &[
     ("RS", "S", "Set"),
     ("RS", "R1", "Reset1"),
@@ -14,7 +14,7 @@ const PIN_ALIASES: &[(&str, &str, &str)] = &[
     ("CTUD", "LD", "Load"),
 ];
 
-/// The pin of a block of the library that the standard or the maker calls `name`, where the prelude calls it another.
+/// The pin of a library block that the standard or the manufacturer calls `name`, if the prelude uses another name.
 pub(crate) fn block_pin(block: &str, name: &str) -> Option<&'static str> {
     // Counters of all types have the same pins.
     let counter = COUNTER_TYPES.iter().find_map(|(ending, _)| without_ending(block, ending));

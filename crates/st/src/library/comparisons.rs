@@ -1,4 +1,4 @@
-//! Comparisons as functions: IEC 61131-3, table 33, and those of texts that the maker has beside the operators.
+//! Comparisons as functions: IEC 61131-3, table 33, and the manufacturer's additional ones for texts.
 
 use super::table::{EVERY, pin, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};
@@ -26,7 +26,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("NEascii", TEXTS, BOOL, "texts: In1 <> In2", |call| chain_of_texts(call, Binary::NotEqual)),
 ];
 
-/// Whether the operator holds between each argument and the next.
+/// Whether the comparison is true between each argument and the next.
 fn chain(call: &mut Call<'_, '_>, operator: Binary) -> Result<u64, Fault> {
     for pair in call.arguments.windows(2) {
         if binary(operator, call.elementary, pair[0], pair[1])? == 0 {

@@ -13,16 +13,16 @@ pub(crate) enum Of {
     Text,
 }
 
-/// What a name says that it converts.
+/// The conversion that a name describes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Conversion {
-    /// None: from whatever the argument is.
+    /// None: from the type of the argument.
     pub(crate) from: Option<Of>,
     pub(crate) to: Of,
 }
 
 impl Conversion {
-    /// The conversion of this name, in whatever case.
+    /// The conversion with this name, in upper or lower case.
     pub(crate) fn named(name: &str) -> Option<Self> {
         let name = name.to_ascii_uppercase();
         if let Some(to) = name.strip_prefix("TO_") {
@@ -51,7 +51,7 @@ pub(crate) static TO_TEXT: Function = row(
     to_text,
 );
 
-/// A text as a value; the type that it becomes is the type of the call.
+/// A text as a value; its type is the type of the call.
 pub(crate) static FROM_TEXT: Function =
     row("_FromText", &[pin("In", Takes::Text)], ResultType::Generic, "a text as a value", from_text);
 
@@ -60,7 +60,7 @@ fn to_text(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     call.give_text(text.as_bytes())
 }
 
-// The text is large: it must not lie in the frames of the evaluation around it.
+// The text is large: it must not be in the stack frames of the surrounding evaluation.
 #[inline(never)]
 fn from_text(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let text = call.text(0)?;

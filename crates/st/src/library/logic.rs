@@ -1,4 +1,4 @@
-//! Logic as functions: IEC 61131-3, table 30. Unlike an operator, a function has all its arguments evaluated.
+//! Logic as functions: IEC 61131-3, table 30. Unlike an operator, a function evaluates all its arguments.
 
 use super::table::{LOGICAL, pin, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};

@@ -12,7 +12,7 @@ const COPY: &[Pin] = &[
 ];
 const DONE: ResultType = ResultType::Fixed(Elementary::Bool);
 
-/// How many slots are copied for one of the budget.
+/// Number of slots that are copied for one step of the budget.
 const SLOTS_FOR_ONE: u64 = 16;
 
 #[rustfmt::skip]
@@ -26,7 +26,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         "the number of elements of an array, beginning at the given one", |call| Ok(Elements::of(call, 0).count.min(u16::MAX.into()).into())),
 ];
 
-/// What the three arguments of such a pin say.
+/// The meaning of the three arguments of such a pin.
 #[derive(Clone, Copy)]
 struct Elements {
     slot: u32,
@@ -36,12 +36,12 @@ struct Elements {
 
 impl Elements {
     fn of(call: &Call<'_, '_>, place: usize) -> Self {
-        // The machine made them of 32 bits.
+        // The machine converted them from 32 bits.
         let [slot, count, slots_each] = [0, 1, 2].map(|offset| call.bits(place + offset) as u32);
         Self { slot, count, slots_each }
     }
 
-    /// As many as were asked for, if there are so many.
+    /// The requested number, if there are that many.
     fn asked(self, call: &Call<'_, '_>, place: usize) -> Result<u32, Fault> {
         let asked = call.number(place, 0, u32::MAX.into())?;
         if asked > self.count {
@@ -64,7 +64,7 @@ fn fill(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (from, to) = (Elements::of(call, 0), Elements::of(call, 3));
     let size = to.asked(call, 6)?;
     call.machine.spend(u64::from(size * to.slots_each) / SLOTS_FOR_ONE)?;
-    // The value may itself be one of the elements: it is the same before and after it is copied to itself.
+    // The value may be one of the elements: copying it to itself does not change it.
     for element in 0..size {
         call.machine.memory.copy(from.slot, to.slot + element * to.slots_each, to.slots_each);
     }

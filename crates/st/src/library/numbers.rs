@@ -1,8 +1,8 @@
 //! Numbers: arithmetic, roots, logarithms, angles, rounding.
 //!
-//! REAL is computed as LREAL and rounded once. Outside their range the functions give NaN or an infinity, as IEEE 754
-//! says; no fault. What they give does not depend on the machine: the functions that IEEE 754 leaves open come from
-//! `libm`, not from the system.
+//! REAL is calculated as LREAL and rounded once. Outside their range the functions return NaN or an infinity,
+//! as in IEEE 754, without a fault. Their results do not depend on the machine: the functions that IEEE 754
+//! does not define come from `libm`, not from the system.
 
 use super::table::{INTEGERS, MAGNITUDES, NUMBERS, REALS, pin, pin_or, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};

@@ -1,7 +1,7 @@
 //! NX objects, for the blocks NX_ReadObj and NX_WriteObj of the prelude.
 //!
-//! These functions answer by an LWORD: 0 while the call is under way, 1 when it is done, and a fault with the highest
-//! bit, the error ID in bits 32 to 47, and the extended error ID below.
+//! These functions return an LWORD: 0 while the call is in progress, 1 when it is done, and a fault with the
+//! highest bit set, the error ID in bits 32 to 47, and the extended error ID below.
 
 use core::task::Poll;
 
@@ -19,7 +19,7 @@ const STATUS: ResultType = ResultType::Fixed(Elementary::Lword);
 const UNIT: Pin = pin("Unit", Takes::Fixed(Elementary::Uint));
 const INDEX: Pin = pin("Index", Takes::Fixed(Elementary::Uint));
 const SUB: Pin = pin("Sub", Takes::Fixed(Elementary::Usint));
-/// Where the number of the call is put: an ULINT.
+/// The variable for the number of the call: an ULINT.
 const NUMBER: Pin = pin("Number", Takes::Variable(&[Class::Unsigned]));
 const MADE: Pin = pin("Number", Takes::Fixed(Elementary::Ulint));
 const DATA: Pin = pin("Data", Takes::Reference);
@@ -40,7 +40,7 @@ const PENDING: u64 = 0;
 const DONE: u64 = 1;
 const FAULT: u64 = 1 << 63;
 
-/// The object and the variable are not equally long: Incorrect NX Message Length.
+/// The object and the variable have different lengths: Incorrect NX Message Length.
 const WRONG_LENGTH: NxFault = NxFault::of(NxFault::INCORRECT_LENGTH);
 
 type Octets = ArrayVec<u8, NX_OBJECT_BYTES_MAX>;
@@ -105,14 +105,14 @@ fn write_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     })
 }
 
-/// The slot and the layout of the variable behind the reference at `place`.
+/// The slot and the layout of the variable referred to by the reference at `place`.
 fn referred<'m>(call: &Call<'_, 'm>, place: usize) -> Option<(u32, &'m Layout)> {
     let layouts = call.machine.layouts;
     let number = usize::try_from(call.bits(place + 1)).ok()?;
     Some((call.slot(place), layouts.get(number)?))
 }
 
-/// The variable as it lies in an NX object, little endian; none if no object is so long.
+/// The variable in the form of an NX object, little endian; none if it is longer than any object.
 fn packed(call: &Call<'_, '_>, place: usize) -> Option<Octets> {
     let (slot, layout) = referred(call, place)?;
     let mut octets = Octets::new();
@@ -123,7 +123,7 @@ fn packed(call: &Call<'_, '_>, place: usize) -> Option<Octets> {
     Some(octets)
 }
 
-/// Puts the bytes of an NX object into the variable; it stays as it is if it is not as long.
+/// Stores the bytes of an NX object in the variable; the variable is unchanged if its length differs.
 fn unpack(call: &mut Call<'_, '_>, place: usize, mut octets: &[u8]) -> bool {
     let Some((slot, layout)) = referred(call, place) else { return false };
     let size_bytes: usize = layout.values.iter().map(|(_, elementary)| elementary.size_bytes()).sum();

@@ -10,8 +10,8 @@ use crate::syntax::parse;
 const BLOCKS: &str = include_str!("../prelude.st");
 const COUNTERS: &str = include_str!("../counters.st");
 
-/// The types of PV and CV that counters are there for, and how the names of these counters end (W502, counter
-/// instructions).
+/// The types of PV and CV for which there are counters, and the endings of the names of these counters (W502,
+/// counter instructions).
 pub(super) const COUNTER_TYPES: [(&str, Elementary); 5] = [
     ("", Elementary::Int),
     ("_DINT", Elementary::Dint),

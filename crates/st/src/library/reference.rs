@@ -1,4 +1,4 @@
-//! The library as the documents list it.
+//! The library in the form of the documents.
 
 use super::blocks::BLOCKS;
 use super::table::GROUPS;
@@ -8,19 +8,20 @@ use crate::elementary::{Class, Elementary};
 /// A function or a function block of the library.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Entry {
-    /// Under which heading it stands, such as `bit strings` or `function blocks`.
+    /// Its heading, such as `bit strings` or `function blocks`.
     pub group: &'static str,
     /// Its name.
     pub name: &'static str,
-    /// Its inputs and in-outs in their order, each with its other name and what it takes: `In: BYTE … LWORD, Num (N): integer`.
+    /// Its inputs and in-outs in their order, each with its other name and its types: `In: BYTE … LWORD, Num
+    /// (N): integer`.
     pub inputs: String,
     /// The type of its result, or its outputs.
     pub outputs: String,
-    /// What it does, in a line.
+    /// Its description, one line.
     pub does: &'static str,
 }
 
-/// All functions and function blocks that a program may call; conversions by name (`INT_TO_REAL`) are not among them.
+/// All functions and function blocks that a program may call; conversions by name (`INT_TO_REAL`) are not included.
 #[must_use]
 pub fn reference() -> Vec<Entry> {
     let functions =

@@ -37,7 +37,7 @@ fn multiplex(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     Ok(call.bits(1 + number as usize))
 }
 
-/// The argument that the operator puts before all others.
+/// The argument that is first in the order of the operator.
 fn best(call: &mut Call<'_, '_>, operator: Binary) -> Result<u64, Fault> {
     let mut best = call.bits(0);
     for next in &call.arguments[1..] {

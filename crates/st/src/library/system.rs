@@ -13,7 +13,7 @@ const EVENT: &[Pin] = &[
 ];
 const DONE: ResultType = ResultType::Fixed(Elementary::Bool);
 
-/// The last code of an error; from the next one on to the last it is information.
+/// The last code of an error; the codes after it are information.
 const LAST_ERROR: i64 = 40_000;
 const LAST_INFORMATION: i64 = 60_000;
 

@@ -1,11 +1,11 @@
-//! All functions, group after group, and how their rows are written.
+//! All functions, group by group, and the notation of their rows.
 
 use super::{Call, Function, Pin, ResultType, Takes};
 use super::{bits, comparisons, logic, memory, numbers, nx, selection, system, texts, time};
 use crate::elementary::Class;
 use crate::fault::Fault;
 
-/// Every group with the name that the documents give it.
+/// Every group with its name in the documents.
 pub(super) const GROUPS: [(&str, &[Function]); 10] = [
     ("numbers", numbers::FUNCTIONS),
     ("logic", logic::FUNCTIONS),
@@ -19,7 +19,7 @@ pub(super) const GROUPS: [(&str, &[Function]); 10] = [
     ("NX objects", nx::FUNCTIONS),
 ];
 
-/// Group after group.
+/// Group by group.
 pub(super) fn all() -> impl Iterator<Item = &'static Function> {
     GROUPS.into_iter().flat_map(|(_, functions)| functions)
 }
@@ -42,7 +42,7 @@ pub(super) const EVERY: &[Class] =
 
 type Run = fn(&mut Call<'_, '_>) -> Result<u64, Fault>;
 
-/// A function with these pins and no more.
+/// A function with exactly these pins.
 pub(super) const fn row(
     name: &'static str,
     pins: &'static [Pin],
@@ -53,7 +53,7 @@ pub(super) const fn row(
     Function { name, pins, variadic: false, result, does, run }
 }
 
-/// A function that takes more values of the type of its last pin.
+/// A function that accepts more values of the type of its last pin.
 pub(super) const fn row_of_many(
     name: &'static str,
     pins: &'static [Pin],
@@ -64,17 +64,17 @@ pub(super) const fn row_of_many(
     Function { name, pins, variadic: true, result, does, run }
 }
 
-/// A pin that both the standard and the maker call so.
+/// A pin with the same name in the standard and in the manufacturer's manual.
 pub(super) const fn pin(name: &'static str, takes: Takes) -> Pin {
     Pin { name, alias: "", takes, default: None }
 }
 
-/// A pin that the maker calls `name` and the standard `alias`.
+/// A pin that the manufacturer calls `name` and the standard calls `alias`.
 pub(super) const fn pin_or(name: &'static str, alias: &'static str, takes: Takes) -> Pin {
     Pin { name, alias, takes, default: None }
 }
 
-/// A pin that a call may leave out.
+/// A pin that a call may omit.
 pub(super) const fn optional(name: &'static str, takes: Takes, default: u64) -> Pin {
     Pin { name, alias: "", takes, default: Some(default) }
 }

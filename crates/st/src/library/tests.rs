@@ -1,4 +1,4 @@
-//! The table, and what the functions and blocks of the library do.
+//! The table, and the behaviour of the functions and blocks of the library.
 
 mod arguments;
 mod bench;

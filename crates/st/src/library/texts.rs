@@ -1,8 +1,8 @@
-//! Texts: IEC 61131-3, table 34, and a few that the maker has. A character is one byte; the first has position 1.
+//! Texts: IEC 61131-3, table 34, and a few of the manufacturer. A character is one byte; the first has position 1.
 //!
-//! Characters that a text does not have are none: a length beyond the end reaches to the end, a position behind it finds
-//! nothing. A negative number is a fault, and so is position 0, but for INSERT, where it is the place before the first
-//! character. A result that no STRING holds is a fault.
+//! Characters beyond the end of a text are ignored: a length beyond the end is cut at the end, a position after
+//! the end finds nothing. A negative number is a fault, and so is position 0, except for INSERT, where it is
+//! the position before the first character. A result that is longer than any STRING is a fault.
 
 use super::table::{INTEGERS, pin, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};
@@ -42,14 +42,14 @@ pub(super) const FUNCTIONS: &[Function] = &[
         |call| give(call, |call| collect(&[call.text(0)?.trim_ascii_end()]))),
 ];
 
-// The texts of one function are large: they lie in its own frame only while it runs.
+// The texts of one function are large: they are in its own stack frame only while it runs.
 #[inline(never)]
 fn give(call: &mut Call<'_, '_>, text: fn(&mut Call<'_, '_>) -> Result<Text, Fault>) -> Result<u64, Fault> {
     let text = text(call)?;
     call.give_text(&text)
 }
 
-/// Pieces one behind the other.
+/// Joins pieces one after the other.
 fn collect(pieces: &[&[u8]]) -> Result<Text, Fault> {
     let mut text = Text::new();
     for piece in pieces {
@@ -67,14 +67,14 @@ fn count(call: &Call<'_, '_>, place: usize, length: usize) -> Result<usize, Faul
     Ok(length.min(number as usize))
 }
 
-/// How many characters stand before the position.
+/// Number of characters before the position.
 fn before(call: &Call<'_, '_>, place: usize, length: usize) -> Result<usize, Fault> {
     let position = call.number(place, 1, STRING_CHARACTERS_MAX as i64)?;
     Ok(length.min(position as usize - 1))
 }
 
-/// The text around the piece of which the arguments from `place` on tell the length and the position: what stands
-/// before it, the piece, and what stands behind it.
+/// The text around the piece whose length and position are the arguments from `place` on: the part before it,
+/// the piece, and the part after it.
 fn parts<'t>(call: &Call<'_, '_>, place: usize, text: &'t [u8]) -> Result<[&'t [u8]; 3], Fault> {
     let (before, rest) = text.split_at(before(call, place + 1, text.len())?);
     let (piece, behind) = rest.split_at(count(call, place, rest.len())?);

@@ -1,4 +1,4 @@
-//! Durations, and the present moment for the blocks.
+//! Durations, and the present time for the blocks.
 
 use super::table::{pin, row};
 use super::{Call, Function, Pin, ResultType, Takes};

@@ -9,8 +9,8 @@
 //! | TIME | `T#1s500ms`, `T#-1d2h`, `T#0s` |
 //! | DATE, TIME_OF_DAY, DATE_AND_TIME | `D#2024-02-29`, `TOD#06:30:00.5`, `DT#2024-02-29-06:30:00` |
 //!
-//! A text in whatever case and with blanks around is read back; one that is no such value, or a value beyond the limits
-//! of the type, is none.
+//! When a text is read back, upper and lower case are equal and blanks around it are permitted; a text that is
+//! not such a value, or is beyond the limits of the type, gives none.
 
 use core::fmt::Write;
 
@@ -20,19 +20,19 @@ use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::value::{TIME_UNITS, integer, range};
 
-/// Most characters of such a text.
+/// Maximum number of characters of such a text.
 pub(super) const TEXT_CHARACTERS_MAX: usize = 40;
 
 pub(super) type ValueText = ArrayString<TEXT_CHARACTERS_MAX>;
 
-/// A value as the text that its conversion to STRING gives.
+/// A value as the text of its conversion to STRING.
 #[must_use]
 pub fn text_of(elementary: Elementary, bits: u64) -> String {
     shown(elementary, bits).as_str().to_owned()
 }
 
-/// The value that a person writes: as its conversion from STRING takes it, but a bit string in decimal, or in hexadecimal
-/// behind `16#`.
+/// The value that a user writes: like its conversion from STRING, but a bit string is decimal, or hexadecimal
+/// after `16#`.
 #[must_use]
 pub fn value_of(elementary: Elementary, text: &str) -> Option<u64> {
     let text = text.trim_ascii();
@@ -75,7 +75,7 @@ fn write_duration(text: &mut ValueText, duration_ns: i64) -> core::fmt::Result {
     Ok(())
 }
 
-/// The value that a text stands for.
+/// The value of a text.
 pub(super) fn read(elementary: Elementary, text: &str) -> Option<u64> {
     match elementary.class() {
         Class::Bool => truth(text),
@@ -93,7 +93,7 @@ fn truth(text: &str) -> Option<u64> {
 }
 
 fn bit_string(elementary: Elementary, text: &str) -> Option<u64> {
-    // A sign is none of its digits, though the parser of Rust would take one.
+    // A sign is not a digit, although Rust's parser would accept one.
     if !text.bytes().all(|octet| octet.is_ascii_hexdigit()) {
         return None;
     }

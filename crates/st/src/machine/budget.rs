@@ -1,12 +1,12 @@
-//! The statement budget of a scan, handed out in shares.
+//! The statement budget of a scan, assigned in shares.
 
-/// How many statements run before the host is asked whether the scan is to end: about a millisecond.
+/// Number of statements before the host is asked whether the scan must end: about a millisecond.
 const SHARE: u64 = 1 << 16;
 
-/// How many statements a scan may still run.
+/// Number of statements that a scan may still execute.
 ///
-/// Statements are taken from a share, which costs one subtraction each. Only when a share is used up is the rest
-/// looked at.
+/// Statements are taken from a share, which costs one subtraction each. The rest is checked only when a share
+/// is used up.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
     share: u64,
@@ -36,8 +36,8 @@ impl Budget {
         }
     }
 
-    /// Takes statements that the present share does not cover, and begins the next share. False if the whole budget
-    /// does not cover them: then nothing is left of it.
+    /// Takes statements that exceed the present share, and begins the next share. False if they exceed the
+    /// whole budget: then nothing is left of it.
     pub(crate) const fn refill(&mut self, statements: u64) -> bool {
         match self.left().checked_sub(statements) {
             Some(left) => {
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     proptest! {
-        /// Against one number.
+        /// Compared with a single number.
         #[test]
         fn shares_add_up_to_the_budget(whole in 0..5 * SHARE, takes in prop::collection::vec(0..2 * SHARE, 0..40)) {
             let (mut budget, mut model) = (Budget::new(whole), whole);

@@ -1,4 +1,4 @@
-//! Where a variable lies while a program runs.
+//! The positions of variables while a program runs.
 
 use super::{Machine, slot_of};
 use crate::code::{Base, Dimension, Element, Extent, Place, Slot};
@@ -7,7 +7,7 @@ use crate::types::Bound;
 use crate::value::integer;
 
 impl Machine<'_> {
-    /// The slot where a variable begins.
+    /// The slot at which a variable begins.
     pub(crate) fn slot(&mut self, place: &Place) -> Result<Slot, Fault> {
         let mut slot = self.base(place.base) + place.offset;
         for element in &place.indices {
@@ -16,8 +16,8 @@ impl Machine<'_> {
         Ok(slot)
     }
 
-    /// The slot where an element begins, and how many elements of its array there are from it on; of a variable that
-    /// is no element there is one.
+    /// The slot at which an element begins, and the number of elements of its array from it on; one for a
+    /// variable that is not an element.
     pub(super) fn elements(&mut self, place: &Place) -> Result<(Slot, u32), Fault> {
         let mut slot = self.base(place.base) + place.offset;
         let mut elements = 1;
@@ -69,7 +69,7 @@ impl Machine<'_> {
         Ok(flat)
     }
 
-    /// A bound of the array of any length to which a reference leads.
+    /// A bound of the array of any length that a reference refers to.
     fn open_bound(&self, base: Base, dimension: u32) -> Bound {
         let reference = match base {
             Base::ReferenceInMemory(slot) => slot,
@@ -88,7 +88,7 @@ impl Machine<'_> {
         let index = integer(dimension.elementary, self.value(&dimension.index)?);
         let Bound { lower, upper } = bound;
         if bound.holds(index) {
-            // Bounds lie as far apart as slots count at most.
+            // The distance of bounds is at most the number of slots.
             return Ok((index - i128::from(lower)) as u32);
         }
         self.at = dimension.span;

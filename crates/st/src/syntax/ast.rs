@@ -1,9 +1,9 @@
-//! A program as it is written: names are not resolved, types not known.
+//! A program as written: names are not resolved, types are not known.
 
 use crate::elementary::Elementary;
 use crate::problem::Span;
 
-/// A name as it is written; names are the same in whatever case (IEC 61131-3, 6.1.2).
+/// A name as written; upper and lower case are equal (IEC 61131-3, 6.1.2).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Name {
     pub(crate) text: String,
@@ -46,7 +46,7 @@ pub(crate) struct ProgramInstance {
 }
 
 impl File {
-    /// Takes over what another file of the same program has.
+    /// Adds the contents of another file of the same program.
     pub(crate) fn append(&mut self, other: Self) {
         self.types.extend(other.types);
         self.units.extend(other.units);
@@ -55,20 +55,20 @@ impl File {
     }
 }
 
-/// A program organization unit. A file that begins with statements or VAR sections outside of all of them is a
-/// PROGRAM without a name: so the manual prints its examples.
+/// A program organization unit. A file that begins with statements or VAR sections outside all units is a
+/// PROGRAM without a name: the manual prints its examples in this form.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Pou {
     pub(crate) kind: PouKind,
     pub(crate) name: Name,
-    /// Of a FUNCTION that has one.
+    /// For a FUNCTION that has one.
     pub(crate) result: Option<TypeName>,
     pub(crate) sections: Vec<VarSection>,
     pub(crate) body: Vec<Statement>,
 }
 
 impl Pou {
-    /// Whether it is made of what stands in a file outside of all others.
+    /// Whether it consists of the text in a file outside all other units.
     pub(crate) fn is_unnamed_program(&self) -> bool {
         self.kind == PouKind::Program && self.name.text.is_empty()
     }
@@ -106,13 +106,13 @@ pub(crate) enum VarKind {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct VarDeclaration {
     pub(crate) name: Name,
-    /// The path behind AT, without the space around it.
+    /// The path after AT, without the space around it.
     pub(crate) at: Option<Name>,
     pub(crate) type_name: TypeName,
     pub(crate) initial: Option<Initial>,
 }
 
-/// A type where it is used.
+/// A type in use.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TypeName {
     pub(crate) kind: TypeKind,
@@ -149,10 +149,10 @@ pub(crate) struct TypeDeclaration {
 pub(crate) enum TypeDefinition {
     /// STRUCT members END_STRUCT; members have no AT.
     Struct(Vec<VarDeclaration>),
-    /// (red, green := 5, blue) := green, optionally with an elementary base type before or behind, which is read and
-    /// left aside when it is an integer.
+    /// (red, green := 5, blue) := green, optionally with an elementary base type before or after, which is read
+    /// and ignored if it is an integer.
     Enum { values: Vec<(Name, Option<Expression>)>, initial: Option<Name> },
-    /// Another name for a type, with an initial value of its own.
+    /// Another name for a type, with a separate initial value.
     Alias { type_name: TypeName, initial: Option<Initial> },
 }
 
@@ -172,7 +172,7 @@ pub(crate) enum Initial {
     },
 }
 
-/// An element of an array's initial value: how often, and what.
+/// An element of an array's initial value: the repeat count, and the value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct InitialElement {
     /// `3(0)`: a constant expression.
@@ -188,7 +188,7 @@ pub(crate) struct Statement {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum StatementKind {
-    /// `;` alone, once for several in a row; also a statement that could not be read, which has been told.
+    /// `;` alone, once for several in a row; also a statement that could not be read, which has been reported.
     Empty,
     Assign {
         to: Expression,
@@ -275,7 +275,7 @@ pub(crate) enum ExpressionKind {
     Call(Call),
 }
 
-/// A call; what is called is a name or, for function blocks, a member or element.
+/// A call; the called expression is a name or, for function blocks, a member or element.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Call {
     pub(crate) callee: Box<Expression>,
@@ -289,7 +289,7 @@ pub(crate) enum Argument {
     Positional(Expression),
     /// `f(In := x)`.
     Input { name: Name, value: Expression },
-    /// `f(Q => x)`, `f(NOT Q => x)`; nothing behind the arrow leaves the output aside.
+    /// `f(Q => x)`, `f(NOT Q => x)`; without a target after the arrow the output is ignored.
     Output { name: Name, negated: bool, to: Option<Expression> },
 }
 
@@ -324,7 +324,7 @@ pub(crate) enum BinaryOperator {
 pub(crate) enum Literal {
     /// `TRUE`, `FALSE`.
     Bool(bool),
-    /// `15`, `16#FF`, `1_000`: fits every integer and bit string type that holds it.
+    /// `15`, `16#FF`, `1_000`: matches every integer and bit string type that can hold it.
     Integer(u64),
     /// `1.5`, `1.0E-3`: REAL or LREAL.
     Real(f64),
@@ -338,8 +338,8 @@ pub(crate) enum Literal {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TypedValue {
-    /// Of an integer, a bit string or a BOOL, with its sign: it fits the type (the parser has looked).
+    /// For an integer, a bit string or a BOOL, with its sign: it fits the type (the parser has checked).
     Integer(i128),
-    /// Of REAL or LREAL.
+    /// For REAL or LREAL.
     Real(f64),
 }

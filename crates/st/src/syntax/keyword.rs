@@ -1,4 +1,4 @@
-//! The words of the language: reserved, and the same in whatever case.
+//! The words of the language: reserved, in upper or lower case.
 
 /// A reserved word. IEC 61131-3, 6.1.3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,24 +116,24 @@ const ROWS: [(Keyword, &str); 52] = [
 const _: () = {
     let mut place = 0;
     while place < ROWS.len() {
-        // The rows stand in the order of the variants.
+        // The rows are in the order of the variants.
         assert!(ROWS[place].0 as usize == place);
         place += 1;
     }
 };
 
 impl Keyword {
-    /// The word, in capitals.
+    /// The word, in upper case.
     pub(crate) const fn word(self) -> &'static str {
         ROWS[self as usize].1
     }
 
-    /// The keyword that `text` is, in whatever case.
+    /// The keyword that equals `text`, in upper or lower case.
     pub(crate) fn of(text: &str) -> Option<Self> {
         ROWS.iter().find(|(_, word)| word.eq_ignore_ascii_case(text)).map(|(keyword, _)| *keyword)
     }
 
-    /// What closes a block that this word opens.
+    /// The word that closes a block opened by this word.
     pub(crate) const fn closer(self) -> Option<Self> {
         Some(match self {
             Self::Program => Self::EndProgram,
@@ -195,7 +195,7 @@ impl Keyword {
         )
     }
 
-    /// Whether nothing of a program organization unit's statements, or of a section, goes on behind it.
+    /// Whether it ends the statements of a program organization unit, or a section.
     pub(crate) const fn ends_body(self) -> bool {
         self.opens_variables()
             || matches!(

@@ -1,4 +1,4 @@
-//! From text to tokens: comments and pragmas are gone, and spellings of other languages are told.
+//! From text to tokens: comments and pragmas are removed, and notations of other languages are reported.
 
 mod skipped;
 
@@ -10,16 +10,17 @@ use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 
 type Cursor<'source> = logos::Lexer<'source, Token>;
 
-/// What a source is cut into.
+/// The tokens of a source.
 pub(crate) struct Lexed {
-    /// The last is [`Token::End`], and no other is.
+    /// The last is [`Token::End`], which occurs only there.
     pub(crate) lexemes: Vec<Lexeme>,
-    /// Where pragmas were skipped.
+    /// The positions of skipped pragmas.
     pub(crate) pragmas: Vec<Span>,
     pub(crate) problems: Vec<Problem>,
 }
 
-/// Cuts `source` into tokens from byte `start` on. Behind the last problem that is told, the rest is left aside.
+/// Splits `source` into tokens from byte `start` on. After the maximum number of reported problems, the rest is
+/// ignored.
 pub(crate) fn lex(source: &str, start: usize) -> Lexed {
     let mut lexed = Lexed { lexemes: Vec::new(), pragmas: Vec::new(), problems: Vec::new() };
     let mut cursor = Token::lexer(source);
@@ -82,7 +83,7 @@ impl Lexed {
         }
     }
 
-    /// The path behind AT holds blanks and `//`: it goes up to the colon of the type, and never beyond its line.
+    /// The path after AT contains blanks and `//`: it extends to the colon of the type, and never beyond its line.
     fn path(&mut self, cursor: &mut Cursor<'_>) {
         let rest = cursor.remainder();
         let blank = rest.len() - rest.trim_start().len();
@@ -98,7 +99,7 @@ impl Lexed {
         cursor.bump(blank + whole.len());
     }
 
-    /// One problem for a run of characters that begin nothing.
+    /// One problem for a run of characters that cannot begin a token.
     fn unknown(&mut self, span: Span, text: &str) {
         let message = format!("the character `{}` has no meaning here", text.escape_debug());
         let continues = self
@@ -115,7 +116,7 @@ impl Lexed {
     }
 }
 
-/// What a token of another language means here, and how that is written.
+/// The meaning of a token of another language, and its notation here.
 fn foreign(token: Token, text: &str) -> Option<(Option<Token>, String)> {
     let (meant, help) = match token {
         Token::ForeignEqual => (Some(Token::Equal), "a comparison is written `=`"),

@@ -1,4 +1,4 @@
-//! What literals say: numbers with and without a type, durations, strings.
+//! The values of literals: numbers with and without a type, durations, strings.
 
 mod number;
 mod string;
@@ -12,16 +12,16 @@ use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 
-/// The prefixes of literals of the standard that the language does not know.
+/// The prefixes of the standard's literals that the language does not support.
 const UNSUPPORTED: [&str; 10] =
     ["LT", "LTIME", "LD", "LDATE", "LTOD", "LTIME_OF_DAY", "LDT", "LDATE_AND_TIME", "WSTRING", "WCHAR"];
 
-/// Whether `prefix` is that of a literal that the language does not know, such as LTIME.
+/// Whether `prefix` belongs to a literal that the language does not support, such as LTIME.
 pub(crate) fn is_unsupported(prefix: &str) -> bool {
     UNSUPPORTED.iter().any(|known| known.eq_ignore_ascii_case(prefix))
 }
 
-/// Whether `prefix` begins a literal, and no enumeration value.
+/// Whether `prefix` begins a literal, and not an enumeration value.
 pub(crate) fn is_literal_prefix(prefix: &str) -> bool {
     is_duration(prefix) || Elementary::named(prefix).is_some()
 }
@@ -30,7 +30,7 @@ fn is_duration(prefix: &str) -> bool {
     prefix.eq_ignore_ascii_case("T") || prefix.eq_ignore_ascii_case("TIME")
 }
 
-/// A literal `prefix#text` with a type in front. IEC 61131-3, tables 5 and 8.
+/// A literal `prefix#text` with a type before it. IEC 61131-3, tables 5 and 8.
 pub(crate) fn typed(prefix: &str, text: &str, span: Span) -> Result<Literal, Problem> {
     if is_duration(prefix) {
         return time::duration(text, span).map(Literal::Time);

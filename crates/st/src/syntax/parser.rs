@@ -1,4 +1,4 @@
-//! From tokens to the tree: a recursive descent that tells what is missing and goes on.
+//! From tokens to the tree: a recursive descent that reports missing parts and continues.
 
 mod arguments;
 mod blocks;
@@ -19,13 +19,13 @@ use super::token::{Lexeme, Token};
 use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 use blocks::Block;
 
-/// How deep expressions, statements, types and initial values may be nested in one another, all together.
+/// Maximum nesting depth of expressions, statements, types and initial values together.
 const NESTING_MAX: usize = 64;
 
-/// How many operands one expression may have, so that whoever walks its tree needs a bounded stack.
+/// Maximum number of operands of one expression, so that code that visits its tree needs only a bounded stack.
 const OPERANDS_MAX: usize = 500;
 
-/// What could not be read has been told; the caller looks for a place to go on.
+/// The part that could not be read has been reported; the caller searches for a position at which to continue.
 #[derive(Debug)]
 struct Failed;
 
@@ -34,21 +34,21 @@ type Parsed<T> = Result<T, Failed>;
 /// Reads one source.
 pub(super) struct Parser<'source> {
     source: &'source str,
-    /// Where in the source its file begins.
+    /// Start of the file in the source.
     start: usize,
     lexemes: Vec<Lexeme>,
-    /// Where pragmas stood.
+    /// The positions of pragmas.
     pragmas: Vec<Span>,
-    /// The token to read next; the last, the end of the file, is never passed.
+    /// The token to read next; the last one, the end of the file, is never passed.
     place: usize,
     problems: Vec<Problem>,
-    /// Whether the rest of the file is left aside.
+    /// Whether the rest of the file is ignored.
     stopped: bool,
-    /// How deep the reading is.
+    /// Present nesting depth.
     depth: usize,
-    /// How many operands the expression has so far.
+    /// Number of operands of the expression so far.
     operands: usize,
-    /// The blocks that are open, the innermost last.
+    /// The open blocks, the innermost last.
     blocks: Vec<Block>,
 }
 
@@ -69,7 +69,7 @@ impl<'source> Parser<'source> {
         }
     }
 
-    /// The token `ahead` places from here.
+    /// The token `ahead` positions from here.
     fn peek(&self, ahead: usize) -> Token {
         self.lexemes.get(self.place + ahead).map_or(Token::End, |lexeme| lexeme.token)
     }
@@ -82,7 +82,7 @@ impl<'source> Parser<'source> {
         self.token() == Token::Keyword(keyword)
     }
 
-    /// The keyword that stands here.
+    /// The keyword at this position.
     fn keyword(&self) -> Option<Keyword> {
         match self.token() {
             Token::Keyword(keyword) => Some(keyword),
@@ -90,12 +90,12 @@ impl<'source> Parser<'source> {
         }
     }
 
-    /// Where the token to read stands.
+    /// The position of the token to read.
     fn here(&self) -> Span {
         self.lexemes.get(self.place).map(|lexeme| lexeme.span).unwrap_or_default()
     }
 
-    /// Where the token before it stood.
+    /// The position of the token before it.
     fn previous(&self) -> Span {
         let before = self.place.checked_sub(1).and_then(|place| self.lexemes.get(place));
         before.map(|lexeme| lexeme.span).unwrap_or_default()
@@ -117,7 +117,7 @@ impl<'source> Parser<'source> {
         self.source.get(span.range()).unwrap_or_default()
     }
 
-    /// Moves on by a token.
+    /// Advances by one token.
     fn advance(&mut self) -> Span {
         let span = self.here();
         if self.token() != Token::End {
@@ -126,7 +126,7 @@ impl<'source> Parser<'source> {
         span
     }
 
-    /// Moves on when this token stands here.
+    /// Advances if this is the next token.
     fn accept(&mut self, token: Token) -> bool {
         let stands_here = self.token() == token;
         if stands_here {
@@ -139,7 +139,7 @@ impl<'source> Parser<'source> {
         self.accept(Token::Keyword(keyword))
     }
 
-    /// Tells a problem, but one only for each place: what follows from it helps nobody.
+    /// Reports a problem, but only one for each position: consequential problems help no user.
     fn tell(&mut self, problem: Problem) {
         if self.stopped {
             return;
@@ -153,25 +153,25 @@ impl<'source> Parser<'source> {
         }
     }
 
-    /// Leaves the rest of the file aside.
+    /// Ignores the rest of the file.
     fn stop(&mut self) {
         self.stopped = true;
         self.place = self.lexemes.len().saturating_sub(1);
     }
 
-    /// Tells a problem and fails.
+    /// Reports a problem and fails.
     fn fail<T>(&mut self, problem: Problem) -> Parsed<T> {
         self.tell(problem);
         Err(Failed)
     }
 
-    /// The problem that `what` is not here: "expected … behind …, found …".
+    /// The problem that `what` is missing here: "expected … behind …, found …".
     fn missing(&self, what: &str) -> Problem {
         let span = self.here();
         Problem::new(span, format!("expected {what}, found {}", self.found()))
     }
 
-    /// The token to read, as a message names it.
+    /// The token to read, in the words of a message.
     fn found(&self) -> String {
         match self.token() {
             Token::End => "the end of the file".to_owned(),
@@ -186,7 +186,7 @@ impl<'source> Parser<'source> {
         }
     }
 
-    /// Moves behind `token`, or tells that `what` is missing.
+    /// Advances past `token`, or reports that `what` is missing.
     fn expect(&mut self, token: Token, what: &str) -> Parsed<Span> {
         if self.token() == token {
             return Ok(self.advance());
@@ -195,7 +195,7 @@ impl<'source> Parser<'source> {
         self.fail(problem)
     }
 
-    /// Reads a name. `what` it is the name of goes into the message.
+    /// Reads a name. `what`, the kind of the name, is used in the message.
     fn name(&mut self, what: &str) -> Parsed<Name> {
         let span = self.here();
         let text = self.text(span);
@@ -219,7 +219,7 @@ impl<'source> Parser<'source> {
         }
     }
 
-    /// Reads the name of something new: no word of the language.
+    /// Reads the name of a new item: not a word of the language.
     fn new_name(&mut self, what: &str) -> Parsed<Name> {
         let is_declared =
             matches!(self.peek(1), Token::Colon | Token::Comma | Token::Assign | Token::Keyword(Keyword::At));
@@ -237,7 +237,7 @@ impl<'source> Parser<'source> {
         Ok(name)
     }
 
-    /// Reads something that is one level deeper.
+    /// Reads something that is nested one level deeper.
     fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth >= NESTING_MAX {
             let help = format!("{NESTING_MAX} levels are the most");
@@ -251,9 +251,9 @@ impl<'source> Parser<'source> {
         result
     }
 
-    /// The semicolon that ends `what`. A missing one is told directly behind the last token, where it belongs.
+    /// The semicolon that ends `what`. A missing one is reported directly after the last token, where it belongs.
     fn semicolon(&mut self, what: &str) -> Parsed<()> {
-        // A string without an end has swallowed its semicolon.
+        // A string without an end contains its semicolon.
         if self.accept(Token::Semicolon) || self.peek_before() == Some(Token::OpenString) {
             return Ok(());
         }
@@ -266,7 +266,7 @@ impl<'source> Parser<'source> {
         self.fail(problem)
     }
 
-    /// What the token that stands where a semicolon belongs may have been meant for.
+    /// The likely meaning of the token at the position of a semicolon.
     fn semicolon_help(&self) -> Option<String> {
         let help = match self.token() {
             Token::Keyword(Keyword::Then) => "THEN belongs to IF or ELSIF",
@@ -281,7 +281,7 @@ impl<'source> Parser<'source> {
         Some(help.to_owned())
     }
 
-    /// The line of a place in its file, counted from 1.
+    /// The line of a position in its file, counted from 1.
     fn line(&self, span: Span) -> usize {
         let before = self.source.get(self.start..span.start as usize).unwrap_or_default();
         before.matches('\n').count() + 1

@@ -1,4 +1,4 @@
-//! What sources say, what is told of broken ones, and that no source is too much.
+//! The structure of sources, the problems reported for broken ones, and that any source is handled.
 
 mod accepted;
 mod broken;
@@ -12,13 +12,13 @@ mod spans;
 use super::{ast::File, parse};
 use crate::problem::Problems;
 
-/// The problems of a source, a line for each.
+/// The problems of a source, one line each.
 fn told(source: &str) -> String {
     let (_, problems) = parse(source);
     Problems::new(source, problems).to_string()
 }
 
-/// The tree of a source in which nothing is wrong.
+/// The tree of a source without problems.
 #[track_caller]
 fn read(source: &str) -> File {
     let (file, problems) = parse(source);

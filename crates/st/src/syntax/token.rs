@@ -1,23 +1,23 @@
-//! The tokens that a source is cut into.
+//! The tokens of a source.
 
 use logos::Logos;
 
 use super::keyword::Keyword;
 use crate::problem::Span;
 
-/// A token where it stands.
+/// A token with its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Lexeme {
     pub(crate) token: Token,
     pub(crate) span: Span,
 }
 
-/// What a piece of the source is. The spellings of other languages are tokens as well: the lexer tells how they are
-/// written here, and goes on with that.
+/// The kind of a token. The notations of other languages are tokens too: the lexer reports how they are written
+/// here, and continues with that.
 #[derive(Logos, Clone, Copy, Debug, PartialEq, Eq)]
 #[logos(skip r"[\s\u{FEFF}\u{200B}]+")]
 pub(crate) enum Token {
-    /// A name; letters are those of Unicode, as IEC 61131-3, 6.1.2, takes them from ISO/IEC 10646.
+    /// A name; letters are those of Unicode, because IEC 61131-3, 6.1.2, takes them from ISO/IEC 10646.
     #[regex(r"[\p{Alphabetic}_][\p{Alphabetic}\p{Nd}_]*")]
     Name,
     /// A name that is a reserved word.
@@ -32,7 +32,7 @@ pub(crate) enum Token {
     #[regex(r"[0-9][0-9_]*\.[0-9][0-9_]*([eE][+-]?[0-9]+)?", priority = 21)]
     #[regex(r"[0-9][0-9_]*[eE][+-]?[0-9]+", priority = 21)]
     Real,
-    /// Digits that run into letters.
+    /// Digits that are followed by letters.
     #[regex(r"[0-9][0-9_]*[A-Za-z][0-9A-Za-z_]*", priority = 10)]
     BadNumber,
     /// `INT#-5`, `WORD#16#FF`, `T#1h30m15.5s`, `Colour#red`, `D#2024-02-29`.
@@ -55,27 +55,27 @@ pub(crate) enum Token {
     /// `%IW0`.
     #[regex(r"%[IQMiqm][XBWDLxbwdl]?[0-9*][0-9.]*")]
     Direct,
-    /// The path behind AT, which is found by the lexer and not by a pattern.
+    /// The path after AT, which is found by the lexer and not by a pattern.
     Path,
 
-    /// `'…'` as a whole; the pattern is its beginning.
+    /// `'…'` as a whole; the pattern is its start.
     #[token("'")]
     String,
-    /// `"…"` as a whole; the pattern is its beginning.
+    /// `"…"` as a whole; the pattern is its start.
     #[token("\"")]
     WideString,
-    /// A string that has no end in its line.
+    /// A string without an end in its line.
     OpenString,
-    /// The beginning of a comment that ends with its line.
+    /// The start of a comment that ends with its line.
     #[token("//")]
     LineComment,
-    /// The beginning of a comment.
+    /// The start of a comment.
     #[token("(*")]
     Comment,
-    /// The beginning of a comment as in C.
+    /// The start of a comment as in C.
     #[token("/*")]
     SlashComment,
-    /// The beginning of a pragma.
+    /// The start of a pragma.
     #[token("{")]
     Pragma,
 
@@ -150,7 +150,7 @@ pub(crate) enum Token {
     #[token("}")]
     ForeignBrace,
 
-    /// A character that begins nothing.
+    /// A character that cannot begin a token.
     Unknown,
     /// The end of the file; the last of the tokens.
     End,

@@ -1,15 +1,15 @@
-//! A case: what its first comment says, and the program behind it.
+//! A case: the expectations in its first comment, and the program after it.
 
 use st::Global;
 
 use crate::scan::Scan;
 
-/// The statement budget of a scan, if the case has no other.
+/// The statement budget of a scan, unless the case defines another one.
 const BUDGET_DEFAULT: u64 = 10_000;
 
-/// A program with what is expected of it.
+/// A program with its expectations.
 pub(crate) struct Case {
-    /// The source behind the comment: its first line is line 1 of the places in the comment.
+    /// The source after the comment: its first line is line 1 of the positions in the comment.
     pub(crate) source: String,
     pub(crate) globals: Vec<Global>,
     pub(crate) expected: Expected,
@@ -22,7 +22,7 @@ pub(crate) enum Expected {
 }
 
 impl Case {
-    /// Reads a case strictly: what it does not know, it refuses.
+    /// Reads a case strictly: unknown lines are refused.
     pub(crate) fn read(text: &str) -> Result<Self, String> {
         let (comment, source) = text
             .strip_prefix("(* ")
@@ -42,7 +42,7 @@ impl Case {
     }
 }
 
-/// `device: name : type, input` or `…, output`, with `at PATH` behind it if it has one.
+/// `device: name : type, input` or `…, output`, followed by `at PATH` if it has one.
 fn split_globals<'l, 't>(lines: &'l [&'t str]) -> Result<(Vec<Global>, &'l [&'t str]), String> {
     let count = lines.iter().take_while(|line| line.starts_with("device: ")).count();
     let (devices, rest) = lines.split_at(count);

@@ -1,4 +1,4 @@
-//! The world around a program of the collection: there are no NX objects, and alarms are written down.
+//! The environment of a program of the collection: there are no NX objects, and alarms are recorded.
 
 use core::task::Poll;
 

@@ -1,5 +1,5 @@
-//! The collection of programs: each file under `tests/programs` is a case, with what is expected of it in its first
-//! comment. `tests/programs/README.md` tells how that is written.
+//! The collection of programs: each file under `tests/programs` is a case, with its expectations in its first
+//! comment. `tests/programs/README.md` describes the notation.
 
 mod case;
 mod host;

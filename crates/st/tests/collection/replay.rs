@@ -1,4 +1,4 @@
-//! Runs a case, and tells where it differs from what is expected.
+//! Runs a case, and reports where it differs from its expectations.
 
 use st::{Instance, Problems, Stopped, compile};
 
@@ -6,7 +6,7 @@ use crate::case::{Case, Expected};
 use crate::host::Recorder;
 use crate::scan::{Action, Expectation, Scan};
 
-/// Replays a case; what is wrong is told with all the differences of a scan.
+/// Replays a case; a failure is reported with all the differences of a scan.
 pub(crate) fn replay(case: &Case) -> Result<(), String> {
     let compiled = compile(&case.source, &case.globals);
     match (&case.expected, compiled) {

@@ -1,6 +1,6 @@
 //! A line of a trace: `10ms: restart, in := TRUE -> q = FALSE, et = T#0s | used 5`.
 
-/// A scan: when it is, what is set before it, and what is expected behind it.
+/// A scan: its time, the values set before it, and the expectations after it.
 pub(crate) struct Scan {
     /// The line, for messages.
     pub(crate) line: String,
@@ -10,7 +10,7 @@ pub(crate) struct Scan {
 }
 
 pub(crate) enum Action {
-    /// The program begins again.
+    /// The program restarts.
     Restart,
     /// A variable gets a value.
     Set(String, String),
@@ -21,9 +21,9 @@ pub(crate) enum Expectation {
     Value(String, String),
     /// The scan ends early, here for this reason: `division by zero at 5:9`.
     Fault(String),
-    /// So many statements were used.
+    /// This number of statements was used.
     Used(u64),
-    /// SetAlarm, SetInfo and ResetAlarm tell this: `alarm 5 1 2`, `reset 5`.
+    /// SetAlarm, SetInfo and ResetAlarm report this: `alarm 5 1 2`, `reset 5`.
     Told(String),
 }
 
@@ -89,7 +89,7 @@ fn expectations_of(part: &str) -> Result<Vec<Expectation>, String> {
     listed(part).map(value).collect()
 }
 
-/// What stands between commas, but those inside of brackets, parentheses and texts.
+/// The parts between commas, except commas inside brackets, parentheses and texts.
 fn listed(text: &str) -> impl Iterator<Item = String> {
     let (mut parts, mut depth, mut quoted) = (vec![String::new()], 0_i32, false);
     for character in text.chars() {

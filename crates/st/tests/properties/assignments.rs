@@ -1,4 +1,4 @@
-//! Which value becomes which variable by itself, for all pairs of types.
+//! Which value is converted to which variable implicitly, for all pairs of types.
 
 use crate::types::{ALL, Kind, Type, meet, widens};
 
@@ -36,7 +36,7 @@ fn an_argument_and_an_output_widen_as_an_assignment_does() {
     }
 }
 
-/// What an operator makes of two types; none if it is not there.
+/// The result type of an operator for two types; none if it does not exist.
 fn result(operator: &str, left: Type, right: Type) -> Option<&'static str> {
     let met = meet(left, right);
     let scale = |time: Type, other: Type| time.kind == Kind::Time && other.is_number();
@@ -58,12 +58,12 @@ fn result(operator: &str, left: Type, right: Type) -> Option<&'static str> {
     }
 }
 
-/// The types of which `value` becomes a variable, among all of them: one compiled line for each.
+/// The types to which `value` is converted implicitly, among all of them: one compiled line for each.
 fn targets(declarations: &str, value: &str) -> Vec<&'static str> {
     let names = ALL.map(|to| to.name);
     let variables: String = names.iter().map(|name| format!("to_{name} : {name}; ")).collect();
     let lines: String = names.iter().map(|name| format!("to_{name} := {value};\n")).collect();
-    // The first assignment stands in line 1.
+    // The first assignment is in line 1.
     let source = format!("VAR {declarations} {variables} END_VAR {lines}");
     let refused = match st::compile(&source, &[]) {
         Ok(_) => Vec::new(),

@@ -6,7 +6,7 @@ use crate::tape::Tape;
 use crate::types::{ALL, Kind, Type};
 use crate::values::{Value, run};
 
-/// What a conversion makes of a value.
+/// The result of a conversion of a value.
 pub(crate) fn converted(from: Type, to: Type, value: Value) -> Value {
     match (value, to.kind, to.bits) {
         _ if from == to => value,
@@ -17,7 +17,7 @@ pub(crate) fn converted(from: Type, to: Type, value: Value) -> Value {
         (real, Kind::Real, 32) => Value::Single(real.double() as f32),
         (real, Kind::Real, _) => Value::Double(real.double()),
         (real, Kind::Bool, _) => Value::Whole((real.double() != 0.0).into()),
-        // A bit string takes the pattern of a signed integer as well as of an unsigned one.
+        // A bit string accepts the pattern of a signed integer as well as of an unsigned one.
         (real, Kind::Bits, _) => {
             let (_, greatest) = to.limits();
             Value::Whole(to.wrapped(nearest(-(1_i128 << (to.bits - 1)), greatest, real.double())))

@@ -1,13 +1,13 @@
-//! Expressions: as a tree, as text, and what they are worth.
+//! Expressions: as a tree, as text, and their values.
 
 use crate::conversions::converted;
 use crate::types::{BOOL, Kind, LINT, Type, meet};
 use crate::values::{DividedByZero, Value};
 
-/// How many variables of each type a program has.
+/// Number of variables of each type in a program.
 pub(crate) const VARIABLES: usize = 3;
 
-/// An expression with the type that it has.
+/// An expression with its type.
 #[derive(Clone, Debug)]
 pub(crate) struct Expression {
     pub(crate) type_: Type,
@@ -34,7 +34,7 @@ pub(crate) fn name_of(type_: Type, place: usize) -> String {
     format!("{}_{place}", type_.name.to_lowercase())
 }
 
-/// How strongly an operator binds: IEC 61131-3, table 71.
+/// The precedence of an operator: IEC 61131-3, table 71.
 fn strength(operator: &str) -> u8 {
     match operator {
         "OR" => 1,
@@ -49,7 +49,7 @@ fn strength(operator: &str) -> u8 {
 }
 
 impl Expression {
-    /// As text with no more parentheses than it takes.
+    /// As text with the minimum of parentheses.
     pub(crate) fn text(&self) -> String {
         match &self.node {
             Node::Variable(place) => name_of(self.type_, *place),
@@ -102,7 +102,7 @@ impl Expression {
         variables: &Variables,
     ) -> Result<Value, DividedByZero> {
         let first = left.value(variables)?;
-        // The right operand is left aside when the left one decides.
+        // The right operand is not evaluated if the left one determines the result.
         match (operator, self.type_ == BOOL && left.type_ == BOOL && right.type_ == BOOL, first) {
             ("AND", true, Value::Whole(0)) | ("OR", true, Value::Whole(1)) => return Ok(first),
             _ => {}
@@ -126,7 +126,7 @@ impl Expression {
 fn widened(from: Type, to: Type, value: Value) -> Value {
     match (value, to.kind) {
         (Value::Whole(_), Kind::Real) | (Value::Single(_), _) => converted(from, to, value),
-        // The sign may be lost, and the pattern stays.
+        // The sign may be lost, and the pattern is kept.
         (Value::Whole(number), Kind::Signed | Kind::Unsigned) => Value::Whole(to.wrapped(number)),
         _ => value,
     }
@@ -153,7 +153,7 @@ fn of_wholes(operator: &str, type_: Type, a: i128, b: i128) -> Result<Value, Div
     let number = match operator {
         "+" => a + b,
         "-" => a - b,
-        // Two ULINTs: 2^128 and 2^64 wrap alike.
+        // Two ULINTs: 2^128 and 2^64 wrap in the same way.
         "*" => a.wrapping_mul(b),
         "/" | "MOD" if b == 0 => return Err(DividedByZero),
         "/" => a / b,

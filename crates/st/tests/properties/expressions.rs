@@ -1,4 +1,4 @@
-//! Expressions of all types, against the evaluator.
+//! Expressions of all types, compared with the evaluator.
 
 use proptest::prelude::*;
 use st::Fault;

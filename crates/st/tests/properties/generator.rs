@@ -1,11 +1,11 @@
-//! Makes expressions of a type out of choices.
+//! Generates expressions of a type from choices.
 
 use crate::expression::{Expression, Node, VARIABLES};
 use crate::tape::Tape;
 use crate::types::{ALL, BOOL, Kind, TIME, Type, meet, widens};
 use crate::values::Value;
 
-/// An expression of this type, so many levels deep at most.
+/// An expression of this type, with at most this number of levels.
 pub(crate) fn expression(type_: Type, levels: usize, tape: &mut Tape<'_>) -> Expression {
     if levels == 0 {
         return leaf(type_, tape);
@@ -38,13 +38,13 @@ fn variable(type_: Type, tape: &mut Tape<'_>) -> Expression {
 
 fn leaf(type_: Type, tape: &mut Tape<'_>) -> Expression {
     match (tape.below(3), type_.kind) {
-        // A real has literals, but none for NaN and the infinities.
+        // A real has literals, but not for NaN and the infinities.
         (0, kind) if kind != Kind::Real => of(type_, Node::Literal(Value::random(type_, tape))),
         _ => variable(type_, tape),
     }
 }
 
-/// Two operands that meet in this type.
+/// Two operands whose common type is this one.
 fn operation(type_: Type, levels: usize, tape: &mut Tape<'_>) -> Expression {
     let operators: &[&'static str] = match type_.kind {
         Kind::Bool | Kind::Bits => &["AND", "OR", "XOR"],
@@ -61,7 +61,7 @@ fn operation(type_: Type, levels: usize, tape: &mut Tape<'_>) -> Expression {
     let (left, right) = tape.pick(&pairs);
     let first = Box::new(expression(left, levels - 1, tape));
     let second = if matches!(operator, "/" | "MOD") {
-        // What is known to be zero is refused before it runs.
+        // A divisor that is known to be zero is refused before the program runs.
         variable(right, tape)
     } else if left == type_ && type_.is_integer() && tape.below(4) == 0 {
         number(type_, tape)

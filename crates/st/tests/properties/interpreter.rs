@@ -1,8 +1,8 @@
-//! Runs statements, and counts what they cost.
+//! Executes statements, and counts their cost.
 
 use crate::statement::{Condition, ELEMENTS, NUMBERS, Number, Statement};
 
-/// The deepest loops.
+/// Maximum nesting depth of loops.
 pub(crate) const LOOPS: usize = 4;
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -11,9 +11,9 @@ pub(crate) struct Interpreter {
     pub(crate) elements: [i16; ELEMENTS],
     /// The variables of FOR.
     pub(crate) counters: [i16; LOOPS],
-    /// The turns of WHILE and REPEAT.
+    /// The iterations of WHILE and REPEAT.
     pub(crate) turns: [i16; LOOPS],
-    /// How many statements ran, and how many turns of loops ended.
+    /// Number of statements executed, and number of iterations ended.
     pub(crate) used: u64,
 }
 
@@ -58,7 +58,7 @@ impl Interpreter {
                 return self.count(*level, [*from, *to, *by], body);
             }
             Statement::While { level, turns, condition, body } => {
-                // The turns are set by a statement of their own, and counted by one in each turn.
+                // The number of iterations is set by a separate statement, and counted by one in each iteration.
                 self.used += 1;
                 self.turns[*level] = 0;
                 while self.turns[*level] < *turns && self.holds(condition) {

@@ -1,5 +1,5 @@
-//! Properties of the language, against evaluators of their own that share nothing with the crate: types, expressions,
-//! conversions, statements.
+//! Properties of the language, compared with separate evaluators that share no code with the crate: types,
+//! expressions, conversions, statements.
 
 #![expect(clippy::expect_used, reason = "a panic here is a failed test")]
 

@@ -25,7 +25,7 @@ pub(crate) enum Statement {
     AssignElement(Number, Number),
     If(Vec<(Condition, Vec<Statement>)>, Vec<Statement>),
     Case(Number, Vec<((i16, i16), Vec<Statement>)>, Vec<Statement>),
-    /// With a variable of its own for each level of loops.
+    /// With a separate variable for each level of loops.
     For {
         level: usize,
         from: i16,
@@ -33,7 +33,7 @@ pub(crate) enum Statement {
         by: i16,
         body: Vec<Statement>,
     },
-    /// So many turns at most.
+    /// At most this number of iterations.
     While {
         level: usize,
         turns: i16,
@@ -51,7 +51,7 @@ pub(crate) enum Statement {
     Return,
 }
 
-/// Statements out of choices.
+/// Statements from choices.
 pub(crate) fn statements(tape: &mut Tape<'_>, levels: usize, loops: usize) -> Vec<Statement> {
     (0..tape.below(4)).map(|_| statement(tape, levels, loops)).collect()
 }
@@ -92,7 +92,7 @@ fn if_statement(tape: &mut Tape<'_>, levels: usize, loops: usize) -> Statement {
     Statement::If(branches.collect(), statements(tape, levels - 1, loops))
 }
 
-/// Arms whose ranges lie one behind the other.
+/// Arms whose ranges follow each other.
 fn case(tape: &mut Tape<'_>, levels: usize, loops: usize) -> Statement {
     let mut next = -6;
     let arms = (0..tape.below(4)).map(|_| {

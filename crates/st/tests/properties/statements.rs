@@ -1,4 +1,4 @@
-//! Whole programs of branches and loops, against the interpreter.
+//! Whole programs of branches and loops, compared with the interpreter.
 
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ proptest! {
         for (name, expected) in shown(&interpreter) {
             prop_assert_eq!(instance.value(&name), Some(expected.to_string()), "{} of\n{}", name, source);
         }
-        // What a statement evaluates costs a little besides.
+        // The evaluation in a statement has a small additional cost.
         let statements = interpreter.used;
         prop_assert!((statements..=2 * statements + 1).contains(&instance.used()), "statements of\n{}", source);
     }

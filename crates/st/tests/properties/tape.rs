@@ -1,4 +1,4 @@
-//! Choices that a property makes, so that a failing case gets smaller when they do.
+//! The choices of a property test, so that a failing case becomes smaller when they do.
 
 /// A row of choices; at its end each choice is the first.
 pub(crate) struct Tape<'c> {
@@ -17,7 +17,7 @@ impl<'c> Tape<'c> {
         choice
     }
 
-    /// One of so many.
+    /// A number below `count`.
     pub(crate) fn below(&mut self, count: usize) -> usize {
         self.next() as usize % count
     }

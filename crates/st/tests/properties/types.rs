@@ -1,7 +1,7 @@
-//! The elementary types and what they become by themselves: table 10 and figure 12 of IEC 61131-3, and between signed and
-//! unsigned integers the implicit casts of W501, 6-5-3.
+//! The elementary types and their implicit conversions: table 10 and figure 12 of IEC 61131-3, and between
+//! signed and unsigned integers the implicit casts of W501, 6-5-3.
 
-/// What can be done with a type.
+/// The operations that a type permits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Bool,
@@ -12,7 +12,7 @@ pub(crate) enum Kind {
     Time,
 }
 
-/// A type by its row.
+/// A type, by its row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Type {
     pub(crate) name: &'static str,
@@ -50,7 +50,7 @@ pub(crate) const ALL: [Type; 16] = [
     TIME,
 ];
 
-/// Which type becomes which by itself, step by step: those of figure 12, and between integers of one width.
+/// Implicit conversions, step by step: those of figure 12, and between integers of one width.
 const STEPS: [(&str, &str); 26] = [
     ("BOOL", "BYTE"),
     ("BYTE", "WORD"),
@@ -80,7 +80,7 @@ const STEPS: [(&str, &str); 26] = [
     ("REAL", "LREAL"),
 ];
 
-/// Whether a value of the one type becomes one of the other by itself: whether steps lead there.
+/// Whether a value of one type is converted to the other implicitly: whether there is a path of steps.
 pub(crate) fn widens(from: Type, to: Type) -> bool {
     let mut reached = vec![from.name];
     loop {
@@ -92,8 +92,8 @@ pub(crate) fn widens(from: Type, to: Type) -> bool {
     }
 }
 
-/// The type in which two operands meet. Of two integers it is the one of the higher rank, and of one rank the one
-/// without a sign; of others the one that holds both, else the narrowest real that does.
+/// The common type of two operands. For two integers it is the one of the higher rank, and within one rank the
+/// unsigned one; for others the one that can hold both, else the narrowest real that can.
 pub(crate) fn meet(left: Type, right: Type) -> Option<Type> {
     if left.is_integer() && right.is_integer() {
         return [left, right].into_iter().max_by_key(|type_| (type_.bits, type_.kind == Kind::Unsigned));
@@ -115,7 +115,7 @@ impl Type {
         self.is_integer() || self.kind == Kind::Real
     }
 
-    /// Least and greatest value, of all types but the reals.
+    /// Minimum and maximum value, for all types except the reals.
     pub(crate) fn limits(self) -> (i128, i128) {
         match self.kind {
             Kind::Signed | Kind::Time => (-(1_i128 << (self.bits - 1)), (1_i128 << (self.bits - 1)) - 1),

@@ -1,11 +1,11 @@
-//! Values as the evaluators hold them, and as an instance takes and gives them.
+//! Values in the evaluators, and in the notation of an instance.
 
 use st::{Instance, NoHost, Program};
 
 use crate::tape::Tape;
 use crate::types::{Kind, Type};
 
-/// A value: its type is known from elsewhere.
+/// A value: its type is known from the context.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Value {
     Whole(i128),
@@ -13,7 +13,7 @@ pub(crate) enum Value {
     Double(f64),
 }
 
-/// What ends an evaluation.
+/// A fault that ends an evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct DividedByZero;
 
@@ -48,7 +48,7 @@ impl Value {
         }
     }
 
-    /// As `Instance::set` takes it.
+    /// In the notation of `Instance::set`.
     pub(crate) fn written(self, type_: Type) -> String {
         match (self, type_.kind) {
             (Self::Whole(number), Kind::Bool) => if number == 0 { "FALSE" } else { "TRUE" }.to_owned(),
@@ -60,7 +60,7 @@ impl Value {
         }
     }
 
-    /// The same value, bit by bit; all NaN are one.
+    /// The same value, bit by bit; all NaN are equal.
     pub(crate) fn is(self, other: Self) -> bool {
         match (self, other) {
             (Self::Whole(a), Self::Whole(b)) => a == b,
@@ -70,7 +70,7 @@ impl Value {
         }
     }
 
-    /// As `Instance::value` gives it; a TIME only as its nanoseconds.
+    /// In the notation of `Instance::value`; a TIME only as its nanoseconds.
     pub(crate) fn read(type_: Type, text: &str) -> Self {
         match (type_.kind, type_.bits) {
             (Kind::Bool, _) => Self::Whole((text == "TRUE").into()),

@@ -51,7 +51,7 @@ fn texts_in_each_other() {
     assert_eq!(run(source), Ok(Ok(())));
 }
 
-/// A chain of functions, each with an expression of so many operands around the call of the next.
+/// A chain of functions, each with an expression of this number of operands around the call of the next.
 fn chain(length: usize, operands: usize) -> String {
     let functions = (0..length).map(|place| {
         let rest = " + x".repeat(operands);

@@ -16,7 +16,7 @@ fn each_broken_file_gets_its_problems() {
     files.sort();
     assert!(files.len() >= FILES_MIN, "{} files are found", files.len());
     for file in files {
-        // Bytes that are no characters come as they do from a file: replaced.
+        // Invalid bytes are replaced, as when a file is read.
         let source = String::from_utf8_lossy(&fs::read(&file).expect("a file")).into_owned();
         problems(&file.display().to_string(), &source);
     }

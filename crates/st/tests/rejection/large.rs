@@ -1,8 +1,8 @@
-//! Sources that are too large, too deep, or wrong too often.
+//! Sources that are too large, too deep, or have too many mistakes.
 
 use crate::problems;
 
-/// So many pieces, each with its number.
+/// This number of pieces, each with its number.
 fn pieces(count: usize, piece: impl Fn(usize) -> String) -> String {
     (0..count).map(piece).collect()
 }
@@ -11,7 +11,7 @@ fn nested(opening: &str, inner: &str, closing: &str, count: usize) -> String {
     opening.repeat(count) + inner + &closing.repeat(count)
 }
 
-/// Compiles what is wrong, and looks for a message.
+/// Compiles a wrong source, and searches for a message.
 fn expect(source: &str, message: &str) {
     let name: String = source.chars().take(60).collect();
     let told = problems(&name, source);

@@ -1,5 +1,5 @@
-//! Programs that are wrong, too large or too deep: each gets its problems, and none is too much for the compiler or
-//! for the thread that runs it.
+//! Programs that are wrong, too large or too deep: each gets its problems, and none exceeds the limits of the
+//! compiler or of the thread that runs it.
 
 #![expect(clippy::expect_used, reason = "a panic here is a failed test")]
 
@@ -20,7 +20,7 @@ fn on_a_small_stack<T: Send + 'static>(work: impl FnOnce() -> T + Send + 'static
     }
 }
 
-/// The problems of a source that has some, each with a place in it.
+/// The problems of a source that has some, each with a position in it.
 fn problems(name: &str, source: &str) -> String {
     let (name, source) = (name.to_owned(), source.to_owned());
     on_a_small_stack(move || {

@@ -1,5 +1,5 @@
-//! The collection of programs with tokens left out, doubled, exchanged or replaced: whatever comes of it, the compiler
-//! and the machine stand it.
+//! The collection of programs with tokens removed, doubled, exchanged or replaced: the compiler and the machine
+//! handle every result.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use proptest::prelude::*;
 use st::NoHost;
 
-/// Words and signs that stand in programs.
+/// Words and signs that occur in programs.
 const WORDS: [&str; 40] = [
     "IF",
     "THEN",
@@ -51,7 +51,7 @@ const WORDS: [&str; 40] = [
     ";",
 ];
 
-/// The programs of the collection, without their comments in front.
+/// The programs of the collection, without their first comments.
 fn collection() -> Vec<String> {
     let mut sources = Vec::new();
     let mut folders = vec![PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/programs")];
@@ -74,7 +74,7 @@ fn read(folder: &Path, folders: &mut Vec<PathBuf>, sources: &mut Vec<String>) {
     }
 }
 
-/// Words, numbers and signs, roughly.
+/// Words, numbers and signs, approximately.
 fn tokens(source: &str) -> Vec<String> {
     let mut tokens = Vec::<String>::new();
     let is_word = |character: char| character.is_alphanumeric() || matches!(character, '_' | '#' | '.');
@@ -112,13 +112,13 @@ fn mutate(tokens: &mut Vec<String>, (kind, place, other): (u8, usize, usize)) {
     }
 }
 
-/// Compiles a source, and scans what is accepted.
+/// Compiles a source, and executes scans if it is accepted.
 fn stand(source: &str) -> Result<(), TestCaseError> {
     match st::compile(source, &[]) {
         Ok(program) => {
             let mut instance = program.start();
             for scan in 0..3 {
-                // A fault is as good as none here.
+                // A fault is permitted here.
                 let _ = instance.scan(scan * 1_000_000, 200, &mut NoHost);
                 prop_assert!(instance.used() <= 200);
             }

@@ -1,4 +1,4 @@
-//! Every function with whatever arguments its pins take: a result or a fault, never a panic.
+//! Every function with any arguments that its pins accept: a result or a fault, never a panic.
 
 use proptest::prelude::*;
 
@@ -8,7 +8,7 @@ use crate::library::{Function, Native, Takes, functions};
 use crate::types::STRING_CHARACTERS_MAX;
 use crate::value::wrap;
 
-/// Elements lie in the slots of the third text, variables in its first.
+/// Elements are in the slots of the third text, variables in the first.
 const ELEMENTS: u64 = 500;
 const ELEMENTS_COUNT: u64 = 60;
 
@@ -53,7 +53,7 @@ fn arguments(
     }
 }
 
-/// Numbers that lie close to some limit, and others.
+/// Numbers near some limit, and others.
 fn bits() -> impl Strategy<Value = u64> {
     prop_oneof![
         0..70_u64,
@@ -82,7 +82,7 @@ proptest! {
         }
         let result = bench.call(function.name, elementary, &all);
         if let (Ok(bits), Some(of)) = (result, function.result.elementary(elementary)) {
-            // A value stands as its type has it.
+            // A value is represented according to its type.
             prop_assert!(of.class() == Class::Real || bits == wrap(of, bits), "{}{:?} gives {:#x}", function.name, all, bits);
         }
     }

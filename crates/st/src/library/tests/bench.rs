@@ -59,34 +59,34 @@ impl Bench {
         run(&mut Call { machine: &mut machine, arguments, elementary, text })
     }
 
-    /// Puts a text into the memory, as an argument.
+    /// Stores a text in the memory, as an argument.
     pub(super) fn text(&mut self, place: Slot, text: &[u8]) -> u64 {
         let slot = place * TEXT_SLOTS;
         self.memory.put_text(slot, STRING_CHARACTERS_MAX as u16, text).unwrap();
         slot.into()
     }
 
-    /// The text that a function gave.
+    /// The text that a function returned.
     pub(super) fn given(&self, result: Result<u64, Fault>) -> Result<Vec<u8>, Fault> {
         result.map(|slot| self.memory.text(slot as Slot).to_vec())
     }
 }
 
-/// Calls a function that takes and gives values only.
+/// Calls a function that has only values as arguments and result.
 pub(super) fn call(name: &str, elementary: Elementary, arguments: &[u64]) -> Result<u64, Fault> {
     Bench::new().call(name, elementary, arguments)
 }
 
-/// A host with one NX object, which answers when the test lets it.
+/// A host with one NX object, which answers when the test permits it.
 #[derive(Default)]
 pub(super) struct Recorder {
     pub(super) alarms: Vec<Alarm>,
     pub(super) resets: Vec<u16>,
-    /// What was asked for: unit, index, subindex, and the value of a write.
+    /// The last request: unit, index, subindex, and the value of a write.
     pub(super) asked: Vec<(u16, u16, u8, Option<Vec<u8>>)>,
-    /// What the next call is refused with.
+    /// The error with which the next call is refused.
     pub(super) refusal: Option<NxFault>,
-    /// The answers that have come, by the numbers of their calls.
+    /// The available answers, by the numbers of their calls.
     pub(super) answers: Vec<(NxCallNumber, Result<Vec<u8>, NxFault>)>,
 }
 

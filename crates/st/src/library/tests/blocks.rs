@@ -4,7 +4,7 @@ use super::bench::Recorder;
 use crate::host::{Alarm, NoHost};
 use crate::program::compile;
 
-/// Calls a block once a row: the arguments, and then the outputs.
+/// Calls a block once per row: the arguments, and then the outputs.
 fn follow(block: &str, outputs: &str, rows: &[(&str, &str)]) {
     let arms: Vec<_> =
         rows.iter().enumerate().map(|(row, (arguments, _))| format!("{row}: b({arguments});")).collect();

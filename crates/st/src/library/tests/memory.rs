@@ -6,7 +6,7 @@ use super::bench::Bench;
 use crate::elementary::Elementary::Bool;
 use crate::fault::Fault;
 
-/// Slots of the row in which both arrays lie.
+/// Slots of the row that contains both arrays.
 const SLOTS: u64 = 60;
 
 fn filled() -> (Bench, Vec<u64>) {
@@ -24,7 +24,7 @@ proptest! {
         each in 1..4_u64, from in 0..10_u64, to in 0..10_u64, size in 0..12_u64,
         name in prop::sample::select(vec!["MemCopy", "AryMove"]),
     ) {
-        // Both pins lie in one array of ten elements.
+        // Both pins are in one array of ten elements.
         let (mut bench, mut expected) = filled();
         let arguments = [from * each, 10 - from, each, to * each, 10 - to, each, size];
         let result = bench.call(name, Bool, &arguments);

@@ -35,7 +35,7 @@ impl Bench {
         self
     }
 
-    /// One scan; what the pins show then, by their first letters, or the two codes of an error.
+    /// One scan; returns the pins after it, by their first letters, or the two codes of an error.
     fn scan(&mut self) -> String {
         self.now_ns += SCAN_NS;
         self.instance.scan(self.now_ns, 1000, &mut self.host).unwrap();
@@ -57,7 +57,7 @@ fn a_value_is_read_over_several_scans() {
     bench.host.answers.push((1, Ok(vec![0x34, 0x12, 0xFF, 0x00])));
     assert_eq!(bench.scan(), "Done");
     assert_eq!(bench.instance.value("Octets").unwrap(), "[4660, 255]");
-    // It stays done while Execute stays, and nothing is read again.
+    // It remains done while Execute is TRUE, and nothing is read again.
     assert_eq!(bench.scan(), "Done");
     bench.set("Go", "FALSE");
     assert_eq!(bench.scan(), "");
@@ -97,7 +97,7 @@ fn an_error_tells_both_codes_and_a_new_call_clears_them() {
     assert_eq!([bench.scan(), bench.scan()], ["Error 16#2C00 16#6090011", "Error 16#2C00 16#6090011"]);
     bench.set("Go", "FALSE");
     assert_eq!(bench.scan(), "");
-    // A call that is refused at once is told at once.
+    // A call that is refused immediately is reported immediately.
     bench.host.refusal = Some(fault);
     bench.set("Go", "TRUE");
     assert_eq!(bench.scan(), "Error 16#2C00 16#6090011");
@@ -113,7 +113,7 @@ fn a_call_without_an_answer_times_out() {
                 assert_eq!(bench.scan(), "Busy");
             }
             assert_eq!(bench.scan(), "Error 16#2C02 16#0", "{block}, TimeOut {limit}");
-            // The late answer is taken, and does nothing.
+            // The late answer is taken, and has no effect.
             bench.host.answers.push((1, Ok(vec![9, 9])));
             assert_eq!(bench.scan(), "Error 16#2C02 16#0");
             assert!(bench.host.answers.is_empty());

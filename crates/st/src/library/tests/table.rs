@@ -65,7 +65,7 @@ fn the_documents_tell_the_pins_of_each_block_in_their_order() {
             .filter_map(|member| member.trim_matches(['(', ')', '[', ']']).split_once(" := "))
             .map(|(name, _)| name)
             .collect();
-        // An in-out has no value of its own.
+        // An in-out has no separate value.
         let pins = names(block.inputs).chain(names(block.outputs)).filter(|name| !name.ends_with("Dat"));
         let mut rest = members.iter();
         for pin in pins {

@@ -1,4 +1,4 @@
-//! Texts, against Rust's own strings.
+//! Texts, compared with Rust's own strings.
 
 use proptest::prelude::*;
 
@@ -6,7 +6,7 @@ use super::bench::Bench;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 
-/// Calls a function with texts first and numbers behind.
+/// Calls a function with texts first and numbers after them.
 fn call(name: &str, texts: &[&str], numbers: &[u64]) -> (Bench, Result<u64, Fault>) {
     let mut bench = Bench::new();
     let mut arguments: Vec<_> =

@@ -1,4 +1,4 @@
-//! Timing diagrams: the moment in milliseconds, In, and then Q and ET.
+//! Timing diagrams: the time in milliseconds, In, and then Q and ET.
 
 use crate::host::NoHost;
 use crate::program::{Instance, compile};
@@ -39,7 +39,7 @@ fn on_delay() {
             (20, true, false, 0),
             (29, true, false, 9),
             (30, true, true, 10),
-            // ET stays at PT.
+            // ET remains at PT.
             (45, true, true, 10),
             (46, false, false, 0),
             (47, true, false, 0),
@@ -75,7 +75,7 @@ fn pulse() {
         &[
             (0, true, true, 0),
             (4, false, true, 4),
-            // Another edge does not begin it again.
+            // Another edge does not restart it.
             (6, true, true, 6),
             (10, true, false, 10),
             (15, true, false, 10),

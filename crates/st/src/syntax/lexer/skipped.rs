@@ -1,10 +1,10 @@
-//! What is found by its end and not by a pattern: comments, pragmas, strings.
+//! Tokens that are found by their end and not by a pattern: comments, pragmas, strings.
 
 use super::Cursor;
 use crate::problem::{Problem, Span};
 use crate::syntax::token::Token;
 
-/// Moves behind the comment whose beginning was read. Comments of both forms nest (IEC 61131-3, table 3).
+/// Moves to the end of the comment whose start was read. Comments of both forms nest (IEC 61131-3, table 3).
 pub(super) fn comment(token: Token, cursor: &mut Cursor<'_>) -> Option<Problem> {
     let opening = Span::from(cursor.span());
     let rest = cursor.remainder();
@@ -21,7 +21,7 @@ pub(super) fn comment(token: Token, cursor: &mut Cursor<'_>) -> Option<Problem> 
     length.is_none().then(unclosed)
 }
 
-/// How many bytes of `rest` are up to the end of a comment that is open.
+/// Number of bytes of `rest` to the end of an open comment.
 fn nested(rest: &str, open: &[u8; 2], close: &[u8; 2]) -> Option<usize> {
     let bytes = rest.as_bytes();
     let mut depth = 1_usize;
@@ -43,7 +43,7 @@ fn nested(rest: &str, open: &[u8; 2], close: &[u8; 2]) -> Option<usize> {
     None
 }
 
-/// Moves behind the pragma whose `{` was read; without an end only the `{` is left aside.
+/// Moves to the end of the pragma whose `{` was read; without an end only the `{` is ignored.
 pub(super) fn pragma(cursor: &mut Cursor<'_>) -> Result<Span, Problem> {
     let Some(length) = cursor.remainder().find('}') else {
         let problem = Problem::new(Span::from(cursor.span()), "this pragma is never closed by `}`");
@@ -53,8 +53,8 @@ pub(super) fn pragma(cursor: &mut Cursor<'_>) -> Result<Span, Problem> {
     Ok(Span::from(cursor.span()))
 }
 
-/// Moves behind the string whose quotation mark was read, and tells what it is. A string ends in its line, or it has no
-/// end.
+/// Moves to the end of the string whose quotation mark was read, and returns its kind. A string ends within its
+/// line, or it has no end.
 pub(super) fn string(token: Token, cursor: &mut Cursor<'_>) -> (Token, Option<Problem>) {
     let opening = Span::from(cursor.span());
     let quote = if token == Token::String { b'\'' } else { b'"' };
@@ -71,8 +71,8 @@ pub(super) fn string(token: Token, cursor: &mut Cursor<'_>) -> (Token, Option<Pr
     (Token::String, unsupported)
 }
 
-/// How many bytes belong to the string, and whether the last of them closes it. All places where this stops are ASCII
-/// characters, so that no character is cut.
+/// Number of bytes of the string, and whether the last of them closes it. This only stops at ASCII characters,
+/// so that no character is split.
 fn string_length(bytes: &[u8], quote: u8) -> (usize, bool) {
     let mut escaped = false;
     for (place, &byte) in bytes.iter().enumerate() {

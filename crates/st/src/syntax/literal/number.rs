@@ -31,7 +31,7 @@ pub(crate) fn real(text: &str, span: Span) -> Result<Literal, Problem> {
     })
 }
 
-/// What stands behind `INT#`, `WORD#`, `BOOL#`: it fits the type.
+/// The text after `INT#`, `WORD#`, `BOOL#`: its value fits the type.
 pub(super) fn integer_of(elementary: Elementary, text: &str, span: Span) -> Result<i128, Problem> {
     if elementary == Elementary::Bool {
         return boolean(text, span);
@@ -50,7 +50,7 @@ pub(super) fn integer_of(elementary: Elementary, text: &str, span: Span) -> Resu
     Err(Problem::new(span, message))
 }
 
-/// What stands behind `REAL#` and `LREAL#`.
+/// The text after `REAL#` and `LREAL#`.
 pub(super) fn real_of(elementary: Elementary, text: &str, span: Span) -> Result<f64, Problem> {
     let Some(value) = float(text) else {
         return Err(Problem::new(span, format!("`{text}` is not a number of {elementary}")));
@@ -90,7 +90,7 @@ fn range(elementary: Elementary) -> RangeInclusive<i128> {
     }
 }
 
-/// A number without sign, with or without its base in front. One that is too large for any type stays too large.
+/// A number without sign, with or without its base before it. One that is too large for any type remains too large.
 fn magnitude(text: &str, span: Span) -> Result<i128, Problem> {
     let Some((base, digits)) = text.split_once('#') else {
         let fault = || Problem::new(span, format!("`{text}` is not a whole number"));
@@ -116,7 +116,7 @@ fn magnitude(text: &str, span: Span) -> Result<i128, Problem> {
     })
 }
 
-/// Digits with underscores between them; `None` without digits or with strange ones. Above 2^64 it stays there.
+/// Digits with underscores between them; `None` without digits or with invalid ones. Above 2^64 the value is limited.
 fn unsigned(text: &str, radix: u32) -> Option<i128> {
     const TOO_LARGE: i128 = 1 << 65;
     let mut value = None;
@@ -134,7 +134,7 @@ fn float(text: &str) -> Option<f64> {
     if is_number { digits.parse().ok() } else { None }
 }
 
-/// Whether a minus stands in front, and what stands behind the sign.
+/// Whether there is a minus at the start, and the text after the sign.
 pub(super) fn sign(text: &str) -> (bool, &str) {
     match text.strip_prefix('-') {
         Some(rest) => (true, rest),

@@ -4,7 +4,7 @@ use crate::problem::{Problem, Span};
 
 const HELP: &str = "the escapes are $$ $' $\" $L $N $P $R $T and two hexadecimal digits, such as $0D";
 
-/// The bytes of a string as it is written, with its quotation marks; one without an end has only the first. Escapes
+/// The bytes of a string as written, with its quotation marks; one without an end has only the first. Escapes
 /// are resolved. IEC 61131-3, tables 6 and 7.
 pub(crate) fn string(text: &str, span: Span) -> Result<Vec<u8>, Problem> {
     let Some(quote) = text.chars().next() else { return Ok(Vec::new()) };
@@ -15,7 +15,7 @@ pub(crate) fn string(text: &str, span: Span) -> Result<Vec<u8>, Problem> {
     while let Some((before, behind)) = rest.split_once('$') {
         bytes.extend_from_slice(before.as_bytes());
         let Some((byte, length)) = escape(behind) else {
-            // The rest of the string lies directly before the end of what is inside.
+            // The rest of the string is directly before the end of the inner text.
             let start = span.start as usize + quote.len_utf8() + inner.len() - behind.len() - 1;
             let shown: String = behind.chars().take(1).collect();
             let fault = Span::from(start..start + 1 + shown.len());
@@ -28,7 +28,7 @@ pub(crate) fn string(text: &str, span: Span) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-/// The byte that an escape stands for, and how long what stands behind the `$` is.
+/// The byte for an escape, and the length of the text after the `$`.
 fn escape(behind: &str) -> Option<(u8, usize)> {
     let byte = match behind.chars().next()? {
         '$' => b'$',

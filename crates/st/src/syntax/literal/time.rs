@@ -4,13 +4,13 @@ use super::number::sign;
 use crate::problem::{Problem, Span};
 use crate::value::TIME_UNITS;
 
-/// Larger than every TIME, and small enough to go on counting with.
+/// Larger than every TIME, and small enough for further calculations.
 const TOO_LONG: i128 = 1 << 80;
 
 const HELP: &str = "a duration is written with its units, the longest first: T#1d2h3m4s5ms, T#1.5s, T#-20ms";
 
-/// What stands behind `T#`, in nanoseconds: units in descending order, each once, and a fraction in the last only.
-/// What is less than a nanosecond is cut off. IEC 61131-3, table 8.
+/// The text after `T#`, in nanoseconds: units in descending order, each once, and a fraction only in the last.
+/// Parts below a nanosecond are cut off. IEC 61131-3, table 8.
 pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
     let (negative, rest) = sign(text);
     let fault = |message: String| Problem::new(span, message).help(HELP);
@@ -75,7 +75,7 @@ fn piece(text: &str) -> Option<Piece<'_>> {
     Some(Piece { whole, fraction, unit, rest: behind.trim_start_matches('_') })
 }
 
-/// The longest beginning of `text` that `belongs`, if there is one, and the rest.
+/// The longest start of `text` that `belongs`, if there is one, and the rest.
 fn split(text: &str, belongs: impl Fn(char) -> bool) -> Option<(&str, &str)> {
     let length = text.find(|character| !belongs(character)).unwrap_or(text.len());
     text.split_at_checked(length).filter(|_| length > 0)
@@ -84,7 +84,7 @@ fn split(text: &str, belongs: impl Fn(char) -> bool) -> Option<(&str, &str)> {
 impl Piece<'_> {
     fn nanoseconds(&self, factor: i128) -> i128 {
         let whole = digits(self.whole).fold(0, |value: i128, digit| (value * 10 + digit).min(TOO_LONG));
-        // 10^18 times the nanoseconds of a day are within an i128, and finer digits than that change nothing.
+        // 10^18 times the nanoseconds of a day fit into an i128, and further digits change nothing.
         let fraction = digits(self.fraction.unwrap_or_default()).take(18);
         let (value, scale) = fraction.fold((0, 1), |(value, scale), digit| (value * 10 + digit, scale * 10));
         whole.saturating_mul(factor).saturating_add(value * factor / scale).min(TOO_LONG)

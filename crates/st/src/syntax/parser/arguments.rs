@@ -7,7 +7,7 @@ use super::{Parsed, Parser};
 use crate::problem::Span;
 
 impl Parser<'_> {
-    /// The arguments behind `callee`, which began at `start`.
+    /// The arguments after `callee`, which began at `start`.
     pub(super) fn call(&mut self, callee: Expression, start: Span) -> Parsed<Call> {
         self.advance();
         let mut arguments = Vec::new();

@@ -1,11 +1,11 @@
-//! What is open, what closes it, and where reading goes on behind something broken.
+//! Open blocks, the words that close them, and where reading continues after an error.
 
 use super::super::keyword::Keyword;
 use super::super::token::Token;
 use super::{Parsed, Parser, spelling};
 use crate::problem::{Problem, Span};
 
-/// Something that an `END_…` closes.
+/// A block that an `END_…` closes.
 pub(super) struct Block {
     opener: Keyword,
     span: Span,
@@ -26,21 +26,21 @@ impl Block {
 }
 
 impl Parser<'_> {
-    /// Opens the block whose first word stands here, and tells where that is.
+    /// Opens the block whose first word is at this position, and returns that position.
     pub(super) fn open(&mut self, opener: Keyword) -> Span {
         let span = self.advance();
         self.blocks.push(Block { opener, span, has_else_if: false });
         span
     }
 
-    /// Notes that the innermost block goes on with ELSE and directly behind it IF.
+    /// Records that the innermost block continues with ELSE directly followed by IF.
     pub(super) fn note_else_if(&mut self) {
         if let Some(block) = self.blocks.last_mut() {
             block.has_else_if = true;
         }
     }
 
-    /// Closes the innermost block. Another block's end that no open block waits for was meant for this one.
+    /// Closes the innermost block. Another block's end that matches no open block was meant for this one.
     pub(super) fn close(&mut self) {
         let Some(closer) = self.blocks.last().and_then(|block| block.opener.closer()) else { return };
         self.mend(&[closer]);
@@ -61,7 +61,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether an open block ends or goes on with this word.
+    /// Whether an open block ends or continues with this word.
     pub(super) fn is_awaited(&self, keyword: Keyword) -> bool {
         self.blocks.iter().any(|block| block.awaits(keyword))
     }
@@ -71,12 +71,12 @@ impl Parser<'_> {
         self.blocks.last().is_some_and(|block| block.opener.opens_statement())
     }
 
-    /// What closes the innermost block.
+    /// The word that closes the innermost block.
     fn innermost_closer(&self) -> Option<Keyword> {
         self.blocks.last().and_then(|block| block.opener.closer())
     }
 
-    /// Goes on behind the next semicolon, or at a word that begins or ends something.
+    /// Continues after the next semicolon, or at a word that begins or ends something.
     pub(super) fn recover(&mut self) {
         loop {
             match self.token() {
@@ -91,7 +91,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Goes on behind `word`, unless a semicolon or a word that begins or ends something comes before it.
+    /// Continues after `word`, unless a semicolon or a word that begins or ends something comes before it.
     pub(super) fn recover_behind(&mut self, word: Keyword) {
         loop {
             match self.token() {
@@ -106,7 +106,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads `word`, also when it is misspelt. `place` tells what it stands behind.
+    /// Reads `word`, even if it is misspelt. `place` is the part before it, for the message.
     pub(super) fn word(&mut self, word: Keyword, place: &str) -> Parsed<()> {
         self.mend(&[word]);
         if self.accept_keyword(word) {
@@ -126,7 +126,7 @@ impl Parser<'_> {
         self.fail(problem)
     }
 
-    /// A missing thing is told where the wrong one stands, or behind the last token when that is in another line.
+    /// A missing part is reported at the position of the wrong one, or after the last token if that is in another line.
     fn missing_behind(&self, what: &str) -> Problem {
         let mut problem = self.missing(what);
         let before = self.previous();
@@ -136,7 +136,7 @@ impl Parser<'_> {
         problem
     }
 
-    /// Takes a misspelt word, such as `ENDIF`, as the one of `candidates` that it looks like, and tells so.
+    /// Accepts a misspelt word, such as `ENDIF`, as the one of `candidates` that it resembles, and reports it.
     pub(super) fn mend(&mut self, candidates: &[Keyword]) -> bool {
         if self.token() != Token::Name {
             return false;
@@ -156,7 +156,7 @@ impl Parser<'_> {
         true
     }
 
-    /// What `END` alone, or `END IF`, closes.
+    /// The block that `END` alone, or `END IF`, closes.
     fn parted_end(&self, text: &str) -> Option<Keyword> {
         if !text.eq_ignore_ascii_case("END") {
             return None;
@@ -168,7 +168,7 @@ impl Parser<'_> {
     }
 }
 
-/// Whether reading can go on at this word behind something broken.
+/// Whether reading can continue at this word after an error.
 fn stands_out(word: Keyword) -> bool {
     word.opens_statement() || word.ends_statements() || word.ends_body()
 }

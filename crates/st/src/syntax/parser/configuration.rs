@@ -1,4 +1,4 @@
-//! `CONFIGURATION … END_CONFIGURATION`. Its words are words of the language in it alone: outside they are names.
+//! `CONFIGURATION … END_CONFIGURATION`. Its words are words of the language only inside it: outside they are names.
 
 use super::super::ast::{Configuration, Expression, File, ProgramInstance, TaskDeclaration};
 use super::super::keyword::Keyword;
@@ -51,7 +51,7 @@ impl Parser<'_> {
         file.configurations.push(configuration);
     }
 
-    /// Whether something begins or ends here that stands in no configuration.
+    /// Whether something begins or ends here that cannot be in a configuration.
     fn configuration_ends(&self) -> bool {
         match self.token() {
             Token::End => true,
@@ -98,7 +98,7 @@ impl Parser<'_> {
         self.fail(problem)
     }
 
-    /// `Cpu ON PLC` behind RESOURCE.
+    /// `Cpu ON PLC` after RESOURCE.
     fn resource(&mut self) -> Parsed<()> {
         self.name("the name of a RESOURCE")?;
         if !self.accept_word("ON") {
@@ -120,7 +120,7 @@ impl Parser<'_> {
         true
     }
 
-    /// `Fast(INTERVAL := T#1ms, PRIORITY := 1);` behind TASK.
+    /// `Fast(INTERVAL := T#1ms, PRIORITY := 1);` after TASK.
     fn task(&mut self) -> Parsed<TaskDeclaration> {
         let name = self.name("the name of a TASK")?;
         let mut task = TaskDeclaration { name, interval: None, priority: None };
@@ -153,7 +153,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `Lamp1 WITH Fast : Lamp;` behind PROGRAM.
+    /// `Lamp1 WITH Fast : Lamp;` after PROGRAM.
     fn program_instance(&mut self) -> Parsed<ProgramInstance> {
         while self.accept_keyword(Keyword::Retain) || self.accept_keyword(Keyword::NonRetain) {}
         let name = self.name("the name of a program")?;

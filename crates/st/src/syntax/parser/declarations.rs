@@ -8,7 +8,7 @@ use super::{Parsed, Parser};
 use crate::SOURCE_BYTES_MAX;
 use crate::problem::{Problem, Span};
 
-/// Whose declarations are read.
+/// The owner of the declarations that are read.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Owner {
     Section,
@@ -77,7 +77,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes a misspelt end, such as `ENDVAR`, for what it is: a declaration has other things behind its name.
+    /// Recognizes a misspelt end, such as `ENDVAR`: a declaration has other tokens after its name.
     fn mend_closer(&mut self, owner: Owner) {
         let is_declared =
             matches!(self.peek(1), Token::Colon | Token::Comma | Token::Assign | Token::Keyword(Keyword::At));
@@ -94,7 +94,7 @@ impl Parser<'_> {
             Token::Keyword(word) => {
                 (word.opens_statement() || word.ends_statements()) && !self.comes_before_others(closer)
             }
-            // A statement: is the end of the section missing, or a type?
+            // A statement: either the end of the section is missing, or a type.
             Token::Name => {
                 let is_statement = matches!(
                     self.peek(1),
@@ -142,7 +142,7 @@ impl Parser<'_> {
         self.semicolon(&what).or_else(|failed| if self.begins_declaration() { Ok(()) } else { Err(failed) })
     }
 
-    /// Whether the next declaration, or the end, stands where a semicolon is missing.
+    /// Whether the next declaration, or the end, is at the position of a missing semicolon.
     fn begins_declaration(&self) -> bool {
         let begins = matches!(self.peek(1), Token::Colon | Token::Comma | Token::Keyword(Keyword::At));
         matches!(self.token(), Token::Keyword(_) | Token::End) || (self.token() == Token::Name && begins)
@@ -160,7 +160,7 @@ impl Parser<'_> {
         self.fail(problem)
     }
 
-    /// `:=` in front of an initial value; `=` is taken for it.
+    /// `:=` before an initial value; `=` is read as `:=`.
     pub(super) fn assign_sign(&mut self) -> bool {
         let here = self.here();
         if self.accept(Token::Equal) {
@@ -172,7 +172,7 @@ impl Parser<'_> {
         self.accept(Token::Assign)
     }
 
-    /// What stands behind AT.
+    /// The path after AT.
     fn location(&mut self, owner: Owner, names: usize) -> Parsed<Option<Name>> {
         let word = self.advance();
         let span = self.here();
@@ -201,7 +201,7 @@ impl Parser<'_> {
         Ok(path.map(|text| Name { text, span }))
     }
 
-    /// The bytes of the string at `span`; what is wrong with it is told.
+    /// The bytes of the string at `span`; mistakes in it are reported.
     pub(super) fn string_literal(&mut self, span: Span) -> Option<Vec<u8>> {
         match literal::string(self.text(span), span) {
             Ok(bytes) => Some(bytes),

@@ -1,4 +1,4 @@
-//! Expressions: operators and what they stand between.
+//! Expressions: operators and their operands.
 
 use super::super::ast::{BinaryOperator, Expression, ExpressionKind, Literal, Name, UnaryOperator};
 use super::super::keyword::Keyword;
@@ -8,7 +8,7 @@ use super::{OPERANDS_MAX, Parsed, Parser};
 use crate::problem::{Problem, Span};
 
 impl Parser<'_> {
-    /// Reads an expression that stands on its own.
+    /// Reads a complete expression.
     pub(super) fn expression(&mut self) -> Parsed<Expression> {
         self.operands = 0;
         self.inner_expression()
@@ -19,7 +19,7 @@ impl Parser<'_> {
         self.deeper(|parser| parser.binary(0))
     }
 
-    /// Operators from `strength` upward; those of the same strength are read from the left. IEC 61131-3, table 71.
+    /// Operators from `strength` upward; those of the same strength associate to the left. IEC 61131-3, table 71.
     fn binary(&mut self, strength: u8) -> Parsed<Expression> {
         let start = self.here();
         let mut left = self.unary()?;
@@ -32,7 +32,7 @@ impl Parser<'_> {
         Ok(left)
     }
 
-    /// The operator that stands here, and how strongly it binds.
+    /// The operator at this position, and its precedence.
     fn binary_operator(&self) -> Option<(BinaryOperator, u8)> {
         Some(match self.token() {
             Token::Keyword(Keyword::Or) => (BinaryOperator::Or, 1),
@@ -54,7 +54,7 @@ impl Parser<'_> {
         })
     }
 
-    /// A sign or NOT binds more strongly than every operator between two operands.
+    /// A sign or NOT has a higher precedence than every operator between two operands.
     fn unary(&mut self) -> Parsed<Expression> {
         let start = self.here();
         let operator = match self.token() {
@@ -103,7 +103,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `(In := …` behind the token that stands here: a call, not an expression in parentheses.
+    /// `(In := …` after the token at this position: a call, not an expression in parentheses.
     fn names_an_input(&self) -> bool {
         [1, 2, 3].map(|ahead| self.peek(ahead)) == [Token::OpenParenthesis, Token::Name, Token::Assign]
     }
@@ -118,7 +118,7 @@ impl Parser<'_> {
         Ok(Expression { kind: ExpressionKind::Call(call), span })
     }
 
-    /// Bounds what the tree of one expression holds.
+    /// Limits the tree of one expression.
     pub(super) fn count_operand(&mut self) -> Parsed<()> {
         self.operands += 1;
         if self.operands <= OPERANDS_MAX {
@@ -128,13 +128,13 @@ impl Parser<'_> {
         self.fail(Problem::new(self.here(), message).help("divide it among several assignments"))
     }
 
-    /// The literal that is the token standing here.
+    /// The literal of the token at this position.
     fn literal(&mut self, literal: Literal) -> Expression {
         let span = self.advance();
         Expression { kind: ExpressionKind::Literal(literal), span }
     }
 
-    /// A number that does not fit is told, and stands as 0.
+    /// A number that does not fit is reported, and replaced by 0.
     fn number(&mut self, read: impl FnOnce(&str, Span) -> Result<Literal, Problem>) -> Parsed<Expression> {
         let span = self.here();
         let literal = read(self.text(span), span).unwrap_or_else(|problem| {
@@ -152,7 +152,7 @@ impl Parser<'_> {
         Ok(inner)
     }
 
-    /// `:=` where only a comparison can stand: told, and read as `=`.
+    /// `:=` where only a comparison is possible: reported, and read as `=`.
     pub(super) fn comparison_for_assignment(&mut self, left: Expression) -> Parsed<Expression> {
         let here = self.here();
         if !self.accept(Token::Assign) {
@@ -165,7 +165,7 @@ impl Parser<'_> {
         Ok(Expression { kind, span })
     }
 
-    /// What has a `#` behind its first word: a literal with its type, or an enumeration value.
+    /// A name followed by `#`: a literal with its type, or an enumeration value.
     fn hashed(&mut self) -> Parsed<Expression> {
         let span = self.here();
         let (prefix, rest) = self.text(span).split_once('#').unwrap_or_default();
@@ -187,7 +187,7 @@ impl Parser<'_> {
         self.number(|_, span| literal::typed(prefix, rest, span))
     }
 
-    /// The problem that no operand stands here.
+    /// The problem that there is no operand at this position.
     fn no_operand(&self) -> Problem {
         let span = self.here();
         match self.token() {

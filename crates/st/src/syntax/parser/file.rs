@@ -1,4 +1,4 @@
-//! Files: program organization units, and what stands beside them.
+//! Files: program organization units, and the parts outside them.
 
 use super::super::ast::{File, Name, Pou, PouKind, TypeName};
 use super::super::keyword::Keyword;
@@ -7,7 +7,7 @@ use super::Parser;
 use super::statements::Place;
 use crate::problem::{Problem, Span};
 
-/// What begins a declaration of the standard that the language does not know, and what ends it.
+/// The word that begins a declaration of the standard that the language does not support, and the word that ends it.
 const UNSUPPORTED: [(&str, &str); 6] = [
     ("NAMESPACE", "END_NAMESPACE"),
     ("CLASS", "END_CLASS"),
@@ -64,7 +64,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Moves behind a declaration that the language does not know, and no further than what is open goes.
+    /// Advances past a declaration that the language does not support, without leaving the open block.
     pub(super) fn skip_unsupported(&mut self) -> bool {
         let here = self.here();
         let text = self.text(here);
@@ -114,7 +114,7 @@ impl Parser<'_> {
         pou
     }
 
-    /// `: type` behind the name of a FUNCTION.
+    /// `: type` after the name of a FUNCTION.
     fn result(&mut self, opener: Keyword) -> Option<TypeName> {
         let colon = self.here();
         if !self.accept(Token::Colon) {
@@ -139,7 +139,7 @@ impl Parser<'_> {
     }
 }
 
-/// The PROGRAM that has no name, because its text stands alone in the file.
+/// The PROGRAM without a name, if its text is alone in the file.
 fn unnamed_program(here: Span) -> Pou {
     let span = Span { start: here.start, end: here.start };
     let name = Name { text: String::new(), span };

@@ -36,7 +36,7 @@ impl Parser<'_> {
         let repeat = Some(self.expression()?);
         let is_struct = self.peek(1) == Token::Name && self.peek(2) == Token::Assign;
         if is_struct {
-            // `3(x := 1)` stands for `3((x := 1))`.
+            // `3(x := 1)` means `3((x := 1))`.
             return Ok(InitialElement { repeat, value: self.initial()? });
         }
         self.advance();

@@ -6,7 +6,7 @@ use super::{Parsed, Parser};
 use crate::problem::{Problem, Span};
 
 impl Parser<'_> {
-    /// A name with whatever stands behind it: `a.b[1, 2].c`, `f(x)`.
+    /// A name with everything that follows it: `a.b[1, 2].c`, `f(x)`.
     pub(super) fn variable_or_call(&mut self) -> Parsed<Expression> {
         let start = self.here();
         let name = self.name("a variable")?;

@@ -1,9 +1,9 @@
-//! What a word that is not known may have been meant for.
+//! The likely meaning of an unknown word.
 
 use super::super::keyword::Keyword;
 use crate::elementary::Elementary;
 
-/// Words of other languages and dialects for which no letter-by-letter likeness is needed.
+/// Words of other languages and dialects, which are recognized without a similar spelling.
 const OTHER_WORDS: [(&str, Keyword); 8] = [
     ("ELIF", Keyword::Elsif),
     ("ELSEIF", Keyword::Elsif),
@@ -15,7 +15,7 @@ const OTHER_WORDS: [(&str, Keyword); 8] = [
     ("SWITCH", Keyword::Case),
 ];
 
-/// The one of `candidates` that `text` looks like.
+/// The one of `candidates` that `text` resembles.
 pub(super) fn nearest(text: &str, candidates: &[Keyword]) -> Option<Keyword> {
     let text = text.to_ascii_uppercase();
     let other = OTHER_WORDS.iter().find(|(word, keyword)| *word == text && candidates.contains(keyword));
@@ -23,17 +23,18 @@ pub(super) fn nearest(text: &str, candidates: &[Keyword]) -> Option<Keyword> {
         return Some(*keyword);
     }
     let distance = |keyword: &Keyword| strsim::damerau_levenshtein(&text, keyword.word());
-    // Two wrong letters in a word of four would make half of all names a keyword.
+    // With two wrong letters in a word of four, half of all names would match a keyword.
     let allowed = if text.len() > 5 { 2 } else { 1 };
-    // The table of distances is as large as the text is long, and no keyword is nearly as long as this. A single letter
+    // The table of distances is as large as the length of the text, and all keywords are much shorter than this
+    // limit. A single letter resembles nothing.
     // looks like nothing.
     let is_comparable = (2..24).contains(&text.len());
     let best = candidates.iter().filter(|_| is_comparable).min_by_key(|keyword| distance(keyword))?;
     (distance(best) <= allowed).then_some(*best)
 }
 
-/// Whether `text` is a word that names a type, which nothing else may be called. DT is free: many programs call a step
-/// of time so.
+/// Whether `text` is the name of a type, which nothing else may have. DT is free: many programs use it as the
+/// name of a time step.
 pub(super) fn is_type_word(text: &str) -> bool {
     let is_type = Elementary::named(text).is_some() || text.eq_ignore_ascii_case("STRING");
     is_type && !text.eq_ignore_ascii_case("DT")

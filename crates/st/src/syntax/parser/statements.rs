@@ -9,7 +9,7 @@ use super::super::token::Token;
 use super::{Parsed, Parser};
 use crate::problem::{Problem, Span};
 
-/// Where a list of statements stands.
+/// The place of a list of statements.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     /// In a program organization unit, or in another statement.
@@ -35,7 +35,7 @@ impl Parser<'_> {
             }
             let before = self.place;
             match self.deeper(Self::statement) {
-                // One empty statement says as much as a million of them.
+                // One empty statement has the same meaning as a million of them.
                 Ok(Statement { kind: StatementKind::Empty, .. }) if ends_empty(&statements) => {}
                 Ok(statement) => statements.push(statement),
                 Err(_) => self.recover(),
@@ -46,7 +46,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether a word that ends statements stands here; one that closes nothing is told and left aside.
+    /// Whether there is a word that ends statements at this position; one that closes nothing is reported and ignored.
     fn statements_end(&mut self) -> bool {
         while let Some(word) = self.keyword().filter(|word| word.ends_statements()) {
             if self.is_inside_statement() {
@@ -59,7 +59,8 @@ impl Parser<'_> {
         self.token() == Token::End || self.keyword().is_some_and(Keyword::ends_body)
     }
 
-    /// Takes a misspelt word at the beginning of a statement for what it looks like, if no statement begins so.
+    /// Replaces a misspelt word at the start of a statement by the word that it resembles, if no statement
+    /// begins like this.
     pub(super) fn mend_statement(&mut self) {
         let begins_statement = matches!(
             self.peek(1),
@@ -151,9 +152,9 @@ impl Parser<'_> {
         }
     }
 
-    /// `=`, or an operator of another language, where `:=` belongs.
+    /// `=`, or an operator of another language, at the position of `:=`.
     fn tell_assignment(&mut self, sign: Span) {
-        // `==` has been told as a comparison, which it is not here.
+        // `==` has been reported as a comparison, which it is not here.
         self.problems.retain(|problem| problem.span.start != sign.start);
         let message = format!("expected `:=`, found `{}`", self.text(sign));
         self.tell(Problem::new(sign, message).help("an assignment is written `:=`"));
@@ -167,7 +168,7 @@ impl Parser<'_> {
         self.fail(problem.help("write an assignment for each variable; a comparison is written `=`"))
     }
 
-    /// The problem that a variable stands where a statement belongs.
+    /// The problem that there is a variable at the position of a statement.
     fn no_statement(&self, target: Span) -> Problem {
         let name = self.text(target);
         let shown: String = name.chars().take(40).collect();
@@ -183,7 +184,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The semicolon behind a statement.
+    /// The semicolon after a statement.
     fn end_statement(&mut self, kind: &StatementKind) {
         let what = match kind {
             StatementKind::Empty if self.token() != Token::Semicolon => return,
@@ -199,7 +200,7 @@ impl Parser<'_> {
             StatementKind::Continue => "CONTINUE",
             StatementKind::Return => "RETURN",
         };
-        // A block whose end is missing has been told; behind it there is no semicolon either.
+        // A block whose end is missing has been reported; there is no semicolon after it either.
         let is_simple = matches!(self.peek_before(), Some(Token::Keyword(word)) if what == word.word());
         let is_block = what.starts_with("END_");
         if is_block && !is_simple && self.token() != Token::Semicolon {
@@ -210,7 +211,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether a statement, or the end of a list of them, stands where a semicolon is missing.
+    /// Whether there is a statement, or the end of a list of them, at the position of a missing semicolon.
     fn begins_statement(&self) -> bool {
         match self.token() {
             Token::End => true,
@@ -232,7 +233,7 @@ fn ends_empty(statements: &[Statement]) -> bool {
     matches!(statements.last(), Some(Statement { kind: StatementKind::Empty, .. }))
 }
 
-/// The words that a misspelt one at the beginning of a statement may stand for.
+/// The words that a misspelt one at the start of a statement may mean.
 const STATEMENT_WORDS: &[Keyword] = &[
     Keyword::If,
     Keyword::Elsif,

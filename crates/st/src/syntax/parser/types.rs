@@ -1,4 +1,4 @@
-//! Types, where they are declared and where they are used.
+//! Types, in declarations and in use.
 
 use super::super::ast::{
     Expression, Name, TypeDeclaration, TypeDefinition, TypeKind, TypeName, VarDeclaration,
@@ -44,7 +44,7 @@ impl Parser<'_> {
         self.expect(Token::Colon, &format!("`:` behind the name of the type `{}`", name.text))?;
         let definition = self.definition()?;
         let is_struct = matches!(definition, TypeDefinition::Struct(_));
-        // Other tools write structures without the semicolon that the grammar of the standard asks for.
+        // Other tools write structures without the semicolon that the grammar of the standard requires.
         if !self.accept(Token::Semicolon) && !is_struct {
             let told = self.semicolon(&format!("the declaration of the type `{}`", name.text));
             if told.is_err() && !matches!(self.token(), Token::Keyword(_)) {
@@ -86,7 +86,7 @@ impl Parser<'_> {
         Ok(TypeDefinition::Enum { values, initial })
     }
 
-    /// The base type of an enumeration, an integer; whether one is here.
+    /// The base type of an enumeration, an integer; returns whether there is one.
     fn base_type(&mut self) -> Parsed<bool> {
         let span = self.here();
         if self.token() != Token::Name {
@@ -132,7 +132,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A type where it is used.
+    /// A type in use.
     pub(super) fn type_name(&mut self) -> Parsed<TypeName> {
         let start = self.here();
         let kind = self.deeper(Self::type_kind)?;
@@ -175,7 +175,7 @@ impl Parser<'_> {
         Ok(TypeKind::Elementary(elementary))
     }
 
-    /// `[10]` or `(10)` behind STRING.
+    /// `[10]` or `(10)` after STRING.
     fn string_length(&mut self) -> Parsed<TypeKind> {
         let (close, sign) = match self.token() {
             Token::OpenBracket => (Token::CloseBracket, "`]`"),
@@ -204,7 +204,7 @@ impl Parser<'_> {
         Ok(TypeKind::Array { bounds, element })
     }
 
-    /// `*, *] OF INT` behind `ARRAY[`.
+    /// `*, *] OF INT` after `ARRAY[`.
     fn open_array(&mut self) -> Parsed<TypeKind> {
         let mut dimensions = 0;
         loop {

@@ -1,4 +1,4 @@
-//! Sources in which nothing is wrong.
+//! Sources without problems.
 
 use super::printed;
 use super::read;

@@ -1,8 +1,8 @@
-//! What is told of broken sources.
+//! The problems reported for broken sources.
 
 use super::told;
 
-/// Sources that are broken in the ways in which people break them.
+/// Sources with typical mistakes.
 const SOURCES: &[&str] = &[
     // Statements.
     "x := 5",

@@ -1,4 +1,4 @@
-//! What literals say, up to their limits.
+//! The values of literals, up to their limits.
 
 use proptest::prelude::*;
 

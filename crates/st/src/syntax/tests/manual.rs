@@ -1,4 +1,4 @@
-//! The programs of the manual, A-3-3, A-4-3 and A-4-4, with the line breaks of the print mended, as far as their forms go.
+//! The programs of the manual, A-3-3, A-4-3 and A-4-4, with corrected line breaks, as far as their forms are supported.
 
 use super::read;
 

@@ -1,4 +1,4 @@
-//! Trees as text: full parentheses, so that nothing depends on what binds how strongly.
+//! Trees as text: full parentheses, so that nothing depends on the precedence of operators.
 
 use core::fmt::Write as _;
 
@@ -7,7 +7,7 @@ use crate::syntax::ast::{
     TypedValue, UnaryOperator,
 };
 
-/// An expression with parentheses round everything that has an operator.
+/// An expression with parentheses around everything that has an operator.
 pub(super) fn expression(tree: &Expression) -> String {
     match &tree.kind {
         ExpressionKind::Literal(value) => literal(value),

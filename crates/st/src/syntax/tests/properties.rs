@@ -1,4 +1,4 @@
-//! No source is too much, and what is printed reads back as itself.
+//! Any source is handled, and printed output is read back as the same tree.
 
 use proptest::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::problem::Problems;
 use crate::syntax::ast::{Expression, StatementKind};
 use crate::syntax::parse;
 
-/// Pieces that meet one another in ways that no programmer thinks of.
+/// Pieces that are combined in ways that no programmer would choose.
 const PIECES: &[&str] = &[
     "PROGRAM",
     "END_PROGRAM",
@@ -112,7 +112,8 @@ const PIECES: &[&str] = &[
     "#",
 ];
 
-/// Reads it twice: the same is told, everything lies inside the source, and not more than what is told of.
+/// Reads it twice: the reports are equal, everything is inside the source, and there are no more than the
+/// maximum number of problems.
 fn look_at(source: &str) {
     let (file, problems) = parse(source);
     assert!(problems.len() <= PROBLEMS_SOUGHT);
@@ -191,7 +192,7 @@ proptest! {
     }
 }
 
-/// Stack enough for what is nested most deeply, and far from enough for anything that goes on with the source.
+/// Stack enough for the deepest permitted nesting, and far from enough for code that recurses along the source.
 const STACK_BYTES: usize = 512 * 1024;
 
 #[test]

@@ -1,4 +1,4 @@
-//! Every node knows its text.
+//! Every node has the position of its text.
 
 use super::read;
 use crate::problem::Span;

@@ -35,13 +35,13 @@ impl Parser<'_> {
         (condition, self.statements(Place::Body))
     }
 
-    /// The statements behind ELSE, if it stands here.
+    /// The statements after ELSE, if it is at this position.
     fn otherwise(&mut self) -> Vec<Statement> {
         let word = self.here();
         if !self.accept_keyword(Keyword::Else) {
             return Vec::new();
         }
-        // The two words count as one thought only in one line.
+        // The two words belong together only if they are in one line.
         let between = Span { start: word.end, end: self.here().start };
         if self.at(Keyword::If) && !self.text(between).contains('\n') {
             self.note_else_if();
@@ -49,7 +49,7 @@ impl Parser<'_> {
         self.statements(Place::Body)
     }
 
-    /// A condition, and the word `ending` behind it. One that cannot be read stands as TRUE.
+    /// A condition, and the word `ending` after it. One that cannot be read is replaced by TRUE.
     pub(super) fn condition(&mut self, ending: Keyword, opener: &str) -> Expression {
         let start = self.here();
         let read = self.expression().and_then(|condition| self.comparison_for_assignment(condition));
@@ -61,7 +61,7 @@ impl Parser<'_> {
         condition
     }
 
-    /// The word that ends the head of a statement; without it, or with another one, the body is read as well.
+    /// The word that ends the head of a statement; if it is missing or different, the body is read nevertheless.
     pub(super) fn ending(&mut self, ending: Keyword, place: &str) {
         if self.word(ending, place).is_ok() {
             return;
@@ -115,7 +115,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Labels with the colon behind them; without them the statements behind are read all the same.
+    /// Labels with the colon after them; if they are missing, the statements after them are read nevertheless.
     fn labels(&mut self) -> Option<Vec<CaseLabel>> {
         let mut labels = Vec::new();
         let read = loop {
@@ -144,7 +144,7 @@ impl Parser<'_> {
         Ok(CaseLabel::Range(from, self.expression()?))
     }
 
-    /// Whether a label of CASE stands here: no statement begins like one.
+    /// Whether there is a label of CASE at this position: no statement begins like one.
     pub(super) fn at_label(&self) -> bool {
         match self.token() {
             Token::Integer
@@ -167,7 +167,7 @@ impl Parser<'_> {
     }
 }
 
-/// Stands for a condition that could not be read.
+/// Replaces a condition that could not be read.
 fn placeholder(start: Span) -> Expression {
     let span = Span { start: start.start, end: start.start };
     Expression { kind: ExpressionKind::Literal(Literal::Bool(true)), span }

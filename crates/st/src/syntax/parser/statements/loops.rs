@@ -7,7 +7,7 @@ use super::super::{Parsed, Parser};
 use super::Place;
 use crate::problem::Problem;
 
-/// What stands between FOR and DO.
+/// The part between FOR and DO.
 struct ForHead {
     variable: Expression,
     from: Expression,
@@ -16,7 +16,7 @@ struct ForHead {
 }
 
 impl Parser<'_> {
-    /// A FOR whose head cannot be read stands as an empty statement; its body is looked through all the same.
+    /// A FOR whose head cannot be read becomes an empty statement; its body is checked nevertheless.
     pub(super) fn for_statement(&mut self) -> StatementKind {
         self.open(Keyword::For);
         let head = self.for_head();
