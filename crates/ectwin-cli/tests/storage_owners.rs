@@ -158,7 +158,10 @@ fn a_disk_that_stays_full_loses_nothing_that_was_stored() {
     let link = free_link();
     let mut unit = Started::new(&folder, "ulimit -f 0;", &run(&["unit.toml"], &link)).ready();
     unit.wait_for("N1.nvm: not stored: ");
-    assert!(unit.interrupt().stderr.contains("the last changes are lost"));
+    let ended = unit.interrupt();
+    assert!(ended.stderr.contains("the last changes are lost"), "{}", ended.stderr);
+    assert!(ended.stderr.contains("error: cannot write "), "{}", ended.stderr);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     assert_eq!(fs::read(folder.join("N1.nvm")).unwrap(), stored);
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "nothing else is left");
 }

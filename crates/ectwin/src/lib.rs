@@ -44,7 +44,7 @@ pub use coe_kit::indicators::Pattern;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
-pub use live::{Live, run};
+pub use live::{Ended, Live, run};
 #[cfg(feature = "modbus")]
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
 pub use nx_ect101::unit_file;
@@ -62,6 +62,7 @@ pub use plc::{
 pub use scenario;
 pub use setup::{Setup, SetupError};
 pub use st;
+pub use storage::ChangesLost;
 pub use time::{Duration, Instant};
 pub use twin::Twin;
 pub use unit_side::UnitSide;

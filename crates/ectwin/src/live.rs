@@ -7,6 +7,7 @@ use std::thread::{self, JoinHandle};
 
 use link::{Clock, FrameFate, FramePort, Observer, Responder, Statistics, runner};
 use plc::CpuUnit;
+use storage::ChangesLost;
 use time::{Duration, Instant};
 
 use crate::Twin;
@@ -16,6 +17,15 @@ use crate::unit_side::UnitSide;
 
 /// Longest sleep of the CPU Units' thread, so that it sees the stop flag.
 const STOP_CHECK: Duration = Duration::from_millis(100);
+
+/// The result of a run.
+#[derive(Debug)]
+pub struct Ended {
+    /// The counters of the run.
+    pub statistics: Statistics,
+    /// Memory files that lack the last changes of their units, such as on a full disk.
+    pub lost: Vec<ChangesLost>,
+}
 
 /// Answers `port` in real time until `stop` is set or the link is closed, and then sets `stop`. The units
 /// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only. `stop` ends a
@@ -30,13 +40,13 @@ pub fn run<'o, P: FramePort>(
     observer: Option<&'o mut (dyn Observer + 'o)>,
     clock: &Clock,
     stop: &Arc<AtomicBool>,
-) -> io::Result<Statistics> {
+) -> io::Result<Ended> {
     let mut parts = twin.into_parts();
     parts.cpus.iter_mut().for_each(|cpu| cpu.switch_off_on(Arc::clone(stop)));
     let (line, cpus, error_reset) = (&mut parts.line, &mut parts.cpus, &parts.error_reset);
     let mut changes = ProgramChanges::watch(parts.programs)?;
     let mut reports = Reports::default();
-    thread::scope(|scope| {
+    let statistics = thread::scope(|scope| {
         let tasks = thread::Builder::new().name("cpu-unit".to_owned());
         let tasks = tasks.spawn_scoped(scope, || {
             keep_pace(clock, stop, |now| {
@@ -56,7 +66,9 @@ pub fn run<'o, P: FramePort>(
         tasks.thread().unpark();
         tasks.join().map_err(|_| cpu_units_panicked())?;
         result
-    })
+    });
+    let lost = parts.line.finish();
+    Ok(Ended { statistics: statistics?, lost })
 }
 
 fn cpu_units_panicked() -> io::Error {
@@ -132,9 +144,16 @@ impl Live {
     /// Switches the units off and tells what they did.
     ///
     /// # Errors
-    /// The medium was gone.
+    /// The medium was gone, or the last changes of a unit could not be stored in its memory file.
     pub fn stop(mut self) -> io::Result<Statistics> {
-        self.end()
+        let statistics = self.end()?;
+        match self.shared.line().finish().into_iter().next() {
+            Some(ChangesLost { path, source }) => {
+                let words = format!("{}: the last changes are lost: {source}", path.display());
+                Err(io::Error::new(source.kind(), words))
+            }
+            None => Ok(statistics),
+        }
     }
 
     fn end(&mut self) -> io::Result<Statistics> {

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use device::Network;
 use nx_ect101::{Damage, MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
-use storage::StoredFile;
+use storage::{ChangesLost, StoredFile};
 
 /// What a unit has found in its file, and who keeps the file from now on.
 #[derive(Debug)]
@@ -79,5 +79,10 @@ impl Keeper {
         if unit.take_memory_change(esc.sii_image(), esc.sii_words_written()) {
             self.writer.store(|bytes| unit.memory().encode_into(bytes));
         }
+    }
+
+    /// Waits until the last change is stored, or refused again.
+    pub(crate) fn finish(self) -> Result<(), ChangesLost> {
+        self.writer.finish()
     }
 }

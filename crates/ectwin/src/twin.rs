@@ -9,6 +9,7 @@ use nx_ect101::NxEct101;
 use plc::CpuUnit;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
+use storage::ChangesLost;
 use time::{Duration, Instant};
 
 use crate::memory_file::Keeper;
@@ -181,6 +182,12 @@ impl Line {
         now: Instant,
     ) -> UnitSide<'a> {
         UnitSide::of(&mut self.network, cpus, position, now)
+    }
+
+    /// Stores what has changed, and gives up the files. What could not be stored is lost.
+    pub(crate) fn finish(&mut self) -> Vec<ChangesLost> {
+        self.keep();
+        self.keepers.drain(..).filter_map(|keeper| keeper.finish().err()).collect()
     }
 
     /// Stores the memories that have changed.

@@ -16,4 +16,4 @@ mod writer;
 pub use identity::Identity;
 pub use place::resolve;
 pub use stored_file::StoredFile;
-pub use writer::Writer;
+pub use writer::{ChangesLost, Writer};

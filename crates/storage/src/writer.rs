@@ -1,6 +1,7 @@
 //! A thread that keeps a file up to date.
 
 use std::io;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::{self, JoinHandle};
@@ -22,7 +23,16 @@ const RETRY: Duration = Duration::from_secs(1);
 pub struct Writer {
     newest: Input<Vec<u8>>,
     stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<()>>,
+    thread: Option<JoinHandle<Result<(), ChangesLost>>>,
+}
+
+/// The last changes are not in the file: it could not be written until the end.
+#[derive(Debug)]
+pub struct ChangesLost {
+    /// The file.
+    pub path: PathBuf,
+    /// Why it could not be written.
+    pub source: io::Error,
 }
 
 impl Writer {
@@ -48,21 +58,33 @@ impl Writer {
             thread.thread().unpark();
         }
     }
+
+    /// Waits until the newest contents are stored, or refused again.
+    ///
+    /// # Errors
+    /// They were refused, so they are lost.
+    pub fn finish(mut self) -> Result<(), ChangesLost> {
+        self.end()
+    }
+
+    fn end(&mut self) -> Result<(), ChangesLost> {
+        let Some(thread) = self.thread.take() else { return Ok(()) };
+        // Release: a thread that sees the flag also sees the contents that were published before it.
+        self.stop.store(true, Ordering::Release);
+        thread.thread().unpark();
+        // A thread that panicked has already reported it.
+        thread.join().unwrap_or(Ok(()))
+    }
 }
 
 impl Drop for Writer {
     fn drop(&mut self) {
-        // Release: a thread that sees the flag also sees the contents that were published before it.
-        self.stop.store(true, Ordering::Release);
-        if let Some(thread) = self.thread.take() {
-            thread.thread().unpark();
-            // A thread that panicked has already reported it.
-            let _ = thread.join();
-        }
+        // The thread has logged a loss.
+        let _ = self.end();
     }
 }
 
-fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
+fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) -> Result<(), ChangesLost> {
     let mut is_unsaved = false;
     loop {
         // Read before the contents are checked, so that the last ones are not missed.
@@ -72,8 +94,7 @@ fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
             is_unsaved = !kept.is_stored(contents.output_buffer());
         }
         match (is_last, is_unsaved) {
-            (true, true) => return kept.lose(),
-            (true, false) => return,
+            (true, _) => return kept.end(),
             (false, true) => thread::park_timeout(RETRY),
             (false, false) => thread::park(),
         }
@@ -84,15 +105,16 @@ fn keep(mut kept: Kept, mut contents: Output<Vec<u8>>, stop: &AtomicBool) {
 struct Kept {
     file: StoredFile,
     /// Why the last write was refused; none if it was not.
-    refused: Option<String>,
+    refused: Option<io::Error>,
 }
 
 impl Kept {
     fn is_stored(&mut self, bytes: &[u8]) -> bool {
-        let refused = self.file.write(bytes).err().map(|error| error.to_string());
+        let refused = self.file.write(bytes).err();
         let path = self.file.path().display();
-        match (&refused, &self.refused) {
-            (Some(reason), before) if Some(reason) != before.as_ref() => {
+        let reason = |refused: &Option<io::Error>| refused.as_ref().map(io::Error::to_string);
+        match (reason(&refused), reason(&self.refused)) {
+            (Some(reason), before) if Some(&reason) != before.as_ref() => {
                 tracing::error!("{path}: not stored: {reason}; this is tried again every second");
             }
             (None, Some(_)) => tracing::warn!("{path}: stored again"),
@@ -102,11 +124,11 @@ impl Kept {
         self.refused.is_none()
     }
 
-    fn lose(&self) {
-        tracing::error!(
-            "{}: the last changes are lost, nothing made room for them",
-            self.file.path().display()
-        );
+    fn end(self) -> Result<(), ChangesLost> {
+        let Some(source) = self.refused else { return Ok(()) };
+        let path = self.file.path().to_owned();
+        tracing::error!("{}: the last changes are lost, nothing made room for them", path.display());
+        Err(ChangesLost { path, source })
     }
 }
 
@@ -128,6 +150,20 @@ mod tests {
         }
         drop(writer);
         assert_eq!(folder.contents("N1.nvm"), Some(vec![200; 1000]));
+    }
+
+    #[test]
+    fn contents_that_are_refused_until_the_end_are_lost_with_the_place_and_the_reason() {
+        let folder = Folder::of_test("lost");
+        let writer = |name| Writer::start(folder.claim(name).expect("free"), 64).expect("a thread");
+        let (mut stored, mut refused) = (writer("stored.nvm"), writer("N1.nvm"));
+        std::fs::create_dir(folder.file("N1.nvm")).expect("writable");
+        stored.store(|bytes| bytes.push(1));
+        refused.store(|bytes| bytes.push(1));
+        assert!(stored.finish().is_ok());
+        let lost = refused.finish().expect_err("a folder is in the way");
+        assert_eq!(lost.path, folder.file("N1.nvm"));
+        assert!(lost.source.to_string().contains("directory"), "{}", lost.source);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use ectwin::{ModbusServer, Setup, Twin};
+use ectwin::{ChangesLost, Ended, ModbusServer, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
 use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
@@ -46,11 +46,20 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     // The port is open: a frame that comes from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
-    let statistics = ectwin::run(twin, &mut port, observer, &clock, &stop);
+    let ended = ectwin::run(twin, &mut port, observer, &clock, &stop);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));
-    tell(statistics.map_err(Failure::LinkLost)?);
-    recorded
+    let Ended { statistics, lost } = ended.map_err(Failure::LinkLost)?;
+    tell(statistics);
+    recorded.and_then(|()| refuse_loss(lost))
+}
+
+/// Each loss is logged already.
+fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
+    match lost.into_iter().next() {
+        Some(ChangesLost { path, source }) => Err(Failure::Unwritable { path, source }),
+        None => Ok(()),
+    }
 }
 
 /// One line that programs read: what is ready, with the real ports.
