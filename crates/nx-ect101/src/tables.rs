@@ -184,7 +184,7 @@ impl TypeRow {
             Self::String => DataType::VISIBLE_STRING,
             Self::ByteArray => DataType::OCTET_STRING,
             // ETG.1020 has no other code for ARRAY [0..n] OF UINT: the 0x0260 family is for signed elements
-            // and UDINT. One octet, as an SII PDO entry needs it.
+            // and UDINT. One byte, as an SII PDO entry needs it.
             Self::UintArray => DataType::UNICODE_STRING,
         }
     }

@@ -22,7 +22,7 @@ const TOLD: Emergency = Emergency { code: 0xFF20, register: 0, event: IO_COMMUNI
 const MESSAGE_HEAD: [u8; 8] = [0x00, 0xE8, 0x20, 0xFF, 0x12, 0x00, 0x20, 0x80];
 const CURRENT_ERROR: [u8; 12] = [0x00, 0x00, 0x20, 0x80, 0x00, 0x00, 0x07, 0x00, 0x00, 0x00, 0x00, 0x00];
 const MINOR_FAULT: u8 = 0x20;
-/// Data … Valid, both directions, in the first octet of the inputs.
+/// Data … Valid, both directions, in the first byte of the inputs.
 const VALID: u8 = 0b110;
 
 /// Data … Valid, and New Messages Available behind the data sets.

@@ -37,7 +37,7 @@ async fn our_application_brings_the_unit_to_op() {
         assert_eq!(group.tx_rx(&master).await.unwrap().working_counter, 3);
         let inputs = group.subdevice(&master, 0).unwrap().inputs_raw().to_vec();
         let arrived = live.look(0, |unit| unit.io().uints(1).unwrap()[0] == 0x5678);
-        // Two octets of status, then the first UINT array.
+        // Two bytes of status, then the first UINT array.
         if arrived && inputs[2..4] == [0x34, 0x12] {
             return;
         }

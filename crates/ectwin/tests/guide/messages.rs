@@ -34,7 +34,7 @@ const APRD: u8 = 1;
 const APWR: u8 = 2;
 const NOT_READY: u32 = 0x0800_0021;
 
-/// One datagram of 400 octets at most to the first unit. Returns its data as it came back.
+/// One datagram of 400 bytes at most to the first unit. Returns its data as it came back.
 fn datagram(twin: &mut Twin, command: u8, offset: u16, data: &[u8]) -> Vec<u8> {
     let length = data.len() as u16;
     let mut frame = [&[0xFF; 12][..], &[0x88, 0xA4], &(0x1000 | (12 + length)).to_le_bytes()].concat();
@@ -46,7 +46,7 @@ fn datagram(twin: &mut Twin, command: u8, offset: u16, data: &[u8]) -> Vec<u8> {
     frame[26..26 + data.len()].to_vec()
 }
 
-/// One SDO request to subindex 1. Returns the response from its command octet on.
+/// One SDO request to subindex 1. Returns the response from its command byte on.
 fn sdo(twin: &mut Twin, command: u8, index: u16, data: &[u8]) -> Vec<u8> {
     let length = (6 + data.len() as u16).to_le_bytes();
     // Mailbox header with type CoE, CoE header with service SDO request, SDO header.

@@ -79,7 +79,7 @@ pub(crate) struct Seen {
     pub(crate) inputs: Vec<u8>,
 }
 
-/// An octet of data, never 0.
+/// A byte of data, never 0.
 pub(crate) fn output(place: usize) -> u8 {
     (place % 100) as u8 + 1
 }

@@ -118,7 +118,7 @@ impl Bench {
         self.unit.refresh(NOW, Exchange { cause, state: self.state, links, outputs: None, inputs });
     }
 
-    /// The octets of all emergency messages that wait, `most` at most.
+    /// The bytes of all emergency messages that wait, `most` at most.
     pub(crate) fn take_emergencies(&mut self, most: usize) -> Vec<[u8; 8]> {
         let mut emergencies = Vec::new();
         while emergencies.len() < most {

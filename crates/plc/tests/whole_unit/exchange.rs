@@ -6,7 +6,7 @@ use time::{Duration, Instant};
 
 use crate::bench::{Bench, PRE_OP, SAFE_OP};
 
-/// The octets of a PDO mapping object with its entries 1 to `count`.
+/// The bytes of a PDO mapping object with its entries 1 to `count`.
 fn mapping(base: u32, count: u8) -> Vec<u8> {
     let entries = (1..=u32::from(count)).flat_map(|sub| (base | sub << 8).to_le_bytes());
     [count, 0].into_iter().chain(entries).collect()

@@ -12,12 +12,12 @@ const MESSAGES: u32 = 10_000;
 const NOT_READY: u32 = 0x0800_0021;
 const MESSAGE: SubIndex = SubIndex(1);
 
-/// Bits of CoE 6003 in the first octet of the inputs.
+/// Bits of CoE 6003 in the first byte of the inputs.
 const NX_MESSAGES_ENABLED: u8 = 1 << 0;
 const NEW_MESSAGE: u8 = 1 << 3;
 const READY_TO_WRITE: u8 = 1 << 4;
 
-/// Message `number` of one direction: every octet depends on the number and on its place.
+/// Message `number` of one direction: every byte depends on the number and on its place.
 fn message(number: u32, salt: u8) -> Vec<u8> {
     let body = (4..200_u32).map(|place| (number.wrapping_mul(31).wrapping_add(place * 7)) as u8 ^ salt);
     number.to_le_bytes().into_iter().chain(body).collect()
@@ -93,7 +93,7 @@ fn start() -> (Bench, Receiver<Told>) {
     (bench, told)
 }
 
-/// The first octet of NX Unit Status.
+/// The first byte of NX Unit Status.
 fn status(bench: &mut Bench) -> u8 {
     bench.read(nx_ect101::layout::INPUTS_START, 183)[0]
 }
