@@ -1,5 +1,5 @@
-//! What a scan of a user program costs, with the device variables that it takes in and gives out:
-//! `cargo bench -p ectwin-plc`. Targets and figures: docs/performance.md.
+//! The cost of a scan of a user program, including the device variables that it reads and writes: `cargo bench
+//! -p ectwin-plc`. Targets and figures: docs/performance.md.
 
 #![expect(clippy::expect_used, reason = "a benchmark ends where something is not as it should be")]
 
@@ -12,17 +12,17 @@ use nx_ect101::nx_bus;
 use plc::{CpuSettings, CpuUnit, DeviceVariables, Io, Program as _, StructuredText};
 use time::Instant;
 
-/// The program that a test holds to the manual, A-3-3: it copies 15 UINTs while all data are valid.
+/// The program that a test compares with the manual, A-3-3: it copies 15 UINTs while all data are valid.
 const A_3_3: &str = include_str!("../../../scenarios/programs/a-3-3.st");
 
-/// The variables that A-3-3 waits for.
+/// The variables that A-3-3 checks.
 const VALID: [&str; 3] = [
     "NXBus_N1_NX_Unit_I_O_Data_Active_Status",
     "N1_Data_from_EtherCAT_Master_to_CPU_Unit_Valid",
     "N1_Data_from_CPU_Unit_to_EtherCAT_Master_Valid",
 ];
 
-/// A CPU Unit that repeats the scan of a program within one cycle, and takes the time that this needs.
+/// A CPU Unit that repeats the scan of a program within one cycle, and measures the time of this.
 struct Bench {
     cpu: CpuUnit,
     repeats: Arc<AtomicU64>,
@@ -53,7 +53,7 @@ impl Bench {
         Self { cpu, repeats, spent_ns, _unit: unit }
     }
 
-    /// How long so many scans take.
+    /// The time of this number of scans.
     fn run(&mut self, scans: u64) -> std::time::Duration {
         self.repeats.store(scans, Ordering::Relaxed);
         let deadline = self.cpu.deadline();
@@ -67,7 +67,7 @@ fn scan(criterion: &mut Criterion, name: &str, source: &str) {
     criterion.bench_function(name, |bencher| bencher.iter_custom(|scans| bench.run(scans)));
 }
 
-/// Assignments, branches and arithmetic, 1,000 statements of each scan.
+/// Assignments, branches and arithmetic, 1,000 statements in each scan.
 fn thousand_statements() -> String {
     let four = "i := i + 1;\nr := r * 0.5 + 1.0;\nIF i > 100 THEN i := 0; END_IF;\na[i MOD 10] := i;\n";
     format!("VAR i : INT; r : LREAL; a : ARRAY[0..9] OF INT; END_VAR\n{}", four.repeat(250))

@@ -1,16 +1,16 @@
-//! User programs that need no file, by their names.
+//! Built-in user programs, by their names.
 
 use crate::program::Program;
 use crate::{Echo, MessageEcho, Pulse};
 
-/// A user program that a unit file names in place of a path.
+/// A user program that a unit file names instead of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Builtin {
-    /// `builtin:copy`: copies what comes from the master back to it ([`Echo`]).
+    /// `builtin:copy`: copies the data from the master back to it ([`Echo`]).
     Copy,
     /// `builtin:pulse`: counts in the first byte to the master ([`Pulse`]).
     Pulse,
-    /// `builtin:messages`: sends messages back besides ([`MessageEcho`]).
+    /// `builtin:messages`: copies the data, and also sends messages back ([`MessageEcho`]).
     Messages,
 }
 
@@ -28,13 +28,13 @@ impl Builtin {
         }
     }
 
-    /// The program of this name; none if there is no such program.
+    /// The program with this name; none if there is no such program.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|builtin| builtin.name() == name)
     }
 
-    /// The program, at its beginning.
+    /// The program in its initial state.
     #[must_use]
     pub fn program(self) -> Box<dyn Program + Send> {
         match self {

@@ -1,4 +1,4 @@
-//! What the CPU Unit tells its owner: a bounded log that says what it has lost.
+//! The events of the CPU Unit: a bounded log that counts its losses.
 
 use core::fmt;
 use std::collections::VecDeque;
@@ -8,44 +8,44 @@ use time::Instant;
 use crate::cpu_unit::OperatingMode;
 use crate::program::ProgramEvent;
 
-/// Most records that wait to be taken.
+/// Maximum number of waiting records.
 pub const CPU_EVENTS_MAX: usize = 64;
 
-/// Something that happened on the CPU Unit.
+/// An event on the CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CpuEvent {
     /// The operating mode was changed.
     ModeChanged(OperatingMode),
     /// A user program was loaded.
     ProgramLoaded,
-    /// A task period began late, so that some were left out.
+    /// A task period started late, so that some were left out.
     TaskPeriodExceeded {
-        /// How many, of all that the record counts.
+        /// The number of them, in all occurrences of the record.
         missed_periods: u64,
     },
-    /// A program told something.
+    /// A report of a program.
     Program(ProgramEvent),
     /// The NX Bus Function Module stopped I/O refreshing because of an error of the unit: the fail-soft operation
     /// is set to *Stop* (manual, 8-3-4).
     IoRefreshingStopped,
-    /// The errors of the NX Bus Function Module were reset, and I/O refreshing goes on.
+    /// The errors of the NX Bus Function Module were reset, and I/O refreshing continues.
     IoRefreshingResumed,
 }
 
-/// An event, when it happened, and how often.
+/// An event, its times, and its number of occurrences.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpuRecord {
-    /// What happened.
+    /// The event.
     pub event: CpuEvent,
-    /// Beginning of the task period in which it happened first, counted from power-on of the CPU Unit.
+    /// Start of the task period in which it first occurred, counted from power-on of the CPU Unit.
     pub first_at: Instant,
-    /// The same for the last time.
+    /// The same for its last occurrence.
     pub last_at: Instant,
-    /// How often it happened, from 1.
+    /// Number of occurrences, from 1.
     pub count: u64,
 }
 
-/// The records that nobody has taken yet.
+/// The records that have not been taken yet.
 #[derive(Clone, Debug)]
 pub(crate) struct CpuEventLog {
     records: VecDeque<CpuRecord>,
@@ -70,7 +70,7 @@ impl fmt::Display for CpuEvent {
 }
 
 impl CpuEvent {
-    /// After one of these, the same trouble is new trouble.
+    /// After one of these, the same trouble counts as new.
     const fn is_turn(&self) -> bool {
         match self {
             Self::ModeChanged(_)
@@ -82,7 +82,7 @@ impl CpuEvent {
         }
     }
 
-    /// Takes the other event in, if it is the same again.
+    /// Merges the other event into this one, if it is the same again.
     fn absorb(&mut self, other: &Self) -> bool {
         match (self, other) {
             (
@@ -92,7 +92,7 @@ impl CpuEvent {
                 *missed_periods = missed_periods.saturating_add(*more);
                 true
             }
-            // An index that runs on is the same error with another number.
+            // An index that increases in each scan is the same error with another number.
             (Self::Program(ProgramEvent::Error(this)), Self::Program(ProgramEvent::Error(other))) => {
                 this == other || (this.line > 0 && (this.line, this.column) == (other.line, other.column))
             }
@@ -106,7 +106,7 @@ impl CpuEventLog {
         Self { records: VecDeque::with_capacity(CPU_EVENTS_MAX), lost: 0 }
     }
 
-    /// Writes an event down. One that goes on and on takes one record; when there is no room, the oldest is lost.
+    /// Records an event. One that repeats takes one record; if there is no room, the oldest is lost.
     pub(crate) fn add(&mut self, now: Instant, event: CpuEvent) {
         let mut since_turn = self.records.iter_mut().rev().take_while(|record| !record.event.is_turn());
         if let Some(record) = since_turn.find_map(|record| record.event.absorb(&event).then_some(record)) {
@@ -126,7 +126,7 @@ impl CpuEventLog {
         self.records.drain(..)
     }
 
-    /// How many records were lost since power-on.
+    /// Number of records lost since power-on.
     pub(crate) const fn lost(&self) -> u64 {
         self.lost
     }

@@ -20,30 +20,30 @@ pub use settings::{CpuSettings, OperatingMode};
 pub struct CpuUnit {
     bus: CpuEnd,
     nx_bus_function: NxBusFunction,
-    /// Outside runtimes, in the order in which they were attached.
+    /// Outside runtimes, in the order of their attachment.
     attached: Vec<Slot>,
     user_program: Slot,
     io: Io,
     mode: OperatingMode,
     mode_at_power_on: OperatingMode,
-    /// The task period of the settings, for programs that ask for none.
+    /// The task period of the settings, for programs that do not request one.
     own_period: Duration,
     task_period: Duration,
     task_phase: Duration,
     powered_on: Instant,
     system_time_ns: Option<u64>,
     io_refreshing: bool,
-    /// How many task periods have begun. It wraps.
+    /// Number of task periods started. It wraps.
     task_periods: u32,
     deadline: Instant,
 }
 
 impl CpuUnit {
-    /// Turns a CPU Unit on. Its first task period begins at `now` and the task's phase. All memory that it ever uses is allocated
-    /// here.
+    /// Switches a CPU Unit on. Its first task period begins at `now` plus the task's phase. All the memory that
+    /// it ever uses is allocated here.
     ///
     /// # Panics
-    /// If the task period is zero: who reads settings refuses it.
+    /// If the task period is zero: the code that reads settings refuses it.
     #[must_use]
     pub fn power_on(
         now: Instant,
@@ -77,7 +77,7 @@ impl CpuUnit {
         }
     }
 
-    /// Ends a scan that is under way when this flag is set, so that a CPU Unit can be switched off in the middle of a
+    /// Ends a scan in progress when this flag is set, so that a CPU Unit can be switched off in the middle of a
     /// long one.
     pub fn switch_off_on(&mut self, flag: Arc<AtomicBool>) {
         self.io.switch_off = flag;
@@ -89,12 +89,12 @@ impl CpuUnit {
         self.deadline
     }
 
-    /// One task period: first the I/O refresh, which hands over the data C to M that the last scan left and
-    /// takes in the newest data M to C, then the outside runtimes, then the user program in RUN mode. So what a
-    /// program makes of its inputs goes out one task period later: the 2 T_cpu of the I/O response time (manual,
-    /// 7-9-1).
+    /// One task period: first the I/O refresh, which sends the data C to M of the last scan and receives the
+    /// newest data M to C, then the outside runtimes, then the user program in RUN mode. So the results of a
+    /// program are sent one task period after its inputs were received: the 2 T_cpu of the I/O response time
+    /// (manual, 7-9-1).
     ///
-    /// Periods keep their phase; those that were missed by `now` are left out, and an event tells how many.
+    /// Periods keep their phase; those that were missed by `now` are left out, and an event contains their number.
     pub fn cycle(&mut self, now: Instant) {
         let missed_periods = now.saturating_since(self.deadline).as_nanos() / self.task_period.as_nanos();
         self.begin_period(now, missed_periods);
@@ -120,8 +120,8 @@ impl CpuUnit {
         self.mode
     }
 
-    /// Changes the operating mode, in force from the next task period on. With RUN mode the user program starts
-    /// anew. What is forced stays.
+    /// Changes the operating mode, effective from the next task period. With RUN mode the user program starts
+    /// again. Forced values are kept.
     pub fn set_mode(&mut self, mode: OperatingMode) {
         if self.mode != mode {
             self.mode = mode;
@@ -130,11 +130,11 @@ impl CpuUnit {
         }
     }
 
-    /// Replaces the user program. What is forced stays, and so do the values of device variables and of variables
-    /// that both programs declare with RETAIN.
+    /// Replaces the user program. Forced values are kept, and so are the values of device variables and of
+    /// variables that both programs declare with RETAIN.
     ///
     /// # Errors
-    /// [`NotInProgramMode`]: then the old one goes on.
+    /// [`NotInProgramMode`]: then the old program remains.
     pub fn load(&mut self, program: Box<dyn Program + Send>) -> Result<(), NotInProgramMode> {
         if self.mode != OperatingMode::Program {
             return Err(NotInProgramMode);
@@ -146,13 +146,13 @@ impl CpuUnit {
         Ok(())
     }
 
-    /// Attaches an outside runtime, such as another PLC or an HMI. It runs before the user program, and in every
-    /// operating mode: what is outside does not stop with this CPU Unit.
+    /// Attaches an outside runtime, such as another PLC or an HMI. It runs before the user program, and in
+    /// every operating mode: outside runtimes do not stop with this CPU Unit.
     pub fn attach(&mut self, runtime: Box<dyn Program + Send>) {
         self.attached.push(Slot::new(runtime));
     }
 
-    /// Whether the user program has stopped by itself ([`crate::ProgramEvent::Stopped`]).
+    /// Whether the user program has stopped itself ([`crate::ProgramEvent::Stopped`]).
     #[must_use]
     pub fn has_program_stopped(&self) -> bool {
         self.user_program.is_stopped()
@@ -164,28 +164,28 @@ impl CpuUnit {
         self.user_program.variable(name)
     }
 
-    /// Takes the events that nobody has taken yet, the oldest first. At most [`crate::CPU_EVENTS_MAX`] are kept,
-    /// and one that goes on and on is one record.
+    /// Takes the pending events, the oldest first. At most [`crate::CPU_EVENTS_MAX`] are kept, and one that
+    /// repeats is one record.
     pub fn take_events(&mut self) -> impl ExactSizeIterator<Item = CpuRecord> {
         self.io.events.take()
     }
 
-    /// How many records of events were lost since power-on, because nobody took them.
+    /// Number of event records lost since power-on, because they were not taken.
     #[must_use]
     pub const fn events_lost(&self) -> u64 {
         self.io.events.lost()
     }
 
-    /// Resets the errors of the NX Bus Function Module and, with its next refresh, those of the unit. I/O refreshing
-    /// that an error has stopped goes on, unless the cause is still there (manual, 8-3-4).
+    /// Resets the errors of the NX Bus Function Module and, with its next refresh, those of the unit. I/O
+    /// refreshing that was stopped by an error continues, unless the cause persists (manual, 8-3-4).
     pub const fn reset_errors(&mut self) {
         self.nx_bus_function.reset_errors();
     }
 
-    /// Turns the power of the CPU Rack off and on, as far as the CPU Unit is concerned: its first task period begins at
-    /// `now`, in the operating mode of its settings. All variables and what is forced begin again; RETAIN variables of
-    /// the user program and the system time go on. No error of the NX Bus Function Module is left. Runtimes outside
-    /// stay attached: they have power of their own.
+    /// Switches the power of the CPU Rack off and on, for the CPU Unit: its first task period begins at `now`,
+    /// in the operating mode of its settings. All variables and forced values are initialized; RETAIN variables
+    /// of the user program and the system time are kept. The NX Bus Function Module has no errors afterwards.
+    /// Outside runtimes remain attached: they have their own power supply.
     pub fn cycle_power(&mut self, now: Instant) {
         self.system_time_ns = self.system_time_ns_at(now);
         (self.powered_on, self.deadline) = (now, now + self.task_phase);
@@ -202,13 +202,14 @@ impl CpuUnit {
         self.nx_bus_function.refreshing() == IoRefreshing::Stopped
     }
 
-    /// Whether the CPU Unit does I/O refreshing on the NX bus, from the next task period on. A CPU Unit that stops
-    /// it has an error of its own; the unit tells NX Unit I/O Communications Error (manual, 8-3-4, 80200000).
+    /// Sets whether the CPU Unit does I/O refreshing on the NX bus, from the next task period on. A CPU Unit
+    /// that stops it has an error itself; the unit reports NX Unit I/O Communications Error (manual, 8-3-4,
+    /// 80200000).
     pub fn set_io_refreshing(&mut self, io_refreshing: bool) {
         self.io_refreshing = io_refreshing;
     }
 
-    /// Sets the system time ahead; a CPU Unit without system time has none to set.
+    /// Advances the system time; without effect on a CPU Unit without system time.
     pub fn jump_system_time(&mut self, ahead: Duration) {
         self.system_time_ns = self.system_time_ns.map(|time_ns| time_ns.saturating_add(ahead.as_nanos()));
     }
@@ -219,7 +220,7 @@ impl CpuUnit {
         &self.io
     }
 
-    /// The I/O, to be changed from outside the user program: what is set goes out with the next task period.
+    /// The I/O, for changes from outside the user program: new values are sent in the next task period.
     #[must_use]
     pub const fn io_mut(&mut self) -> &mut Io {
         &mut self.io
@@ -267,7 +268,7 @@ impl CpuUnit {
             ..CpuHeader::default()
         };
         self.nx_bus_function.tell(&mut header);
-        // What has been written from outside may be forced.
+        // Values written from outside may be forced.
         self.io.memory.apply_forced();
         self.bus.c_to_m.publish(header, self.io.c_to_m());
     }

@@ -1,8 +1,8 @@
-//! Device variables: the I/O map of the unit and the system-defined variables, each by name, type and place
-//! (manual, 6-1-2 and A-3-3).
+//! Device variables: the I/O map of the unit and the system-defined variables, each with its name, type and
+//! position (manual, 6-1-2 and A-3-3).
 //!
 //! [`DeviceVariables`] is the list, made at power-on. [`crate::Io`] reads, writes and forces by the
-//! [`VariableId`] that was found in it once; nothing of that allocates.
+//! [`VariableId`] that was looked up in it once; none of this allocates.
 
 mod access;
 mod error;

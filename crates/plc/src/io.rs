@@ -1,4 +1,4 @@
-//! What a program sees of one unit: its entries by data set, its status, the raw images, and the time.
+//! The I/O of one unit for a program: its entries by data set, its status, the raw images, and the time.
 
 use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -14,7 +14,7 @@ use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
 use crate::program::ProgramEvent;
 
-/// The I/O of one unit as the last I/O refresh brought it, and what the next one takes along.
+/// The I/O of one unit from the last I/O refresh, and the outputs for the next one.
 #[derive(Clone, Debug)]
 pub struct Io {
     pub(crate) memory: Memory,
@@ -22,18 +22,18 @@ pub struct Io {
     pub(crate) nx_objects: NxObjectClient,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
-    /// Where the entries lie that both directions have.
+    /// The positions of the entries that exist in both directions.
     twins: Vec<(Range<usize>, Range<usize>)>,
     /// Of the unit on the NX bus.
     unit_number: u8,
     pub(crate) events: CpuEventLog,
-    /// When the task period began, counted from power-on.
+    /// Start of the task period, counted from power-on.
     now: Instant,
     system_time_ns: Option<u64>,
     pub(crate) nx_bus_reset: NxBusReset,
-    /// The program that runs now has reported that it stops.
+    /// The running program has reported that it stops.
     has_stopped: bool,
-    /// The owner of the CPU Unit sets it to end a scan before its end.
+    /// The owner of the CPU Unit sets it to end a scan early.
     pub(crate) switch_off: Arc<AtomicBool>,
 }
 
@@ -131,7 +131,7 @@ impl Io {
         &self.memory.c_to_m.bytes
     }
 
-    /// The whole image C to M, to be changed. What is forced has its value again when it goes out.
+    /// The whole image C to M, for changes. Forced values are restored before it is sent.
     #[must_use]
     pub fn c_to_m_mut(&mut self) -> &mut [u8] {
         &mut self.memory.c_to_m.bytes
@@ -143,20 +143,20 @@ impl Io {
         &mut self.nx_objects
     }
 
-    /// When this task period began, counted from power-on of the CPU Unit: the same for all of a scan.
+    /// Start of this task period, counted from power-on of the CPU Unit: constant during a scan.
     #[must_use]
     pub const fn now(&self) -> Instant {
         self.now
     }
 
-    /// The system time at the beginning of this task period, in nanoseconds since 1970-01-01 00:00:00; none while
-    /// the CPU Unit has none.
+    /// The system time at the start of this task period, in nanoseconds since 1970-01-01 00:00:00; none if the
+    /// CPU Unit has none.
     #[must_use]
     pub const fn system_time_ns(&self) -> Option<u64> {
         self.system_time_ns
     }
 
-    /// Tells the owner of the CPU Unit what has happened in a program ([`crate::CpuUnit::take_events`]). A program
+    /// Reports an event of a program to the owner of the CPU Unit ([`crate::CpuUnit::take_events`]). A program
     /// that reports [`ProgramEvent::Stopped`] does not run until it is started again.
     pub fn report(&mut self, event: ProgramEvent) {
         self.has_stopped |= matches!(event, ProgramEvent::Stopped(_));
@@ -187,32 +187,33 @@ impl Io {
         self.memory.unit_error()
     }
 
-    /// Whether the scan is to end where it is, because the CPU Unit is switched off. A program whose scan can be long
-    /// asks about once a millisecond.
+    /// Whether the scan must end immediately, because the CPU Unit is switched off. A program whose scan can be
+    /// long checks this about once a millisecond.
     #[must_use]
     pub fn ends_scan(&self) -> bool {
         self.switch_off.load(Ordering::Relaxed)
     }
 
-    /// Takes in what the unit tells, data and statuses; what is forced stays.
+    /// Stores the data and statuses of the unit; forced values are kept.
     pub(crate) fn take_inputs(&mut self, header: UnitHeader, refreshing: IoRefreshing, m_to_c: &[u8]) {
         self.memory.refresh(self.unit_number, header, refreshing, m_to_c);
     }
 
-    /// The CPU Unit gets power again: all values begin again, nothing is forced, and no NX object is asked for.
+    /// The CPU Unit is powered on again: all values are initialized, nothing is forced, and no NX object call
+    /// is pending.
     pub(crate) fn power_on(&mut self) {
         self.memory = Memory::new(self.m_to_c_layout.size_bytes(), self.c_to_m_layout.size_bytes());
         self.nx_bus_reset = NxBusReset::None;
         self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
     }
 
-    /// A task period begins, so long after power-on.
+    /// A task period begins, at this time after power-on.
     pub(crate) const fn begin_period(&mut self, now: Instant, system_time_ns: Option<u64>) {
         self.now = now;
         self.system_time_ns = system_time_ns;
     }
 
-    /// Whether the program that ran has reported that it stops.
+    /// Whether the executed program has reported that it stops.
     pub(crate) const fn take_stop(&mut self) -> bool {
         core::mem::replace(&mut self.has_stopped, false)
     }
@@ -235,7 +236,7 @@ impl Io {
     }
 }
 
-/// Where the entries lie that both directions have, by data set and number.
+/// The positions of the entries that exist in both directions, by data set and number.
 fn twins(m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Vec<(Range<usize>, Range<usize>)> {
     let entries =
         DataSetKind::ALL.into_iter().flat_map(|kind| (0..=u8::MAX).map(move |number| (kind, number)));

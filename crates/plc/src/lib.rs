@@ -1,7 +1,7 @@
 //! The CPU Unit: its task, its modes, its user programs on the NX bus.
 //!
-//! [`CpuUnit`] does no I/O and asks no clock: its owner calls [`CpuUnit::cycle`] when
-//! [`CpuUnit::deadline`] has come. A user program is a [`Program`] that sees [`Io`] and nothing else.
+//! [`CpuUnit`] does no I/O and reads no clock: its owner calls [`CpuUnit::cycle`] when [`CpuUnit::deadline`] is
+//! reached. A user program is a [`Program`] that only has access to [`Io`].
 
 mod builtin;
 mod cpu_event;

@@ -14,8 +14,8 @@ const MESSAGE: SubIndex = SubIndex(1);
 const FROM_MASTER: ObjectIndex = ObjectIndex(0x5000);
 const TO_MASTER: ObjectIndex = ObjectIndex(0x5001);
 
-/// Copies the data as [`Echo`] does, and sends each message from the master back to it: one after the other, in
-/// order, none left out.
+/// Copies the data like [`Echo`], and sends each message from the master back to it: one after the other, in
+/// order, without omissions.
 #[derive(Clone, Debug, Default)]
 pub struct MessageEcho {
     step: Step,

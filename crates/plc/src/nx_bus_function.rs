@@ -1,9 +1,9 @@
-//! The NX Bus Function Module of the CPU Unit: what it does when the unit has an error (manual, 8-3-4).
+//! The NX Bus Function Module of the CPU Unit: its reaction to an error of the unit (manual, 8-3-4).
 //!
-//! For two families of errors, Control Parameter Error in Master (10410000) and NX Unit I/O Communications Error
-//! (80200000), the fail-soft operation decides. Set to *Stop*, I/O refreshing stops on the NX bus, and goes on
-//! when the error has been reset in the NX Bus Function Module. Set to *Fail-soft*, only the unit that has the
-//! error stops, and a reset in the unit is enough.
+//! For two families of errors, Control Parameter Error in Master (10410000) and NX Unit I/O Communications
+//! Error (80200000), the reaction depends on the fail-soft operation. With *Stop*, I/O refreshing stops on the
+//! NX bus, and continues when the error has been reset in the NX Bus Function Module. With *Fail-soft*, only
+//! the unit with the error stops, and a reset in the unit is sufficient.
 
 use nx_ect101::nx_bus::{CpuHeader, UnitHeader};
 use nx_ect101::unit_file::FailSoftOperation;
@@ -14,19 +14,19 @@ pub(crate) enum IoRefreshing {
     GoesOn,
     /// The NX Bus Function Module has stopped it because of an error of the unit.
     Stopped,
-    /// The CPU Unit does none.
+    /// The CPU Unit does not refresh I/O.
     Off,
 }
 
-/// A reset of its errors that a program asks for.
+/// A reset of its errors that a program has requested.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) enum NxBusReset {
     /// None, or it is complete.
     #[default]
     None,
-    /// It begins at the end of the task period.
+    /// It starts at the end of the task period.
     Asked,
-    /// The unit has not followed yet.
+    /// The unit has not completed it yet.
     UnderWay,
 }
 
@@ -41,9 +41,9 @@ impl NxBusReset {
 pub(crate) struct NxBusFunction {
     fail_soft: FailSoftOperation,
     refreshing: IoRefreshing,
-    /// How often errors were reset; the unit follows, and says how far it is.
+    /// Number of error resets; the unit follows it, and reports its own count.
     error_resets: u32,
-    /// The unit has not followed the last reset yet.
+    /// The unit has not completed the last reset yet.
     awaits_reset: bool,
 }
 
@@ -62,30 +62,30 @@ impl NxBusFunction {
         self.awaits_reset = true;
     }
 
-    /// Whether the unit has yet to follow the last reset.
+    /// Whether the unit has not completed the last reset yet.
     pub(crate) const fn awaits_reset(&self) -> bool {
         self.awaits_reset
     }
 
-    /// The CPU Rack gets power again: no error is left. The unit keeps counting resets, so the count goes on.
+    /// The CPU Rack is powered on again: there are no errors. The unit keeps counting resets, so the count continues.
     pub(crate) const fn power_on(&mut self) {
         self.refreshing = IoRefreshing::GoesOn;
         self.awaits_reset = false;
     }
 
-    /// What the unit is told.
+    /// The information for the unit.
     pub(crate) fn tell(&self, header: &mut CpuHeader) {
         header.io_stopped = self.refreshing == IoRefreshing::Stopped;
         header.error_resets = self.error_resets;
     }
 
-    /// Hears what the unit tells, and says whether I/O refreshing stops or goes on with it.
+    /// Processes the report of the unit; returns whether I/O refreshing stops or continues because of it.
     pub(crate) fn hear(&mut self, header: &UnitHeader) -> Option<IoRefreshing> {
         let has_followed = header.error_resets == self.error_resets;
         let was_reset = self.awaits_reset && has_followed;
         self.awaits_reset &= !has_followed;
         let change = match (self.fail_soft, self.refreshing) {
-            // An older error may be what the reset is about.
+            // An older error may be the one that the reset is for.
             (FailSoftOperation::Stop, IoRefreshing::GoesOn) if header.fail_soft_error && has_followed => {
                 IoRefreshing::Stopped
             }

@@ -1,7 +1,7 @@
-//! Reading and writing NX objects from a user program, as NX_ReadObj and NX_WriteObj do.
+//! Reading and writing NX objects from a user program, like NX_ReadObj and NX_WriteObj.
 //!
-//! A call goes out at the end of a task period, and its result comes at the beginning of a later one. Until then
-//! it is pending. Nothing waits: a program looks again in its next scan.
+//! A call is sent at the end of a task period, and its result arrives at the start of a later one. Until then
+//! it is pending. No call waits: a program checks again in its next scan.
 
 use core::task::Poll;
 
@@ -15,33 +15,33 @@ pub struct NxObjectClient {
     last_number: u32,
 }
 
-/// A call that has been made: the way to its result.
+/// A call that has been made: it identifies the result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NxCall {
     place: usize,
     number: u32,
 }
 
-/// Why no call is made.
+/// Why a call is not made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NxCallRefused {
-    /// [`REQUESTS_MAX`] calls are under way, or their results have not been taken.
+    /// [`REQUESTS_MAX`] calls are in progress, or their results have not been taken.
     TooManyCalls,
-    /// No NX object is as long as the value.
+    /// The value is longer than any NX object.
     ValueTooLong,
 }
 
-/// What became of one call.
+/// The state of one call.
 #[derive(Clone, Debug, Default)]
 enum Call {
-    /// There is none.
+    /// There is no call.
     #[default]
     Free,
-    /// It goes out with the end of this task period.
+    /// It is sent at the end of this task period.
     Made(NxRequest),
-    /// The unit has it.
+    /// It has been sent to the unit.
     Sent { number: u32 },
-    /// The result has come.
+    /// The result has arrived.
     Done { number: u32, result: Result<NxValue, NxMessageError> },
 }
 
@@ -69,7 +69,7 @@ impl NxObjectClient {
     }
 
     /// The result of a call, once: the value that was read, empty after a write, or why the unit refused it.
-    /// Pending until it has come; pending for ever if it has been taken.
+    /// Pending until it has arrived; always pending after it has been taken.
     pub fn take(&mut self, call: NxCall) -> Poll<Result<NxValue, NxMessageError>> {
         match self.calls.get_mut(call.place) {
             Some(place @ Call::Done { .. }) if place.number() == Some(call.number) => {
@@ -82,7 +82,7 @@ impl NxObjectClient {
         }
     }
 
-    /// Gives up a call: nobody will ask for its result. What has been sent is done all the same.
+    /// Drops a call: its result will not be used. If it has been sent, it is executed nevertheless.
     pub fn forget(&mut self, call: NxCall) {
         let own = self.calls.get_mut(call.place).filter(|place| place.number() == Some(call.number));
         if let Some(place) = own {
@@ -104,7 +104,7 @@ impl NxObjectClient {
         Ok(NxCall { place, number })
     }
 
-    /// Takes the responses that have come. An image that is taken after them is at least as new.
+    /// Takes the responses that have arrived. An image that is taken after them is at least as new.
     pub(crate) fn receive(&mut self, bus: &mut CpuMessages) {
         loop {
             match bus.receive() {
@@ -135,7 +135,7 @@ impl NxObjectClient {
 
     fn oldest_made(&self) -> Option<usize> {
         let made = self.calls.iter().enumerate().filter_map(|(place, call)| match call {
-            // Numbers wrap, so the oldest is the one furthest behind the last.
+            // Numbers wrap, so the oldest is the one with the greatest distance to the last.
             Call::Made(request) => Some((self.last_number.wrapping_sub(request.number), place)),
             _ => None,
         });

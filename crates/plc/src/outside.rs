@@ -1,13 +1,13 @@
-//! The way in for what runs on other threads: another PLC, an HMI, a web page.
+//! The gateway for programs on other threads: another PLC, an HMI, a web page.
 //!
-//! [`connect`] makes two ends. The [`OutsideProgram`] is attached to the CPU Unit ([`crate::CpuUnit::attach`]): once in
-//! each task period it takes the changes that wait, makes them, and publishes all variables as they are then. The
-//! [`OutsideEnd`] reads what was published last and sends changes. They meet in a triple buffer and a bounded queue;
-//! the CPU Unit neither waits there nor allocates, whatever the other end does.
+//! [`connect`] makes two ends. The [`OutsideProgram`] is attached to the CPU Unit ([`crate::CpuUnit::attach`]):
+//! once in each task period it takes the pending changes, makes them, and then publishes all variables. The
+//! [`OutsideEnd`] reads the last published values and sends changes. The ends are connected by a triple buffer
+//! and a bounded queue; the CPU Unit neither waits there nor allocates, whatever the other end does.
 //!
-//! What is written is seen in the very image that says it has been taken ([`Snapshot::has_taken`]), and so is read by
-//! who wrote it. Then the user program runs: in RUN mode it writes over what it writes itself, while a forced value
-//! stays.
+//! The snapshot that acknowledges a change ([`Snapshot::has_taken`]) already contains its effect, so that a
+//! client can read what it wrote. Then the user program runs: in RUN mode it overwrites the variables that it
+//! writes itself, while a forced value is kept.
 
 mod change;
 mod end;
@@ -25,10 +25,10 @@ pub use change::{Change, ChangeRefused, Operation};
 pub use end::{OutsideEnd, Snapshot, Ticket};
 pub use program::OutsideProgram;
 
-/// Most changes that wait for the next task period: more than the elements of the largest data set.
+/// Maximum number of changes that wait for the next task period: more than the elements of the largest data set.
 pub const CHANGES_MAX: usize = 640;
 
-/// Two ends for the CPU Unit that has these variables. All memory that the program's end ever uses is allocated here.
+/// Two ends for the CPU Unit with these variables. All the memory that the program's end ever uses is allocated here.
 #[must_use]
 pub fn connect(variables: &DeviceVariables) -> (OutsideProgram, OutsideEnd) {
     let first = Published { memory: variables.memory(), taken: 0, now: Instant::ZERO };
@@ -43,9 +43,9 @@ pub fn connect(variables: &DeviceVariables) -> (OutsideProgram, OutsideEnd) {
 #[derive(Clone, Debug)]
 struct Published {
     memory: Memory,
-    /// How many changes have been taken since the ends were made.
+    /// Number of changes taken since the ends were made.
     taken: u64,
-    /// When the task period began, counted from power-on.
+    /// Start of the task period, counted from power-on.
     now: Instant,
 }
 

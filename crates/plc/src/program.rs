@@ -1,4 +1,4 @@
-//! What runs on a CPU Unit: user programs, and outside runtimes in their place.
+//! The programs of a CPU Unit: user programs, and outside runtimes instead of them.
 
 use core::fmt;
 use std::any::Any;
@@ -9,11 +9,12 @@ use time::Duration;
 
 use crate::io::Io;
 
-/// A program: a function of [`Io`], Structured Text, an outside PLC. It never waits: the task period goes on
+/// A program: a function of [`Io`], Structured Text, an outside PLC. It must not wait, because the task period
+/// would wait too.
 /// while it does.
 pub trait Program {
-    /// Runs once before the first scan: when the CPU Unit begins RUN mode, or when an outside runtime is attached.
-    /// Here a program gives its variables their initial values.
+    /// Runs once before the first scan: when the CPU Unit enters RUN mode, or when an outside runtime is
+    /// attached. Here a program initializes its variables.
     fn start(&mut self, io: &mut Io) {
         let _ = io;
     }
@@ -21,29 +22,30 @@ pub trait Program {
     /// Runs once in a task period.
     fn scan(&mut self, io: &mut Io);
 
-    /// The task period that it asks for; none: that of the CPU Unit's settings.
+    /// The task period that it requests; none: that of the CPU Unit's settings.
     fn task_period(&self) -> Option<Duration> {
         None
     }
 
-    /// The value of a variable of its own as text, by its name; none if there is none, or if it tells none.
+    /// The value of one of its variables as text, by its name; none if there is none, or if the program does
+    /// not support this.
     fn variable(&self, name: &str) -> Option<String> {
         let _ = name;
         None
     }
 
-    /// Runs once when another program takes its place: here it gives up what it has asked for.
+    /// Runs once when it is replaced by another program: here it drops its pending calls.
     fn end(&mut self, io: &mut Io) {
         let _ = io;
     }
 
-    /// Itself, for a program that takes over from it; none if it leaves nothing behind.
+    /// Itself, for its successor; none if the successor takes nothing over.
     fn legacy(&self) -> Option<&dyn Any> {
         None
     }
 
-    /// Takes over from the program in whose place it comes, before its own start: what outlives a change of the
-    /// program, such as variables with RETAIN.
+    /// Takes over from its predecessor, before its own start: the values that survive a change of the program,
+    /// such as variables with RETAIN.
     fn succeed(&mut self, legacy: &dyn Any) {
         let _ = legacy;
     }
@@ -55,16 +57,16 @@ impl<F: FnMut(&mut Io)> Program for F {
     }
 }
 
-/// What a program tells by [`Io::report`].
+/// The reports of a program, made with [`Io::report`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProgramEvent {
-    /// It cannot go on, and stops until it is started again.
+    /// It cannot continue, and stops until it is started again.
     Stopped(ProgramTrouble),
-    /// Something went wrong in it; it goes on.
+    /// An error occurred in it; it continues.
     Error(ProgramTrouble),
-    /// A scan was broken off, because it had used up its statements.
+    /// A scan was aborted, because it had used up its statements.
     TaskOverrun {
-        /// How many statements a scan has.
+        /// Number of statements of a scan.
         budget_statements: u64,
     },
     /// A user-defined error, as SetAlarm raises it.
@@ -83,22 +85,21 @@ pub enum ProgramEvent {
     },
 }
 
-/// What is wrong in a program, and where.
+/// The problem of a program, and its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ProgramTrouble {
-    /// What, as a lower-case fragment.
+    /// The problem, as a lower-case fragment.
     pub what: Cow<'static, str>,
-    /// Line of the source, from 1; 0 if there is none to tell.
+    /// Line of the source, from 1; 0 if it is unknown.
     pub line: usize,
-    /// Column in characters, from 1; 0 if there is none to tell.
+    /// Column in characters, from 1; 0 if it is unknown.
     pub column: usize,
-    /// The file of the source, where the program has several.
+    /// The file of the source, if the program has several.
     pub file: Option<Arc<str>>,
 }
 
 impl ProgramEvent {
-    /// What a scan of a program in Structured Text reports that ended before its end; nothing if its CPU Unit was
-    /// switched off.
+    /// The report of a scan of a program in Structured Text that ended early; nothing if its CPU Unit was switched off.
     #[must_use]
     pub fn of_stopped(stopped: &st::Stopped, program: &st::Program, budget_statements: u64) -> Option<Self> {
         match stopped.fault {
@@ -161,10 +162,10 @@ pub(crate) struct Slot {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum State {
-    /// It has not been started yet, or is to be started anew.
+    /// It has not been started yet, or must be started again.
     ToStart,
     Running,
-    /// It has reported that it cannot go on.
+    /// It has reported that it cannot continue.
     Stopped,
 }
 
@@ -173,7 +174,7 @@ impl Slot {
         Self { program, state: State::ToStart }
     }
 
-    /// Another program takes the place.
+    /// Another program replaces it.
     pub(crate) fn replace(&mut self, mut program: Box<dyn Program + Send>, io: &mut Io) {
         self.program.end(io);
         if let Some(legacy) = self.program.legacy() {
@@ -212,7 +213,7 @@ impl Slot {
 
     fn step(&mut self, io: &mut Io, step: impl FnOnce(&mut dyn Program, &mut Io)) {
         step(self.program.as_mut(), io);
-        // What the next program reads is forced again.
+        // The inputs of the next program are forced again.
         io.memory.apply_forced();
         if io.take_stop() {
             self.state = State::Stopped;

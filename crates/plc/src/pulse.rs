@@ -1,10 +1,10 @@
-//! The pulse program of the manual's example: as long as it comes, the CPU Unit is in RUN mode.
+//! The pulse program of the manual's example: while the pulse is received, the CPU Unit is in RUN mode.
 
 use crate::io::Io;
 use crate::program::Program;
 
-/// Counts in the first byte C to M, one up with every task period. In PROGRAM mode it stands, which a master
-/// notices when it has not changed for longer than the I/O response time.
+/// Counts up in the first byte C to M by one in every task period. In PROGRAM mode the count stops, which a
+/// master detects when it has not changed for longer than the I/O response time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Pulse;
 

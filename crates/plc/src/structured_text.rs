@@ -16,9 +16,9 @@ use host::{IoHost, PendingCalls};
 
 /// A user program in Structured Text.
 ///
-/// Before each scan it takes in the device variables that it names, and behind it gives out those that it writes.
-/// A scan that goes wrong ends there: what it has written stays, the CPU Unit reports it, and the next task period
-/// begins a new one.
+/// Before each scan it reads the device variables that it uses, and after the scan it writes those that it has
+/// changed. A scan that fails ends there: what it has written is kept, the CPU Unit reports the failure, and
+/// the next task period starts a new scan.
 #[derive(Clone, Debug)]
 pub struct StructuredText {
     instance: Instance,
@@ -28,7 +28,7 @@ pub struct StructuredText {
     calls: PendingCalls,
 }
 
-/// A device variable that the program names.
+/// A device variable that the program uses.
 #[derive(Clone, Debug)]
 struct Binding {
     variable: VariableId,
@@ -36,10 +36,10 @@ struct Binding {
 }
 
 impl StructuredText {
-    /// Reads and checks a program against the device variables of the CPU Unit that is to run it.
+    /// Reads and checks a program with the device variables of the CPU Unit that will run it.
     ///
     /// # Errors
-    /// What is wrong with it, with places.
+    /// The problems, with their positions.
     pub fn compile(sources: impl Into<Sources>, variables: &DeviceVariables) -> Result<Self, Problems> {
         let globals = globals::of(variables);
         let program = st::compile(sources, &globals.list)?;
@@ -56,15 +56,15 @@ impl StructuredText {
         })
     }
 
-    /// Checks files that may be only a part of a program, against the device variables of a CPU Unit.
+    /// Checks files that may be only part of a program, with the device variables of a CPU Unit.
     ///
     /// # Errors
-    /// What is wrong with them, with places.
+    /// The problems, with their positions.
     pub fn judge(sources: impl Into<Sources>, variables: &DeviceVariables) -> Result<(), Problems> {
         st::judge(sources, &globals::of(variables).list)
     }
 
-    /// Lets a scan run so many statements at most; from 1.
+    /// Sets the maximum number of statements of a scan, from 1.
     #[must_use]
     pub const fn with_budget(mut self, statements: u64) -> Self {
         self.budget_statements = statements;
@@ -83,7 +83,7 @@ impl StructuredText {
         &self.instance
     }
 
-    /// How many statements the last scan ran.
+    /// Number of statements of the last scan.
     #[must_use]
     pub const fn statements_used(&self) -> u64 {
         self.instance.used()
@@ -91,7 +91,7 @@ impl StructuredText {
 
     fn take_in(&mut self, io: &Io) {
         for Binding { variable, external } in &self.bindings {
-            // The ids are of this CPU Unit's own variables.
+            // The ids belong to the variables of this CPU Unit.
             if let Ok(value) = io.read(*variable) {
                 self.instance.load(external, &value);
             }
@@ -103,7 +103,7 @@ impl StructuredText {
         {
             let mut value: VariableValue = core::iter::repeat_n(0, external.size_bytes()).collect();
             self.instance.store(external, &mut value);
-            // A variable is written whole, and by its own length.
+            // A variable is written completely, with its exact length.
             let _ = io.write(*variable, &value);
         }
     }

@@ -1,4 +1,4 @@
-//! The CPU Unit allocates nothing for what runs outside, whatever that sends.
+//! The CPU Unit allocates nothing for outside programs, whatever they send.
 
 use allocation_counter::measure;
 use nx_ect101::IoAllocation;
@@ -24,7 +24,7 @@ fn changes_and_snapshots_allocate_nothing() {
     let changes = operations.map(|operation| Change { target, operation });
     let allocated = measure(|| {
         for _ in 0..1_000 {
-            // More than there is room for, at times.
+            // Sometimes more than there is room for.
             for _ in 0..200 {
                 let _ = end.send(&changes);
             }

@@ -1,4 +1,4 @@
-//! How a CPU Unit is set up.
+//! The settings of a CPU Unit.
 
 use core::fmt;
 
@@ -11,7 +11,7 @@ pub enum OperatingMode {
     /// RUN: the user program runs.
     #[default]
     Run,
-    /// PROGRAM: the user program stands; the I/O exchange goes on and the values stay (manual, A-4).
+    /// PROGRAM: the user program is stopped; the I/O exchange continues and the values are kept (manual, A-4).
     Program,
 }
 
@@ -24,7 +24,7 @@ impl fmt::Display for OperatingMode {
     }
 }
 
-/// How a CPU Unit is set up.
+/// The settings of a CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpuSettings {
     /// Device name of the unit on the NX bus: the first part of its device variables' names.
@@ -37,9 +37,9 @@ pub struct CpuSettings {
     pub task_phase: Duration,
     /// Operating mode at power-on.
     pub mode: OperatingMode,
-    /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit tells none.
+    /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit has no system time.
     pub system_time_ns: Option<u64>,
-    /// What the NX Bus Function Module does when the unit has an error.
+    /// The reaction of the NX Bus Function Module to an error of the unit.
     pub fail_soft: FailSoftOperation,
 }
 

@@ -16,7 +16,7 @@ use crate::Echo;
 struct Bench {
     unit: NxEct101,
     cpu: CpuUnit,
-    /// When the unit refreshes next.
+    /// The time of the unit's next refresh.
     refresh_at: Instant,
     outputs: Option<Vec<u8>>,
     inputs: Vec<u8>,
@@ -49,7 +49,7 @@ impl Bench {
         Self::in_op(IoAllocation::factory(), CpuSettings::default(), Echo)
     }
 
-    /// Lets virtual time go on to `end`, CPU Unit and unit each when its time has come.
+    /// Advances virtual time to `end`; CPU Unit and unit run at their times.
     fn run_to(&mut self, end: Instant) {
         loop {
             let now = self.cpu.deadline().min(self.refresh_at);

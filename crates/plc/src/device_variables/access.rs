@@ -10,9 +10,9 @@ use crate::io::Io;
 
 /// Variables by id. A value is little endian; a BOOL takes one byte.
 ///
-/// A *forced* value is fixed until it is released: of an input the user program sees the forced value whatever
-/// the master sends, of an output the unit gets it whatever the program writes. It outlives operating modes and
-/// user programs. After the release the value stays until the next I/O refresh or the next write.
+/// A *forced* value is fixed until it is released: for an input the user program sees the forced value whatever
+/// the master sends, for an output the unit gets it whatever the program writes. It is kept when operating mode
+/// or user program change. After the release the value is kept until the next I/O refresh or the next write.
 impl Io {
     /// The variables of this CPU Unit.
     #[must_use]
@@ -20,7 +20,7 @@ impl Io {
         &self.variables
     }
 
-    /// The variable of this name or AT specification, in whatever case: to be asked for once, and not in a scan.
+    /// The variable with this name or AT specification, in upper or lower case: to be called once, and not in a scan.
     #[must_use]
     pub fn find(&self, name_or_at: &str) -> Option<VariableId> {
         self.variables.find(name_or_at)
@@ -34,7 +34,7 @@ impl Io {
         self.memory.value(&self.variables, target.into())
     }
 
-    /// Writes an output: what goes out with the next I/O refresh. What is forced keeps its value.
+    /// Writes an output: the value for the next I/O refresh. A forced value is kept.
     ///
     /// # Errors
     /// There is no such variable or element, it is read-only, or the value does not fit.
@@ -44,7 +44,7 @@ impl Io {
         Ok(())
     }
 
-    /// Forces a variable or an element, of whatever access.
+    /// Forces a variable or an element, independent of its access right.
     ///
     /// # Errors
     /// There is no such variable or element, or the value does not fit.
@@ -54,7 +54,7 @@ impl Io {
         Ok(())
     }
 
-    /// Releases what is forced of a variable or an element; nothing, if nothing is.
+    /// Releases the forced part of a variable or an element; without effect if nothing is forced.
     ///
     /// # Errors
     /// There is no such variable or element.
@@ -79,7 +79,7 @@ impl Io {
         self.memory.is_forced(&self.variables, target.into())
     }
 
-    /// What is forced: whole variables, and elements of arrays that are forced in part.
+    /// All forced values: whole variables, and elements of arrays that are forced in part.
     pub fn forced(&self) -> impl Iterator<Item = Target> {
         self.variables.iter().flat_map(|(id, variable)| {
             let whole = Some(Target::from(id)).filter(|&target| self.is_forced(target) == Ok(true));
@@ -89,7 +89,7 @@ impl Io {
         })
     }
 
-    /// The type of a variable, or of the element that is meant.
+    /// The type of a variable, or of the selected element.
     ///
     /// # Errors
     /// There is no such variable or element.
@@ -120,7 +120,7 @@ impl Memory {
 }
 
 impl DeviceVariables {
-    /// The type of a variable, or of the element that is meant.
+    /// The type of a variable, or of the selected element.
     ///
     /// # Errors
     /// There is no such variable or element.
@@ -139,7 +139,7 @@ impl DeviceVariables {
         Memory::new(end(Area::MToC), end(Area::CToM))
     }
 
-    /// Where a value goes that is written.
+    /// The position at which a value is written.
     pub(crate) fn writable(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
         let place = self.fitting(target, value)?;
         match self.at(target.variable)?.access {
@@ -148,7 +148,7 @@ impl DeviceVariables {
         }
     }
 
-    /// Where a value goes that is written or forced.
+    /// The position at which a value is written or forced.
     pub(crate) fn fitting(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
         let place = self.place(target)?;
         let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);

@@ -1,22 +1,22 @@
-//! Why a variable is not read, written or forced.
+//! Why a variable cannot be read, written or forced.
 
 use core::fmt;
 
-/// Why a variable is not read, written or forced.
+/// Why a variable cannot be read, written or forced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableError {
-    /// The CPU Unit has no such variable: the id is another CPU Unit's.
+    /// The CPU Unit has no such variable: the id belongs to another CPU Unit.
     NoSuchVariable,
     /// It has no elements.
     NotAnArray,
     /// The array has no such element.
     NoSuchElement {
-        /// Which was asked for.
+        /// The requested element.
         element: u16,
-        /// How many the array has, counted from 0.
+        /// Number of elements of the array, counted from 0.
         elements: u16,
     },
-    /// The I/O refresh gives it its value, not the user program.
+    /// Its value is set by the I/O refresh, not by the user program.
     NotWritable,
     /// The value has another length.
     WrongLength {
@@ -27,7 +27,7 @@ pub enum VariableError {
     },
     /// A BOOL is 0 or 1.
     NotABool {
-        /// What the byte has.
+        /// The value of the byte.
         value: u8,
     },
 }

@@ -1,4 +1,4 @@
-//! The list of the variables of one CPU Unit, and how one is found.
+//! The list of the variables of one CPU Unit, and the search in it.
 
 use nx_ect101::unit_file::UnitFile;
 use nx_ect101::{Direction, ImageLayout};
@@ -10,7 +10,7 @@ use super::text::{TextProblem, ValueTextError};
 use super::variable::{Target, Variable, VariableId};
 
 /// The variables of one CPU Unit: I/O ports M to C, C to M and statuses, then the system-defined ones. Each I/O
-/// entry that stands in its data set has one, each bit of EtherCAT Slave Status too.
+/// entry that belongs to its data set has one, and so has each bit of EtherCAT Slave Status.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeviceVariables {
     device_name: String,
@@ -19,7 +19,7 @@ pub struct DeviceVariables {
 }
 
 impl DeviceVariables {
-    /// The variables for a unit of this device name and NX Unit number, whose entries lie so.
+    /// The variables for a unit with this device name and NX Unit number, whose entries have these positions.
     #[must_use]
     pub fn new(device_name: &str, unit_number: u8, m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Self {
         let ports = Ports { device_name, unit_number };
@@ -42,13 +42,13 @@ impl DeviceVariables {
         self.unit_number
     }
 
-    /// Where the unit is, as programs name it.
+    /// The location of the unit, for programs.
     #[must_use]
     pub fn node_location(&self) -> NodeLocation {
         NodeLocation::new(&self.device_name, self.unit_number)
     }
 
-    /// The variables that the unit of a unit file has.
+    /// The variables for the unit of a unit file.
     #[must_use]
     pub fn of_unit_file(file: &UnitFile) -> Self {
         let allocation = file.io_allocation();
@@ -62,7 +62,7 @@ impl DeviceVariables {
         self.list.iter().enumerate().map(|(at, variable)| (VariableId(at as u16), variable))
     }
 
-    /// The variable of this name or AT specification, in whatever case.
+    /// The variable with this name or AT specification, in upper or lower case.
     #[must_use]
     pub fn find(&self, name_or_at: &str) -> Option<VariableId> {
         let found = self.iter().find(|(_, variable)| variable.is_called(name_or_at));
@@ -72,7 +72,7 @@ impl DeviceVariables {
     /// A variable, or an element of it as in `N1_UINTs_01_M_to_C[3]`.
     ///
     /// # Errors
-    /// There is no such variable or element, or what stands in brackets is no number; with its place in the text.
+    /// There is no such variable or element, or the text in brackets is not a number; with its position in the text.
     pub fn find_target(&self, text: &str) -> Result<Target, ValueTextError> {
         let (name, element) = match text.strip_suffix(']').and_then(|text| text.split_once('[')) {
             Some((name, element)) => (name, Some(element)),
@@ -102,7 +102,7 @@ impl DeviceVariables {
         self.get(id).ok_or(VariableError::NoSuchVariable)
     }
 
-    /// Where a variable or an element lies.
+    /// The position of a variable or an element.
     pub(super) fn place(&self, target: Target) -> Result<Place, VariableError> {
         let variable = self.at(target.variable)?;
         let Some(element) = target.element else { return Ok(variable.place) };

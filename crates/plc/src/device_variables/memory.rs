@@ -1,4 +1,4 @@
-//! The memory behind the variables, and the bits of it that are forced.
+//! The memory of the variables, and its forced bits.
 
 use nx_ect101::SlaveStatus;
 use nx_ect101::nx_bus::UnitHeader;
@@ -9,18 +9,18 @@ use super::ports::{
 use super::variable::VariableValue;
 use crate::nx_bus_function::IoRefreshing;
 
-/// Which image a variable lies in.
+/// The image that contains a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Area {
     /// From the master to the CPU Unit.
     MToC,
     /// From the CPU Unit to the master.
     CToM,
-    /// What the unit and the NX bus tell besides.
+    /// The statuses of the unit and the NX bus.
     Status,
 }
 
-/// Where a value lies. A BOOL may be one bit of a byte, everything else has its bytes whole.
+/// The position of a value. A BOOL may be one bit of a byte, all others have whole bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     pub(super) area: Area,
@@ -39,7 +39,7 @@ impl Place {
         Self { area, start: start + bit as usize / 8, length_bytes: 1, mask: 1 << (bit % 8) }
     }
 
-    /// A byte of a value as it lies in memory.
+    /// A byte of a value in the form of the memory.
     const fn to_memory(self, byte: u8) -> u8 {
         if self.mask == 0xFF || byte == 0 { byte } else { self.mask }
     }
@@ -70,11 +70,12 @@ impl Memory {
         memory
     }
 
-    /// Takes in what the unit with this NX Unit number reports. What is forced stays. The system-defined tables end
-    /// at unit 32: one with a higher number has no element in them.
+    /// Stores the report of the unit with this NX Unit number. Forced values are kept. The system-defined
+    /// tables end at unit 32: a unit with a higher number has no element in them.
     ///
-    /// The data M to C and EtherCAT Slave Status are I/O data: they keep their last values while no I/O is refreshed.
-    /// The rest comes from the NX Bus Function Module, which needs no I/O refreshing (manual, A-3-2).
+    /// The data M to C and EtherCAT Slave Status are I/O data: they keep their last values while no I/O is
+    /// refreshed. The other statuses come from the NX Bus Function Module, which does not depend on I/O
+    /// refreshing (manual, A-3-2).
     pub(crate) fn refresh(
         &mut self,
         unit_number: u8,
@@ -89,7 +90,7 @@ impl Memory {
         let status = &mut self.status.bytes;
         status[IO_DATA_ACTIVE] = is_active.into();
         status[UNIT_ERROR] = header.error.into();
-        // The NX Bus Function Module itself can always be asked (manual, A-5-1).
+        // The NX Bus Function Module itself always supports message communications (manual, A-5-1).
         status[MESSAGE_TABLE] = 1;
         status[ERROR_TABLE] = (refreshing == IoRefreshing::Stopped).into();
         if u16::from(unit_number) < SYSTEM_TABLE_ELEMENTS {
@@ -117,14 +118,14 @@ impl Memory {
         self.status.bytes[UNIT_ERROR] != 0
     }
 
-    /// Gives everything forced its value, whatever has been written over it.
+    /// Restores the value of all forced bits that have been overwritten.
     pub(crate) fn apply_forced(&mut self) {
         self.m_to_c.apply_forced();
         self.c_to_m.apply_forced();
         self.status.apply_forced();
     }
 
-    /// Takes over values and what is forced of another memory of the same size.
+    /// Copies values and forcing from another memory of the same size.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.m_to_c.copy_from(&other.m_to_c);
         self.c_to_m.copy_from(&other.c_to_m);
@@ -148,7 +149,7 @@ impl Memory {
     }
 }
 
-/// Bytes, and which of their bits are forced to what.
+/// Bytes, and which of their bits are forced to which value.
 #[derive(Clone, Debug)]
 pub(crate) struct Image {
     pub(crate) bytes: Vec<u8>,
@@ -188,7 +189,7 @@ impl Image {
         self.has_forced = other.has_forced;
     }
 
-    /// Frees everything; it stays until it is written or refreshed.
+    /// Releases everything; the values are kept until they are written or refreshed.
     pub(crate) fn release_all(&mut self) {
         self.apply_forced();
         self.forced.fill(0);
@@ -196,14 +197,14 @@ impl Image {
         self.has_forced = false;
     }
 
-    /// The value, forced bits as they are forced even where something has been written over them.
+    /// The value; forced bits have their forced value even after they have been overwritten.
     pub(super) fn read(&self, place: Place) -> VariableValue {
         let bytes = self.bytes.iter().zip(&self.forced).zip(&self.values);
         let own = bytes.skip(place.start).take(place.length_bytes);
         own.map(|((byte, forced), value)| place.to_value(byte & !forced | value)).collect()
     }
 
-    /// Writes what is not forced. Bytes too many are left out.
+    /// Writes the bits that are not forced. Excess bytes are ignored.
     pub(super) fn write(&mut self, place: Place, value: &[u8]) {
         let bytes = self.bytes.iter_mut().zip(&self.forced).skip(place.start).take(place.length_bytes);
         for ((byte, forced), new) in bytes.zip(value) {
@@ -212,7 +213,7 @@ impl Image {
         }
     }
 
-    /// Fixes the value. Bytes too many are left out.
+    /// Forces the value. Excess bytes are ignored.
     pub(super) fn force(&mut self, place: Place, value: &[u8]) {
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for ((forced, fixed), new) in bits.zip(value) {
@@ -223,7 +224,7 @@ impl Image {
         self.apply_forced();
     }
 
-    /// Frees the value; it stays until it is written or refreshed.
+    /// Releases the value; it is kept until it is written or refreshed.
     pub(super) fn release(&mut self, place: Place) {
         self.apply_forced();
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);

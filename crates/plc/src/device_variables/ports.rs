@@ -10,7 +10,7 @@ use super::variable::{Variable, VariableAccess, VariableType};
 pub const SYSTEM_TABLE_ELEMENTS: u16 = 33;
 
 const TABLE_BYTES: usize = SYSTEM_TABLE_ELEMENTS as usize;
-/// Where the parts of the status image lie.
+/// Positions of the parts of the status image.
 pub(crate) const SLAVE_STATUS: usize = 0;
 pub(crate) const IO_DATA_ACTIVE: usize = 2;
 pub(crate) const UNIT_ERROR: usize = 3;
@@ -19,12 +19,12 @@ pub(crate) const ERROR_TABLE: usize = MESSAGE_TABLE + TABLE_BYTES;
 /// Length of the status image in bytes.
 pub(crate) const STATUS_BYTES: usize = ERROR_TABLE + TABLE_BYTES;
 
-/// What a variable tells.
+/// The meaning of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VariableSource {
     /// An I/O entry of a data set.
     Entry {
-        /// Which way the data goes.
+        /// The direction of the data.
         direction: Direction,
         /// The data set.
         kind: DataSetKind,
@@ -42,17 +42,18 @@ pub enum VariableSource {
     IoDataActive,
     /// NX Unit Error Status.
     UnitError,
-    /// `_NXB_UnitMsgActiveTbl`: which NX Units can do message communications.
+    /// `_NXB_UnitMsgActiveTbl`: which NX Units support message communications.
     UnitMessageActiveTable,
     /// `_NXB_UnitErrFlagTbl`: which NX Units have an error.
     UnitErrorFlagTable,
 }
 
-/// The port that is no data but a place: NX_ReadObj and NX_WriteObj ask for a variable that is assigned to it.
+/// The port that contains a location instead of data: NX_ReadObj and NX_WriteObj need a variable that is
+/// assigned to it.
 const NODE_LOCATION_PORT: &str = "Node location information";
 const SLAVE_STATUS_PORT: &str = "EtherCAT Slave Status";
 
-/// Where a unit is, for NX_ReadObj and NX_WriteObj: a constant of its CPU Unit.
+/// The location of a unit, for NX_ReadObj and NX_WriteObj: a constant of its CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NodeLocation {
     /// Name of the variable.
@@ -86,8 +87,8 @@ pub(super) struct Ports<'a> {
 }
 
 impl Ports<'_> {
-    /// The entries of one direction, in the order of the image. An entry that stands in the wrong data set, or a
-    /// second time, has no I/O port.
+    /// The entries of one direction, in the order of the image. An entry that is in the wrong data set, or
+    /// occurs a second time, has no I/O port.
     pub(super) fn entries(&self, direction: Direction, layout: &ImageLayout) -> Vec<Variable> {
         let mut entries = Vec::new();
         for kind in DataSetKind::ALL {
@@ -119,7 +120,7 @@ impl Ports<'_> {
         Variable { access, ..self.port(self.device_name, "", &port, variable_type, source, place) }
     }
 
-    /// EtherCAT Slave Status and its bits, and what the NX Bus Function Module tells of the unit.
+    /// EtherCAT Slave Status and its bits, and the statuses of the unit in the NX Bus Function Module.
     pub(super) fn statuses(&self) -> Vec<Variable> {
         let (word, bool) = (VariableType::single(Elementary::Word), VariableType::single(Elementary::Bool));
         let place = Place::whole(Area::Status, SLAVE_STATUS, 2);
@@ -168,15 +169,15 @@ fn at(unit_number: u8, path: &str, port: &str) -> String {
     format!("IOBus://unit#{unit_number}/{path}{port}")
 }
 
-/// The name that a variable of an I/O port gets by itself (manual, 6-1-2): the device name and the port's, with `_` for
-/// everything that is no letter and no digit.
+/// The default name of a variable of an I/O port (manual, 6-1-2): the device name and the port's, with `_` for
+/// every character that is not a letter or a digit.
 #[must_use]
 pub fn variable_name(device_name: &str, port: &str) -> String {
     let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
     format!("{device_name}_{words}")
 }
 
-/// The system-defined variables: no device has them, and no AT specification.
+/// The system-defined variables: they have no device name, and no AT specification.
 pub(super) fn system_defined() -> [Variable; 2] {
     let tables = [
         ("_NXB_UnitMsgActiveTbl", VariableSource::UnitMessageActiveTable, MESSAGE_TABLE),

@@ -7,7 +7,7 @@ use nx_ect101::{DataSetKind, Direction, IoAllocation};
 
 use crate::io::Io;
 
-/// An allocation of so many 15 UINT, 10 BYTE and UDINT entries in each direction.
+/// An allocation of this number of 15 UINT, 10 BYTE and UDINT entries in each direction.
 fn allocation(m_to_c: [u8; 3], c_to_m: [u8; 3]) -> IoAllocation {
     let mut allocation = IoAllocation::empty();
     for (direction, counts) in [(Direction::MToC, m_to_c), (Direction::CToM, c_to_m)] {

@@ -1,4 +1,4 @@
-//! Values as text: `TRUE`, `16#1234`, `[1, 2, 3]`, as Structured Text writes them.
+//! Values as text: `TRUE`, `16#1234`, `[1, 2, 3]`, in the notation of Structured Text.
 
 mod problem;
 
@@ -19,7 +19,7 @@ pub struct ValueText<'a> {
     value: &'a [u8],
 }
 
-/// A part of a text that knows where it stands.
+/// A part of a text with its position.
 #[derive(Clone, Copy)]
 struct Part<'a> {
     text: &'a str,
@@ -27,11 +27,11 @@ struct Part<'a> {
 }
 
 impl VariableType {
-    /// The value that a text tells, little endian. An array is a list of all its elements; `3(0)` in it stands for
-    /// three of them. A number may have its type before it, as in `UINT#5`.
+    /// The value of a text, little endian. An array is a list of all its elements; `3(0)` in it means three of
+    /// them. A number may have its type before it, as in `UINT#5`.
     ///
     /// # Errors
-    /// What is wrong first, and where.
+    /// The first problem, and its position.
     pub fn parse(self, text: &str) -> Result<Vec<u8>, ValueTextError> {
         let part = Part { text, start: 0 }.trimmed();
         match self.elements {
@@ -40,7 +40,7 @@ impl VariableType {
         }
     }
 
-    /// A value as text. Bytes that are missing print as 0, and what are too many not at all.
+    /// A value as text. Missing bytes print as 0, and excess bytes are ignored.
     #[must_use]
     pub const fn show(self, value: &[u8]) -> ValueText<'_> {
         ValueText { variable_type: self, value }
@@ -53,7 +53,7 @@ impl<'a> Part<'a> {
         Self { text: text.trim_end(), start: self.start + self.text.len() - text.len() }
     }
 
-    /// Itself without so many bytes of its head and of its tail.
+    /// The part without this number of bytes at its start and at its end.
     fn inner(self, head: usize, tail: usize) -> Self {
         let text = self.text.get(head..self.text.len().saturating_sub(tail)).unwrap_or_default();
         Self { text, start: self.start + head }
@@ -68,7 +68,7 @@ impl<'a> Part<'a> {
         })
     }
 
-    /// Value and number of an item: `3(0)` is 0 three times.
+    /// Value and repeat count of an item: `3(0)` is 0 three times.
     fn repeated(self) -> Option<(Self, Self)> {
         let (count, _) = self.text.strip_suffix(')')?.split_once('(')?;
         let times = Part { text: count, start: self.start }.trimmed();
@@ -129,7 +129,7 @@ fn element(elementary: Elementary, whole: Part<'_>) -> Result<Vec<u8>, ValueText
     }
 }
 
-/// What stands behind `UINT#`, if anything does.
+/// The text after `UINT#`, if there is such a prefix.
 fn without_type(expected: Elementary, part: Part<'_>) -> Result<Part<'_>, ValueTextError> {
     let Some((prefix, _)) = part.text.split_once('#') else { return Ok(part) };
     let named =
@@ -164,7 +164,7 @@ fn whole_number(text: &str) -> Option<i128> {
     if !is_plain || digits.contains("__") {
         return None;
     }
-    // Digits beyond 128 bits are beyond every type.
+    // Numbers of more than 128 bits exceed every type.
     let magnitude = digits.replace('_', "");
     let is_number = magnitude.chars().all(|digit| digit.is_digit(base));
     is_number.then(|| i128::from_str_radix(&magnitude, base).unwrap_or(i128::MAX) * sign)

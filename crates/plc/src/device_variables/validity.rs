@@ -9,11 +9,11 @@ use super::ports::VariableSource;
 use super::variable::VariableId;
 use crate::io::Io;
 
-/// Whether a value can be used for control, and if not, why: the conditions of the manual's A-3-2, in the order in
-/// which its program looks at them.
+/// Whether a value can be used for control, and if not, why: the conditions of the manual's A-3-2, in the order
+/// in which its program checks them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Validity {
-    /// It can.
+    /// It can be used.
     Valid,
     /// NX Unit I/O Data Active Status is FALSE: the unit does not refresh its I/O.
     IoDataNotActive,
@@ -24,9 +24,9 @@ pub enum Validity {
 }
 
 impl Io {
-    /// Whether the value of a variable can be used for control, as the statuses stand that the user program sees.
-    /// An I/O entry is judged by all three conditions, EtherCAT Slave Status by the first two; what the NX Bus
-    /// Function Module itself tells is always valid.
+    /// Whether the value of a variable can be used for control, according to the statuses that the user program
+    /// sees. An I/O entry depends on all three conditions, EtherCAT Slave Status on the first two; statuses of
+    /// the NX Bus Function Module are always valid.
     ///
     /// # Errors
     /// There is no such variable.

@@ -1,4 +1,4 @@
-//! One device variable: name, I/O port, AT specification, type, access and place.
+//! One device variable: name, I/O port, AT specification, type, access and position.
 
 use core::fmt;
 use core::ops::Range;
@@ -16,7 +16,7 @@ pub const VALUE_BYTES_MAX: usize = 33;
 /// The value of a variable or of an element, little endian; a BOOL takes one byte, 0 or 1.
 pub type VariableValue = ArrayVec<u8, VALUE_BYTES_MAX>;
 
-/// A variable of one CPU Unit, found once by its name. It means nothing to another CPU Unit.
+/// A variable of one CPU Unit, looked up once by its name. It is not valid for another CPU Unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct VariableId(pub(super) u16);
 
@@ -28,7 +28,7 @@ impl VariableId {
     }
 }
 
-/// What is read, written or forced: a whole variable, or one element of an array.
+/// The target of a read, write or force: a whole variable, or one element of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Target {
     /// The variable.
@@ -43,23 +43,23 @@ impl From<VariableId> for Target {
     }
 }
 
-/// An elementary type, or an array of it. Prints as IEC 61131-3 writes it: `ARRAY[0..14] OF UINT`.
+/// An elementary type, or an array of it. Prints in the notation of IEC 61131-3: `ARRAY[0..14] OF UINT`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct VariableType {
     /// The type, or that of each element.
     pub elementary: Elementary,
-    /// How many elements the array has, counted from 0; none: it is no array.
+    /// Number of elements of the array, counted from 0; none: it is not an array.
     pub elements: Option<u16>,
 }
 
 impl VariableType {
-    /// No array.
+    /// A type that is not an array.
     #[must_use]
     pub const fn single(elementary: Elementary) -> Self {
         Self { elementary, elements: None }
     }
 
-    /// An array of so many elements.
+    /// An array with this number of elements.
     #[must_use]
     pub const fn array(elementary: Elementary, elements: u16) -> Self {
         Self { elementary, elements: Some(elements) }
@@ -103,12 +103,12 @@ impl fmt::Display for VariableType {
     }
 }
 
-/// Who gives a variable its value.
+/// What sets the value of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum VariableAccess {
-    /// The I/O refresh does; the user program reads it.
+    /// The I/O refresh; the user program reads it.
     ReadOnly,
-    /// The user program does; the I/O refresh takes it along.
+    /// The user program; the I/O refresh sends it.
     ReadWrite,
 }
 
@@ -117,22 +117,21 @@ pub enum VariableAccess {
 pub struct Variable {
     /// Its name, such as `N1_UINTs_01_M_to_C`.
     pub name: String,
-    /// The name of its I/O port as the manual prints it, such as `UINTs 01 M to C`; none for a system-defined
-    /// variable.
+    /// The name of its I/O port as the manual prints it, such as `UINTs 01 M to C`; none for a system-defined variable.
     pub port: Option<String>,
     /// Its AT specification, such as `IOBus://unit#1/UINTs 01 M to C`; none for a system-defined variable.
     pub at: Option<String>,
     /// Its type.
     pub variable_type: VariableType,
-    /// Who gives it its value.
+    /// What sets its value.
     pub access: VariableAccess,
-    /// What it tells.
+    /// Its meaning.
     pub source: VariableSource,
     pub(super) place: Place,
 }
 
 impl Variable {
-    /// Where its bytes lie in [`crate::Io::m_to_c`] or [`crate::Io::c_to_m`]; none for what is no I/O entry.
+    /// The position of its bytes in [`crate::Io::m_to_c`] or [`crate::Io::c_to_m`]; none if it is not an I/O entry.
     #[must_use]
     pub fn image_bytes(&self) -> Option<(Direction, Range<usize>)> {
         let bytes = self.place.start..self.place.start + self.place.length_bytes;
@@ -142,7 +141,7 @@ impl Variable {
         }
     }
 
-    /// Whether this is its name or its AT specification, in whatever case.
+    /// Whether this is its name or its AT specification, in upper or lower case.
     pub(super) fn is_called(&self, name_or_at: &str) -> bool {
         let at = self.at.as_deref().is_some_and(|at| at.eq_ignore_ascii_case(name_or_at));
         at || self.name.eq_ignore_ascii_case(name_or_at)

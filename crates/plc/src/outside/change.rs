@@ -1,4 +1,4 @@
-//! What is asked for from outside.
+//! The changes from outside.
 
 use core::fmt;
 
@@ -8,13 +8,13 @@ use crate::io::Io;
 /// One change of a variable or of an element.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Change {
-    /// What is changed.
+    /// The target of the change.
     pub target: Target,
-    /// How.
+    /// The action.
     pub operation: Operation,
 }
 
-/// What is done to a variable or an element. A value is little endian; a BOOL takes one byte.
+/// The action on a variable or an element. A value is little endian; a BOOL takes one byte.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Operation {
     /// As [`Io::write`].
@@ -55,17 +55,17 @@ impl Change {
 pub enum ChangeRefused {
     /// One of them cannot be made.
     Variable {
-        /// Which, counted from 0.
+        /// Its position, counted from 0.
         change: usize,
-        /// Why.
+        /// The reason.
         error: VariableError,
     },
-    /// Too many wait already; after the next task period there is room again.
+    /// Too many are already waiting; after the next task period there is room again.
     Full {
-        /// For how many there is room now.
+        /// The number of changes for which there is room now.
         room: usize,
     },
-    /// The CPU Unit has gone.
+    /// The CPU Unit no longer exists.
     NotReachable,
 }
 

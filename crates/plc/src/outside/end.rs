@@ -10,17 +10,17 @@ use time::Instant;
 use super::{CHANGES_MAX, Change, ChangeRefused, Published};
 use crate::device_variables::{DeviceVariables, Target, Validity, VariableError, VariableId, VariableValue};
 
-/// Reads all variables as they were published last, and sends changes. It never waits.
+/// Reads all variables as last published, and sends changes. It never waits.
 pub struct OutsideEnd {
     variables: DeviceVariables,
     published: triple_buffer::Output<Published>,
     changes: SyncSender<Change>,
     sent: u64,
-    /// How many of them the other end may take.
+    /// The number of changes that the other end may take.
     complete: Arc<AtomicU64>,
 }
 
-/// Tells whether changes have been made, by [`Snapshot::has_taken`]. It means nothing to another end.
+/// Used with [`Snapshot::has_taken`] to check whether changes have been made. It is not valid for another end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Ticket(u64);
 
@@ -48,7 +48,7 @@ impl OutsideEnd {
     /// Sends changes to be made in the next task period: all in the same one, in this order, or none.
     ///
     /// # Errors
-    /// One of them cannot be made, there is no room for all of them, or the CPU Unit has gone.
+    /// One of them cannot be made, there is no room for all of them, or the CPU Unit no longer exists.
     pub fn send(&mut self, changes: &[Change]) -> Result<Ticket, ChangeRefused> {
         for (change, asked) in changes.iter().enumerate() {
             asked.check(&self.variables).map_err(|error| ChangeRefused::Variable { change, error })?;
@@ -69,7 +69,7 @@ impl OutsideEnd {
         Ok(Ticket(self.sent))
     }
 
-    /// For how many changes there is room: the queue holds no more than those that the newest image has not taken.
+    /// The number of changes for which there is room: the queue holds only those that the newest image has not taken.
     fn room(&mut self) -> usize {
         let waiting = self.sent - self.published.read().taken;
         CHANGES_MAX.saturating_sub(usize::try_from(waiting).unwrap_or(CHANGES_MAX))
@@ -82,7 +82,7 @@ impl fmt::Debug for OutsideEnd {
     }
 }
 
-/// One consistent image of all variables, as a task period had them before its user program ran.
+/// One consistent image of all variables, at the time before the user program of a task period ran.
 #[derive(Clone, Copy, Debug)]
 pub struct Snapshot<'a> {
     variables: &'a DeviceVariables,
@@ -114,13 +114,13 @@ impl Snapshot<'_> {
         self.image.memory.validity(self.variables, id)
     }
 
-    /// Whether the changes of a ticket have been made, and are seen in this image.
+    /// Whether the changes of a ticket have been made, and are included in this image.
     #[must_use]
     pub const fn has_taken(&self, ticket: Ticket) -> bool {
         ticket.0 <= self.image.taken
     }
 
-    /// When the task period began, counted from power-on of the CPU Unit; 0 as long as there was none.
+    /// Start of the task period, counted from power-on of the CPU Unit; 0 before the first one.
     #[must_use]
     pub const fn now(&self) -> Instant {
         self.image.now

@@ -9,12 +9,12 @@ use super::{Change, Published};
 use crate::io::Io;
 use crate::program::Program;
 
-/// Makes the changes that wait, and publishes all variables: the end to be attached to the CPU Unit.
+/// Makes the pending changes, and publishes all variables: the end that is attached to the CPU Unit.
 pub struct OutsideProgram {
     publisher: triple_buffer::Input<Published>,
     changes: Receiver<Change>,
     taken: u64,
-    /// How many changes belong to a request that has been sent as a whole.
+    /// Number of changes that belong to completely sent requests.
     complete: Arc<AtomicU64>,
 }
 
@@ -28,13 +28,14 @@ impl OutsideProgram {
     }
 
     fn make_changes(&mut self, io: &mut Io) {
-        // Pairs with the store in `OutsideEnd::send`: what it counts lies in the queue. A request that is being sent
-        // now waits for the next task period, so that its changes are made together.
+        // Pairs with the store in `OutsideEnd::send`: the changes that it counts are in the queue. A request
+        // that is being sent now waits for the next task period, so that its changes are made together.
         let complete = self.complete.load(Ordering::Acquire);
         while self.taken < complete {
             let Ok(change) = self.changes.try_recv() else { return };
             self.taken += 1;
-            // The other end has checked it by the list of the same variables; one of another list changes nothing.
+            // The other end has checked it with the list of the same variables; a change from another list has
+            // no effect.
             let _ = change.make(io);
         }
     }

@@ -1,4 +1,4 @@
-//! Both ends of the way in, on one thread and on two.
+//! Both ends of the gateway, on one thread and on two.
 
 use nx_ect101::{Direction, IoAllocation};
 use proptest::prelude::*;
@@ -154,7 +154,7 @@ fn a_request_is_made_whole_in_one_task_period_whatever_the_threads_do() {
         let writing = scope.spawn(move || {
             for number in 0..5_000_u16 {
                 let changes: Vec<_> = (0..15).map(|element| write(id.element(element), number)).collect();
-                // A full queue is a request that is not made at all.
+                // With a full queue the request is not made at all.
                 let _ = end.send(&changes);
                 let newest = end.newest().read(id).expect("it is there");
                 assert!(newest.chunks(2).all(|element| element == &newest[..2]), "torn: {newest:?}");

@@ -1,17 +1,17 @@
-//! The device variables as Structured Text sees them.
+//! The device variables, as globals of Structured Text.
 
 use st::Global;
 
 use crate::device_variables::{DeviceVariables, NodeLocation, VariableAccess, VariableId};
 
-/// Globals, and the device variable of each but the last.
+/// Globals, and the device variable of each except the last.
 pub(super) struct Globals {
     pub(super) list: Vec<Global>,
     pub(super) variables: Vec<VariableId>,
 }
 
-/// All variables of a CPU Unit, and behind them where its unit is, which NX_ReadObj and NX_WriteObj ask for: a
-/// variable of the type `_sNXUNIT_ID` that is assigned to the port *Node location information*.
+/// All variables of a CPU Unit, followed by the location of its unit, which NX_ReadObj and NX_WriteObj require:
+/// a variable of the type `_sNXUNIT_ID` that is assigned to the port *Node location information*.
 pub(super) fn of(variables: &DeviceVariables) -> Globals {
     let globals = variables.iter().map(|(_, variable)| Global {
         name: variable.name.clone(),

@@ -1,4 +1,4 @@
-//! What a program in Structured Text asks of its CPU Unit.
+//! The services of the CPU Unit for a program in Structured Text.
 
 use core::task::Poll;
 
@@ -12,7 +12,7 @@ use crate::io::Io;
 use crate::nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 use crate::program::ProgramEvent;
 
-/// The calls of a program that are under way.
+/// The calls of a program that are in progress.
 #[derive(Clone, Debug, Default)]
 pub(super) struct PendingCalls {
     calls: ArrayVec<(NxCallNumber, NxCall), REQUESTS_MAX>,
@@ -22,17 +22,17 @@ pub(super) struct PendingCalls {
 impl PendingCalls {
     fn add(&mut self, call: NxCall) -> NxCallNumber {
         self.last_number += 1;
-        // The client has no more calls than this holds.
+        // The client has no more calls than this can hold.
         let _ = self.calls.try_push((self.last_number, call));
         self.last_number
     }
 
-    /// Gives no number again that another program has given.
+    /// Ensures that no number of the previous program is used again.
     pub(super) const fn go_on_from(&mut self, before: &Self) {
         self.last_number = before.last_number;
     }
 
-    /// Forgets all of them: the program that made them begins anew.
+    /// Drops all of them: their program starts again.
     pub(super) fn forget(&mut self, client: &mut NxObjectClient) {
         for (_, call) in self.calls.drain(..) {
             client.forget(call);
@@ -40,7 +40,7 @@ impl PendingCalls {
     }
 }
 
-/// The CPU Unit for the time of a scan.
+/// The CPU Unit during a scan.
 pub(super) struct IoHost<'a> {
     pub(super) io: &'a mut Io,
     pub(super) unit_number: u8,
@@ -113,8 +113,8 @@ impl Host for IoHost<'_> {
     }
 }
 
-/// What the instruction's pins tell of a refusal. The manual of the unit gives no numbers for ErrorIDEx: they are the
-/// SDO abort codes of the same refusals, which every EtherCAT engineer knows.
+/// The pin values of the instruction for a refusal. The manual of the unit does not define ErrorIDEx: the
+/// values are the SDO abort codes of the same refusals, which EtherCAT engineers know.
 const fn fault_of(error: NxMessageError) -> NxFault {
     let error_id = match error {
         NxMessageError::LengthMismatch { .. } => NxFault::INCORRECT_LENGTH,

@@ -10,7 +10,7 @@ pub(crate) const PRE_OP: u8 = 0x02;
 pub(crate) const SAFE_OP: u8 = 0x04;
 pub(crate) const OP: u8 = 0x08;
 
-/// A master that sends a frame every 100 µs, and what it is wired to.
+/// A master that sends a frame every 100 µs, and the line that it is connected to.
 pub(crate) struct Bench {
     pub(crate) network: Network<NxEct101>,
     pub(crate) cpu: CpuUnit,
@@ -69,7 +69,7 @@ impl Bench {
         self.pass(&mut frame).remove(0)
     }
 
-    /// Sends a frame at this moment.
+    /// Sends a frame at this time.
     pub(crate) fn pass(&mut self, frame: &mut [u8]) -> Vec<Returned> {
         self.network.frame(self.now, frame);
         self.network.poll(self.now);
@@ -89,7 +89,7 @@ impl Bench {
         self.write(0x0800 + 8 * number, &[s0, s1, l0, l1, control, 0, 1, 0]);
     }
 
-    /// Asks for a state; AL status and AL status code as they are then.
+    /// Requests a state; returns AL status and AL status code after it.
     pub(crate) fn request(&mut self, state: u8) -> (u8, u16) {
         self.write(0x0120, &[state, 0]);
         let status = self.read(0x0130, 6);
@@ -123,7 +123,7 @@ impl Bench {
         self
     }
 
-    /// An SDO download by complete access; how long the response took.
+    /// An SDO download by complete access; returns the time until the response.
     pub(crate) fn download_complete(&mut self, index: u16, value: &[u8]) -> Duration {
         let sent = self.now;
         let length_bytes = (value.len() as u32).to_le_bytes();
@@ -170,7 +170,7 @@ impl Bench {
         message
     }
 
-    /// Sends outputs long enough for them to come back; the inputs then.
+    /// Sends outputs for long enough that they return; returns the inputs after that.
     pub(crate) fn exchange(&mut self, outputs: &[u8], inputs_bytes: usize) -> Vec<u8> {
         for _ in 0..100 {
             self.write(layout::OUTPUTS_START, outputs);

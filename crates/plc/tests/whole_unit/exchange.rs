@@ -1,4 +1,4 @@
-//! From power-on to data that comes back.
+//! From power-on to returned data.
 
 use device::Network;
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings, device_config};

@@ -1,4 +1,4 @@
-//! Messages between a master and a user program by NX objects, both ways at once (manual, A-5).
+//! Messages between a master and a user program by NX objects, in both directions at once (manual, A-5).
 
 use core::task::Poll;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -17,7 +17,7 @@ const NX_MESSAGES_ENABLED: u8 = 1 << 0;
 const NEW_MESSAGE: u8 = 1 << 3;
 const READY_TO_WRITE: u8 = 1 << 4;
 
-/// Message `number` of one direction: every byte depends on the number and on its place.
+/// Message `number` of one direction: every byte depends on the number and on its position.
 fn message(number: u32, salt: u8) -> Vec<u8> {
     let body = (4..200_u32).map(|place| (number.wrapping_mul(31).wrapping_add(place * 7)) as u8 ^ salt);
     number.to_le_bytes().into_iter().chain(body).collect()
@@ -26,13 +26,13 @@ fn message(number: u32, salt: u8) -> Vec<u8> {
 const TO_CPU: u8 = 0x00;
 const TO_MASTER: u8 = 0xA5;
 
-/// What the user program tells the test.
+/// The reports of the user program to the test.
 enum Told {
     Received(Vec<u8>),
     Refused,
 }
 
-/// Receives what comes, and sends numbered messages, from time to time before the master has read the last one.
+/// Receives messages, and sends numbered messages, sometimes before the master has read the last one.
 struct Talker {
     random: Random,
     reading: Option<NxCall>,
@@ -48,7 +48,7 @@ impl Program for Talker {
             return;
         }
         self.take_results(io);
-        // A program that takes its time, so that the master too comes too early.
+        // The program is sometimes slow, so that the master also comes too early.
         if self.reading.is_none() && status.new_message && self.random.below(4) == 0 {
             self.reading = io.nx_objects().read(ObjectIndex(0x5000), MESSAGE).ok();
         }
@@ -139,7 +139,7 @@ fn a_write_while_not_ready_is_refused_and_the_first_message_stays() {
         Bench::with_program(IoAllocation::factory(), CpuSettings::default(), program).into_pre_op();
     bench.set_process_data(180, 183);
     assert_eq!(bench.request(SAFE_OP), (SAFE_OP, 0));
-    // A unit refreshes before it answers, so what follows is in order.
+    // A unit refreshes before it answers, so the following messages are in order.
     bench.run_for(time::Duration::from_millis(2));
     assert_eq!(status(&mut bench) & READY_TO_WRITE, READY_TO_WRITE);
     assert_eq!(status(&mut bench) & NX_MESSAGES_ENABLED, NX_MESSAGES_ENABLED);

@@ -1,4 +1,4 @@
-//! Response times against the manual's formulas (7-9), for whatever periods and phases.
+//! Response times compared with the manual's formulas (7-9), for any periods and phases.
 
 use nx_ect101::performance::{IoResponse, sdo_response_time, transmission_time};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, layout};
@@ -11,19 +11,19 @@ use crate::bench::{Bench, Random};
 const RUNS: u64 = 10_000;
 const BYTES: usize = 180;
 
-/// A master of its own period, whose frames take time on the wire.
+/// A master with its own period, whose frames take time on the cable.
 struct Master {
     bench: Bench,
     period: Duration,
-    /// From the sending of a frame to its passing the unit.
+    /// From sending a frame to its passage through the unit.
     to_unit: Duration,
     transmission: Duration,
     next: Instant,
 }
 
 impl Master {
-    /// Sends outputs and reads inputs in one frame, and waits for the next cycle. When it was sent, and the
-    /// inputs.
+    /// Sends outputs and reads inputs in one frame, and waits for the next cycle. Returns the time of sending,
+    /// and the inputs.
     fn cycle(&mut self, outputs: &[u8]) -> (Instant, Vec<u8>) {
         let sent = self.next;
         let mut frame = exchange_frame(outputs);
@@ -33,7 +33,7 @@ impl Master {
         (sent, inputs)
     }
 
-    /// Sends new outputs; how long they take to come back.
+    /// Sends new outputs; returns the time until they return.
     fn response(&mut self, outputs: &[u8]) -> Duration {
         let (first, mut inputs) = self.cycle(outputs);
         let mut last = first;
@@ -51,7 +51,7 @@ fn exchange_frame(outputs: &[u8]) -> Vec<u8> {
         .finish()
 }
 
-/// An allocation of 6 or more 15 UINT entries each way, for each row of T_slave.
+/// An allocation of 6 or more 15 UINT entries in each direction, for each row of T_slave.
 fn allocation(random: &mut Random) -> IoAllocation {
     let entries = [6, 13, 14, 26, 27, 40][random.below(6) as usize];
     let mut allocation = IoAllocation::empty();
@@ -61,7 +61,7 @@ fn allocation(random: &mut Random) -> IoAllocation {
     allocation
 }
 
-/// A measured I/O response and the longest one by the formula.
+/// A measured I/O response, and the maximum according to the formula.
 fn measure_io_response(random: &mut Random) -> (Duration, Duration) {
     let task_period = random.time(125, 10_000);
     let cpu = CpuSettings { task_period, ..CpuSettings::default() };
@@ -78,7 +78,7 @@ fn measure_io_response(random: &mut Random) -> (Duration, Duration) {
     let to_unit = Duration::from_nanos(random.below(transmission.as_nanos()));
     let next = bench.now;
     let mut master = Master { bench, period: times.master, to_unit, transmission, next };
-    // Until data goes round; then something new.
+    // Until data are exchanged; then a new value.
     master.response(&[0x11; BYTES]);
     master.next = master.bench.now + random.time(100, 20_000);
     (master.response(&[0x22; BYTES]), times.maximum())
@@ -97,15 +97,15 @@ fn an_io_response_never_takes_longer_than_the_formula_and_comes_close_to_it() {
     assert!(closest >= 0.9, "the longest response is only {closest:.3} of the formula");
 }
 
-/// What the master asks of the mailbox in a cycle.
+/// The master's mailbox access in a cycle.
 enum Step {
     Request,
     LookForResponse,
     TakeResponse,
 }
 
-/// Sends an SDO request in one cycle of `period`, looks for the response in each of those that follow, and takes
-/// it; a frame is received when the next cycle begins. How long that takes.
+/// Sends an SDO request in one cycle of `period`, checks for the response in each of the following cycles, and
+/// reads it; a frame is received at the start of the next cycle. Returns the total time.
 fn sdo_response(bench: &mut Bench, period: Duration) -> Duration {
     let request = bench.sdo_request(0x40, 0x1018, 1, &[0; 4]);
     let start = bench.now;

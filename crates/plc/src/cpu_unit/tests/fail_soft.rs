@@ -1,4 +1,4 @@
-//! What the fail-soft operation makes of the errors for which the manual asks it (8-3-4, 10410000 and 80200000).
+//! The effect of the fail-soft operation on the errors to which the manual applies it (8-3-4, 10410000 and 80200000).
 
 use nx_ect101::Fault;
 
@@ -14,7 +14,7 @@ fn bench(fail_soft: FailSoftOperation) -> Bench {
     bench
 }
 
-/// Data goes back and forth, and the CPU Unit says so.
+/// Data are exchanged in both directions, and the CPU Unit indicates this.
 fn exchanges(bench: &mut Bench, end_ms: u64, fill: u8) -> bool {
     bench.outputs = Some(vec![fill; 180]);
     bench.run_to_ms(end_ms);

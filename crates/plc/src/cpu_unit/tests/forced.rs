@@ -1,4 +1,4 @@
-//! Forced values against a simple model: whatever program, master, modes and users do.
+//! Forced values, compared with a simple model, for any actions of program, master, modes and users.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
@@ -15,9 +15,9 @@ const IMAGE_BYTES: usize = 44;
 
 #[derive(Clone, Debug)]
 enum Step {
-    /// The unit publishes its data, all bytes the same, and this status; whether its I/O data is active.
+    /// The unit publishes its data, all bytes equal, and this status; and whether its I/O data is active.
     Publish(u8, u16, bool),
-    /// From now on the program fills the whole image with this, or leaves it alone.
+    /// From now on the program fills the whole image with this, or leaves it unchanged.
     ProgramFills(Option<u8>),
     Cycle,
     SetMode(OperatingMode),
@@ -48,7 +48,7 @@ fn steps() -> impl Strategy<Value = Vec<Step>> {
     prop::collection::vec(step, 1..60)
 }
 
-/// Bits and which of them are forced, told one by one.
+/// Bits, and which of them are forced, handled one by one.
 #[derive(Clone)]
 struct Bits(Vec<(bool, Option<bool>)>);
 
@@ -64,7 +64,7 @@ impl Bits {
         self.0[range].chunks(8).map(byte).collect()
     }
 
-    /// Writes what is not forced.
+    /// Writes the bits that are not forced.
     fn write(&mut self, range: core::ops::Range<usize>, value: &[u8]) {
         for (at, bit) in self.0[range].iter_mut().enumerate().filter(|(_, bit)| bit.1.is_none()) {
             bit.0 = value[at / 8] >> (at % 8) & 1 == 1;
@@ -77,7 +77,7 @@ impl Bits {
         }
     }
 
-    /// What was forced stays until it is written.
+    /// The forced values remain until they are written.
     fn release(&mut self, range: core::ops::Range<usize>) {
         for bit in &mut self.0[range] {
             bit.0 = bit.1.take().unwrap_or(bit.0);
@@ -85,7 +85,7 @@ impl Bits {
     }
 }
 
-/// One place that can be named: its bits are in one of the three parts of the model.
+/// One place with a name: its bits are in one of the three parts of the model.
 struct Place {
     target: Target,
     part: usize,
@@ -93,7 +93,7 @@ struct Place {
     access: VariableAccess,
 }
 
-/// All variables of the images and of the status word, and every element, by the rows of the manual.
+/// All variables of the images and of the status word, and every element, from the rows of the manual.
 fn places(io: &Io) -> Vec<Place> {
     let mut places = Vec::new();
     let mut add = |name: &str, part, first_bit: usize, bits: usize, elements: u16, access| {
@@ -156,7 +156,7 @@ impl Run {
         Self { unit, cpu, places, fill, seen, seen_to, model, published, program_fills: None }
     }
 
-    /// The value of a place, all of its bytes made of `fill`.
+    /// The value of a place, with all of its bytes equal to `fill`.
     fn value(place: &Place, fill: u8) -> Vec<u8> {
         match place.bits.len() {
             1 => vec![fill & 1],
@@ -229,7 +229,7 @@ impl Run {
             assert_eq!(seen, []);
             return;
         }
-        // The reserved bits of the word are no flags: a program that reads flags does not see them forced.
+        // The reserved bits of the word are not flags: a program that reads flags does not see them forced.
         let flags = self.model[2].see(0..16);
         let flags = SlaveStatus::from_bits(u16::from_le_bytes([flags[0], flags[1]])).bits();
         assert_eq!(seen, [(self.model[0].see(WHOLE), flags)], "what the program sees is forced");

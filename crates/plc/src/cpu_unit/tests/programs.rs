@@ -1,11 +1,11 @@
-//! User programs and outside runtimes: when they start, when they run, what they tell.
+//! User programs and outside runtimes: when they start, when they run, what they report.
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::*;
 use crate::{CpuEvent, DeviceVariables, ProgramEvent, ProgramTrouble, StructuredText};
 
-/// Tells every call, with the time.
+/// Reports every call, with its time.
 struct Told {
     name: &'static str,
     calls: Sender<String>,
@@ -35,7 +35,7 @@ fn cpu_unit(settings: CpuSettings, program: Box<dyn Program + Send>) -> (NxEct10
     (unit, CpuUnit::power_on(at_ms(100), settings, bus, program))
 }
 
-/// The CPU Unit gets power at 100 ms: its own time begins there.
+/// The CPU Unit is powered on at 100 ms: its own time begins there.
 fn at_ms(ms: u64) -> Instant {
     Instant::ZERO + Duration::from_millis(ms)
 }

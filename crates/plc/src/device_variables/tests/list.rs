@@ -1,4 +1,4 @@
-//! Which variables there are, where they lie, and what comes back of what is written.
+//! Which variables exist, where they are, and that a written value is read back.
 
 use core::fmt::Write as _;
 

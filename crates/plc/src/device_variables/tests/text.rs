@@ -60,7 +60,7 @@ proptest! {
         let mut value = fill[..variable_type.size_bytes()].to_vec();
         match elementary {
             Elementary::Bool => value.iter_mut().for_each(|byte| *byte &= 1),
-            // A NaN has many bit patterns and one text; the least TIME has no positive counterpart.
+            // A NaN has many bit patterns and one text; the minimum TIME has no positive counterpart.
             Elementary::Real | Elementary::Lreal | Elementary::Time => {
                 value.chunks_mut(elementary.size_bytes()).for_each(|bytes| bytes[bytes.len() - 1] &= 0x3F);
             }

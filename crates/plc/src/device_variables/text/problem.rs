@@ -1,4 +1,4 @@
-//! What is wrong with the text of a value or of a variable, and where.
+//! The problem in the text of a value or of a variable, and its position.
 
 use core::fmt;
 
@@ -6,54 +6,54 @@ use st::Elementary;
 
 use crate::device_variables::VariableError;
 
-/// What is wrong with the text of a value or of a variable, and where.
+/// The problem in the text of a value or of a variable, and its position.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ValueTextError {
-    /// The first byte of the text that is meant.
+    /// The first byte of the wrong part.
     pub start: usize,
-    /// The byte behind the last.
+    /// The byte after the last.
     pub end: usize,
-    /// What is wrong.
+    /// The problem.
     pub problem: TextProblem,
 }
 
-/// What is wrong with a text.
+/// A problem in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TextProblem {
     /// No variable has this name or AT specification.
     NoSuchVariable,
     /// The variable has no such element.
     NoSuchPlace(VariableError),
-    /// Not a number as 12, -3, 16#1F, 2#1010.
+    /// Not a number such as 12, -3, 16#1F, 2#1010.
     NotANumber,
     /// A number beyond the limits of its type.
     OutOfRange {
         /// The type.
         elementary: Elementary,
-        /// The least value that it has.
+        /// Its minimum.
         least: i128,
-        /// The greatest.
+        /// Its maximum.
         most: i128,
     },
     /// Not TRUE, FALSE, 1 or 0.
     NotABool,
     /// Not a duration such as T#1.5ms.
     NotATime,
-    /// The literal is of another type, as `INT#5` for a UINT.
+    /// The literal is of another type, such as `INT#5` for a UINT.
     WrongType {
-        /// The type that is wanted.
+        /// The required type.
         expected: Elementary,
     },
     /// Not a list in square brackets.
     NotAList {
-        /// How many elements the array has.
+        /// Number of elements of the array.
         expected: u16,
     },
     /// A list of another length than the array.
     WrongCount {
-        /// How many elements the list has, as far as it was counted.
+        /// Number of elements of the list, as far as counted.
         elements: usize,
-        /// How many the array has.
+        /// Number of elements of the array.
         expected: u16,
     },
 }
