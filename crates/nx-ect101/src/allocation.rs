@@ -1,4 +1,4 @@
-//! The I/O allocation: which entries the CPU Unit exchanges with the unit, and where they lie (manual, 6-3).
+//! The I/O allocation: the entries that the CPU Unit exchanges with the unit, and their positions (manual, 6-3).
 
 use core::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::data_sets::{DataSet, DataSetKind, Direction};
 /// Length of the EtherCAT Slave Status, NX object 6003:01, in bytes. It is always allocated (manual, 6-3-2).
 pub const SLAVE_STATUS_BYTES: usize = 2;
 
-/// One I/O entry that the CPU Unit has allocated, right or wrong: an entry of another data set keeps its index.
+/// One I/O entry that the CPU Unit has allocated, correct or not: an entry of another data set keeps its index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct IoEntry {
     /// NX object.
@@ -19,7 +19,7 @@ pub struct IoEntry {
 }
 
 impl IoEntry {
-    /// Length in bytes; 0 for what is no NX object that accepts I/O allocations.
+    /// Length in bytes; 0 if it is not an NX object that accepts I/O allocations.
     #[must_use]
     pub fn size_bytes(self) -> usize {
         let set = DataSet::all().iter().find(|set| set.nx_entry == self.index);
@@ -84,14 +84,14 @@ impl IoAllocation {
         entries.map(|entry| entry.size_bytes()).sum()
     }
 
-    /// Where each entry lies in the process image of `direction`.
+    /// The position of each entry in the process image of `direction`.
     #[must_use]
     pub fn layout(&self, direction: Direction) -> ImageLayout {
         ImageLayout::of(DataSetKind::ALL.map(|kind| self.entries(direction, kind)))
     }
 
     /// The total size of the I/O data between CPU Unit and unit in bytes: both directions and the EtherCAT
-    /// Slave Status. It sets T_slave (manual, 7-9-1).
+    /// Slave Status. It determines T_slave (manual, 7-9-1).
     #[must_use]
     pub fn total_bytes(&self) -> usize {
         self.layout(Direction::MToC).size_bytes()
@@ -100,8 +100,8 @@ impl IoAllocation {
     }
 }
 
-/// Where the entries of one direction lie in a process image: data set by data set, in the order of their
-/// allocation, without gaps.
+/// The positions of the entries of one direction in a process image: data set by data set, in the order of
+/// their allocation, without gaps.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ImageLayout {
     places: Vec<Place>,
@@ -134,7 +134,7 @@ impl ImageLayout {
         self.size_bytes
     }
 
-    /// Where entry `number` (its subindex) of the data set of `kind` lies; none if it is not allocated there.
+    /// The position of entry `number` (its subindex) of the data set of `kind`; none if it is not allocated there.
     #[must_use]
     pub fn place(&self, direction: Direction, kind: DataSetKind, number: u8) -> Option<Range<usize>> {
         let wanted = IoEntry { index: DataSet::of(direction, kind).nx_entry, sub: SubIndex(number) };
@@ -147,7 +147,7 @@ impl ImageLayout {
 pub(crate) mod tests {
     use super::*;
 
-    /// An allocation of so many 15 UINT, 10 BYTE and UDINT entries, the same in both directions.
+    /// An allocation of this number of 15 UINT, 10 BYTE and UDINT entries, the same in both directions.
     pub(crate) fn symmetric(counts: [u8; 3]) -> IoAllocation {
         let mut allocation = IoAllocation::empty();
         for (kind, count) in DataSetKind::ALL.into_iter().zip(counts) {

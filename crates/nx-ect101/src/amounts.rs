@@ -1,4 +1,4 @@
-//! How many entries the data sets have on their two sides.
+//! The numbers of entries of the data sets on their two sides.
 
 use crate::allocation::IoAllocation;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
@@ -28,7 +28,7 @@ pub(crate) fn of(io: &IoAllocation, pdo: &PdoSettings, direction: Direction) -> 
     })
 }
 
-/// The one data set whose amounts differ, or the direction when there are several.
+/// The only data set whose amounts differ, or the direction if there are several.
 pub(crate) fn different(direction: Direction, amounts: &[Amount; 3]) -> FindingPlace {
     let mut sets = DataSetKind::ALL.into_iter().zip(amounts).filter(|(_, amount)| amount.is_unequal());
     match (sets.next(), sets.next()) {

@@ -1,4 +1,4 @@
-//! What the slave stack is told about the unit.
+//! The description of the unit for the slave stack.
 
 use device::{
     AbortProfile, Area, Buffers, Condition, Conduct, DataDirection, DataLength, DeviceConfig, EscConfig,
@@ -14,10 +14,11 @@ use crate::settings::UnitSettings;
 use crate::slave_settings::{OutputsRule, SlaveSettings};
 use crate::timing::Timing;
 
-/// A byte of an EEPROM that nobody has written.
+/// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
 
-/// What the stack checks from PRE-OP to SAFE-OP (manual, 8-3-4); the unit adds mapping and synchronization between them.
+/// The checks of the stack from PRE-OP to SAFE-OP (manual, 8-3-4); the unit adds mapping and synchronization
+/// between them.
 const CHECKS: &[Condition] = &[
     condition(Requirement::Areas(DataDirection::Outputs), AlStatusCode::INVALID_OUTPUT_CONFIGURATION),
     condition(Requirement::Areas(DataDirection::Inputs), AlStatusCode::INVALID_INPUT_CONFIGURATION),
@@ -72,7 +73,7 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
     }
 }
 
-/// SyncManagers 2 and 3, as long as the mapping makes them.
+/// SyncManagers 2 and 3, with the length of the mapping.
 fn process_data() -> [ProcessDataConfig; 2] {
     let described = |sync_manager, direction, start, max_bytes| {
         let length = DataLength::Mapped { max_bytes };
@@ -93,7 +94,7 @@ fn outputs_before_op(rule: OutputsRule) -> OutputsBeforeOp {
     }
 }
 
-/// Fast, no time is left; what is refused stays.
+/// With `fast`, all times are zero; refusals are kept.
 fn conduct(slave: &SlaveSettings, timing: Timing) -> Conduct {
     let conduct = slave.conduct.clone();
     match timing {
@@ -137,7 +138,7 @@ mod tests {
         assert_eq!(device.deadline(), Instant::ZERO + period);
     }
 
-    /// C056: the time is the one that the ESI gives a master.
+    /// C056: the time is the one in the ESI.
     #[test]
     fn outputs_are_waited_for_as_long_as_a_master_waits() {
         let of = |text: &str| {

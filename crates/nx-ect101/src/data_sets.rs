@@ -1,7 +1,7 @@
-//! The data sets that master and CPU Unit share, from `tables/allocation.toml` (manual, 5-2, 6-3 and 7-5).
+//! The data sets shared by master and CPU Unit, from `tables/allocation.toml` (manual, 5-2, 6-3 and 7-5).
 //!
-//! A data set has one name and two sides: an I/O entry mapping towards the CPU Unit and a PDO mapping object
-//! towards the master. Entry k of the one side exchanges with entry k of the other.
+//! A data set has one name and two sides: an I/O entry mapping for the CPU Unit and a PDO mapping object for
+//! the master. Entry k of one side is exchanged with entry k of the other.
 
 use std::sync::LazyLock;
 
@@ -13,7 +13,7 @@ use crate::tables;
 static ALLOCATION: LazyLock<AllocationFile> =
     LazyLock::new(|| tables::parse("allocation.toml", include_str!("../tables/allocation.toml")));
 
-/// Which way data goes.
+/// The direction of data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Direction {
@@ -23,7 +23,7 @@ pub enum Direction {
     CToM,
 }
 
-/// What one entry of a data set holds.
+/// The contents of one entry of a data set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DataSetKind {
@@ -39,7 +39,7 @@ impl Direction {
     /// Both, in the order of their objects.
     pub const ALL: [Self; 2] = [Self::MToC, Self::CToM];
 
-    /// Its name for programs.
+    /// Its name in data for programs.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -58,13 +58,13 @@ impl DataSetKind {
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DataSet {
-    /// What its entries hold.
+    /// The contents of its entries.
     pub kind: DataSetKind,
-    /// Which way they go.
+    /// Their direction.
     pub direction: Direction,
     /// Its name, the same for the I/O entry mapping and for the PDO mapping object.
     pub name: String,
-    /// Name of the object that holds the entries.
+    /// Name of the object that contains the entries.
     pub entry_name: String,
     /// NX object of the I/O entries.
     #[serde(deserialize_with = "object_index")]
@@ -79,7 +79,7 @@ pub struct DataSet {
     pub entry_bytes: u16,
     /// Entries at the factory setting, when the data set is selected.
     pub default_count: u8,
-    /// Most entries that can be allocated.
+    /// Maximum number of entries that can be allocated.
     pub max_count: u8,
     /// Whether the factory setting selects it.
     pub default_selected: bool,
@@ -108,8 +108,8 @@ impl DataSet {
         1 <= sub.0 && sub.0 <= self.max_count
     }
 
-    /// The number of its I/O entry mapping in the attached information of events. The two sides count with
-    /// opposite directions: M to C is 1A01 to 1A03 there (manual, 8-3-4).
+    /// The number of its I/O entry mapping in the attached information of events. The two sides use opposite
+    /// directions: M to C is 1A01 to 1A03 there (manual, 8-3-4).
     #[must_use]
     pub fn io_mapping(&self) -> ObjectIndex {
         let opposite = match self.direction {
@@ -119,14 +119,14 @@ impl DataSet {
         Self::of(opposite, self.kind).pdo
     }
 
-    /// The data set that the PDO mapping object `pdo` carries; none for the status PDOs.
+    /// The data set in the PDO mapping object `pdo`; none for the status PDOs.
     #[must_use]
     pub fn of_pdo(pdo: ObjectIndex) -> Option<&'static Self> {
         Self::all().iter().find(|set| set.pdo == pdo)
     }
 }
 
-/// Most bytes that the unit takes.
+/// Maximum numbers of bytes of the unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limits {
@@ -146,14 +146,14 @@ impl Limits {
     }
 }
 
-/// A PDO mapping object of fixed entries that tells the master a status (manual, 7-5-5).
+/// A PDO mapping object of fixed entries with a status for the master (manual, 7-5-5).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StatusPdo {
     /// Its index.
     #[serde(deserialize_with = "object_index")]
     pub index: ObjectIndex,
-    /// Whether it has to be assigned.
+    /// Whether it must be assigned.
     pub mandatory: bool,
 }
 
@@ -165,16 +165,16 @@ impl StatusPdo {
     }
 }
 
-/// A PDO assignment object and what it takes (manual, A-6-6).
+/// A PDO assignment object and the PDOs that it accepts (manual, A-6-6).
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Assignment {
     /// Its index: 1C12 or 1C13.
     #[serde(deserialize_with = "object_index")]
     pub object: ObjectIndex,
-    /// Which way its PDOs go.
+    /// The direction of its PDOs.
     pub direction: Direction,
-    /// The PDO mapping objects that it takes, in their right order.
+    /// The PDO mapping objects that it accepts, in their correct order.
     #[serde(deserialize_with = "object_indexes")]
     pub allowed: Vec<ObjectIndex>,
 }

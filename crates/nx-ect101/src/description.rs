@@ -1,4 +1,4 @@
-//! What ESI and SII say of the unit, from the same tables that answer online.
+//! The contents of ESI and SII, from the same tables that answer online.
 
 use esi::{
     CoeDetails, DeviceDescription, EscPresets, FmmuUsage, GeneralFlags, Group, InitCommand, Mailbox,
@@ -17,8 +17,8 @@ use crate::tables::object_table;
 /// SII word 0: PDI control 0x08 (a microcontroller runs the unit), no device emulation.
 const ESC_CONFIGURATION: [u16; 4] = [0x0008, 0, 0, 0];
 
-/// The description of a unit with these settings. The SII gets its serial number and its ID, which
-/// the unit loads into the station alias register at power-on (manual, 3-3).
+/// The description of a unit with these settings. The SII gets its serial number and its ID, which the unit
+/// loads into the station alias register at power-on (manual, 3-3).
 #[must_use]
 pub fn description(settings: &UnitSettings) -> DeviceDescription {
     let table = object_table();
@@ -50,7 +50,7 @@ pub fn description(settings: &UnitSettings) -> DeviceDescription {
     }
 }
 
-/// How long a master should wait.
+/// Time-outs of the master.
 pub(crate) fn timeouts() -> Timeouts {
     Timeouts::default()
 }
@@ -107,7 +107,7 @@ fn buffered_sync_manager(usage: SyncManagerType, default_bytes: u16, (min, max):
     SyncManager { usage, start: 0, default_bytes, min_bytes, max_bytes, control: 0, enable: 1 }
 }
 
-/// All PDOs of one direction, ascending by index, those that are not assigned by default included.
+/// All PDOs of one direction, ascending by index, including those that are not assigned by default.
 fn pdos(table: &ObjectTable, mapping: &Mapping, direction: Direction) -> Vec<Pdo> {
     let sync_manager = match direction {
         Direction::MToC => 2,
@@ -139,8 +139,8 @@ fn pdo_entry(table: &ObjectTable, mapped: MappedEntry) -> PdoEntry {
     }
 }
 
-/// The setting parameter of the unit at its default: no emergency messages (manual, 7-8). The manual names no
-/// transition; this one needs no other rule than the command behind it.
+/// The setting parameter of the unit at its default: no emergency messages (manual, 7-8). The manual does not
+/// define the transition; this one needs no other rule than the command after it.
 fn set_notification_flags() -> InitCommand {
     InitCommand {
         transition: Transition::Ps,

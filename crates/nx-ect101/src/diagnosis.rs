@@ -1,8 +1,8 @@
-//! What a unit knows of its events, and whom it tells (manual, 8-3 to 8-6).
+//! The events of a unit, and the channels to which they are reported (manual, 8-3 to 8-6).
 //!
-//! An event that occurs goes to every channel that its row of the event table names: the diagnosis history with
-//! time stamp, the access log, the current errors with the error status, an emergency message. What causes it
-//! may stand on; then a reset of the errors records it anew.
+//! An event that occurs is reported to every channel in its row of the event table: the diagnosis history with
+//! time stamp, the access log, the current errors with the error status, an emergency message. If the cause
+//! persists, resetting the errors records the event again.
 
 mod current_errors;
 mod faults;
@@ -25,39 +25,39 @@ pub(crate) use occurrence::Occurrence;
 use current_errors::CurrentErrors;
 use standing::Standing;
 
-/// Emergencies that wait for the slave stack to take them; it does so with every step of the unit.
+/// Emergencies that wait for the slave stack to take them; it takes them in every step of the unit.
 const EMERGENCIES_MAX: usize = 16;
-/// Events that are kept for who watches the unit.
+/// Number of events that are kept for the observer of the unit.
 pub const OCCURRED_MAX: usize = 64;
 /// Attached information 2 of NX Message Communications Error: the NX bus.
 const NX_BUS: u32 = 0;
 
-/// Everything that a unit knows of its events.
+/// All events of a unit.
 #[derive(Debug, Default)]
 pub(crate) struct Diagnosis {
     log: ErrorLog,
     log_changed: bool,
     current: CurrentErrors,
-    /// Configuration errors and mismatches whose causes last.
+    /// Configuration errors and mismatches whose causes persist.
     standing: Standing,
     /// The faults whose causes are injected.
     injected: FaultSet,
-    /// The faults whose causes the unit itself sees.
+    /// The faults whose causes the unit itself detects.
     seen: FaultSet,
-    /// The faults that the unit has found. They outlast their causes.
+    /// The faults that the unit has found. They remain after their causes.
     found: FaultSet,
-    /// Those of them that the start has found and not told yet.
+    /// Those of them that the start has found and that are not reported yet.
     untold: FaultSet,
     emergencies: ArrayVec<Emergency, EMERGENCIES_MAX>,
-    /// Those that found no room, since power-on.
+    /// Number of those for which there was no room, since power-on.
     emergencies_lost: u64,
-    /// What has occurred since someone looked.
+    /// The events since the last query.
     occurred: ArrayVec<EventCode, OCCURRED_MAX>,
     /// 10F3:05.
     emergencies_enabled: bool,
-    /// What a master has written to 10F3:03 last, since the start.
+    /// The value that a master has last written to 10F3:03 since the start.
     last_acknowledged: u8,
-    /// What 10F3:03 reads.
+    /// The value that 10F3:03 reads.
     acknowledged_reads: NewestAcknowledged,
     levels: EventLevels,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0: not known.
@@ -65,13 +65,13 @@ pub(crate) struct Diagnosis {
 }
 
 impl Diagnosis {
-    /// Nothing has happened yet, apart from what the log remembers.
+    /// No events have occurred yet, apart from those in the log.
     pub(crate) fn new(log: ErrorLog) -> Self {
         Self { log, ..Self::default() }
     }
 
-    /// The unit starts: what only lasted until then is gone, and the faults of its hardware are looked for.
-    /// They are told with [`Diagnosis::tell_start`], when the time is known.
+    /// The unit starts: conditions that lasted only until then are cleared, and the faults of its hardware are
+    /// detected. They are reported with [`Diagnosis::tell_start`], when the time is known.
     pub(crate) fn start(&mut self, levels: EventLevels, acknowledged_reads: NewestAcknowledged) {
         self.current.clear();
         self.standing.clear();
@@ -83,7 +83,7 @@ impl Diagnosis {
         self.find_at_start();
     }
 
-    /// The system time of the CPU Unit, which stamps what occurs from now on.
+    /// The system time of the CPU Unit, the time stamp of events from now on.
     pub(crate) const fn set_time(&mut self, time_ns: u64) {
         self.time_ns = time_ns;
     }
@@ -93,11 +93,11 @@ impl Diagnosis {
         self.time_ns
     }
 
-    /// An event occurs. Every channel that its row names is told.
+    /// An event occurs. It is reported to every channel in its row.
     pub(crate) fn raise(&mut self, occurrence: Occurrence) {
         let Some(event) = Event::find(occurrence.event) else { return };
         let level = self.levels.of(event);
-        // Whoever watches takes them with every step; for nobody the first ones are kept.
+        // The observer takes them in every step; without an observer the first ones are kept.
         let _ = self.occurred.try_push(event.code);
         self.record(event, level, &occurrence);
         self.list(event, &occurrence);
@@ -106,7 +106,7 @@ impl Diagnosis {
         }
     }
 
-    /// The error exists, if it is one.
+    /// Adds the error, if the event is one.
     fn list(&mut self, event: &Event, occurrence: &Occurrence) {
         let level = self.levels.of(event);
         if event.reported_as_current_error && level != EventLevel::Information {
@@ -114,7 +114,7 @@ impl Diagnosis {
         }
     }
 
-    /// An event occurs whose cause stands on: a reset of the errors records it anew.
+    /// An event occurs whose cause persists: resetting the errors records it again.
     pub(crate) fn raise_standing(&mut self, occurrence: Occurrence) {
         self.standing.add(occurrence.clone());
         self.raise(occurrence);
@@ -142,7 +142,7 @@ impl Diagnosis {
         }
     }
 
-    /// An emergency that finds the queue full is lost and counted; the slave stack empties it with every step.
+    /// An emergency for which the queue is full is lost and counted; the slave stack empties the queue in every step.
     fn send_emergency(&mut self, event: &Event) {
         if let Some(code) = event.emergency_code {
             let [a, b, c, d] = event.code.0.to_le_bytes();
@@ -153,7 +153,7 @@ impl Diagnosis {
         }
     }
 
-    /// Takes what has occurred since the last call, the oldest first.
+    /// Takes the events since the last call, the oldest first.
     pub(crate) fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
         core::mem::take(&mut self.occurred)
     }
@@ -163,12 +163,12 @@ impl Diagnosis {
         self.emergencies.pop_at(0)
     }
 
-    /// How many found no room.
+    /// Number of messages for which there was no room.
     pub(crate) const fn emergencies_lost(&self) -> u64 {
         self.emergencies_lost
     }
 
-    /// Resets the current errors (manual, 8-6). An error whose cause is still there occurs again at once.
+    /// Resets the current errors (manual, 8-6). An error whose cause persists occurs again immediately.
     pub(crate) fn reset_errors(&mut self) {
         self.current.clear();
         self.reset_faults();
@@ -177,7 +177,7 @@ impl Diagnosis {
         self.standing = standing;
     }
 
-    /// A user clears a log from the side of the CPU Unit, and the unit writes that down.
+    /// A user clears a log from the side of the CPU Unit, and the unit records that.
     pub(crate) fn clear_log(&mut self, log: EventLog) {
         let number = match log {
             EventLog::System => {
@@ -194,7 +194,7 @@ impl Diagnosis {
     }
 }
 
-/// What the master is told.
+/// The reports to the master.
 impl Diagnosis {
     /// 2002:01 Sysmac Error Status.
     pub(crate) const fn error_status(&self) -> u8 {
@@ -221,7 +221,7 @@ impl Diagnosis {
         core::mem::replace(&mut self.log_changed, false)
     }
 
-    /// 10F3:03 as it is read.
+    /// The value of 10F3:03 as read.
     pub(crate) const fn newest_acknowledged(&self) -> u8 {
         match self.acknowledged_reads {
             NewestAcknowledged::NewestRecord => self.log.newest,
@@ -244,7 +244,8 @@ impl Diagnosis {
         Ok(())
     }
 
-    /// Clears the diagnosis history (10F3:03, 2100). The current errors stay (A53), and no event tells it (A54).
+    /// Clears the diagnosis history (10F3:03, 2100). The current errors are kept (A53), and no event reports
+    /// this (A54).
     pub(crate) fn clear_history(&mut self) {
         self.log.clear_system();
         self.last_acknowledged = 0;

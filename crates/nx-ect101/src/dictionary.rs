@@ -1,4 +1,4 @@
-//! The objects of one unit: which ones only keep a value, and which ones do more.
+//! The objects of one unit: which of them only store a value, and which do more.
 
 mod io_entries;
 
@@ -23,17 +23,17 @@ const OBSERVATIONS: u16 = 0x2003;
 /// Sysmac Minor Fault.
 const MINOR_FAULTS: u16 = 0x2004;
 
-/// Answers for the object dictionary of one unit.
+/// The object server of one unit.
 #[derive(Debug)]
 pub(crate) struct UnitObjects {
     values: Dictionary,
     pub(crate) mapping: Mapping,
-    /// As of the last PRE-OP to SAFE-OP.
+    /// As of the last transition from PRE-OP to SAFE-OP.
     unmapped: UnmappedEntries,
     pub(crate) identification: Identification,
     pub(crate) messages: Messages,
     pub(crate) diagnosis: Diagnosis,
-    /// What a refresh tells has changed since [`UnitObjects::take_status_change`].
+    /// A status in the refresh has changed since [`UnitObjects::take_status_change`].
     status_changed: bool,
     pub(crate) state: AlState,
     /// Time between two refreshes.
@@ -65,7 +65,7 @@ impl UnitObjects {
         objects
     }
 
-    /// The unit starts again: everything but the diagnosis has its defaults. Memory is used again, none is allocated.
+    /// The unit restarts: everything except the diagnosis has its defaults. Memory is reused, nothing is allocated.
     pub(crate) fn restart(&mut self, serial: u32, identification: Identification) {
         self.values.restore_defaults();
         self.set_serial(serial);
@@ -82,7 +82,7 @@ impl UnitObjects {
         assert!(known, "tables/coe_objects.toml: 1018:04 holds a serial number");
     }
 
-    /// Shows versions of this unit in place of those of the model.
+    /// Shows versions of this unit instead of those of the model.
     pub(crate) fn show(&mut self, information: &UnitInformation) {
         for (index, value) in information.coe_values() {
             if let Some(known) = self.values.value_mut(index, SubIndex::ZERO)
@@ -93,13 +93,13 @@ impl UnitObjects {
         }
     }
 
-    /// Whether a master has changed what a refresh tells since the last call: it has read or written a message,
-    /// acknowledged or cleared messages of the history, reset errors.
+    /// Whether a master has changed a status in the refresh since the last call: it has read or written a
+    /// message, acknowledged or cleared messages of the history, reset errors.
     pub(crate) const fn take_status_change(&mut self) -> bool {
         core::mem::replace(&mut self.status_changed, false)
     }
 
-    /// Reads an entry of the diagnosis objects; none if it only keeps a value.
+    /// Reads an entry of the diagnosis objects; none if it only stores a value.
     fn diagnosis_number(&self, index: ObjectIndex, sub: SubIndex) -> Option<u64> {
         let diagnosis = &self.diagnosis;
         let count = |level| diagnosis.current(level).len() as u64;
@@ -117,7 +117,7 @@ impl UnitObjects {
         })
     }
 
-    /// A record of the history or a current error; zeros where there is none.
+    /// A record of the history or a current error; zeros if there is none.
     fn read_record(&self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) {
         value.fill(0);
         let at = usize::from(sub.0.saturating_sub(1));
@@ -153,8 +153,8 @@ impl UnitObjects {
         Ok(())
     }
 
-    /// 1C32:02 and 1C33:02: in Free-Run the time between two local timer events (manual, A-6-6). The timer
-    /// runs for process data, so below SAFE-OP the value is the manual's default, 0.
+    /// 1C32:02 and 1C33:02: in Free-Run the time between two local timer events (manual, A-6-6). The timer runs
+    /// only for process data, so below SAFE-OP the value is the manual's default, 0.
     fn cycle_time_ns(&self) -> u64 {
         match self.state {
             AlState::SafeOp | AlState::Op => self.period.as_nanos(),
@@ -162,22 +162,23 @@ impl UnitObjects {
         }
     }
 
-    /// PRE-OP to SAFE-OP: the mapping holds from now on, and every I/O entry has its default.
+    /// PRE-OP to SAFE-OP: the mapping applies from now on, and every I/O entry has its default.
     pub(crate) fn begin_exchange(&mut self, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
         self.unmapped.rebuild(&mut self.values, &self.mapping, [m_to_c, c_to_m]);
     }
 
-    /// Puts the I/O entries that the master writes by SDO into the process image M to C.
+    /// Copies the I/O entries that the master writes by SDO to the process image M to C.
     pub(crate) fn give_unmapped_entries(&self, image: &mut [u8]) {
         self.unmapped.give(&self.values, image);
     }
 
-    /// Takes the I/O entries that the master reads by SDO from the process image C to M; without one their defaults.
+    /// Copies the I/O entries that the master reads by SDO from the process image C to M; without an image,
+    /// their defaults.
     pub(crate) fn take_unmapped_entries(&mut self, image: Option<&[u8]>) {
         self.unmapped.take(&mut self.values, image);
     }
 
-    /// An object of the device profile area cannot be touched by SDO while a PDO carries it (manual, A-6-9).
+    /// An object of the device profile area is not accessible by SDO while a PDO contains it (manual, A-6-9).
     fn refuse_mapped(&self, index: ObjectIndex, sub: SubIndex) -> Result<(), SdoAbort> {
         let carried = index.0 >= 0x6000 && self.mapping.is_mapped(index, sub);
         if carried { Err(SdoAbort::LOCAL_CONTROL) } else { Ok(()) }
@@ -234,7 +235,7 @@ impl ObjectServer for UnitObjects {
                 self.diagnosis.enable_emergencies(word(value)? & 1 != 0);
                 Ok(())
             }
-            // Commands, whose one value the table has checked; they read 0 ever after (manual, A-6-7).
+            // Commands, whose only value the table has checked; they always read 0 (manual, A-6-7).
             (0x2002, 2) => {
                 self.status_changed = true;
                 self.diagnosis.reset_errors();

@@ -1,7 +1,6 @@
 //! The events of the unit, from `tables/events.toml` (manual, 8-3-3 to 8-5-2).
 //!
-//! The table is the only place that knows what an event is. Diagnosis, indicators, checks and documents read it
-//! here.
+//! The table is the only definition of an event. Diagnosis, indicators, checks and documents read it from here.
 
 mod attributes;
 
@@ -31,7 +30,7 @@ impl fmt::Display for EventCode {
     }
 }
 
-/// The events that the unit itself raises by their names; those of the setting rules stand in the rule table.
+/// The events that the unit itself raises by name; those of the setting rules are in the rule table.
 impl EventCode {
     /// Non-volatile Memory Hardware Error.
     pub const NON_VOLATILE_MEMORY_HARDWARE_ERROR: Self = Self(0x0020_0000);
@@ -73,26 +72,26 @@ pub struct Event {
     pub level: EventLevel,
     /// Whether a user may change its level to observation and back.
     pub changeable_level: bool,
-    /// The log category that the manual gives.
+    /// The log category in the manual.
     pub log: EventLog,
-    /// How the unit gets rid of it, once its cause is gone.
+    /// The recovery, after its cause is gone.
     pub recovery: Recovery,
     /// When it is detected.
     pub detection_timing: DetectionTiming,
-    /// What it does to the user program.
+    /// Its effect on the user program.
     pub user_program: String,
-    /// What it does to I/O refreshing with the CPU Unit.
+    /// Its effect on I/O refreshing with the CPU Unit.
     pub io_refresh: IoRefreshEffect,
-    /// What it does to EtherCAT communications.
+    /// Its effect on EtherCAT communications.
     pub ecat_effect: EcatEffect,
     /// The emergency error code; none if it has none.
     #[serde(with = "attributes::emergency_code")]
     pub emergency_code: Option<u16>,
-    /// Whether an emergency message can tell it to the master.
+    /// Whether an emergency message can report it to the master.
     pub emergency_notified: Notified,
     /// Whether the diagnosis history, object 10F3, gets a record of it.
     pub logged: bool,
-    /// The log that keeps it for support software.
+    /// The log in which it is recorded for support software.
     pub event_log: EventLog,
     /// The AL status code that the master reads; none if the event sets none.
     #[serde(with = "attributes::al_status_code")]
@@ -111,14 +110,14 @@ pub struct Event {
     pub attached_information: Vec<AttachedInformation>,
     /// Whether objects 2003, 2004 and the error status show it.
     pub reported_as_current_error: bool,
-    /// What else there is to know.
+    /// Further information.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
-    /// What it says, a sentence.
+    /// Its meaning, a sentence.
     pub meaning: String,
-    /// Where it comes from and what to do, the likeliest first.
+    /// Its causes and their corrections, the most likely first.
     pub causes: Vec<Cause>,
-    /// What makes it happen in an emulated unit: a setting, what a master does, or a fault. A sentence.
+    /// How to cause it in an emulated unit: a setting, an action of a master, or a fault. A sentence.
     pub in_ectwin: String,
 }
 
@@ -135,19 +134,19 @@ impl Event {
         Self::all().iter().find(|event| event.code == code)
     }
 
-    /// The events that show this AL status code.
+    /// The events with this AL status code.
     pub fn of_al_status_code(code: AlStatusCode) -> impl Iterator<Item = &'static Self> {
         Self::all().iter().filter(move |event| event.al_status_code == Some(code))
     }
 
-    /// Whether the unit stays in INIT, or goes there, until it is started anew.
+    /// Whether the unit stays in INIT, or goes there, until it is restarted.
     #[must_use]
     pub fn stops_in_init(&self) -> bool {
         self.ecat_effect == EcatEffect::StopInit
     }
 }
 
-/// The table has more to tell than this file reads.
+/// The table has more fields than this file reads.
 #[derive(Deserialize)]
 struct EventsFile {
     event: Vec<Event>,

@@ -1,8 +1,8 @@
-//! The exchange plan: which bytes of the SyncManagers and of the process images belong together.
+//! The exchange plan: which bytes of the SyncManagers and of the process images correspond.
 //!
-//! It is made when the mapping is fixed, at PRE-OP to SAFE-OP, so that a refresh only copies. An entry is in
-//! it when both sides have it: the PDO mapping object of a data set maps subindex k, and the CPU Unit has
-//! allocated I/O entry k of the same data set (manual, 5-2 and 5-3-5).
+//! The plan is made when the mapping is fixed, at PRE-OP to SAFE-OP, so that a refresh only copies. An entry is
+//! included if it exists on both sides: the PDO mapping object of a data set maps subindex k, and the CPU Unit
+//! has allocated I/O entry k of the same data set (manual, 5-2 and 5-3-5).
 
 use core::ops::Range;
 
@@ -13,7 +13,7 @@ use crate::data_sets::{DataSet, Direction};
 use crate::pdo_settings::{PdoEntry, PdoSettings};
 use crate::status::NxUnitStatus;
 
-/// Most entries of one direction: six assigned PDOs of 40 entries.
+/// Maximum number of entries of one direction: six assigned PDOs of 40 entries.
 const MAX_ENTRIES: usize = 240;
 
 /// The copies of both directions and the status fields among the inputs.
@@ -27,18 +27,18 @@ pub struct ExchangePlan {
     pub(crate) status: Vec<StatusField>,
 }
 
-/// A run of bytes that goes from one image to the other.
+/// A run of bytes that is copied from one image to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ByteCopy {
-    /// Where it starts in the image that is read.
+    /// Its start in the source image.
     pub from: usize,
-    /// Where it starts in the image that is written.
+    /// Its start in the target image.
     pub to: usize,
-    /// How long it is.
+    /// Its length.
     pub length_bytes: usize,
 }
 
-/// Where a status lies among the inputs.
+/// The position of a status in the inputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct StatusField {
     source: StatusSource,
@@ -55,7 +55,7 @@ enum StatusSource {
     SysmacError,
 }
 
-/// What the unit tells the master among the inputs.
+/// The status of the unit for the master, in the inputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct StatusToMaster {
     /// 6003.
@@ -85,12 +85,12 @@ impl ExchangePlan {
         }
     }
 
-    /// Does the copies of `direction`. One that lies outside either image is left out.
+    /// Executes the copies of `direction`. A copy outside either image is skipped.
     pub fn apply(&self, direction: Direction, from: &[u8], to: &mut [u8]) {
         copy(self.copies(direction), from, to);
     }
 
-    /// Forgets what it held and follows these settings.
+    /// Discards the old plan and makes the one for these settings.
     pub(crate) fn rebuild(&mut self, pdo: &PdoSettings, m_to_c: &ImageLayout, c_to_m: &ImageLayout) {
         self.m_to_c.clear();
         self.c_to_m.clear();
@@ -129,7 +129,7 @@ impl StatusSource {
     }
 }
 
-/// Every mapped entry of `direction` with its PDO and the bits that it takes in the SyncManager.
+/// Every mapped entry of `direction` with its PDO and its bits in the SyncManager.
 fn mapped_entries(
     settings: &PdoSettings,
     direction: Direction,
@@ -144,8 +144,8 @@ fn mapped_entries(
     })
 }
 
-/// The bytes of an entry in the SyncManager and in the process image; none if one side does not have it, if
-/// the PDO is not the one of its data set, or if stray bits before it have moved it off a byte boundary.
+/// The bytes of an entry in the SyncManager and in the process image; none if it does not exist on one side, if
+/// the PDO does not belong to its data set, or if additional bits before it have moved it off a byte boundary.
 fn pair(
     pdo: ObjectIndex,
     entry: PdoEntry,
@@ -158,7 +158,7 @@ fn pair(
     (bits.start.is_multiple_of(8) && mapped.len() == place.len()).then_some((mapped, place))
 }
 
-/// Adds a copy, joined to the last one where both images go on.
+/// Adds a copy, merged with the last one if both continue it.
 fn push(copies: &mut Vec<ByteCopy>, from: Range<usize>, to: Range<usize>) {
     let length_bytes = from.len();
     match copies.last_mut() {
@@ -171,7 +171,7 @@ fn push(copies: &mut Vec<ByteCopy>, from: Range<usize>, to: Range<usize>) {
     }
 }
 
-/// Does the copies. One that lies outside either image is left out.
+/// Executes the copies. A copy outside either image is skipped.
 pub(crate) fn copy(copies: &[ByteCopy], from: &[u8], to: &mut [u8]) {
     for copy in copies {
         let source = from.get(copy.from..copy.from + copy.length_bytes);
@@ -182,7 +182,7 @@ pub(crate) fn copy(copies: &[ByteCopy], from: &[u8], to: &mut [u8]) {
     }
 }
 
-/// Adds the status to inputs that are zero where it lies.
+/// Adds the status to inputs whose status bits are zero.
 pub(crate) fn put_status(fields: &[StatusField], status: StatusToMaster, inputs: &mut [u8]) {
     for field in fields {
         let (value, bit_length) = field.source.value(status);

@@ -1,21 +1,21 @@
-//! Faults that can be injected into a unit: what breaks in hardware and on the NX bus, as an input of the core.
+//! Faults that can be injected into a unit: failures of hardware and the NX bus, as an input of the core.
 
 use wire::AlStatusCode;
 
 use crate::events::{DetectionTiming, Event, EventCode, IoRefreshEffect, Recovery};
 
-/// The cause of an event that no setting and no master brings about.
+/// The cause of an event that does not result from a setting or a master.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Fault {
-    /// The non-volatile memory is broken. Found when the unit starts.
+    /// The non-volatile memory is broken. Detected when the unit starts.
     NonVolatileMemory,
-    /// The EtherCAT slave controller is broken. Found when the unit starts.
+    /// The EtherCAT slave controller is broken. Detected when the unit starts.
     Esc,
-    /// The SII information does not belong to the unit. Found at INIT to PRE-OP.
+    /// The SII information does not match the unit. Detected at INIT to PRE-OP.
     SiiVerification,
-    /// The CPU Unit has lost the Unit operation settings. Found when the unit starts.
+    /// The CPU Unit has lost the Unit operation settings. Detected when the unit starts.
     ControlParameters,
-    /// The master has set another synchronization than Free-Run. Found at PRE-OP to SAFE-OP.
+    /// The master has set another synchronization than Free-Run. Detected at PRE-OP to SAFE-OP.
     SmEventMode,
     /// The unit's software has failed.
     Processing,
@@ -23,12 +23,12 @@ pub enum Fault {
     IoCommunications,
     /// The unit has lost the time of the NX bus.
     ClockNotSynchronized,
-    /// A message frame is discarded: once, whenever it is injected.
+    /// A message frame is discarded: once per injection.
     MessageCommunications,
 }
 
 impl Fault {
-    /// All faults. Where several stand, the master reads the AL status code of the first.
+    /// All faults. If there are several, the master reads the AL status code of the first.
     pub const ALL: [Self; 9] = [
         Self::NonVolatileMemory,
         Self::Esc,
@@ -41,7 +41,7 @@ impl Fault {
         Self::MessageCommunications,
     ];
 
-    /// The fault of this name, such as `Processing`.
+    /// The fault with this name, such as `Processing`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|fault| format!("{fault:?}") == name)
@@ -82,22 +82,22 @@ impl Fault {
         }
     }
 
-    /// Whether it is found when the unit starts, and at no other time.
+    /// Whether it is detected when the unit starts, and at no other time.
     pub(crate) fn is_found_at_start(self) -> bool {
         self.row().detection_timing == DetectionTiming::NxUnitPowerOn
     }
 
-    /// Whether it is found the moment that it comes. NX Unit I/O Communications Error has no timing in the manual.
+    /// Whether it is detected immediately. The manual does not define the timing of NX Unit I/O Communications Error.
     pub(crate) fn is_found_at_once(self) -> bool {
         matches!(self.row().detection_timing, DetectionTiming::Continuous | DetectionTiming::Unspecified)
     }
 
-    /// Whether an error reset gets rid of it, once its cause is gone; the others last until the unit starts.
+    /// Whether an error reset clears it, after its cause is gone; the others persist until the unit starts.
     pub(crate) fn goes_with_reset(self) -> bool {
         self.row().recovery == Recovery::ResetErrorByFailsoft
     }
 
-    /// Whether the fail-soft operation of the NX bus decides what stops with it.
+    /// Whether the fail-soft operation of the NX bus determines what stops with it.
     pub(crate) fn is_fail_soft(self) -> bool {
         matches!(
             self.row().recovery,
@@ -105,7 +105,7 @@ impl Fault {
         )
     }
 
-    /// Whether I/O is refreshed no more, or does not begin to be.
+    /// Whether I/O refreshing stops, or does not start.
     pub(crate) fn stops_io(self) -> bool {
         matches!(self.row().io_refresh, IoRefreshEffect::NotPerformed | IoRefreshEffect::Stops)
     }

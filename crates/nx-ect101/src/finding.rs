@@ -1,4 +1,4 @@
-//! What a setting rule finds: the event that it raises, where, and the fact with its numbers.
+//! The findings of setting rules: the event, the place, and the fact with its numbers.
 
 mod words;
 
@@ -10,7 +10,7 @@ use crate::rules::{RuleEvents, RuleId};
 use crate::settings::EventLevels;
 use crate::unit_file::EntryAddress;
 
-/// Which settings a finding is about.
+/// The kind of settings of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Side {
     /// I/O entries, which the CPU Unit allocates.
@@ -22,7 +22,7 @@ pub enum Side {
 }
 
 impl Side {
-    /// Its name for programs.
+    /// Its name in data for programs.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -33,86 +33,86 @@ impl Side {
     }
 }
 
-/// A rule that is not satisfied. Its message and its correction are made when someone asks for them.
+/// A rule that is violated. Its message and its correction are made on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finding {
     /// The rule.
     pub rule: RuleId,
     /// The event that it raises.
     pub event: EventCode,
-    /// Which settings it is about.
+    /// The kind of settings.
     pub side: Side,
-    /// Which direction it is about.
+    /// The direction.
     pub direction: Direction,
-    /// The data set that it is about, by the index that the event tells as its attached information: on the
-    /// master's side the PDO mapping object, on the CPU Unit's side the I/O entry mapping (manual, 8-3-4).
-    /// None if it is about none, or about several at once.
+    /// The data set, as the index in the event's attached information: on the master's side the PDO mapping
+    /// object, on the CPU Unit's side the I/O entry mapping (manual, 8-3-4). None if it concerns no data set,
+    /// or several at once.
     pub data_set: Option<ObjectIndex>,
-    /// What is wrong.
+    /// The violation.
     pub fact: Fact,
 }
 
-/// What is wrong. A `place` counts elements of a list as the user has set it, from 0.
+/// The violation. A `place` counts elements of a list as the user has set it, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fact {
     /// 1A00 is not assigned.
     UnitStatusNotAssigned,
-    /// An element of the PDO assignment is no PDO of this direction.
+    /// An element of the PDO assignment is not a PDO of this direction.
     NotAssignable {
-        /// Where in the assignment.
+        /// Its position in the assignment.
         place: usize,
-        /// What stands there.
+        /// Its value.
         pdo: ObjectIndex,
     },
-    /// A PDO maps an entry of its data set that does not exist, or more entries than it has room for.
+    /// A PDO maps an entry of its data set that does not exist, or more entries than there is room for.
     BeyondMaximum {
         /// The first such entry in the list.
         place: usize,
-        /// Entries that are mapped.
+        /// Number of mapped entries.
         entries: usize,
-        /// Entries that the data set can have.
+        /// Maximum number of entries of the data set.
         maximum: u8,
     },
-    /// The TxPDOs are too long although their data is not: by the status.
+    /// The TxPDOs are too long although their data is not: because of the status.
     TxPdosTooLong {
         /// Their length.
         size_bytes: usize,
-        /// The most that they may have.
+        /// The maximum.
         limit_bytes: u16,
     },
-    /// A PDO is assigned behind one with a higher index, or twice.
+    /// A PDO is assigned after one with a higher index, or twice.
     NotAscending {
-        /// Where in the assignment.
+        /// Its position in the assignment.
         place: usize,
-        /// What stands there.
+        /// Its value.
         pdo: ObjectIndex,
-        /// What stands before it.
+        /// The value before it.
         after: ObjectIndex,
     },
     /// An entry that does not belong to the data set.
     IllegalEntry {
-        /// Where in the list.
+        /// Its position in the list.
         place: usize,
-        /// What stands there.
+        /// Its value.
         entry: EntryAddress,
-        /// What can stand there.
+        /// The expected value.
         wanted: ObjectIndex,
     },
     /// An entry whose subindex is not the next one.
     NotNext {
-        /// Where in the list.
+        /// Its position in the list.
         place: usize,
-        /// What stands there.
+        /// Its value.
         entry: EntryAddress,
-        /// The subindex that comes next.
+        /// The expected next subindex.
         wanted: SubIndex,
     },
     /// More data in one direction than the unit exchanges.
     TooMuchData {
-        /// All of it.
+        /// The total amount.
         size_bytes: usize,
     },
-    /// A data set has entries on one side only.
+    /// A data set has entries only on one side.
     OneSided {
         /// Entries of the three data sets of the direction.
         amounts: [Amount; 3],
@@ -124,14 +124,14 @@ pub enum Fact {
     },
 }
 
-/// What a finding is about.
+/// The settings that a finding concerns.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum FindingPlace {
     DataSet(&'static DataSet),
     Direction(Direction),
 }
 
-/// How many entries a data set has on its two sides.
+/// The numbers of entries of a data set on its two sides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Amount {
     /// Entries that the CPU Unit has allocated.
@@ -141,7 +141,7 @@ pub struct Amount {
 }
 
 impl Finding {
-    /// What `rule` finds for a data set, or for a whole direction.
+    /// A finding of `rule` for a data set, or for a whole direction.
     pub(crate) fn new(rule: RuleId, events: &RuleEvents, place: FindingPlace, fact: Fact) -> Self {
         let (direction, data_set) = match place {
             FindingPlace::DataSet(set) => match events.side {
@@ -170,13 +170,13 @@ impl Finding {
         self.event_row().map_or(EventLevel::MinorFault, |event| levels.of(event))
     }
 
-    /// What the master reads as AL status code when it asks for SAFE-OP; none if the unit goes there.
+    /// The AL status code for the master when it requests SAFE-OP; none if the unit accepts.
     #[must_use]
     pub fn al_status_code(&self) -> Option<AlStatusCode> {
         self.event_row()?.al_status_code
     }
 
-    /// The data set that it is about; none if it is about none, or about several at once.
+    /// The data set; none if it concerns no data set, or several at once.
     #[must_use]
     pub fn data_set(&self) -> Option<&'static DataSet> {
         let index = self.data_set?;

@@ -3,9 +3,9 @@
 
 use wire::SdoAbort;
 
-/// Where the unit's ID comes from and what it is now.
+/// The source of the unit's ID and its present value.
 ///
-/// Switch and software setting are taken over at power-on only; object 10E0 changes the alias at once.
+/// Switch and software setting are read only at power-on; object 10E0 changes the alias immediately.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Identification {
     switch: u8,
@@ -26,21 +26,20 @@ impl Identification {
         self.software
     }
 
-    /// A master has set the station alias in the SII. With the switch at 0x00 that is the software setting, in
-    /// force from the next power-on or restart on, as the register is loaded from the SII then.
+    /// A master has set the station alias in the SII. With the switch at 0x00 that is the software setting,
+    /// effective from the next power-on or restart, because the register is loaded from the SII then.
     pub(crate) const fn take_alias_of_sii(&mut self, alias: u16) {
         if self.switch == 0 {
             self.software = alias;
         }
     }
 
-    /// The Explicit Device ID; none while it is 0, which the manual's setting ranges leave out.
+    /// The Explicit Device ID; none if it is 0, which is outside the manual's setting ranges.
     pub(crate) fn explicit_device_id(self) -> Option<u16> {
         (self.at_power_on != 0).then_some(self.at_power_on)
     }
 
-    /// What ESC register 0x0012 should hold; none while nobody has set an ID, which leaves what the SII has
-    /// loaded.
+    /// The value for ESC register 0x0012; none if no ID has been set, so that the value loaded from the SII is kept.
     pub(crate) const fn station_alias(self) -> Option<u16> {
         self.station_alias
     }
@@ -55,7 +54,7 @@ impl Identification {
         u16::from(self.switch)
     }
 
-    /// Writes 10E0:01: the software setting, unless the switch is in force.
+    /// Writes 10E0:01: the software setting, unless the switch is used.
     pub(crate) fn set_software(&mut self, id: u16) -> Result<(), SdoAbort> {
         if self.switch != 0 {
             return Err(SdoAbort::LOCAL_CONTROL);
@@ -65,7 +64,7 @@ impl Identification {
         Ok(())
     }
 
-    /// Writes 10E0:03: 0 takes the switch over again, if it is in force.
+    /// Writes 10E0:03: 0 reads the switch again, if it is used.
     pub(crate) fn reload_switch(&mut self, command: u16) -> Result<(), SdoAbort> {
         if self.switch == 0 || command != 0 {
             return Err(SdoAbort::LOCAL_CONTROL);

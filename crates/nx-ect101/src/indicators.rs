@@ -1,12 +1,12 @@
 //! The indicators of the unit: RUN, ERR, L/A IN, L/A OUT and TS (manual, 3-2 and 8-2).
 //!
-//! Causes go in, patterns come out, and a moment makes lights of them: no clock, no state. Where several causes
-//! meet:
+//! The inputs are causes, the outputs are patterns, and a point in time selects the lights: no clock, no state.
+//! If there are several causes:
 //!
-//! | indicator | what wins |
+//! | indicator | priority |
 //! |---|---|
 //! | all | no power: everything is dark; before initialization RUN, ERR and TS are |
-//! | RUN | a hardware failure darkens it, else the EtherCAT state alone |
+//! | RUN | off after a hardware failure, else the EtherCAT state alone |
 //! | ERR | hardware failure, ESC error, then the AL status code that the master reads |
 //! | L/A | the port alone |
 //! | TS | one condition at a time; [`NxCondition::or_worse`] picks it |
@@ -22,18 +22,18 @@ use table::{PrimaryCause, primary};
 
 pub use table::{Colour, Indicator, IndicatorMeaning, pattern_source};
 
-/// All that decides on the indicators.
+/// All inputs of the indicators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct IndicatorCauses {
     /// Whether the unit has power.
     pub power: bool,
-    /// How it stands as an NX Unit.
+    /// Its condition as an NX Unit.
     pub nx: NxCondition,
     /// The actual EtherCAT state.
     pub state: AlState,
     /// The AL status code, while AL status indicates an error.
     pub al_error: Option<AlStatusCode>,
-    /// Whether ESC Error stands; it has no AL status code.
+    /// Whether ESC Error is present; it has no AL status code.
     pub esc_error: bool,
     /// Port IN.
     pub in_port: PortCondition,
@@ -41,7 +41,7 @@ pub struct IndicatorCauses {
     pub out_port: PortCondition,
 }
 
-/// How the unit stands as an NX Unit: what TS tells.
+/// The condition of the unit as an NX Unit: shown by TS.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NxCondition {
     /// After power-on or a restart, before initialization begins.
@@ -51,7 +51,7 @@ pub enum NxCondition {
     Initializing,
     /// Ready for I/O refreshing.
     Normal,
-    /// An event stands.
+    /// An event is present.
     Error(EventCode),
     /// The CPU Unit has failed.
     CpuUnitMalfunction,
@@ -60,9 +60,9 @@ pub enum NxCondition {
 }
 
 impl NxCondition {
-    /// The condition that TS tells when both hold. The more severe one, from least to most: normal, events that TS
-    /// does not tell, TS dark, initializing, TS flashing red, TS red, waiting for initialization, hardware failure.
-    /// Of two that are equal it is `self`: give the older one first.
+    /// The condition that TS shows if both apply: the more severe one, in the order from least to most: normal,
+    /// events that TS does not show, TS off, initializing, TS flashing red, TS red, waiting for initialization,
+    /// hardware failure. If both are equal it is `self`: pass the older one first.
     #[must_use]
     pub fn or_worse(self, other: Self) -> Self {
         if other.severity() > self.severity() { other } else { self }
@@ -84,7 +84,7 @@ impl NxCondition {
         }
     }
 
-    /// TS green and red. A column that the event leaves open shows what it would without the event.
+    /// TS green and red. If the event does not define a column, it is as without the event.
     fn ts(self) -> (Pattern, Pattern) {
         let row = primary(self.primary());
         let event = match self {
@@ -110,13 +110,13 @@ impl NxCondition {
         }
     }
 
-    /// Whether the application runs, so that RUN and ERR tell of EtherCAT.
+    /// Whether the application runs, so that RUN and ERR show EtherCAT.
     const fn application_runs(self) -> bool {
         !matches!(self, Self::WaitingForInitialization | Self::HardwareFailure)
     }
 }
 
-/// What each indicator does.
+/// The pattern of each indicator.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Indicators {
     /// RUN, green.
@@ -133,7 +133,7 @@ pub struct Indicators {
     pub ts_red: Pattern,
 }
 
-/// What is lit at a moment.
+/// The lights at one point in time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Lights {
     /// RUN, green.
@@ -161,7 +161,7 @@ impl Indicators {
         ts_red: Pattern::NotLit,
     };
 
-    /// What the indicators do for these causes.
+    /// The patterns of the indicators for these causes.
     #[must_use]
     pub fn of(causes: &IndicatorCauses) -> Self {
         if !causes.power {
@@ -184,7 +184,7 @@ impl Indicators {
         }
     }
 
-    /// What is lit at this moment.
+    /// The lights at this time.
     #[must_use]
     pub fn lights(&self, at: Instant) -> Lights {
         Lights {
@@ -197,7 +197,8 @@ impl Indicators {
         }
     }
 
-    /// When a light changes next, after `at`, unless a cause changes before; [`Instant::NEVER`] if all are steady.
+    /// The time of the next change of a light, after `at`, unless a cause changes before; [`Instant::NEVER`] if
+    /// all are steady.
     #[must_use]
     pub fn next_change(&self, at: Instant) -> Instant {
         let all = [self.run, self.err, self.la_in, self.la_out, self.ts_green, self.ts_red];
@@ -205,8 +206,8 @@ impl Indicators {
     }
 }
 
-/// ERR by the event whose AL status code the master reads: events that share a code share the pattern. A code of
-/// no event is one of the standard.
+/// ERR for the event with the AL status code that the master reads: events with the same code have the same
+/// pattern. A code without an event is one of the standard.
 fn err(esc_error: bool, al_error: Option<AlStatusCode>) -> Pattern {
     let esc_error = esc_error.then(|| Event::find(EventCode::ESC_ERROR)).flatten();
     let of_code = |code| Event::all().iter().find(|event| event.al_status_code == Some(code));
@@ -215,7 +216,7 @@ fn err(esc_error: bool, al_error: Option<AlStatusCode>) -> Pattern {
 }
 
 impl IndicatorStatus {
-    /// The pattern that an event shows; none if the event leaves the indicator alone.
+    /// The pattern of an event; none if the event does not change the indicator.
     #[must_use]
     pub const fn pattern(self) -> Option<Pattern> {
         Some(match self {

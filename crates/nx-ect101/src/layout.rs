@@ -1,4 +1,4 @@
-//! Where mailboxes and process data lie in the unit's ESC memory, and who the unit is.
+//! The positions of mailboxes and process data in the unit's ESC memory, and the identity of the unit.
 //!
 //! 8 KiB of process RAM at 0x1000 to 0x2FFF. Buffered areas take three times their length: outputs of 1,200
 //! bytes end at 0x21AF, inputs of 1,204 bytes at 0x2FCB.
@@ -22,13 +22,13 @@ pub const MAILBOX_SEND_START: u16 = 0x1200;
 pub const MAILBOX_BYTES: u16 = 400;
 /// SyncManager 2, outputs: start.
 pub const OUTPUTS_START: u16 = 0x13A0;
-/// SyncManager 2: most bytes (manual, 1-4-1).
+/// SyncManager 2: maximum length in bytes (manual, 1-4-1).
 pub const OUTPUTS_MAX_BYTES: u16 = 1_200;
 /// SyncManager 3, inputs: start.
 pub const INPUTS_START: u16 = 0x21B0;
-/// SyncManager 3: most bytes (manual, 1-4-1).
+/// SyncManager 3: maximum length in bytes (manual, 1-4-1).
 pub const INPUTS_MAX_BYTES: u16 = 1_204;
-/// First byte behind the process RAM.
+/// First byte after the process RAM.
 pub const PROCESS_RAM_END: u16 = 0x3000;
 
 /// Control byte of SyncManager 0: mailbox, the master writes, PDI interrupt.

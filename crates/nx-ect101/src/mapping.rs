@@ -1,20 +1,20 @@
 //! PDO mapping and PDO assignment: 1601–1603, 1A00–1A03, 1BFE, 1BFF, 1C12, 1C13, as masters write them.
 //!
-//! A master clears subindex 0, writes the elements, sets subindex 0; complete access comes here as the same
-//! sequence. Every element that exists and can be mapped is taken here, whichever way it goes: whether the
-//! settings fit together is checked at PRE-OP to SAFE-OP, as the manual's events say.
+//! A master clears subindex 0, writes the elements, sets subindex 0; complete access is received here as the
+//! same sequence. Every element that exists and can be mapped is accepted here, in either direction: the
+//! consistency of the settings is checked at PRE-OP to SAFE-OP, according to the manual's events.
 
 use objects::{AccessRights, Object, ObjectTable};
 use wire::{DataType, ObjectIndex, SdoAbort, SubIndex};
 
 use crate::data_sets::{Assignment, Direction};
 
-/// What an element of a PDO mapping object maps (manual, A-6-5).
+/// The entry in an element of a PDO mapping object (manual, A-6-5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct MappedEntry(u32);
 
 impl MappedEntry {
-    /// Bits 31 to 16; 0 for padding and for an element that maps nothing.
+    /// Bits 31 to 16; 0 for padding and for an element without an entry.
     pub(crate) const fn index(self) -> ObjectIndex {
         ObjectIndex((self.0 >> 16) as u16)
     }
@@ -36,7 +36,7 @@ pub(crate) struct Mapping {
     lists: Vec<List>,
 }
 
-/// One object: a count at subindex 0 and its elements, those beyond the count included.
+/// One object: a count at subindex 0 and its elements, including those beyond the count.
 #[derive(Clone, Debug)]
 struct List {
     index: ObjectIndex,
@@ -59,7 +59,7 @@ impl Mapping {
         Self { lists: table.iter().filter_map(List::of_object).collect() }
     }
 
-    /// Gives every object its default again.
+    /// Sets every object to its default.
     pub(crate) fn restore_defaults(&mut self, table: &ObjectTable) {
         for list in &mut self.lists {
             if let Some(object) = table.object(list.index) {
@@ -86,7 +86,7 @@ impl Mapping {
         Ok(())
     }
 
-    /// Takes a count or an element.
+    /// Stores a count or an element.
     pub(crate) fn write(
         &mut self,
         table: &ObjectTable,
@@ -110,7 +110,7 @@ impl Mapping {
         elements.filter(|&element| element != 0).map(|element| ObjectIndex(element as u16))
     }
 
-    /// The entries that the PDO mapping object `pdo` maps, in order, padding included.
+    /// The entries in the PDO mapping object `pdo`, in order, including padding.
     pub(crate) fn entries(&self, pdo: ObjectIndex) -> impl Iterator<Item = MappedEntry> + '_ {
         self.list(pdo).into_iter().flat_map(List::counted).map(MappedEntry)
     }
@@ -121,7 +121,7 @@ impl Mapping {
         entries.map(MappedEntry::bit_length).sum::<usize>().div_ceil(8)
     }
 
-    /// Whether an assigned PDO maps this entry (subindex 0 never is).
+    /// Whether an assigned PDO contains this entry (subindex 0 is never contained).
     pub(crate) fn is_mapped(&self, index: ObjectIndex, sub: SubIndex) -> bool {
         Direction::ALL.into_iter().any(|direction| {
             let mut entries = self.assigned(direction).flat_map(|pdo| self.entries(pdo));
@@ -190,8 +190,8 @@ impl List {
     }
 }
 
-/// Any entry that can go either way, with its own length: the rules about which entry belongs to which PDO are
-/// checked at PRE-OP to SAFE-OP, else their events could never occur.
+/// Any entry that can be in a PDO of either direction, with its correct length: the rules about entries and
+/// their PDOs are checked at PRE-OP to SAFE-OP, otherwise their events could never occur.
 fn entry_is_mappable(table: &ObjectTable, mapped: MappedEntry) -> bool {
     let entry = table.entry(mapped.index(), mapped.sub());
     entry.is_some_and(|entry| {
@@ -200,7 +200,7 @@ fn entry_is_mappable(table: &ObjectTable, mapped: MappedEntry) -> bool {
     })
 }
 
-/// Any PDO that exists, for the same reason: one that goes the other way has its events too.
+/// Any PDO that exists, for the same reason: a PDO of the other direction has its events too.
 fn pdo_exists(table: &ObjectTable, number: u32) -> bool {
     let index = u16::try_from(number).ok().map(ObjectIndex);
     index.and_then(|index| table.object(index)).is_some_and(is_pdo)

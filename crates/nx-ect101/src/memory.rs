@@ -1,7 +1,7 @@
-//! The non-volatile memory of a unit: SII image, software ID, error log, and what happens to them at power-on.
+//! The non-volatile memory of a unit: SII image, software ID, error log, and their changes at power-on.
 //!
-//! The memory is a value. Whoever does input and output keeps it in a file: [`NonVolatileMemory::encode_into`]
-//! and [`NonVolatileMemory::decode`] make bytes of it and back.
+//! The memory is a value. Code that does input and output stores it in a file:
+//! [`NonVolatileMemory::encode_into`] and [`NonVolatileMemory::decode`] convert it to bytes and back.
 
 mod codec;
 mod error_log;
@@ -26,30 +26,29 @@ const SERIAL: core::ops::Range<usize> = 28..32;
 
 pub(crate) const IDENTITY_BYTES: usize = IDENTITY.end - IDENTITY.start;
 
-/// What outlives power-off.
+/// The data that are kept without power.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NonVolatileMemory {
-    /// The serial number that the unit file had when the memory was last in use.
+    /// The serial number in the unit file when the memory was last in use.
     file_serial: u32,
     software_id: u16,
     sii_image: Vec<u8>,
     error_log: ErrorLog,
 }
 
-/// What a unit finds in its memory at power-on.
+/// The state of a unit's memory at power-on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MemoryAtPowerOn {
-    /// Nothing was ever stored: the factory setting.
+    /// Nothing has been stored yet: the factory setting.
     Factory,
-    /// What was stored.
+    /// The stored data.
     Stored(Box<NonVolatileMemory>),
-    /// It cannot be read: Non-volatile Memory Hardware Error (00200000). The unit stays in INIT and stores
-    /// nothing.
+    /// It cannot be read: Non-volatile Memory Hardware Error (00200000). The unit remains in INIT and stores nothing.
     Damaged,
 }
 
 impl NonVolatileMemory {
-    /// The memory of a unit that gets power for the first time.
+    /// The memory of a unit at its first power-on.
     #[must_use]
     pub fn factory(settings: &UnitSettings) -> Self {
         Self {
@@ -78,32 +77,32 @@ impl NonVolatileMemory {
         &self.error_log
     }
 
-    /// The error log, for the unit that writes it.
+    /// The error log, for changes by the unit.
     #[must_use]
     pub const fn error_log_mut(&mut self) -> &mut ErrorLog {
         &mut self.error_log
     }
 
-    /// The serial number in the SII; 0 where the image is too short to have one.
+    /// The serial number in the SII; 0 if the image is too short to contain one.
     #[must_use]
     pub fn serial(&self) -> u32 {
         let bytes = self.sii_image.get(SERIAL).and_then(|bytes| bytes.try_into().ok());
         bytes.map_or(0, u32::from_le_bytes)
     }
 
-    /// Vendor, product and revision in the SII; none where the image is too short to have them.
+    /// Vendor, product and revision in the SII; none if the image is too short to contain them.
     pub(crate) fn identity(&self) -> Option<[u8; IDENTITY_BYTES]> {
         self.sii_image.get(IDENTITY).and_then(|bytes| bytes.try_into().ok())
     }
 
-    /// The bytes of a memory with full logs, at most: for who sets room aside.
+    /// Maximum length in bytes of a memory with full logs: for code that allocates room.
     #[must_use]
     pub fn encoded_bytes_max(&self) -> usize {
         codec::encoded_bytes_max(self.sii_image.len())
     }
 
-    /// Gets the memory ready for a start with these settings: a unit file with a new serial number gives it to
-    /// the SII, and the ID in force goes to the station alias, SII word 4. Returns whether anything has changed.
+    /// Prepares the memory for a start with these settings: a new serial number in the unit file is written to
+    /// the SII, and the effective ID to the station alias, SII word 4. Returns whether anything has changed.
     pub(crate) fn start(&mut self, settings: &UnitSettings, explicit_device_id: u16) -> bool {
         let has_new_serial = self.file_serial != settings.serial;
         if has_new_serial {
@@ -119,8 +118,8 @@ impl NonVolatileMemory {
         has_new_serial || has_new_alias
     }
 
-    /// Takes over the EEPROM as the wire has left it. Tells whether a master has set another station alias:
-    /// with the ID switch at 0x00 that is a way to set the ID by software.
+    /// Stores the EEPROM as the master has written it. Returns the new station alias if a master has set
+    /// another one: with the ID switch at 0x00 this sets the ID by software.
     pub(crate) fn follow_sii(&mut self, image: &[u8]) -> Option<u16> {
         let before = alias(&self.sii_image);
         self.sii_image.clear();
@@ -132,7 +131,7 @@ impl NonVolatileMemory {
         self.software_id = id;
     }
 
-    /// Only where the checksum is right: a wrong one is the master's doing, and the controller is to find it.
+    /// Only if the checksum is correct: a wrong one was written by the master, and the controller must detect it.
     fn set_alias(&mut self, id: u16) {
         if let Some(bytes) = self.sii_image.get_mut(ALIAS) {
             bytes.copy_from_slice(&id.to_le_bytes());
@@ -149,7 +148,7 @@ fn configuration(image: &[u8]) -> Option<&[u8; SII_CONFIGURATION_BYTES]> {
     image.first_chunk()
 }
 
-/// The station alias of an image whose checksum is right.
+/// The station alias of an image with a correct checksum.
 fn alias(image: &[u8]) -> Option<u16> {
     let is_right = configuration(image).map(sii_checksum) == image.get(CHECKSUM).copied();
     let bytes = image.get(ALIAS).filter(|_| is_right)?;

@@ -1,7 +1,8 @@
-//! The messages between master and CPU Unit: one buffer of 200 bytes each way, with its handshake (manual, A-5).
+//! The messages between master and CPU Unit: one buffer of 200 bytes in each direction, with its handshake
+//! (manual, A-5).
 //!
 //! A write fills the buffer, a read empties it. While it is full a further write is refused and the buffer
-//! keeps what it holds, so nothing is lost; a read of an empty buffer gives what was there last.
+//! keeps its contents, so nothing is lost; a read of an empty buffer returns the previous contents.
 
 use wire::SdoAbort;
 
@@ -16,7 +17,7 @@ pub(crate) type Message = [u8; MESSAGE_BYTES];
 pub(crate) struct NotReady;
 
 impl From<NotReady> for SdoAbort {
-    /// The manual names no code for a write while not ready.
+    /// The manual does not define a code for a write while not ready.
     fn from(_: NotReady) -> Self {
         Self::LOCAL_CONTROL
     }
@@ -49,7 +50,7 @@ impl MessageBuffer {
         !self.is_new
     }
 
-    /// Takes a message, if the last one has been read.
+    /// Stores a message, if the last one has been read.
     pub(crate) const fn write(&mut self, message: &Message) -> Result<(), NotReady> {
         if self.is_new {
             return Err(NotReady);
@@ -59,20 +60,20 @@ impl MessageBuffer {
         Ok(())
     }
 
-    /// The message; it has been read.
+    /// Returns the message and marks it as read.
     pub(crate) const fn read(&mut self) -> &Message {
         self.is_new = false;
         &self.message
     }
 
-    /// The message as its writer sees it, which reads nothing.
+    /// The message for its writer, without marking it as read.
     pub(crate) const fn written(&self) -> &Message {
         &self.message
     }
 }
 
 impl Default for MessageBuffer {
-    /// 200 zeros that nobody has written.
+    /// 200 zeros that have not been written.
     fn default() -> Self {
         Self { message: [0; MESSAGE_BYTES], is_new: false }
     }

@@ -1,8 +1,8 @@
-//! The NX bus between the unit and the CPU Unit: where two threads meet.
+//! The NX bus between the unit and the CPU Unit: the connection of two threads.
 //!
-//! Each direction is a [`ProcessImage`] in a triple buffer: wait-free on both sides, never torn, and the reader
-//! gets the newest whole image. Who writes and who reads are two types, and each exists once. Beside them go
-//! the NX messages, by two queues that neither end waits for.
+//! Each direction is a [`ProcessImage`] in a triple buffer: wait-free on both sides, always consistent, and the
+//! reader gets the newest complete image. Writer and reader are two types, and each exists once. In addition
+//! there are the NX messages, in two queues for which neither end waits.
 
 mod messages;
 
@@ -16,23 +16,23 @@ pub use messages::{
     CpuMessages, NotSent, NxMessageError, NxRequest, NxResponse, NxValue, REQUESTS_MAX, UnitMessages,
 };
 
-/// A process image and what is told along with it.
+/// A process image and its header.
 #[derive(Clone, Debug)]
 pub struct ProcessImage<H> {
-    /// What is told along with the data.
+    /// The information sent with the data.
     pub header: H,
     bytes: Vec<u8>,
 }
 
 impl<H: Clone + Send> ProcessImage<H> {
-    /// Two ends of an image of `size_bytes` zeros. All memory that they ever use is allocated here.
+    /// Two ends of an image of `size_bytes` zeros. All the memory that they ever use is allocated here.
     #[must_use]
     pub fn split(header: H, size_bytes: usize) -> (ProcessImageWriter<H>, ProcessImageReader<H>) {
         let (input, output) = triple_buffer::triple_buffer(&Self { header, bytes: vec![0; size_bytes] });
         (ProcessImageWriter(input), ProcessImageReader(output))
     }
 
-    /// The data, as long as the image was made.
+    /// The data, with the length of the image.
     #[must_use]
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
@@ -44,8 +44,8 @@ impl<H: Clone + Send> ProcessImage<H> {
 pub struct ProcessImageWriter<H: Send>(triple_buffer::Input<ProcessImage<H>>);
 
 impl<H: Send> ProcessImageWriter<H> {
-    /// Hands over a whole image. What `bytes` has too many of is left out, what it lacks keeps an older value:
-    /// both ends are made for one size.
+    /// Publishes a complete image. Excess bytes of `bytes` are ignored, missing bytes keep an older value: both
+    /// ends are made for one size.
     pub fn publish(&mut self, header: H, bytes: &[u8]) {
         let image = self.0.input_buffer_mut();
         image.header = header;
@@ -60,13 +60,13 @@ impl<H: Send> ProcessImageWriter<H> {
 pub struct ProcessImageReader<H: Send>(triple_buffer::Output<ProcessImage<H>>);
 
 impl<H: Send> ProcessImageReader<H> {
-    /// The newest whole image; the one that was split if none was published yet.
+    /// The newest complete image; the initial one if none has been published yet.
     pub fn newest(&mut self) -> &ProcessImage<H> {
         self.0.read()
     }
 }
 
-/// What the unit tells the CPU Unit along with the data M to C.
+/// The information from the unit to the CPU Unit, sent with the data M to C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct UnitHeader {
     /// EtherCAT Slave Status, NX object 6003:01.
@@ -75,32 +75,32 @@ pub struct UnitHeader {
     pub io_data_active: bool,
     /// NX Unit Error Status: the unit has an error.
     pub error: bool,
-    /// The unit can do NX message communications.
+    /// The unit supports NX message communications.
     pub messages_enabled: bool,
-    /// The unit has an error for which the fail-soft operation of the NX bus decides (manual, 8-3-4).
+    /// The unit has an error for which the fail-soft operation of the NX bus determines the reaction (manual, 8-3-4).
     pub fail_soft_error: bool,
-    /// The last [`CpuHeader::error_resets`] that it has followed.
+    /// The last [`CpuHeader::error_resets`] that it has completed.
     pub error_resets: u32,
 }
 
-/// What the CPU Unit tells the unit along with the data C to M.
+/// The information from the CPU Unit to the unit, sent with the data C to M.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CpuHeader {
     /// The CPU Unit does I/O refreshing.
     pub refreshing: bool,
     /// The CPU Unit does NX message communications with the unit.
     pub messages_enabled: bool,
-    /// The NX Bus Function Module has stopped I/O refreshing because of an error: no data is exchanged, but that is no
-    /// I/O communications error of the unit.
+    /// The NX Bus Function Module has stopped I/O refreshing because of an error: no data is exchanged, but
+    /// that is not an I/O communications error of the unit.
     pub io_stopped: bool,
-    /// Counts the error resets in the NX Bus Function Module; with each the unit resets its errors too. It wraps.
+    /// Number of error resets in the NX Bus Function Module; with each the unit resets its errors too. It wraps.
     pub error_resets: u32,
-    /// Counts the task periods of the primary periodic task, from 1. It wraps. A count that no longer changes is a
-    /// task that has stopped.
+    /// Number of task periods of the primary periodic task, from 1. It wraps. If it does not change any more,
+    /// the task has stopped.
     pub task_periods: u32,
-    /// Period of the primary periodic task; zero: not known, and the unit does not watch the task.
+    /// Period of the primary periodic task; zero: not known, and the unit does not monitor the task.
     pub task_period: Duration,
-    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 while it has none.
+    /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0 if it has none.
     pub system_time_ns: u64,
 }
 
@@ -120,11 +120,11 @@ pub struct UnitEnd {
 pub struct CpuEnd {
     /// Data from the master to the CPU Unit.
     pub m_to_c: ProcessImageReader<UnitHeader>,
-    /// Where the entries lie in it.
+    /// The positions of the entries in it.
     pub m_to_c_layout: ImageLayout,
     /// Data from the CPU Unit to the master.
     pub c_to_m: ProcessImageWriter<CpuHeader>,
-    /// Where the entries lie in it.
+    /// The positions of the entries in it.
     pub c_to_m_layout: ImageLayout,
     /// NX messages.
     pub messages: CpuMessages,

@@ -19,7 +19,7 @@ pub struct NxObject {
     pub index: ObjectIndex,
     /// Its name.
     pub name: String,
-    /// Whether the CPU Unit reaches it by NX message; the others go by I/O allocation only.
+    /// Whether the CPU Unit can access it by NX message; the others are accessible by I/O allocation only.
     pub message_access: bool,
     /// Its subindexes, ascending.
     pub entries: Vec<NxEntry>,
@@ -28,17 +28,17 @@ pub struct NxObject {
 /// One subindex of an NX object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NxEntry {
-    /// Which one.
+    /// Its number.
     pub sub: SubIndex,
     /// Its name.
     pub name: String,
-    /// Its data type, as IEC 61131-3 writes it.
+    /// Its data type, in the notation of IEC 61131-3.
     pub data_type: String,
     /// Its length in bytes.
     pub size_bytes: usize,
-    /// Who may write.
+    /// Access right of the CPU Unit.
     pub access: NxAccess,
-    /// Whether an I/O entry mapping can hold it.
+    /// Whether an I/O entry mapping can contain it.
     pub io_allocation: bool,
     /// Its value at power-on, little endian, `size_bytes` long.
     pub default: Vec<u8>,

@@ -1,4 +1,4 @@
-//! Who answers NX messages: access rights, the unit's identity, the message buffers (manual, A-7 and A-5).
+//! The server for NX messages: access rights, the unit's identity, the message buffers (manual, A-7 and A-5).
 
 use wire::{ObjectIndex, SubIndex};
 
@@ -11,7 +11,7 @@ const SERIAL_NUMBER: (u16, u8) = (0x1000, 7);
 const FROM_MASTER: (u16, u8) = (0x5000, 1);
 const TO_MASTER: (u16, u8) = (0x5001, 1);
 
-/// Answers one request. Objects are judged in this order: existence, message access, subindex, access right,
+/// Answers one request. The checks run in this order: existence, message access, subindex, access right,
 /// length, readiness.
 pub(crate) fn answer(
     request: &NxRequest,

@@ -1,4 +1,4 @@
-//! What a master sets: which entries each PDO maps and which PDOs each SyncManager carries, right or wrong.
+//! The settings of a master: the entries of each PDO and the PDOs of each SyncManager, correct or not.
 
 use wire::{ObjectIndex, SubIndex};
 
@@ -7,15 +7,15 @@ use crate::mapping::{MappedEntry, Mapping};
 use crate::tables::object_table;
 use crate::unit_file::{EntryAddress, PdoSection};
 
-/// Most entries that the mapping object of a data set has room for; room for them is made at once.
+/// Maximum number of entries in the mapping object of a data set; memory for them is allocated at once.
 const MAX_ENTRIES: usize = 40;
-/// Most PDOs that an assignment object has room for.
+/// Maximum number of PDOs in an assignment object.
 const MAX_ASSIGNED: usize = 6;
 
 /// One element of a PDO mapping object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PdoEntry {
-    /// CoE object that is mapped; 0 for padding and for an element that maps nothing.
+    /// The mapped CoE object; 0 for padding and for an element without an entry.
     pub index: ObjectIndex,
     /// Subindex in it.
     pub sub: SubIndex,
@@ -25,7 +25,7 @@ pub struct PdoEntry {
 
 impl PdoEntry {
     /// The entry at `address` with the length of its object; 0 bits for an entry that does not exist. An entry
-    /// beyond the highest subindex of a data set counts as long as those before it.
+    /// beyond the highest subindex of a data set has the same length as those before it.
     #[must_use]
     pub fn at(address: EntryAddress) -> Self {
         let EntryAddress { index, sub } = address;
@@ -37,7 +37,7 @@ impl PdoEntry {
         Self { index, sub, bit_length }
     }
 
-    /// Whether the element maps nothing at all.
+    /// Whether the element maps no entry.
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.index.0 == 0 && self.bit_length == 0
@@ -60,7 +60,7 @@ impl PdoSettings {
         Self::of_mapping(&Mapping::factory(&object_table()))
     }
 
-    /// The factory setting with what the section of a unit file changes.
+    /// The factory setting with the changes of a unit file's section.
     #[must_use]
     pub fn of_section(section: &PdoSection) -> Self {
         let mut settings = Self::factory();
@@ -78,7 +78,7 @@ impl PdoSettings {
         settings
     }
 
-    /// What the mapping and assignment objects of a unit hold.
+    /// The contents of the mapping and assignment objects of a unit.
     pub(crate) fn of_mapping(mapping: &Mapping) -> Self {
         let pdos =
             DataSet::all().iter().map(|set| set.pdo).chain(StatusPdo::all().iter().map(|pdo| pdo.index));
@@ -90,7 +90,7 @@ impl PdoSettings {
         settings
     }
 
-    /// Takes over what the mapping and assignment objects hold now, into memory that is there already.
+    /// Copies the present contents of the mapping and assignment objects to existing memory.
     pub(crate) fn follow(&mut self, mapping: &Mapping) {
         self.assign(Direction::MToC, mapping.assigned(Direction::MToC));
         self.assign(Direction::CToM, mapping.assigned(Direction::CToM));
@@ -110,7 +110,7 @@ impl PdoSettings {
         list.extend(pdos);
     }
 
-    /// Maps exactly these entries in `pdo`, in this order. What is no PDO mapping object is left out.
+    /// Maps exactly these entries in `pdo`, in this order. Ignored if it is not a PDO mapping object.
     pub fn map(&mut self, pdo: ObjectIndex, entries: impl IntoIterator<Item = PdoEntry>) {
         if let Some((_, list)) = self.mappings.iter_mut().find(|(known, _)| *known == pdo) {
             list.clear();
@@ -118,7 +118,7 @@ impl PdoSettings {
         }
     }
 
-    /// The elements of the assignment object of `direction`, those without PDO included.
+    /// The elements of the assignment object of `direction`, including those without PDO.
     #[must_use]
     pub fn assignment(&self, direction: Direction) -> &[ObjectIndex] {
         match direction {
@@ -132,13 +132,13 @@ impl PdoSettings {
         self.assignment(direction).iter().copied().filter(|pdo| pdo.0 != 0)
     }
 
-    /// The entries that `pdo` maps, padding included; none if it is no PDO mapping object.
+    /// The entries of `pdo`, including padding; none if it is not a PDO mapping object.
     #[must_use]
     pub fn entries(&self, pdo: ObjectIndex) -> &[PdoEntry] {
         self.mappings.iter().find(|(known, _)| *known == pdo).map_or(&[], |(_, entries)| entries)
     }
 
-    /// The entries of a data set, if its PDO is assigned; else none.
+    /// The entries of a data set, if its PDO is assigned; otherwise empty.
     #[must_use]
     pub fn assigned_entries(&self, set: &DataSet) -> &[PdoEntry] {
         if self.assigned(set.direction).any(|pdo| pdo == set.pdo) { self.entries(set.pdo) } else { &[] }
@@ -150,8 +150,7 @@ impl PdoSettings {
         self.bytes_of(direction, |_| true)
     }
 
-    /// Length of the assigned data sets of `direction` in bytes: what [`Self::size_bytes`] has without the
-    /// status.
+    /// Length of the assigned data sets of `direction` in bytes: [`Self::size_bytes`] without the status.
     #[must_use]
     pub fn data_bytes(&self, direction: Direction) -> usize {
         self.bytes_of(direction, |pdo| DataSet::of_pdo(pdo).is_some())
@@ -164,7 +163,7 @@ impl PdoSettings {
     }
 }
 
-/// Whether the assignment object of `direction` takes this PDO.
+/// Whether the assignment object of `direction` accepts this PDO.
 pub(crate) fn is_assignable(direction: Direction, pdo: ObjectIndex) -> bool {
     Assignment::of(direction).allowed.contains(&pdo)
 }

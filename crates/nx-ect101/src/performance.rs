@@ -1,4 +1,4 @@
-//! How long an exchange with the unit takes by the manual's formulas (7-9), for tests and for those who plan.
+//! The duration of an exchange with the unit according to the manual's formulas (7-9), for tests and for planning.
 
 use time::Duration;
 
@@ -19,20 +19,20 @@ pub struct IoResponse {
 }
 
 impl IoResponse {
-    /// The longest time from sending outputs to receiving what the CPU Unit makes of them.
+    /// The maximum time from sending outputs to receiving the inputs that the CPU Unit derives from them.
     #[must_use]
     pub fn maximum(self) -> Duration {
         self.master + self.slave * 3 + self.cpu * 2 + self.transmission * 2
     }
 }
 
-/// T_trans, the transmission time of a frame of `frame_bytes` through so many slaves.
+/// T_trans, the transmission time of a frame of `frame_bytes` through this number of slaves.
 #[must_use]
 pub fn transmission_time(slaves: u64, frame_bytes: u64) -> Duration {
     timing::per_slave() * slaves + timing::per_byte() * frame_bytes
 }
 
-/// The shortest time from sending an SDO request to having its response of `response_bytes`, for a master that
+/// The minimum time from sending an SDO request to having its response of `response_bytes`, for a master that
 /// sends and receives once in a cycle of `master` (manual, 7-9-2).
 ///
 /// # Panics

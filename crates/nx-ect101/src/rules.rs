@@ -1,8 +1,8 @@
 //! The setting rules for data exchange, as a table that is read in order (manual, 5-3, 7-5-2 and 7-5-4).
 //!
-//! A rule looks at settings and changes nothing. All rules are read, so that all findings are told at once.
-//! Those of I/O entries are checked when the NX Unit gets power, the others at PRE-OP to SAFE-OP, in the order
-//! of the table.
+//! A rule checks settings and changes nothing. All rules are evaluated, so that all findings are reported at
+//! once. Those of I/O entries are checked at power-on of the NX Unit, the others at PRE-OP to SAFE-OP, in the
+//! order of the table.
 
 mod combination;
 mod mandatory;
@@ -18,13 +18,13 @@ use crate::events::EventCode;
 use crate::finding::{Finding, Side};
 use crate::pdo_settings::PdoSettings;
 
-/// Most findings of one configuration: five by data set and side, six by direction and side.
+/// Maximum number of findings of one configuration: five by data set and side, six by direction and side.
 pub(crate) const MAX_FINDINGS: usize = 5 * 6 + 6 * 2;
 
 /// A setting rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RuleId {
-    /// What every PDO setting needs.
+    /// The requirements for every PDO setting.
     Mandatory,
     /// Allocation order to the SyncManager.
     SmOrder,
@@ -41,7 +41,7 @@ pub enum RuleId {
 }
 
 impl RuleId {
-    /// Its name for programs.
+    /// Its name in data for programs.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -56,12 +56,12 @@ impl RuleId {
     }
 }
 
-/// When a rule is checked.
+/// The time at which a rule is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Moment {
-    /// When the NX Unit gets power: a violation keeps I/O refreshing from starting, EtherCAT goes on.
+    /// At power-on of the NX Unit: a violation prevents the start of I/O refreshing, EtherCAT continues.
     PowerOn,
-    /// When the master asks for SAFE-OP: a violation with an AL status code keeps the unit in PRE-OP.
+    /// When the master requests SAFE-OP: a violation with an AL status code keeps the unit in PRE-OP.
     PreOpToSafeOp,
 }
 
@@ -70,7 +70,7 @@ pub enum Moment {
 pub struct RuleEvents {
     /// The side.
     pub side: Side,
-    /// When it is checked.
+    /// The time of the check.
     pub moment: Moment,
     /// Event for data from the master to the CPU Unit.
     pub m_to_c: EventCode,
@@ -100,24 +100,24 @@ impl RuleEvents {
 /// A row of the table.
 #[derive(Debug)]
 pub struct Rule {
-    /// Which rule.
+    /// The rule.
     pub id: RuleId,
-    /// Where the manual states it.
+    /// Its section in the manual.
     pub section: &'static str,
-    /// What it asks for.
+    /// Its requirement.
     pub text: &'static str,
     /// The events that it raises.
     pub events: &'static [RuleEvents],
-    /// How it is checked.
+    /// Its check.
     checks: &'static [Check],
 }
 
-/// A check by what it looks at.
+/// A check, by the settings that it needs.
 #[derive(Debug)]
 enum Check {
     Io(fn(&IoAllocation, &mut Vec<Finding>)),
     Pdo(fn(&PdoSettings, &mut Vec<Finding>)),
-    /// Both sides against each other; judged in a direction whose other rules are satisfied (manual, 5-3-5).
+    /// Compares both sides; evaluated in a direction whose other rules are satisfied (manual, 5-3-5).
     Both(fn(&IoAllocation, &PdoSettings, &mut Vec<Finding>)),
 }
 
@@ -132,7 +132,7 @@ pub const RULES: &[Rule] = &[
     matched::RULE,
 ];
 
-/// Adds what all rules find.
+/// Adds the findings of all rules.
 pub(crate) fn check_all(io: &IoAllocation, pdo: &PdoSettings, findings: &mut Vec<Finding>) {
     for check in checks() {
         match check {
@@ -143,7 +143,7 @@ pub(crate) fn check_all(io: &IoAllocation, pdo: &PdoSettings, findings: &mut Vec
     }
 }
 
-/// Adds what the rules of power-on find.
+/// Adds the findings of the rules of power-on.
 pub(crate) fn check_at_power_on(io: &IoAllocation, findings: &mut Vec<Finding>) {
     for check in checks() {
         if let Check::Io(check) = check {
@@ -152,7 +152,7 @@ pub(crate) fn check_at_power_on(io: &IoAllocation, findings: &mut Vec<Finding>) 
     }
 }
 
-/// Adds what the rules of PRE-OP to SAFE-OP find, after those of power-on have found `at_power_on`.
+/// Adds the findings of the rules of PRE-OP to SAFE-OP; `at_power_on` are the findings of the rules of power-on.
 pub(crate) fn check_at_safe_op(
     io: &IoAllocation,
     pdo: &PdoSettings,

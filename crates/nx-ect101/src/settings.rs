@@ -1,4 +1,4 @@
-//! How a unit is set up, before it gets power.
+//! The settings of a unit, before it is powered on.
 
 use device::StartUp;
 use time::Duration;
@@ -11,23 +11,23 @@ use crate::timing::Timing;
 use crate::unit_file::UnitFile;
 use crate::unit_information::UnitInformation;
 
-/// How one unit is set up, on its case and by its support software.
+/// The settings of one unit, on its case and by its support software.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitSettings {
     /// Serial number, object 1018:04.
     pub serial: u32,
     /// ID switch, 0x00 to 0xFF. 0x00: the ID is set by software.
     pub id_switch: u8,
-    /// ID set by software at the factory, in force while the ID switch is at 0x00; 0: none. What a master sets
-    /// is in the [non-volatile memory](crate::NonVolatileMemory).
+    /// ID set by software at the factory, effective while the ID switch is at 0x00; 0: none. An ID set by a
+    /// master is in the [non-volatile memory](crate::NonVolatileMemory).
     pub software_id: u16,
     /// Versions, lot and type of this unit.
     pub information: UnitInformation,
-    /// Whether the unit takes the times that the manual gives.
+    /// Whether the times of the manual are simulated.
     pub timing: Timing,
-    /// What it does as an EtherCAT slave.
+    /// Its behaviour as an EtherCAT slave.
     pub slave: SlaveSettings,
-    /// From power to the first step of the unit, when it is powered on first and at later starts.
+    /// From power-on to the first step of the unit, at the first power-on and at later starts.
     pub start_up: StartUp,
     /// From the first step of the unit to its first refresh.
     pub refresh_phase: Duration,
@@ -35,26 +35,26 @@ pub struct UnitSettings {
     pub io_allocation: IoAllocation,
     /// Event levels that the user has changed.
     pub event_levels: EventLevels,
-    /// What object 10F3:03 reads.
+    /// The value of object 10F3:03.
     pub newest_acknowledged: NewestAcknowledged,
 }
 
-/// What 10F3:03, Newest Acknowledged Message, reads: the manual says both (A-6-4).
+/// The value of 10F3:03, Newest Acknowledged Message: the manual describes both (A-6-4).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NewestAcknowledged {
     /// The subindex of the most recent record; 0 if there is none.
     #[default]
     NewestRecord,
-    /// What a master has written last since the unit started; 0 if nothing.
+    /// The value that a master has last written since the unit started; 0 if none.
     LastAcknowledged,
 }
 
-/// The Event Level Settings (manual, 6-5-1), in force from the start of the unit on.
+/// The Event Level Settings (manual, 6-5-1), effective from the start of the unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EventLevels {
-    /// Of 39160000, where a user has set it.
+    /// For 39160000, if a user has set it.
     mismatch_c_to_m: Option<EventLevel>,
-    /// Of 39170000.
+    /// For 39170000.
     mismatch_m_to_c: Option<EventLevel>,
 }
 
@@ -66,7 +66,7 @@ impl EventLevels {
     /// Changes the level of an event.
     ///
     /// # Errors
-    /// [`LevelNotChangeable`]: the manual lets users change 39160000 and 39170000, to minor fault and observation.
+    /// [`LevelNotChangeable`]: the manual permits changes of 39160000 and 39170000, to minor fault and observation.
     pub fn set(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
         if level == EventLevel::Information {
             return Err(LevelNotChangeable);
@@ -91,7 +91,7 @@ impl EventLevels {
         changed.unwrap_or(event.level)
     }
 
-    /// The reader of unit files has refused what cannot be changed.
+    /// The reader of unit files has refused events whose level cannot be changed.
     fn from_unit_file(file: &UnitFile) -> Self {
         let mut levels = Self::default();
         for changed in &file.event_levels {
@@ -104,7 +104,7 @@ impl EventLevels {
 }
 
 impl UnitSettings {
-    /// The settings of a unit file; what it leaves out has the value of [`UnitSettings::default`].
+    /// The settings of a unit file; values that are left out are those of [`UnitSettings::default`].
     #[must_use]
     pub fn from_unit_file(file: &UnitFile) -> Self {
         Self {

@@ -2,7 +2,7 @@
 
 use wire::{ObjectIndex, SubIndex};
 
-/// A bit of a status that is an I/O port of its own.
+/// A bit of a status that is an I/O port itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StatusBit {
     /// Its number, from 0.
@@ -15,7 +15,7 @@ const fn status_bit(bit: u8, port: &'static str) -> StatusBit {
     StatusBit { bit, port }
 }
 
-/// The bits of EtherCAT Slave Status; 3 to 5 and 10 to 15 are reserved and no I/O ports (manual, 6-3-2).
+/// The bits of EtherCAT Slave Status; 3 to 5 and 10 to 15 are reserved and have no I/O port (manual, 6-3-2).
 pub const SLAVE_STATUS_BITS: [StatusBit; 7] = [
     status_bit(0, "SDO Communications Enabled"),
     status_bit(1, "Data from EtherCAT Master to CPU Unit Valid"),
@@ -31,7 +31,7 @@ pub const OBSERVATION_BIT: StatusBit = status_bit(4, "Observation");
 /// Bit of a minor fault in it.
 pub const MINOR_FAULT_BIT: StatusBit = status_bit(5, "Minor Fault");
 
-/// EtherCAT Slave Status, NX object 6003:01, one word that goes to the CPU Unit with the data (manual, 6-3-2).
+/// EtherCAT Slave Status, NX object 6003:01, one word that is sent to the CPU Unit with the data (manual, 6-3-2).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SlaveStatus {
     /// Bit 0: SDO communications with the master are possible.
@@ -51,7 +51,7 @@ pub struct SlaveStatus {
 }
 
 impl SlaveStatus {
-    /// The NX object that holds it.
+    /// The NX object that contains it.
     pub const NX_OBJECT: (ObjectIndex, SubIndex) = (ObjectIndex(0x6003), SubIndex(1));
 
     /// The word. Reserved bits are 0.
@@ -66,7 +66,7 @@ impl SlaveStatus {
             | (self.ready_to_write_message as u16) << 9
     }
 
-    /// What the word tells. Reserved bits tell nothing.
+    /// The status in the word. Reserved bits are ignored.
     #[must_use]
     pub const fn from_bits(bits: u16) -> Self {
         Self {

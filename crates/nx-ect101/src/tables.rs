@@ -1,7 +1,7 @@
 //! The object dictionary of the model, read once from `tables/coe_objects.toml`.
 //!
-//! The table is ours: a row that makes no sense is a defect of this crate and panics at the first use, with
-//! the object that is wrong. A test reads every row.
+//! The table is part of this program: an invalid row is a defect of this crate and panics at the first use,
+//! with the wrong object in the message. A test reads every row.
 
 use std::ops::RangeInclusive;
 use std::sync::{Arc, LazyLock};
@@ -21,10 +21,10 @@ pub fn object_table() -> Arc<ObjectTable> {
     Arc::clone(&OBJECTS)
 }
 
-/// Reads one of our own tables.
+/// Reads a built-in table.
 ///
 /// # Panics
-/// If the table does not fit `T`: it is compiled in, so the defect is ours.
+/// If the table does not match `T`: it is compiled in, so the defect is in this crate.
 pub(crate) fn parse<T: for<'de> Deserialize<'de>>(name: &str, text: &str) -> T {
     match toml::from_str(text) {
         Ok(table) => table,
@@ -117,7 +117,7 @@ impl ObjectRow {
     fn object(self) -> Object {
         let index = ObjectIndex(self.index);
         let entries: Vec<Entry> = self.entries.iter().flat_map(|row| row.entries(index)).collect();
-        // The type of an array is that of its elements; 1C10 and 1C11 have none, they are kin of 1C12.
+        // The type of an array is that of its elements; 1C10 and 1C11 have none, and get the type of 1C12.
         let element = entries.get(1).or(entries.first()).map_or(DataType::UNSIGNED8, |entry| entry.data_type);
         let (code, data_type) = match (self.code, self.record_type) {
             (CodeRow::Var, None) => (ObjectCode::Variable, element),
@@ -183,8 +183,8 @@ impl TypeRow {
             Self::U64 => DataType::UNSIGNED64,
             Self::String => DataType::VISIBLE_STRING,
             Self::ByteArray => DataType::OCTET_STRING,
-            // ETG.1020 has no other code for ARRAY [0..n] OF UINT: the 0x0260 family is for signed elements
-            // and UDINT. One byte, as an SII PDO entry needs it.
+            // ETG.1020 has no other code for ARRAY [0..n] OF UINT: the 0x0260 family is for signed elements and
+            // UDINT. One byte, as required by an SII PDO entry.
             Self::UintArray => DataType::UNICODE_STRING,
         }
     }
@@ -221,7 +221,7 @@ pub(crate) fn subs([sub, from, to]: [Option<u8>; 3]) -> Option<RangeInclusive<u8
     }
 }
 
-/// A name of the manual for the entry at `place` of a run, counted from 1.
+/// A name in the manual for the entry at `place` of a run, counted from 1.
 pub(crate) fn expand(pattern: &str, place: u8) -> String {
     pattern
         .replace("{n:02d}", &format!("{place:02}"))

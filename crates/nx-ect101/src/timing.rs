@@ -30,13 +30,13 @@ struct SlaveRow {
     period_us: u64,
 }
 
-/// Whether the unit takes the time that the manual gives, or none.
+/// Whether the unit simulates the times of the manual.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Timing {
     /// T_slave by size, SDO responses after 2 ms.
     #[default]
     Exact,
-    /// SDO responses at once, T_slave at its shortest.
+    /// SDO responses immediately, T_slave at its minimum.
     Fast,
 }
 
@@ -53,8 +53,8 @@ impl Timing {
         }
     }
 
-    /// The start-up time that a unit file names, or that of the model. Without a name for it the unit has been under
-    /// power for long when it is powered on first, so that a master finds it ready.
+    /// The start-up time in a unit file, or that of the model. Without such a time the unit has been powered
+    /// for a long time when it is first powered on, so that a master finds it ready.
     #[must_use]
     pub fn start_up(self, named: Option<Duration>) -> StartUp {
         match self {
@@ -66,7 +66,7 @@ impl Timing {
         }
     }
 
-    /// How long after its request an SDO response is complete (manual, 7-9-2).
+    /// Time from an SDO request to its complete response (manual, 7-9-2).
     #[must_use]
     pub fn sdo_response(self) -> Duration {
         match self {
@@ -81,18 +81,18 @@ pub(crate) fn sdo_response() -> Duration {
     Duration::from_micros(TIMES.sdo_response_us)
 }
 
-/// How long no task period may begin before the task of the CPU Unit counts as stopped.
+/// Time without a new task period after which the task of the CPU Unit counts as stopped.
 pub(crate) fn task_silence(task_period: Duration) -> Duration {
     let periods = task_period * TIMES.task_silence_periods;
     periods.max(Duration::from_millis(TIMES.task_silence_min_ms))
 }
 
-/// What each slave adds to the transmission time of a frame.
+/// The contribution of each slave to the transmission time of a frame.
 pub(crate) fn per_slave() -> Duration {
     Duration::from_nanos(TIMES.transmission_per_slave_ns)
 }
 
-/// What each byte of a frame adds to its transmission time.
+/// The contribution of each byte of a frame to its transmission time.
 pub(crate) fn per_byte() -> Duration {
     Duration::from_nanos(TIMES.transmission_per_byte_ns)
 }

@@ -1,4 +1,4 @@
-//! The unit itself: objects, mapping and refresh behind the slave stack.
+//! The unit itself: objects, mapping and refresh for the slave stack.
 
 mod checks;
 mod diagnosis;
@@ -36,33 +36,33 @@ use task_watch::TaskWatch;
 /// An NX-ECT101 in operation.
 #[derive(Debug)]
 pub struct NxEct101 {
-    /// As set now; the ID switch is looked at when the unit starts.
+    /// The present settings; the ID switch is read when the unit starts.
     settings: UnitSettings,
     memory: KeptMemory,
     objects: UnitObjects,
     bus: UnitEnd,
-    /// What the setting rules found in the I/O allocation at power-on; anything keeps I/O refreshing from
-    /// starting, EtherCAT goes on (manual, 8-3-4).
+    /// The findings of the setting rules in the I/O allocation at power-on; any finding prevents the start of
+    /// I/O refreshing, EtherCAT continues (manual, 8-3-4).
     io_findings: Vec<Finding>,
-    /// The mapping as it was at the last PRE-OP to SAFE-OP.
+    /// The mapping at the last transition from PRE-OP to SAFE-OP.
     pdo: PdoSettings,
-    /// What the setting rules found in it.
+    /// The findings of the setting rules in it.
     pdo_findings: Vec<Finding>,
     m_to_c_layout: ImageLayout,
     c_to_m_layout: ImageLayout,
     plan: ExchangePlan,
-    /// The data M to C as last received. What is not exchanged stays 0.
+    /// The data M to C as last received. Bytes that are not exchanged are 0.
     m_to_c: Vec<u8>,
-    /// The data C to M as the last period has taken it.
+    /// The data C to M as received in the last period.
     c_to_m: Vec<u8>,
     period: Duration,
     status: SlaveStatus,
     nx_unit_status: NxUnitStatus,
-    /// The unit has not told yet what its start has found.
+    /// The unit has not reported the findings of its start yet.
     is_starting: bool,
-    /// Its processor runs, and it initializes the rest.
+    /// Its processor is running, and it initializes the rest.
     is_initializing: bool,
-    /// Whether the CPU Unit did I/O refreshing when last looked.
+    /// Whether the CPU Unit did I/O refreshing at the last check.
     cpu_refreshing: bool,
     task_watch: TaskWatch,
     /// It has done so since the unit started.
@@ -71,20 +71,20 @@ pub struct NxEct101 {
     io_communications_lost: bool,
     /// The NX Bus Function Module has stopped I/O refreshing because of an error.
     io_stopped: bool,
-    /// How many error resets of the NX Bus Function Module the unit has followed.
+    /// Number of error resets of the NX Bus Function Module that the unit has completed.
     error_resets: u32,
     reported: Reported,
 }
 
 impl NxEct101 {
-    /// Turns a unit on for the first time; the other value is the CPU Unit's end of its NX bus.
+    /// Powers a unit on for the first time; the second value is the CPU Unit's end of its NX bus.
     #[must_use]
     pub fn power_on(settings: &UnitSettings) -> (Self, CpuEnd) {
         Self::power_on_with(settings, MemoryAtPowerOn::Factory)
     }
 
-    /// Turns a unit on that finds this in its non-volatile memory. The slave stack around it gets its EEPROM
-    /// from [`NxEct101::memory`]. All memory that the unit ever uses is allocated here.
+    /// Powers a unit on with this non-volatile memory. The slave stack around it gets its EEPROM from
+    /// [`NxEct101::memory`]. All the memory that the unit ever uses is allocated here.
     #[must_use]
     pub fn power_on_with(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, CpuEnd) {
         read_tables();
@@ -133,35 +133,35 @@ impl NxEct101 {
         (unit, cpu_end)
     }
 
-    /// EtherCAT Slave Status, NX object 6003:01. The device variables of the CPU Unit follow while I/O is refreshed.
+    /// EtherCAT Slave Status, NX object 6003:01. The device variables of the CPU Unit follow it while I/O is refreshed.
     #[must_use]
     pub fn slave_status(&self) -> SlaveStatus {
         self.status
     }
 
-    /// NX Unit Status as the master was last told.
+    /// NX Unit Status as last sent to the master.
     #[must_use]
     pub fn nx_unit_status(&self) -> NxUnitStatus {
         self.nx_unit_status
     }
 
-    /// What the setting rules found: in the I/O allocation at power-on, then in the mapping when the master last
-    /// asked for SAFE-OP.
+    /// The findings of the setting rules: in the I/O allocation at power-on, then in the mapping at the
+    /// master's last request for SAFE-OP.
     pub fn findings(&self) -> impl Iterator<Item = &Finding> {
         self.io_findings.iter().chain(&self.pdo_findings)
     }
 
-    /// Turns the ID switch. The unit looks at it when it starts again (manual, 3-3).
+    /// Turns the ID switch. The unit reads it at its next start (manual, 3-3).
     pub const fn set_id_switch(&mut self, id_switch: u8) {
         self.settings.id_switch = id_switch;
     }
 
-    /// Whether the I/O allocation, the unit's own health and the NX bus let I/O be refreshed.
+    /// Whether the I/O allocation, the state of the unit and the NX bus permit I/O refreshing.
     fn io_is_refreshed(&self) -> bool {
         self.io_findings.is_empty() && !self.objects.diagnosis.stops_io() && !self.io_stopped
     }
 
-    /// Works out the status words of both sides (manual, 6-3-2 and 7-5-5).
+    /// Calculates the status words of both sides (manual, 6-3-2 and 7-5-5).
     fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader) {
         let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
         let refreshing = self.cpu_refreshing && self.io_is_refreshed();
@@ -184,7 +184,7 @@ impl NxEct101 {
         };
     }
 
-    /// Takes in outputs and tells the status to the CPU Unit.
+    /// Receives outputs and reports the status to the CPU Unit.
     fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
         if let Some(outputs) = outputs.filter(|_| self.io_is_refreshed()) {
             exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
@@ -195,8 +195,9 @@ impl NxEct101 {
         self.bus.m_to_c.publish(self.header(), &self.m_to_c);
     }
 
-    /// Fills the inputs with the data of the CPU Unit that the period before has taken: the unit works one T_slave on it.
-    /// That is the third T_slave of the I/O response time (manual, 7-9-1); the other two are the waits for a refresh.
+    /// Fills the inputs with the data of the CPU Unit that were received one period before: the unit processes
+    /// them for one T_slave. That is the third T_slave of the I/O response time (manual, 7-9-1); the other two
+    /// are the waits for a refresh.
     fn refresh_c_to_m(&mut self, cause: RefreshCause, inputs: &mut [u8]) {
         inputs.fill(0);
         let image = self.io_is_refreshed().then_some(self.c_to_m.as_slice());
@@ -216,7 +217,7 @@ impl NxEct101 {
     }
 }
 
-/// Reads the tables that are made of text when they are first asked for: now, and not with the first event.
+/// Reads the text tables that are otherwise read at first use: now, and not at the first event.
 fn read_tables() {
     let _ = (Event::all(), Indicator::all(), NxObject::all());
 }
@@ -267,12 +268,13 @@ impl Unit for NxEct101 {
         self.is_initializing = true;
     }
 
-    /// The CPU Unit misses the unit: its I/O data is not active, and that is an error.
+    /// The CPU Unit has lost the unit: its I/O data is not active, and that is an error.
     fn power_off(&mut self, _now: Instant) {
         self.leave_nx_bus(true);
     }
 
-    /// A fault that keeps the slave in INIT goes first. The alias is the ID at power-on, then what object 10E0 has set.
+    /// A fault that keeps the slave in INIT has priority. The alias is the ID at power-on, then the value set
+    /// by object 10E0.
     fn take_action(&mut self) -> Option<Action> {
         let objects = &mut self.objects;
         self.reported
@@ -307,7 +309,7 @@ impl Unit for NxEct101 {
         self.update_status(&exchange, cpu);
         self.refresh_m_to_c(exchange.outputs);
         self.refresh_c_to_m(exchange.cause, exchange.inputs);
-        // Only now, so that no flag is older than a response that the CPU Unit has got.
+        // Only now, so that no flag is older than a response that the CPU Unit has received.
         self.bus.messages.send();
     }
 

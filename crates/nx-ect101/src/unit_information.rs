@@ -1,4 +1,4 @@
-//! What differs between units of one model by their production: versions, lot, type (manual, A-6-4 and A-7-2).
+//! Data that differ between units of one model by their production: versions, lot, type (manual, A-6-4 and A-7-2).
 
 use wire::ObjectIndex;
 
@@ -7,7 +7,7 @@ use crate::nx_bus::NxValue;
 /// Bytes of the texts of versions, padded with spaces.
 const VERSION_BYTES: usize = 20;
 
-/// The production data of one unit. What is left out has the default of the object tables.
+/// The production data of one unit. Values that are left out have the default of the object tables.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct UnitInformation {
     /// Device type, NX object 1000:03.
@@ -25,9 +25,9 @@ pub struct UnitInformation {
 /// A unit version, such as 1.0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnitVersion {
-    /// In front of the point.
+    /// Before the point.
     pub integer: u8,
-    /// Behind it.
+    /// After the point.
     pub fraction: u8,
 }
 
@@ -50,7 +50,7 @@ impl UnitInformation {
         }
     }
 
-    /// The CoE objects that have a value of this unit.
+    /// The CoE objects with a value of this unit.
     pub(crate) fn coe_values(&self) -> impl Iterator<Item = (ObjectIndex, &[u8])> {
         let versions = [(0x1009, &self.hardware_version), (0x100A, &self.software_version)];
         let own = versions.into_iter().filter_map(|(index, version)| Some((index, version.as_ref()?)));
@@ -68,14 +68,14 @@ impl UnitVersion {
         Some(Self { integer: number(integer)??, fraction: number(fraction)?? })
     }
 
-    /// Bits 24 to 31 and 16 to 23; those below are reserved.
+    /// Bits 24 to 31 and 16 to 23; the bits below are reserved.
     const fn bits(self) -> u32 {
         u32::from_be_bytes([self.integer, self.fraction, 0, 0])
     }
 }
 
 impl VersionText {
-    /// Takes 1 to 20 characters of printable ASCII.
+    /// Accepts 1 to 20 characters of printable ASCII.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let is_printable = text.bytes().all(|byte| byte == b' ' || byte.is_ascii_graphic());

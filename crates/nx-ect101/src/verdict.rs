@@ -1,4 +1,4 @@
-//! The allocator: from a configuration to what is wrong with it and what would be exchanged.
+//! The allocator: from a configuration to its violations and the resulting exchange.
 
 use crate::allocation::IoAllocation;
 use crate::amounts;
@@ -9,7 +9,7 @@ use crate::pdo_settings::PdoSettings;
 use crate::rules::{self, RuleId};
 use crate::unit_file::UnitFile;
 
-/// What the CPU Unit and the master of one unit set.
+/// The settings of the CPU Unit and of the master for one unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Configuration {
     /// I/O entry mappings, on the CPU Unit's side.
@@ -25,7 +25,7 @@ impl Configuration {
         Self { io: IoAllocation::factory(), pdo: PdoSettings::factory() }
     }
 
-    /// What a unit file says; what it leaves out has the factory setting.
+    /// The settings in a unit file; values that are left out are those of the factory setting.
     #[must_use]
     pub fn from_unit_file(file: &UnitFile) -> Self {
         let pdo = file
@@ -35,7 +35,7 @@ impl Configuration {
         Self { io: file.io_allocation(), pdo }
     }
 
-    /// Reads all setting rules.
+    /// Evaluates all setting rules.
     #[must_use]
     pub fn check(&self) -> Verdict {
         let mut findings = Vec::new();
@@ -66,17 +66,17 @@ impl Configuration {
     }
 }
 
-/// Whether the finding lets data be exchanged, as far as both sides match (manual, 5-3-5).
+/// Whether data are exchanged despite the finding, as far as both sides match (manual, 5-3-5).
 fn is_mismatch(finding: &Finding) -> bool {
     matches!(finding.rule, RuleId::Combination | RuleId::Matched)
 }
 
-/// What the rules say of a configuration.
+/// The result of the rules for a configuration.
 #[derive(Debug)]
 pub struct Verdict {
-    /// All that is wrong: in the order of the rule table, then of sides and objects.
+    /// All findings: in the order of the rule table, then of sides and objects.
     pub findings: Vec<Finding>,
-    /// The bytes that go from one image to the other; none when a rule keeps the exchange from starting.
+    /// The bytes that are copied from one image to the other; none if a rule prevents the start of the exchange.
     pub plan: ExchangePlan,
     /// The six data sets: M to C, then C to M.
     pub data_sets: Vec<ExchangedDataSet>,
@@ -90,10 +90,10 @@ impl Verdict {
     }
 }
 
-/// How much of a data set is exchanged.
+/// The exchanged part of a data set.
 #[derive(Clone, Copy, Debug)]
 pub struct ExchangedDataSet {
-    /// Which data set.
+    /// The data set.
     pub data_set: &'static DataSet,
     /// Entries that the CPU Unit has allocated.
     pub io_entries: usize,

@@ -111,7 +111,7 @@ fn unit_status_1a00_is_mandatory() {
     assert_eq!(places(&verdict), ["mandatory assignment c_to_m -"]);
 }
 
-/// A unit file with so many entries of each data set, the same on both sides.
+/// A unit file with this number of entries of each data set, the same on both sides.
 fn symmetric([uints, bytes, udint]: [u8; 3]) -> Verdict {
     let io =
         |way: &str| format!("[io_allocation.{way}]\nuints = {uints}\nbytes = {bytes}\nudint = {udint}\n");

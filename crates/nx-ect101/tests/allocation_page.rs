@@ -1,4 +1,4 @@
-//! docs/user/allocate-io.md has the table of the rules as the code has it.
+//! The table of the rules in docs/user/allocate-io.md agrees with the code.
 
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -8,7 +8,7 @@ use nx_ect101::{Direction, Event, EventCode, Moment, RULES, Rule, Side};
 const BEGIN: &str = "<!-- rules: begin -->\n";
 const END: &str = "<!-- rules: end -->\n";
 
-/// Set to anything, it makes the test write the table instead of comparing it.
+/// If this is set, the test writes the table instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
 
 fn table() -> String {

@@ -1,6 +1,6 @@
 //! The light test: every row of the manual's table of indicators.
 //!
-//! The expectations are written by hand, from the manual, 8-2-2; they do not come from the tables of the crate.
+//! The expectations are written by hand from the manual, 8-2-2; they do not come from the tables of the crate.
 
 use coe_kit::indicators::{Pattern, PortCondition};
 use nx_ect101::{Event, EventCode, Indicator, IndicatorCauses, Indicators, Lights, NxCondition};
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use time::{Duration, Instant};
 use wire::{AlState, AlStatusCode};
 
-/// A unit in OP with both cables, and nothing wrong.
+/// A unit in OP with both cables, without errors.
 const NORMAL: IndicatorCauses = IndicatorCauses {
     power: true,
     nx: NxCondition::Normal,
@@ -19,8 +19,8 @@ const NORMAL: IndicatorCauses = IndicatorCauses {
     out_port: PortCondition::Link,
 };
 
-/// Manual, 8-2-2: RUN, ERR, TS green, TS red, cause; in the abbreviations of 8-2-1, `---` for undefined. Columns
-/// that are printed in the wrong place stand in the right one.
+/// Manual, 8-2-2: RUN, ERR, TS green, TS red, cause; in the abbreviations of 8-2-1, `---` for undefined. Values
+/// that are printed in the wrong column are in the correct one here.
 const ROWS: &str = "
 Lit      Not_Lit  Lit      Not_Lit  normal
 Not_Lit  Not_Lit  FS_2s    Not_Lit  initializing
@@ -70,7 +70,7 @@ fn at_ms(millis: u64) -> Instant {
     Instant::ZERO + Duration::from_millis(millis)
 }
 
-/// What a row of the manual says of the state, else each state.
+/// The state in a row of the manual, or else each state.
 fn states(run: &str) -> Vec<AlState> {
     match run {
         "Lit" => vec![AlState::Op],
@@ -118,7 +118,7 @@ fn abbreviation(pattern: Pattern) -> &'static str {
     }
 }
 
-/// The row as the unit shows it; what the manual leaves open is not looked at.
+/// The row as the unit shows it; undefined values of the manual are ignored.
 fn shown(row: &str, state: AlState) -> String {
     let words: Vec<&str> = row.split_whitespace().collect();
     let Some((cause, columns)) = words.split_last() else { panic!("an empty row") };
@@ -137,7 +137,7 @@ fn every_row_of_the_manual_is_shown() {
     }
 }
 
-/// The two events without a row touch nothing.
+/// The two events without a row change nothing.
 #[test]
 fn every_event_has_a_row_or_shows_nothing() {
     let without: Vec<EventCode> = Event::all()
@@ -160,7 +160,7 @@ fn events_that_share_an_al_status_code_share_the_pattern_of_err() {
     }
 }
 
-/// So that nothing but ESC Error has to be told to ERR beside the AL status code.
+/// So ERR needs no other input than ESC Error in addition to the AL status code.
 #[test]
 fn an_event_that_lights_err_has_an_al_status_code_or_is_esc_error() {
     for event in Event::all() {
@@ -212,7 +212,7 @@ fn ts_tells_the_most_severe_condition_and_of_equals_the_first() {
     assert_eq!(equal[0].or_worse(equal[1]), equal[0]);
 }
 
-/// A restart as one sees it: dark, then TS flashes, then it is lit while ERR tells of the restart.
+/// A restart as an observer sees it: off, then TS flashes, then it is lit while ERR shows the restart.
 #[test]
 fn a_restart_goes_dark_flashes_and_ends_with_a_single_flash_of_err() {
     let step = |nx, al_error| IndicatorCauses { nx, al_error, state: AlState::Init, ..NORMAL };
@@ -271,7 +271,7 @@ proptest! {
     }
 }
 
-/// Without an event, RUN, ERR and L/A follow the standard; the table says what each pattern means.
+/// Without an event, RUN, ERR and L/A follow the standard; the table contains the meaning of each pattern.
 #[test]
 fn the_table_has_a_row_for_every_pattern_that_can_be_shown() {
     let has = |name: &str, pattern| {

@@ -1,4 +1,4 @@
-//! The current errors: objects 2003 and 2004 with their shared room, and the error status 2002:01 (manual,
+//! The current errors: objects 2003 and 2004 with their shared memory, and the error status 2002:01 (manual,
 //! 8-3-2 and A-6-7).
 
 use arrayvec::ArrayVec;
@@ -6,7 +6,7 @@ use arrayvec::ArrayVec;
 use crate::events::{EventCode, EventLevel};
 use crate::status::{MINOR_FAULT_BIT, OBSERVATION_BIT};
 
-/// Observations and minor faults together.
+/// Maximum number of observations and minor faults together.
 pub const CURRENT_ERRORS_MAX: usize = 10;
 /// Length of an error in objects 2003 and 2004, in bytes.
 pub(crate) const CURRENT_ERROR_BYTES: usize = 12;
@@ -17,7 +17,7 @@ const MINOR_FAULT: u8 = 1 << MINOR_FAULT_BIT.bit;
 const WITHOUT_DETAIL: u32 = 0x0007_0000;
 const WITH_DETAIL: u32 = 0x0007_0401;
 
-/// An error that exists.
+/// A current error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CurrentError {
     /// Its event.
@@ -49,13 +49,13 @@ impl CurrentError {
 pub(super) struct CurrentErrors {
     observations: ArrayVec<CurrentError, CURRENT_ERRORS_MAX>,
     minor_faults: ArrayVec<CurrentError, CURRENT_ERRORS_MAX>,
-    /// It tells errors that have found no room too (manual, 8-3-2).
+    /// It also includes errors for which there was no room (manual, 8-3-2).
     status: u8,
 }
 
 impl CurrentErrors {
-    /// Adds an error. One that exists already exists once. Ten find room: a minor fault takes the place of the
-    /// newest observation, an observation takes nobody's (A32).
+    /// Adds an error. An existing one is not added again. There is room for ten: a minor fault replaces the
+    /// newest observation, an observation replaces none (A32).
     pub(super) fn add(&mut self, level: EventLevel, error: CurrentError) {
         let is_full = self.observations.len() + self.minor_faults.len() == CURRENT_ERRORS_MAX;
         match level {

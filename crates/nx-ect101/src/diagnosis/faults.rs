@@ -1,4 +1,4 @@
-//! Faults: their causes, and what the unit has found of them.
+//! Faults: their causes, and which of them the unit has found.
 
 use wire::AlStatusCode;
 
@@ -7,7 +7,7 @@ use crate::fault::Fault;
 
 /// Causes.
 impl Diagnosis {
-    /// The cause of a fault is injected. What the unit finds at once occurs at once.
+    /// The cause of a fault is injected. A fault that the unit detects immediately occurs immediately.
     pub(crate) fn inject(&mut self, fault: Fault) {
         if fault == Fault::MessageCommunications {
             return self.raise(Occurrence::new(fault.event(), [0, NX_BUS]));
@@ -19,44 +19,44 @@ impl Diagnosis {
         }
     }
 
-    /// The injected cause of a fault is gone. What the unit has found stands until its recovery.
+    /// The injected cause of a fault is removed. A fault that the unit has found remains until its recovery.
     pub(crate) const fn remove(&mut self, fault: Fault) {
         self.injected.remove(fault);
     }
 
-    /// The unit itself sees the cause of a fault, beside what is injected.
+    /// The unit itself detects the cause of a fault, in addition to injected causes.
     pub(crate) fn see(&mut self, fault: Fault) {
         self.forget_bygone(fault);
         self.seen.insert(fault);
         self.find(fault);
     }
 
-    /// The unit itself sees the cause of a fault before it starts, which finds it.
+    /// The unit itself detects the cause of a fault before it starts; the start finds the fault.
     pub(crate) const fn see_before_start(&mut self, fault: Fault) {
         self.seen.insert(fault);
     }
 
-    /// A fault that a reset would end is over with its cause: it occurs anew when that comes again.
+    /// A fault that a reset would clear ends with its cause: it occurs again when the cause returns.
     fn forget_bygone(&mut self, fault: Fault) {
         if fault.goes_with_reset() && !self.is_present(fault) {
             self.forget(fault);
         }
     }
 
-    /// The unit itself sees it no more.
+    /// The unit no longer detects the cause.
     pub(crate) const fn see_no_more(&mut self, fault: Fault) {
         self.seen.remove(fault);
     }
 
-    /// Whether a cause of a fault is there.
+    /// Whether there is a cause of a fault.
     pub(crate) const fn is_present(&self, fault: Fault) -> bool {
         self.injected.contains(fault) || self.seen.contains(fault)
     }
 }
 
-/// What is found.
+/// Finding faults.
 impl Diagnosis {
-    /// The unit starts and looks for faults.
+    /// The unit starts and checks for faults.
     pub(super) fn find_at_start(&mut self) {
         self.found.clear();
         for fault in Fault::ALL {
@@ -67,7 +67,7 @@ impl Diagnosis {
         self.untold = self.found;
     }
 
-    /// Tells the faults that the start has found, each once.
+    /// Reports the faults that the start has found, each once.
     pub(crate) fn tell_start(&mut self) {
         let untold = core::mem::take(&mut self.untold);
         for fault in untold.iter() {
@@ -75,7 +75,7 @@ impl Diagnosis {
         }
     }
 
-    /// The unit has found a fault: it is told once.
+    /// The unit has found a fault: it is reported once.
     pub(crate) fn find(&mut self, fault: Fault) {
         if !self.found.contains(fault) {
             self.found.insert(fault);
@@ -83,8 +83,8 @@ impl Diagnosis {
         }
     }
 
-    /// The errors are reset. A fault whose cause is gone and that lasts until the start stays an error and does
-    /// not occur again.
+    /// The errors are reset. A fault whose cause is gone and that persists until the start remains an error and
+    /// does not occur again.
     pub(super) fn reset_faults(&mut self) {
         for fault in self.found.iter() {
             match (self.is_present(fault), fault.goes_with_reset()) {
@@ -96,26 +96,26 @@ impl Diagnosis {
         }
     }
 
-    /// A fault is recovered from.
+    /// The unit has recovered from a fault.
     pub(super) const fn forget(&mut self, fault: Fault) {
         self.found.remove(fault);
         self.untold.remove(fault);
     }
 
-    /// Whether a fault is found that keeps I/O from being refreshed.
+    /// Whether a fault has been found that prevents I/O refreshing.
     pub(crate) fn stops_io(&self) -> bool {
         self.found.iter().any(Fault::stops_io)
     }
 
-    /// The AL status code of the faults that keep the unit in INIT: of the first that has one;
-    /// [`AlStatusCode::NO_ERROR`] where none has.
+    /// The AL status code of the faults that keep the unit in INIT: of the first one that has a code;
+    /// [`AlStatusCode::NO_ERROR`] if none has.
     pub(crate) fn stop_in_init(&self) -> Option<AlStatusCode> {
         let mut stopping = self.found.iter().filter(|fault| fault.stops_in_init()).peekable();
         stopping.peek()?;
         Some(stopping.find_map(Fault::al_status_code).unwrap_or(AlStatusCode::NO_ERROR))
     }
 
-    /// The faults that were found.
+    /// The faults that have been found.
     pub(crate) fn found(&self) -> impl Iterator<Item = Fault> + '_ {
         self.found.iter()
     }

@@ -11,12 +11,12 @@ const CODE_IS_EMERGENCY: u32 = 0xE800;
 const LOCAL_TIME_STAMP: u16 = 1 << 4;
 const UNSIGNED16: u16 = 0x006;
 const UNSIGNED32: u16 = 0x007;
-/// Where the parameters begin, and how many bytes they have.
+/// Start of the parameters, and their number of bytes.
 const PARAMETERS: usize = 16;
 const PARAMETERS_BYTES: usize = DIAGNOSIS_MESSAGE_BYTES - PARAMETERS;
 
 impl ErrorLog {
-    /// Adds a record to the diagnosis history; the 33rd takes the place of the oldest.
+    /// Adds a record to the diagnosis history; the 33rd replaces the oldest.
     pub(crate) fn add(&mut self, record: LogRecord) {
         let place = match self.newest.checked_sub(FIRST_RECORD) {
             None => 0,
@@ -30,7 +30,7 @@ impl ErrorLog {
         self.acknowledged = false;
     }
 
-    /// Adds a record to the access log; the sixth pushes the oldest out.
+    /// Adds a record to the access log; the sixth replaces the oldest.
     pub(crate) fn add_access(&mut self, record: LogRecord) {
         if self.access.is_full() {
             self.access.remove(0);
@@ -38,14 +38,14 @@ impl ErrorLog {
         self.access.push(record);
     }
 
-    /// Empties the diagnosis history.
+    /// Clears the diagnosis history.
     pub(crate) fn clear_system(&mut self) {
         self.system.clear();
         self.newest = 0;
         self.acknowledged = false;
     }
 
-    /// The record at a subindex of 10F3; none where none was stored.
+    /// The record at a subindex of 10F3; none if none has been stored there.
     #[must_use]
     pub fn record_at(&self, sub: u8) -> Option<&LogRecord> {
         self.system.get(usize::from(sub.checked_sub(FIRST_RECORD)?))
@@ -78,8 +78,8 @@ impl LogRecord {
         message
     }
 
-    /// Pairs of flag and detail, as many as fit whole, and how many that are (A31). One piece of information is
-    /// 32 bits wide; of several each is 16 bits wide, so that two fit.
+    /// Pairs of flag and detail, as many as fit completely, and their number (A31). A single piece of
+    /// information is 32 bits wide; if there are several, each is 16 bits wide, so that two fit.
     fn parameters(&self) -> ([u8; PARAMETERS_BYTES], u8) {
         let mut bytes = [0; PARAMETERS_BYTES];
         match *self.details.as_slice() {

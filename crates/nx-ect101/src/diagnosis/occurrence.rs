@@ -7,7 +7,7 @@ use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::memory::DETAILS_MAX;
 
-/// System information of NX Unit Processing Error: OMRON's own, and a twin has none.
+/// System information of NX Unit Processing Error: it is internal to OMRON, and an emulated unit has none.
 const NO_SYSTEM_INFORMATION: [u32; DETAILS_MAX] = [0; DETAILS_MAX];
 
 /// An event that occurs.
@@ -35,7 +35,7 @@ impl Occurrence {
         }
     }
 
-    /// The event of a broken setting rule, with the index of the mapping where the event tells one.
+    /// The event of a violated setting rule, with the index of the mapping if the event has one.
     pub(crate) fn of_finding(finding: &Finding) -> Self {
         let tells_index = finding.event_row().is_some_and(|event| !event.attached_information.is_empty());
         let index = finding.data_set.filter(|_| tells_index).map(|index| u32::from(index.0));

@@ -1,4 +1,4 @@
-//! Errors whose causes last: wrong settings, and sizes that do not match.
+//! Errors whose causes persist: wrong settings, and sizes that do not match.
 
 use arrayvec::ArrayVec;
 
@@ -6,15 +6,15 @@ use super::Occurrence;
 use crate::events::EventCode;
 use crate::rules::MAX_FINDINGS;
 
-/// What stands, in the order in which it occurred, each once.
+/// The persistent errors, in the order in which they occurred, each once.
 #[derive(Debug, Default)]
 pub(super) struct Standing(ArrayVec<Occurrence, MAX_FINDINGS>);
 
 impl Standing {
-    /// One that stands already stands once.
+    /// Adds an error; an existing one is not added again.
     pub(super) fn add(&mut self, occurrence: Occurrence) {
         if !self.0.contains(&occurrence) {
-            // There is room for every finding that the rules can make.
+            // There is room for every finding of the rules.
             let _ = self.0.try_push(occurrence);
         }
     }

@@ -5,7 +5,7 @@ use crate::fault::Fault;
 
 /// Minor faults of the setting rules, each with the index of a mapping as attached information 1.
 const ORDER: EventCode = EventCode(0x3914_0000);
-/// A minor fault whose level can be changed, which emergencies tell.
+/// A minor fault whose level can be changed, and which emergencies report.
 const MISMATCH: EventCode = EventCode(0x3917_0000);
 /// A minor fault without attached information.
 const WATCHDOG: EventCode = EventCode(0x8500_0000);
@@ -14,7 +14,7 @@ fn order_of(mapping: u32) -> Occurrence {
     Occurrence::new(ORDER, [mapping])
 }
 
-/// A unit that has started, and its user has made this an observation.
+/// A unit that has started, with this event set to observation by its user.
 fn with_observation(code: EventCode) -> Diagnosis {
     let mut levels = EventLevels::default();
     levels.set(code, EventLevel::Observation).expect("changeable");
@@ -23,7 +23,7 @@ fn with_observation(code: EventCode) -> Diagnosis {
     diagnosis
 }
 
-/// A unit with as many minor faults, all different.
+/// A unit with this number of minor faults, all different.
 fn with_minor_faults(count: u32) -> Diagnosis {
     let mut diagnosis = with_observation(MISMATCH);
     (0..count).for_each(|mapping| diagnosis.raise(order_of(mapping)));
@@ -249,7 +249,7 @@ fn a_fault_between_start_and_first_refresh_is_told_once() {
     diagnosis.tell_start();
     let events: Vec<EventCode> = diagnosis.log().history().map(|record| record.event).collect();
     let processing = EventCode::PROCESSING_ERROR;
-    // The reset finds its cause still there; the other fault was not told before.
+    // The cause persists at the reset; the other fault was not reported before.
     assert_eq!(events, [processing, processing, EventCode::CONTROL_PARAMETER_ERROR]);
 }
 

@@ -1,7 +1,7 @@
-//! I/O entries that no PDO carries: a master reaches them by SDO, the CPU Unit as ever (manual, A-6-9).
+//! I/O entries that are in no PDO: a master accesses them by SDO, the CPU Unit as usual (manual, A-6-9).
 //!
-//! The dictionary keeps their values. What a master writes to 7000:07 is I/O entry 6000:07 on the NX bus, and what
-//! the CPU Unit gives to 7000:07 there is what a master reads from 6000:07.
+//! The dictionary stores their values. A value that a master writes to 7000:07 is I/O entry 6000:07 on the NX
+//! bus, and a value that the CPU Unit writes to 7000:07 there is what a master reads from 6000:07.
 
 use core::ops::Range;
 
@@ -12,10 +12,10 @@ use crate::allocation::ImageLayout;
 use crate::data_sets::{DataSet, Direction};
 use crate::mapping::Mapping;
 
-/// Most entries of one direction: 40, 10 and 32.
+/// Maximum number of entries of one direction: 40, 10 and 32.
 const MAX_ENTRIES: usize = 82;
 
-/// The entries that the CPU Unit has allocated and no assigned PDO maps.
+/// The entries that the CPU Unit has allocated and that are not in an assigned PDO.
 #[derive(Debug)]
 pub(super) struct UnmappedEntries {
     m_to_c: Vec<UnmappedEntry>,
@@ -27,12 +27,12 @@ struct UnmappedEntry {
     /// The CoE object.
     index: ObjectIndex,
     sub: SubIndex,
-    /// Where the entry lies in the process image.
+    /// The position of the entry in the process image.
     bytes: Range<usize>,
 }
 
 impl UnmappedEntries {
-    /// None, with room for all.
+    /// No entries, with room for all.
     pub(super) fn none() -> Self {
         Self { m_to_c: Vec::with_capacity(MAX_ENTRIES), c_to_m: Vec::with_capacity(MAX_ENTRIES) }
     }
@@ -42,7 +42,7 @@ impl UnmappedEntries {
         self.c_to_m.clear();
     }
 
-    /// Follows this mapping. Every I/O entry has its default again, as in the process images.
+    /// Adapts to this mapping. Every I/O entry has its default again, as in the process images.
     pub(super) fn rebuild(&mut self, values: &mut Dictionary, mapping: &Mapping, layouts: [&ImageLayout; 2]) {
         self.clear();
         for set in DataSet::all() {
@@ -63,7 +63,7 @@ impl UnmappedEntries {
         }
     }
 
-    /// Puts what the master has written into the process image M to C.
+    /// Copies the values that the master has written to the process image M to C.
     pub(super) fn give(&self, values: &Dictionary, image: &mut [u8]) {
         for UnmappedEntry { index, sub, bytes } in &self.m_to_c {
             if let (Some(from), Some(to)) = (values.value(*index, *sub), image.get_mut(bytes.clone())) {
@@ -72,7 +72,7 @@ impl UnmappedEntries {
         }
     }
 
-    /// Takes what the CPU Unit sends from the process image C to M; without an image the defaults.
+    /// Copies the values that the CPU Unit sends from the process image C to M; without an image, the defaults.
     pub(super) fn take(&self, values: &mut Dictionary, image: Option<&[u8]>) {
         for UnmappedEntry { index, sub, bytes } in &self.c_to_m {
             let Some(to) = values.value_mut(*index, *sub) else { continue };

@@ -1,4 +1,4 @@
-//! Every object over SDO, as a master meets it: what it reads, what it refuses.
+//! Every object over SDO, as a master uses it: the values read, and the refusals.
 
 mod information;
 
@@ -9,7 +9,7 @@ use super::*;
 
 const UNSUPPORTED: SdoAbort = SdoAbort::UNSUPPORTED_ACCESS;
 
-/// The objects of a unit behind a mailbox, and the master's side of it.
+/// The objects of a unit with a mailbox, and the master's side of it.
 struct Bench {
     objects: UnitObjects,
     mailbox: Mailbox,
@@ -33,7 +33,7 @@ impl Bench {
         self
     }
 
-    /// The SDO response: command, then what follows index and subindex.
+    /// The SDO response: command, then the bytes after index and subindex.
     fn exchange(&mut self, command: u8, index: u16, sub: u8, tail: &[u8]) -> Result<(u8, Vec<u8>), SdoAbort> {
         let mut request = vec![10 + tail.len() as u8 - 4, 0, 0, 0, 0, 0x03, 0x00, 0x20, command];
         request.extend(index.to_le_bytes());

@@ -28,7 +28,7 @@ pub enum EventLog {
     None,
 }
 
-/// How a unit gets rid of an error (manual, 8-3-4, for the NX bus of CPU Units).
+/// The recovery from an error (manual, 8-3-4, for the NX bus of CPU Units).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Recovery {
@@ -44,19 +44,19 @@ pub enum Recovery {
     CycleUnitPower,
     /// Cycle the power of the unit, then reset the error in the NX Bus Function Module.
     CycleNxUnitPowerThenResetErrorInNxBusFm,
-    /// Restart the unit, then reset the error, where the fail-soft setting says.
+    /// Restart the unit, then reset the error, where the fail-soft setting determines.
     RestartNxUnitThenResetErrorByFailsoft,
-    /// Reset the error, where the fail-soft setting says.
+    /// Reset the error, where the fail-soft setting determines.
     ResetErrorByFailsoft,
-    /// There is nothing to recover.
+    /// No recovery is necessary.
     None,
 }
 
-/// When an event is detected.
+/// The time at which an event is detected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DetectionTiming {
-    /// When the unit gets power.
+    /// At power-on of the unit.
     NxUnitPowerOn,
     /// When EtherCAT communications are established.
     EcatCommunicationsEstablished,
@@ -72,57 +72,57 @@ pub enum DetectionTiming {
     NxMessageCommunications,
     /// When a user commands it.
     UserCommand,
-    /// The manual says nothing.
+    /// Not defined in the manual.
     Unspecified,
 }
 
-/// What an event does to I/O refreshing with the CPU Unit.
+/// The effect of an event on I/O refreshing with the CPU Unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IoRefreshEffect {
-    /// It goes on.
+    /// It continues.
     Continues,
-    /// It goes on; data are exchanged where the sizes of both sides match.
+    /// It continues; data are exchanged as far as the sizes of both sides match.
     ContinuesPartialExchange,
     /// It does not start.
     NotPerformed,
     /// It stops.
     Stops,
-    /// None.
+    /// No effect.
     NotAffected,
     /// It starts again after the restart.
     ResumesAfterRestart,
 }
 
-/// What an event does to EtherCAT communications.
+/// The effect of an event on EtherCAT communications.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EcatEffect {
-    /// They stop in INIT and leave it no more.
+    /// They stop in INIT and do not leave it again.
     StopInit,
-    /// They stay in PRE-OP.
+    /// They remain in PRE-OP.
     StopPreop,
     /// They keep their state.
     RetainState,
     /// They go to SAFE-OP.
     EnterSafeop,
-    /// None.
+    /// No effect.
     NotAffected,
     /// They start again after the restart.
     Restart,
 }
 
-/// Whether an emergency message can tell an event.
+/// Whether an emergency message can report an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Notified {
-    /// It can.
+    /// Possible.
     Possible,
-    /// It cannot.
+    /// Not possible.
     NotPossible,
 }
 
-/// What an event does to an indicator.
+/// The effect of an event on an indicator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IndicatorStatus {
@@ -144,29 +144,29 @@ pub enum IndicatorStatus {
     SingleFlash,
     /// Double flash.
     DoubleFlash,
-    /// The manual leaves it open: the event does not touch the indicator.
+    /// Undefined in the manual: the event does not change the indicator.
     Undefined,
     /// The event is not in the manual's table of indicators.
     NotListed,
 }
 
-/// A piece of information that goes with an event.
+/// A piece of attached information of an event.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct AttachedInformation {
     /// Its number, 1 to 4.
     pub n: u8,
-    /// What it tells.
+    /// Its meaning.
     pub meaning: String,
-    /// What its values mean, where the manual names them.
+    /// The meanings of its values, if the manual defines them.
     pub values: BTreeMap<String, String>,
 }
 
-/// Where an event comes from.
+/// A cause of an event.
 #[derive(Debug, Deserialize, Serialize)]
 pub struct Cause {
-    /// What has happened, a sentence.
+    /// The cause, a sentence.
     pub cause: String,
-    /// What to do about it, a sentence.
+    /// The correction, a sentence.
     pub correction: String,
 }
 

@@ -1,4 +1,4 @@
-//! The exchange plan against the two images that it joins.
+//! The exchange plan with its two images.
 
 use proptest::prelude::*;
 use wire::SubIndex;
@@ -64,7 +64,7 @@ fn status_lies_where_its_pdos_are() {
     assert_eq!(inputs, [0x30, 0x10, 0x00, 0x01]);
 }
 
-/// Any elements that a master can write, right or wrong.
+/// Any elements that a master can write, correct or not.
 fn any_mapping() -> impl Strategy<Value = Mapping> {
     let subs = |max| prop::collection::vec(1..=max, 0..=usize::from(max));
     let pdo = || {
@@ -95,7 +95,7 @@ fn any_mapping() -> impl Strategy<Value = Mapping> {
     )
 }
 
-/// Any entries that a unit file can allocate, right or wrong.
+/// Any entries that a unit file can allocate, correct or not.
 fn any_allocation() -> impl Strategy<Value = IoAllocation> {
     let entries = prop::collection::vec((0x6000..=0x6002u16, 1..=40u8), 0..40);
     prop::collection::vec(entries, 6).prop_map(|sets| {

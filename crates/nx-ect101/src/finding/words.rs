@@ -1,4 +1,4 @@
-//! Findings in words.
+//! Messages of findings.
 
 use wire::ObjectIndex;
 
@@ -7,7 +7,7 @@ use crate::data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits};
 use crate::unit_file::EntryAddress;
 
 impl Finding {
-    /// What is wrong: place, value and limit, without a full stop.
+    /// The violation: place, value and limit, without a full stop.
     #[must_use]
     pub fn message(&self) -> String {
         let assignment = Assignment::of(self.direction).object;
@@ -43,7 +43,7 @@ impl Finding {
         }
     }
 
-    /// How to correct it, a sentence.
+    /// The correction, a sentence.
     #[must_use]
     pub fn correction(&self) -> String {
         match self.fact {
@@ -74,7 +74,7 @@ impl Finding {
         }
     }
 
-    /// The mapping that the finding is about.
+    /// The mapping of the finding.
     fn subject(&self) -> String {
         let name = self.data_set().map_or("", |set| set.name.as_str());
         let index = self.data_set.unwrap_or_default();
@@ -110,7 +110,7 @@ const fn way(direction: Direction) -> &'static str {
     }
 }
 
-/// An entry as a unit file names it.
+/// An entry in the notation of a unit file.
 fn shown(entry: EntryAddress) -> String {
     format!("{:04X}:{:02X}", entry.index.0, entry.sub.0)
 }

@@ -26,19 +26,19 @@ struct PatternRow {
     source: String,
 }
 
-/// An indicator, or two of a kind.
+/// An indicator, or two of the same kind.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indicator {
-    /// The letters beside it on the front.
+    /// Its label on the front.
     pub names: Vec<String>,
-    /// What it is for.
+    /// Its purpose.
     pub shows: String,
-    /// What it may show, the most important first.
+    /// Its possible states, the most important first.
     pub status: Vec<IndicatorMeaning>,
 }
 
-/// What an indicator means by a colour and a pattern.
+/// The meaning of a colour and a pattern of an indicator.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct IndicatorMeaning {
@@ -46,14 +46,14 @@ pub struct IndicatorMeaning {
     pub colour: Colour,
     /// The pattern.
     pub pattern: Pattern,
-    /// Which events show it.
+    /// The events that cause it.
     events: Option<EventColumn>,
-    /// What it tells.
+    /// Its meaning.
     pub meaning: Vec<String>,
 }
 
 impl Indicator {
-    /// All indicators, as they stand on the front: RUN, ERR, L/A IN and L/A OUT, TS (manual, 3-2).
+    /// All indicators, in the order on the front: RUN, ERR, L/A IN and L/A OUT, TS (manual, 3-2).
     #[must_use]
     pub fn all() -> &'static [Self] {
         &TABLE.indicator
@@ -61,20 +61,20 @@ impl Indicator {
 }
 
 impl IndicatorMeaning {
-    /// The events that make the indicator show it.
+    /// The events that cause this state of the indicator.
     pub fn events(&self) -> impl Iterator<Item = EventCode> {
         let shows = |event: &&Event| self.events.is_some_and(|column| column.shows(event, self.pattern));
         Event::all().iter().filter(shows).map(|event| event.code)
     }
 }
 
-/// The column of the events that decides.
+/// The column of the events that determines it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum EventColumn {
     Err,
     TsRed,
-    /// Green is dark, and red stays so.
+    /// Green is off, and red keeps its state.
     TsDark,
 }
 
@@ -101,7 +101,7 @@ pub enum Colour {
 }
 
 impl Colour {
-    /// The word of the table for it.
+    /// Its word in the table.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -112,7 +112,7 @@ impl Colour {
     }
 }
 
-/// A row of 8-2-2 that is no event.
+/// A row of 8-2-2 that is not an event.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PrimaryRow {
@@ -123,7 +123,7 @@ pub(super) struct PrimaryRow {
     pub(super) ts_red: Pattern,
 }
 
-/// What such a row is about.
+/// The subject of such a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum PrimaryCause {
@@ -142,7 +142,7 @@ pub(super) fn primary(cause: PrimaryCause) -> PrimaryRow {
     }
 }
 
-/// The document that gives the times of a pattern: the standard, or the manual; none for a steady one.
+/// The document with the times of a pattern: the standard, or the manual; none for a steady one.
 #[must_use]
 pub fn pattern_source(pattern: Pattern) -> Option<&'static str> {
     let of_manual = || TABLE.pattern.iter().find(|row| row.name == pattern).map(|row| row.source.as_str());

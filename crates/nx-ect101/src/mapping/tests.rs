@@ -1,4 +1,4 @@
-//! Mapping and assignment objects, written right and wrong.
+//! Mapping and assignment objects, written correctly and incorrectly.
 
 use super::*;
 use crate::pdo_settings::PdoSettings;
@@ -15,7 +15,7 @@ fn write(mapping: &mut Mapping, index: u16, sub: u8, number: u32) -> Result<(), 
     mapping.write(&object_table(), ObjectIndex(index), SubIndex(sub), &number.to_le_bytes())
 }
 
-/// Clears, writes elements, sets the count: as masters do it without complete access.
+/// Clears, writes elements, sets the count: the sequence of masters without complete access.
 pub(crate) fn set(mapping: &mut Mapping, index: u16, elements: &[u32]) -> Result<(), SdoAbort> {
     write(mapping, index, 0, 0)?;
     for (sub, &element) in (1..).zip(elements) {
@@ -122,7 +122,7 @@ fn a_pdo_of_the_other_direction_is_left_to_the_rules() {
     assert_eq!(sizes(&mapping), (180 + 2 + 1, 2 + 180 + 20 + 16));
 }
 
-/// Events of the rules that `object` breaks with these elements, the rest being the factory setting.
+/// Events of the rules that `object` violates with these elements, with the factory setting for all others.
 fn events(object: u16, elements: &[u32]) -> Vec<String> {
     let mut mapping = factory();
     set(&mut mapping, object, elements).expect("all exist and can be mapped");

@@ -1,4 +1,4 @@
-//! The bytes of a non-volatile memory, little endian: magic, version, length, contents, CRC-32 of all before it.
+//! The bytes of a non-volatile memory, little endian: magic, version, length, contents, CRC-32 of all bytes before it.
 
 use core::fmt;
 
@@ -13,7 +13,7 @@ use crate::events::{Event, EventCode, EventLevel, EventLog};
 const MAGIC: &[u8; 8] = b"ectwnvm\0";
 const VERSION: u16 = 1;
 const CHECKSUM_BYTES: usize = 4;
-/// Largest EEPROM that an SII size word can tell.
+/// Largest EEPROM that an SII size word can represent.
 const SII_BYTES_MAX: usize = 8 << 20;
 /// Magic, version, length, serial number, software ID, length of the EEPROM.
 const HEAD_BYTES: usize = 8 + 2 + 4 + 4 + 2 + 4;
@@ -24,24 +24,24 @@ const RECORD_BYTES_MAX: usize = 4 + 8 + 1 + 1 + 4 * DETAILS_MAX;
 
 static CHECKSUM: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
-/// Why bytes are no memory of a unit.
+/// Why the bytes are not the memory of a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Damage {
-    /// They do not begin as a memory does: they belong to somebody else.
+    /// They do not begin like a memory: they belong to another program.
     NoMemory,
-    /// A version that this program does not know.
+    /// A version that this program does not support.
     Version {
         /// The version found.
         version: u16,
     },
-    /// They end too early, or go on too long.
+    /// They are too short or too long.
     Length {
         /// The length found, in bytes.
         length_bytes: usize,
     },
     /// The checksum is wrong.
     Checksum,
-    /// The checksum is right and the contents make no sense.
+    /// The checksum is correct but the contents are not valid.
     Contents,
 }
 
@@ -62,7 +62,7 @@ impl fmt::Display for Damage {
 impl core::error::Error for Damage {}
 
 impl NonVolatileMemory {
-    /// Writes the memory into `bytes`, in place of what was there.
+    /// Writes the memory to `bytes`, replacing their contents.
     pub fn encode_into(&self, bytes: &mut Vec<u8>) {
         bytes.clear();
         bytes.extend_from_slice(MAGIC);
@@ -79,14 +79,15 @@ impl NonVolatileMemory {
         bytes.extend_from_slice(&CHECKSUM.checksum(bytes).to_le_bytes());
     }
 
-    /// Reads what [`NonVolatileMemory::encode_into`] has written.
+    /// Reads the bytes of [`NonVolatileMemory::encode_into`].
     ///
     /// # Errors
-    /// What is wrong with the bytes.
+    /// The defect of the bytes.
     pub fn decode(bytes: &[u8]) -> Result<Self, Damage> {
         let length_bytes = bytes.len();
         let too_short = Damage::Length { length_bytes };
-        // First: what begins in another way is somebody else's file, and no damaged memory, however short it is.
+        // Checked first: bytes that begin in another way are another program's file, and not a damaged memory,
+        // however short they are.
         if !bytes.starts_with(MAGIC) {
             return Err(Damage::NoMemory);
         }
@@ -107,7 +108,7 @@ impl NonVolatileMemory {
     }
 }
 
-/// The length of a memory with an EEPROM of this length, at most.
+/// The maximum length of a memory with an EEPROM of this length.
 pub(super) const fn encoded_bytes_max(sii_bytes: usize) -> usize {
     let records_max = SYSTEM_RECORDS_MAX + ACCESS_RECORDS_MAX;
     HEAD_BYTES + sii_bytes + LOG_HEAD_BYTES + records_max * RECORD_BYTES_MAX + CHECKSUM_BYTES
@@ -132,7 +133,7 @@ fn put_record(record: &LogRecord, bytes: &mut Vec<u8>) {
     record.details.iter().for_each(|detail| bytes.extend_from_slice(&detail.to_le_bytes()));
 }
 
-/// What has not been read yet. Everything is none where it ends too early or makes no sense.
+/// The bytes that have not been read yet. Every read returns none if they end too early or are not valid.
 struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
@@ -203,8 +204,8 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a unit can have such a log: until it is full the newest record is the last, and each event is one that
-/// goes there.
+/// Whether such a log is possible for a unit: until it is full the newest record is the last, and each event
+/// belongs in that log.
 fn is_possible(log: &ErrorLog) -> bool {
     let place = log.newest.checked_sub(FIRST_RECORD).map(usize::from);
     let newest_is_right = match log.system.len() {

@@ -1,4 +1,4 @@
-//! Round trips of the bytes, damage of every kind, and what a start makes of a memory.
+//! Round trips of the bytes, damage of every kind, and the effect of a start on a memory.
 
 use arrayvec::ArrayVec;
 use proptest::collection::vec;
@@ -13,7 +13,7 @@ fn encoded(memory: &NonVolatileMemory) -> Vec<u8> {
     bytes
 }
 
-/// A record of an event that goes there.
+/// A record of an event that belongs in this log.
 fn record(goes_there: fn(&Event) -> bool) -> impl Strategy<Value = LogRecord> {
     let events: Vec<_> =
         Event::all().iter().filter(|event| goes_there(event)).map(|event| event.code).collect();

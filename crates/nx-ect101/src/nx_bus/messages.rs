@@ -1,8 +1,8 @@
-//! NX messages: the requests by which the CPU Unit reads and writes objects of the unit, and their responses.
+//! NX messages: the requests with which the CPU Unit reads and writes objects of the unit, and their responses.
 //!
 //! Two bounded queues between two threads; neither end ever waits. The unit answers when it refreshes. It
 //! publishes its image before it sends the responses, and the CPU Unit takes responses before it takes the
-//! image: so no flag that a user program sees is older than a response that it has got.
+//! image: so no flag that a user program sees is older than a response that it has received.
 
 use core::fmt;
 use std::sync::Arc;
@@ -14,35 +14,35 @@ use wire::{ObjectIndex, SdoAbort, SubIndex};
 
 use crate::messages::MESSAGE_BYTES;
 
-/// Most requests that wait for their responses.
+/// Maximum number of requests that wait for their responses.
 pub const REQUESTS_MAX: usize = 8;
 
 /// The value of an NX object, little endian, at most 200 bytes.
 pub type NxValue = ArrayVec<u8, MESSAGE_BYTES>;
 
-/// What the CPU Unit asks of an object.
+/// A request of the CPU Unit for an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NxRequest {
-    /// Comes back with the response.
+    /// Returned with the response.
     pub number: u32,
     /// Index of the NX object.
     pub index: ObjectIndex,
     /// Its subindex.
     pub sub: SubIndex,
-    /// What is written; none: the object is read.
+    /// The value to write; none: the object is read.
     pub value: Option<NxValue>,
 }
 
-/// What the unit answers.
+/// The answer of the unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NxResponse {
     /// The number of the request.
     pub number: u32,
-    /// The value that was read, empty after a write; or why not.
+    /// The value that was read, empty after a write; or the error.
     pub result: Result<NxValue, NxMessageError>,
 }
 
-/// Why a request is refused. The manual gives no numbers for it, so there are none here.
+/// Why a request is refused. The manual does not define numbers for these errors, so there are none here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NxMessageError {
     /// The unit has no such object.
@@ -58,14 +58,14 @@ pub enum NxMessageError {
         /// Length of the object in bytes.
         expected_bytes: usize,
     },
-    /// The master has not read the last message; it stays as it is (manual, A-5-3).
+    /// The master has not read the last message, which is kept (manual, A-5-3).
     NotReady,
     /// The unit has no power.
     NotReachable,
 }
 
 impl NxMessageError {
-    /// The SDO abort code by which a master is told the same of a CoE object.
+    /// The SDO abort code with which a CoE object reports the same to a master.
     #[must_use]
     pub const fn sdo_abort(self) -> SdoAbort {
         match self {
@@ -101,13 +101,13 @@ impl core::error::Error for NxMessageError {}
 /// Why a request was not sent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NotSent {
-    /// Too many wait already; later it can be sent.
+    /// Too many are already waiting; it can be sent later.
     Full,
     /// The unit has no power.
     NotReachable,
 }
 
-/// The CPU Unit's end: it asks.
+/// The CPU Unit's end: it sends requests.
 #[derive(Debug)]
 pub struct CpuMessages {
     requests: SyncSender<NxRequest>,
@@ -116,14 +116,14 @@ pub struct CpuMessages {
 }
 
 impl CpuMessages {
-    /// Sends a request, without waiting. One that finds no room is discarded, and the unit notices.
+    /// Sends a request, without waiting. If there is no room it is discarded, and the unit detects this.
     ///
     /// # Errors
     /// [`REQUESTS_MAX`] requests wait, or the unit has no power.
     pub fn send(&mut self, request: NxRequest) -> Result<(), NotSent> {
         self.requests.try_send(request).map_err(|error| match error {
             TrySendError::Full(_) => {
-                // Only a flag: nothing else has to be seen with it.
+                // Only a flag: no other data depend on it.
                 self.discarded.store(true, Ordering::Relaxed);
                 NotSent::Full
             }
@@ -131,10 +131,10 @@ impl CpuMessages {
         })
     }
 
-    /// The next response that has come; none if there is none yet.
+    /// The next response received; none if there is none yet.
     ///
     /// # Errors
-    /// [`NxMessageError::NotReachable`] when the unit has no power and none comes any more.
+    /// [`NxMessageError::NotReachable`] if the unit has no power and there are no further responses.
     pub fn receive(&mut self) -> Result<Option<NxResponse>, NxMessageError> {
         match self.responses.try_recv() {
             Ok(response) => Ok(Some(response)),
@@ -149,7 +149,7 @@ impl CpuMessages {
 pub struct UnitMessages {
     requests: Receiver<NxRequest>,
     responses: SyncSender<NxResponse>,
-    /// Responses that are not to be seen before the image that goes with them.
+    /// Responses that must not be visible before the corresponding image.
     held: ArrayVec<NxResponse, REQUESTS_MAX>,
     discarded: Arc<AtomicBool>,
 }
@@ -160,7 +160,7 @@ impl UnitMessages {
         self.discarded.load(Ordering::Relaxed) && self.discarded.swap(false, Ordering::Relaxed)
     }
 
-    /// Answers what has come in, oldest first, and holds the responses back. Tells whether there was anything.
+    /// Answers the received requests, the oldest first, and holds the responses back. Returns whether there were any.
     pub(crate) fn answer(
         &mut self,
         mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>,
@@ -172,7 +172,7 @@ impl UnitMessages {
         !self.held.is_empty()
     }
 
-    /// Sends the responses. What the CPU Unit has no room for yet stays and keeps its order.
+    /// Sends the responses. Those for which the CPU Unit has no room yet wait in their order.
     pub(crate) fn send(&mut self) {
         while !self.held.is_empty() {
             match self.responses.try_send(self.held.remove(0)) {
@@ -184,7 +184,7 @@ impl UnitMessages {
     }
 }
 
-/// Both ends. All memory that they ever use is allocated here.
+/// Both ends. All the memory that they ever use is allocated here.
 pub(super) fn connect() -> (UnitMessages, CpuMessages) {
     let (ask, requests) = sync_channel(REQUESTS_MAX);
     let (responses, hear) = sync_channel(REQUESTS_MAX);

@@ -3,7 +3,7 @@
 //! Passes: 15 UINT arrays from the master on the CPU Unit's side, 1601 on the master's side.
 //! Fails:  15 UINT arrays from the master on the CPU Unit's side, 1602 on the master's side.
 //!
-//! A data set is selected when it has entries. One finding tells all data sets of a direction.
+//! A data set is selected if it has entries. One finding contains all data sets of a direction.
 
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;

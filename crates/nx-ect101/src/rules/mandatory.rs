@@ -1,8 +1,10 @@
-//! What every PDO setting needs: 1A00, PDOs of the right direction, sizes that exist (manual, 7-5-2, 7-5-4).
+//! The requirements for every PDO setting: 1A00, PDOs of the correct direction, sizes that exist (manual,
+//! 7-5-2, 7-5-4).
 //!
 //! Passes: 1C13 = 1A00, 1A01; 1602 with the entries 01 to 0A; TxPDOs of 1,204 bytes.
+//!
 //! Fails:  1C13 = 1A01; 1C12 = 1A00; 1602 with the entries 01 to 0B; TxPDOs of 1,205 bytes by status assigned
-//!         twice. More data than 1,200 bytes is the business of the rule `total`.
+//! twice. The rule `total` covers more data than 1,200 bytes.
 
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::data_sets::{DataSet, Direction, Limits, StatusPdo};

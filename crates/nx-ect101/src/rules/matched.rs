@@ -1,10 +1,10 @@
-//! Matched amount of data: a data set has as many entries on the one side as on the other (manual, 5-3-5).
+//! Matched amount of data: a data set has the same number of entries on both sides (manual, 5-3-5).
 //!
 //! Passes: 6 PDO entries and 6 I/O entries.
 //! Fails:  6 PDO entries and 4 I/O entries; then the first four are exchanged.
 //!
-//! One finding tells all data sets of a direction. A data set with no entry on one side is the business of the
-//! rule `combination`, which raises the same event for the direction.
+//! One finding contains all data sets of a direction. The rule `combination` covers a data set without entries
+//! on one side; it raises the same event for the direction.
 
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;

@@ -3,8 +3,8 @@
 //! Passes: 7000:01, 7000:02, 7000:03, 7000:04.
 //! Fails:  7000:01, 7000:03, 7000:02, 7000:04; 7000:02, 7000:03, 7000:04; 7000:01, 7000:02, 7000:04.
 //!
-//! An entry of another data set is the business of the rule `type`: whether it is removed or replaced by the
-//! entry that is missing at its place, the order is judged as if that was done.
+//! The rule `type` covers an entry of another data set: if the order would be correct with this entry removed,
+//! or replaced by the missing entry, it counts as correct.
 
 use wire::{ObjectIndex, SubIndex};
 
@@ -49,13 +49,13 @@ fn check_pdo(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
     }
 }
 
-/// An element of a mapping, as the order sees it.
+/// An element of a mapping, as the rule of order treats it.
 enum Element {
     /// An entry of the data set.
     Own(SubIndex),
-    /// An entry that does not belong here.
+    /// An entry of another data set.
     Stray,
-    /// Nothing: a gap, unless only nothing follows.
+    /// No entry: a gap, unless only such elements follow.
     Empty,
 }
 

@@ -27,8 +27,8 @@ fn check(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
     }
 }
 
-/// The first PDO whose index is not above that of the PDO before it. What cannot be assigned in this direction
-/// has no place in the order; the rule `mandatory` tells of it.
+/// The first PDO whose index is not above that of the PDO before it. A PDO that cannot be assigned in this
+/// direction is ignored in the order; the rule `mandatory` reports it.
 fn not_ascending(pdo: &PdoSettings, direction: Direction) -> Option<Fact> {
     let elements = pdo.assignment(direction).iter().copied().enumerate();
     let mut before = None;

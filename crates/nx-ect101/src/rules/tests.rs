@@ -1,4 +1,4 @@
-//! The table of rules against the folder, the events and the moments that the manual gives.
+//! The table of rules, compared with the folder, the events and the times in the manual.
 
 use std::collections::BTreeSet;
 

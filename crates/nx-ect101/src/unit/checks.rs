@@ -1,4 +1,5 @@
-//! What the unit says to requests of the master: its own findings beside the stack's, and the events of both.
+//! The checks of the unit for requests of the master: its own findings in addition to the stack's, and the
+//! events of both.
 
 use wire::AlStatusCode;
 
@@ -18,7 +19,7 @@ impl NxEct101 {
         found.first().map_or(Ok(()), |&code| Err(code))
     }
 
-    /// The controller could load the SII, and it tells vendor, product and revision of the unit.
+    /// The controller has loaded the SII, and it contains vendor, product and revision of the unit.
     fn verify_sii(&mut self, has_eeprom_error: bool) -> Result<(), AlStatusCode> {
         let diagnosis = &mut self.objects.diagnosis;
         let fault = Fault::SiiVerification;
@@ -32,8 +33,8 @@ impl NxEct101 {
         Err(self.stop_in_init().unwrap_or(AlStatusCode::NO_VALID_FIRMWARE))
     }
 
-    /// PRE-OP to SAFE-OP. Everything that is wrong is recorded, the first finding tells the master: the mapping,
-    /// the SyncManagers, the synchronization type, DC, buffers, watchdog; then what does not match, which stops
+    /// PRE-OP to SAFE-OP. All violations are recorded, the first finding is reported to the master: the
+    /// mapping, the SyncManagers, the synchronization type, DC, buffers, watchdog; then mismatches, which stop
     /// nothing.
     pub(super) fn check_process_data(&mut self, found: &[AlStatusCode]) -> Result<(), AlStatusCode> {
         self.read_pdo_rules();
@@ -52,7 +53,7 @@ impl NxEct101 {
         }
         self.plan.rebuild(&self.pdo, &self.m_to_c_layout, &self.c_to_m_layout);
         self.objects.begin_exchange(&self.m_to_c_layout, &self.c_to_m_layout);
-        // What the new mapping does not exchange has its default value again.
+        // Data that the new mapping does not exchange have their default value again.
         self.m_to_c.fill(0);
         Ok(())
     }
@@ -77,8 +78,8 @@ impl NxEct101 {
         broken.clone().find_map(Finding::al_status_code)
     }
 
-    /// The master has set another synchronization than Free-Run; objects 1C32 and 1C33 take no other value, so
-    /// that it is a fault which is injected (A17).
+    /// The master has set another synchronization than Free-Run; objects 1C32 and 1C33 accept no other value,
+    /// so it is an injected fault (A17).
     fn check_sync_mode(&mut self) -> Option<AlStatusCode> {
         let fault = Fault::SmEventMode;
         if !self.objects.diagnosis.is_present(fault) {
@@ -88,7 +89,7 @@ impl NxEct101 {
         fault.al_status_code()
     }
 
-    /// Sizes that do not match stand as long as data are exchanged.
+    /// Mismatches of sizes persist while data are exchanged.
     fn raise_mismatches(&mut self) {
         let mismatches = self.pdo_findings.iter().filter(|finding| finding.al_status_code().is_none());
         for finding in mismatches {
@@ -96,7 +97,7 @@ impl NxEct101 {
         }
     }
 
-    /// No data are exchanged any more, so that nothing does not match.
+    /// No data are exchanged any more, so that there is no mismatch.
     pub(super) fn settle_mismatches(&mut self) {
         let is_mismatch = |code| matches!(code, EventCode::MISMATCH_C_TO_M | EventCode::MISMATCH_M_TO_C);
         self.objects.diagnosis.settle(is_mismatch);
@@ -108,7 +109,7 @@ impl NxEct101 {
         }
     }
 
-    /// The event of an AL status code that the stack has found, and the code in the unit's own terms: its list
+    /// The event of an AL status code that the stack has found, and the code as the unit reports it: its list
     /// (manual, 8-5-2) has none for BOOT.
     pub(super) fn raise_al_error(&mut self, code: AlStatusCode) -> AlStatusCode {
         let code = match code {

@@ -1,4 +1,4 @@
-//! The events of the unit as such: faults, what its start finds, what a user does from the CPU Unit's side.
+//! The events of the unit itself: faults, the findings of its start, actions of a user on the CPU Unit's side.
 
 use arrayvec::ArrayVec;
 use device::Start;
@@ -14,29 +14,29 @@ use crate::unit::NxEct101;
 use coe_kit::indicators::PortCondition;
 
 impl NxEct101 {
-    /// The cause of a fault appears. Some faults are found at once, others when the unit starts or when the
-    /// master asks for a state (manual, 8-3-4, detection timing).
+    /// The cause of a fault appears. Some faults are detected immediately, others when the unit starts or when
+    /// the master requests a state (manual, 8-3-4, detection timing).
     pub fn inject(&mut self, fault: Fault) {
         self.objects.diagnosis.inject(fault);
     }
 
-    /// The cause of a fault disappears. What it has done stays until the recovery that the manual names.
+    /// The cause of a fault disappears. Its effect remains until the recovery in the manual.
     pub fn remove(&mut self, fault: Fault) {
         self.objects.diagnosis.remove(fault);
     }
 
-    /// The faults that the unit has found and not recovered from.
+    /// The faults that the unit has found and has not recovered from.
     pub fn faults(&self) -> impl Iterator<Item = Fault> + '_ {
         self.objects.diagnosis.found()
     }
 
-    /// Takes the events that have occurred since the last call, the oldest first, for who watches the unit. At
-    /// most [`OCCURRED_MAX`] are kept; later ones are left out until someone looks.
+    /// Takes the events that have occurred since the last call, the oldest first, for the observer of the unit.
+    /// At most [`OCCURRED_MAX`] are kept; later ones are dropped until the next call.
     pub fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
         self.objects.diagnosis.take_occurred()
     }
 
-    /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause is still there
+    /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause persists
     /// occurs again.
     pub fn reset_errors(&mut self) {
         self.objects.diagnosis.reset_errors();
@@ -47,7 +47,7 @@ impl NxEct101 {
         self.objects.diagnosis.clear_log(log);
     }
 
-    /// Changes the level of an event, in force from the next start of the unit on (manual, 6-5-1).
+    /// Changes the level of an event, effective from the next start of the unit (manual, 6-5-1).
     ///
     /// # Errors
     /// [`LevelNotChangeable`].
@@ -79,13 +79,13 @@ impl NxEct101 {
         self.objects.diagnosis.log()
     }
 
-    /// NX Unit Error Status: the unit has an error (manual, 8-1-1). A fault that is no current error, such as a
-    /// broken memory, counts.
+    /// NX Unit Error Status: the unit has an error (manual, 8-1-1). A fault that is not a current error, such
+    /// as a broken memory, counts too.
     pub(super) fn has_error(&self) -> bool {
         self.error_status() != 0 || self.objects.diagnosis.found().next().is_some()
     }
 
-    /// What the indicators show, for the AL status that the stack shows and the ports IN and OUT; the unit has power.
+    /// The state of the indicators, for the AL status of the stack and the ports IN and OUT; the unit has power.
     #[must_use]
     pub fn indicators(&self, status: AlStatus, code: AlStatusCode, ports: [PortCondition; 2]) -> Indicators {
         let [in_port, out_port] = ports;
@@ -100,8 +100,8 @@ impl NxEct101 {
         })
     }
 
-    /// What the TS indicator tells: how the unit stands as an NX Unit. It is initialized when the CPU Unit begins
-    /// I/O refreshing.
+    /// The condition that the TS indicator shows: that of the unit as an NX Unit. It is initialized when the
+    /// CPU Unit starts I/O refreshing.
     #[must_use]
     pub fn nx_condition(&self) -> NxCondition {
         let faults = self.faults().map(Fault::event);
@@ -114,14 +114,14 @@ impl NxEct101 {
         errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
     }
 
-    /// The AL status code of the fault that keeps the unit in INIT, if one does.
+    /// The AL status code of the fault that keeps the unit in INIT, if there is one.
     #[must_use]
     pub fn stop_in_init(&self) -> Option<AlStatusCode> {
         self.objects.diagnosis.stop_in_init()
     }
 
-    /// The unit starts again; the AL status code that the master finds then. A reset of the ESC is no start of the
-    /// unit: its errors stay (manual, 8-6).
+    /// The unit restarts; returns the AL status code for the master. A reset of the ESC is not a start of the
+    /// unit: its errors remain (manual, 8-6).
     pub(super) fn restart_diagnosis(&mut self, start: Start) -> Option<AlStatusCode> {
         if start == Start::EscReset {
             return None;
@@ -142,7 +142,7 @@ impl NxEct101 {
         Event::find(EventCode::UNIT_RESTART).and_then(|event| event.al_status_code)
     }
 
-    /// Tells what the start has found, once. It waits for the first refresh, which knows the time.
+    /// Reports the findings of the start, once. It waits for the first refresh, in which the time is known.
     pub(super) fn tell_start(&mut self) {
         self.is_initializing = true;
         if !core::mem::take(&mut self.is_starting) {

@@ -1,4 +1,4 @@
-//! What of the unit outlives power-off, and when it has to be stored.
+//! The data of the unit that are kept without power, and when they must be stored.
 
 use crate::diagnosis::Diagnosis;
 use crate::fault::Fault;
@@ -7,17 +7,17 @@ use crate::memory::{IDENTITY_BYTES, MemoryAtPowerOn, NonVolatileMemory};
 use crate::settings::UnitSettings;
 use crate::unit::NxEct101;
 
-/// The memory of a unit under power.
+/// The memory of a unit with power.
 #[derive(Debug)]
 pub(super) struct KeptMemory {
     contents: NonVolatileMemory,
-    /// It differs from what is stored.
+    /// It differs from the stored memory.
     is_unsaved: bool,
-    /// The EEPROM writes of the wire that `contents` knows of.
+    /// The count of EEPROM writes by the master that `contents` includes.
     sii_words_seen: u32,
-    /// Vendor, product and revision of the unit, as its SII has to tell them.
+    /// Vendor, product and revision of the unit, as its SII must contain them.
     identity: Option<[u8; IDENTITY_BYTES]>,
-    /// The SII was the unit's own when the unit started.
+    /// The SII matched the unit when the unit started.
     sii_is_own: bool,
 }
 
@@ -35,7 +35,7 @@ impl KeptMemory {
         (kept, identification)
     }
 
-    /// Starts again: what a master has set in the EEPROM counts now, and goes back into it as the unit leaves it.
+    /// Restarts: values that a master has set in the EEPROM apply now, and the values of the unit are written to it.
     pub(super) fn restart(
         &mut self,
         settings: &UnitSettings,
@@ -57,7 +57,7 @@ impl KeptMemory {
         identification
     }
 
-    /// Takes over the software ID, and the EEPROM where the wire has written it.
+    /// Copies the software ID, and the EEPROM if the master has written it.
     fn take_over(&mut self, identification: &mut Identification, sii_image: Option<&[u8]>) {
         if let Some(image) = sii_image {
             self.is_unsaved |= image != self.contents.sii_image();
@@ -71,7 +71,7 @@ impl KeptMemory {
         }
     }
 
-    /// Whether the SII that was loaded at the start tells vendor, product and revision of this unit.
+    /// Whether the SII that was loaded at the start contains vendor, product and revision of this unit.
     pub(super) const fn sii_is_own(&self) -> bool {
         self.sii_is_own
     }
@@ -80,7 +80,7 @@ impl KeptMemory {
         &self.contents
     }
 
-    /// Takes over the logs, if they have changed.
+    /// Copies the logs, if they have changed.
     fn take_over_log(&mut self, diagnosis: &mut Diagnosis) {
         if diagnosis.take_log_change() {
             self.contents.error_log_mut().clone_from(diagnosis.log());
@@ -96,9 +96,9 @@ impl NxEct101 {
         self.memory.contents()
     }
 
-    /// Takes over what has changed since the last call: the EEPROM of the controller, of which the wire has
-    /// written `sii_words_written` words so far, and the ID that was set by software. Tells whether
-    /// [`NxEct101::memory`] is to be stored now: never while it is broken. What changes until then is stored with
+    /// Copies the changes since the last call: the EEPROM of the controller, to which the master has written
+    /// `sii_words_written` words so far, and the ID that was set by software. Returns whether
+    /// [`NxEct101::memory`] must be stored now: never while it is broken. Changes until then are stored with
     /// the first call after that.
     pub fn take_memory_change(&mut self, sii_image: &[u8], sii_words_written: u32) -> bool {
         let memory = &mut self.memory;

@@ -1,4 +1,5 @@
-//! What goes between the unit and the NX bus besides the data: what the CPU Unit has decided, NX messages, statuses.
+//! The exchange between the unit and the NX bus in addition to the data: decisions of the CPU Unit, NX
+//! messages, statuses.
 
 use device::RefreshCause;
 
@@ -9,7 +10,7 @@ use crate::status::{NxUnitStatus, SlaveStatus};
 use crate::unit::NxEct101;
 
 impl NxEct101 {
-    /// A CPU Unit that stops I/O refreshing, or its task, is an NX bus without I/O communications.
+    /// If the CPU Unit stops I/O refreshing, or its task stops, the NX bus has no I/O communications.
     pub(super) fn watch_io_communications(&mut self, cause: RefreshCause, cpu: CpuHeader) {
         if cause == RefreshCause::Period {
             self.task_watch.pass(cpu.task_periods);
@@ -25,7 +26,7 @@ impl NxEct101 {
         self.is_initialized |= refreshing;
     }
 
-    /// What the NX Bus Function Module has decided: to stop I/O refreshing, to reset the errors.
+    /// The decisions of the NX Bus Function Module: to stop I/O refreshing, to reset the errors.
     pub(super) fn follow_nx_bus(&mut self, cpu: CpuHeader) {
         self.io_stopped = cpu.io_stopped;
         if cpu.error_resets != self.error_resets {
@@ -34,8 +35,8 @@ impl NxEct101 {
         }
     }
 
-    /// The unit takes no part in the NX bus until its next refresh: it has lost its power, or starts again. Only the
-    /// first is an error for the CPU Unit.
+    /// The unit does not take part in the NX bus until its next refresh: it has lost its power, or restarts.
+    /// Only the first is an error for the CPU Unit.
     pub(super) fn leave_nx_bus(&mut self, error: bool) {
         self.status = SlaveStatus::default();
         self.nx_unit_status = NxUnitStatus::default();
@@ -44,7 +45,7 @@ impl NxEct101 {
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
-    /// What the unit tells the CPU Unit along with its data.
+    /// The information from the unit to the CPU Unit, sent with its data.
     pub(super) fn header(&self) -> UnitHeader {
         UnitHeader {
             status: self.slave_status(),
@@ -56,7 +57,7 @@ impl NxEct101 {
         }
     }
 
-    /// Answers the NX messages that have come. What they change shows in the same refresh.
+    /// Answers the received NX messages. Their effects are visible in the same refresh.
     pub(super) fn answer_messages(&mut self) {
         if self.bus.messages.take_discarded() {
             self.objects.diagnosis.inject(Fault::MessageCommunications);

@@ -1,15 +1,15 @@
-//! Whether the primary periodic task of the CPU Unit still runs.
+//! Whether the primary periodic task of the CPU Unit is still running.
 
 use time::Duration;
 
 use crate::timing::task_silence;
 
-/// Watches the primary periodic task of the CPU Unit, by the task periods that it counts.
+/// Monitors the primary periodic task of the CPU Unit, by its count of task periods.
 #[derive(Debug, Default)]
 pub(super) struct TaskWatch {
-    /// The count that was seen last.
+    /// The last count.
     task_periods: u32,
-    /// How many periods of the unit have passed since it changed. Periods are counted, not time: a process that was
+    /// Number of periods of the unit since it changed. Periods are counted, not time: a process that was
     /// suspended has missed task periods and refreshes alike.
     silent_periods: u64,
 }

@@ -54,7 +54,7 @@ impl Bench {
     }
 }
 
-/// The station alias that the unit wants.
+/// The station alias that the unit requests.
 fn alias(unit: &NxEct101) -> Option<u16> {
     unit.objects.identification.station_alias()
 }
@@ -207,7 +207,7 @@ fn the_timestamp_is_the_system_time_of_the_cpu_unit() {
     assert_eq!(u64::from_le_bytes(value), REFRESHING.system_time_ns);
 }
 
-/// The AL status code and the event codes that a mapping leads to.
+/// The AL status code and the event codes that result from a mapping.
 fn asking_for_safe_op(bench: &mut Bench) -> (Option<AlStatusCode>, Vec<String>) {
     let code = bench.unit.check_transition(NOW, Check::ProcessData, &[]).err();
     (code, bench.unit.findings().map(|finding| finding.event.to_string()).collect())

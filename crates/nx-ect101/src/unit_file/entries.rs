@@ -9,9 +9,9 @@ use crate::data_sets::{DataSet, DataSetKind, Direction};
 /// The entries of a data set or PDO mapping.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Entries {
-    /// Short form: subindexes 1 to this number, in order. It may be more than there are.
+    /// Short form: subindexes 1 to this number, in order. It may exceed the number of existing entries.
     Count(u8),
-    /// Long form: exactly these, in this order, right or wrong.
+    /// Long form: exactly these, in this order, correct or not.
     List(Vec<Located<EntryAddress>>),
 }
 
@@ -31,7 +31,7 @@ impl Entries {
 /// A selected data set of the I/O allocation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DataSetEntries {
-    /// Which data set.
+    /// The data set.
     pub kind: DataSetKind,
     /// Its entries.
     pub entries: Located<Entries>,
@@ -47,7 +47,7 @@ pub struct IoAllocationSection {
 }
 
 impl IoAllocationSection {
-    /// The allocation that the section describes, right or wrong.
+    /// The allocation in the section, correct or not.
     pub(super) fn to_allocation(&self) -> IoAllocation {
         let mut allocation = IoAllocation::empty();
         for (direction, sets) in [(Direction::MToC, &self.m_to_c), (Direction::CToM, &self.c_to_m)] {
@@ -70,7 +70,7 @@ pub struct MappingEntries {
     pub entries: Located<Entries>,
 }
 
-/// Section `[pdo]`: what the master sets. What is left out stays at the factory setting.
+/// Section `[pdo]`: the settings of the master. Values that are left out are those of the factory setting.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct PdoSection {
     /// RxPDO assignment, 1C12.

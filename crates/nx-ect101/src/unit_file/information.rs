@@ -1,4 +1,4 @@
-//! The keys of what differs between units by their production.
+//! The keys for data that differ between units by their production.
 
 use user_file::{DeValue, Located, Problem, Reader, Section, values};
 

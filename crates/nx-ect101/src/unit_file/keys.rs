@@ -1,4 +1,4 @@
-//! The keys of the unit file, section by section: those that the reader takes, and [`keys`] lists.
+//! The keys of the unit file, section by section: those that the reader accepts and [`keys`] lists.
 
 use device::TRANSITIONS;
 use wire::AlState;
@@ -6,7 +6,7 @@ use wire::AlState;
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventCode};
 
-/// Of the file itself: keys and sections.
+/// Keys and sections of the file itself.
 pub(super) const UNIT: [&str; 23] = [
     "model",
     "name",
@@ -95,7 +95,7 @@ mod tests {
     use super::super::UnitFile;
     use super::keys;
 
-    /// What the reader accepts in a section, as its message for an unknown key lists it.
+    /// The names that the reader accepts in a section, as its message for an unknown key lists them.
     fn accepted_in(section: &str) -> BTreeSet<String> {
         let header = if section.is_empty() { String::new() } else { format!("[{section}]\n") };
         let text = format!("{header}key-of-nobody = 1\n");
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    /// A section is a key of the section around it.
+    /// A section is a key of the section that contains it.
     #[test]
     fn every_section_is_a_key_itself() {
         let all = keys();

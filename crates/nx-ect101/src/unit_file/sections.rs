@@ -16,7 +16,7 @@ use crate::timing::Timing;
 /// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
 const UNIT_NUMBER_MAX: u64 = 32;
 
-/// The whole file; none when it does not name its model.
+/// The whole file; none if it does not contain its model.
 pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
     reader.only(file, &keys::UNIT);
     if file.get("model").is_none() {
@@ -139,7 +139,7 @@ fn mappings(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<MappingEn
             refuse_mapping_key(reader, &place, key);
             continue;
         };
-        // `1a01` and `1A01` are two keys for TOML and one object for us.
+        // `1a01` and `1A01` are two keys for TOML and one object here.
         if mappings.iter().any(|known| known.pdo.value == pdo) {
             let problem = Problem::new(format!("`{place}` stands twice"), "one mapping for each object");
             reader.refuse(key.span.unwrap_or_default(), problem);
@@ -153,7 +153,7 @@ fn mappings(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<MappingEn
     mappings
 }
 
-/// The mapping object that `key` names, of those whose entries a master may set.
+/// The mapping object for `key`, if a master may set its entries.
 fn mapping_object(key: &str) -> Option<ObjectIndex> {
     let index = ObjectIndex(u16::try_from(values::hexadecimal(key, 4)?).ok()?);
     DataSet::of_pdo(index).map(|_| index)

@@ -1,4 +1,4 @@
-//! What the file says of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
+//! The keys of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
 
 use core::ops::RangeInclusive;
 
@@ -10,7 +10,7 @@ use wire::AlStatusCode;
 use super::keys;
 use crate::slave_settings::{OutputsRule, SlaveSettings};
 
-/// The longest is more than any master waits.
+/// The longest time is more than any master waits.
 const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
 const OUTPUTS_RULES: [(&str, OutputsRule); 2] =
     [("required", OutputsRule::Required), ("not-required", OutputsRule::NotRequired)];
@@ -35,7 +35,7 @@ fn times(reader: &mut Reader<'_>, file: &Section<'_, '_>, slave: &mut SlaveSetti
     slave.mailbox_time = reader.value(&section, "mailbox", time).map(|time| time.value);
 }
 
-/// One time for all, or a table of those that take one.
+/// One time for all transitions, or a table of times for some of them.
 fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>) -> TransitionTimes {
     const KEY: &str = "transitions";
     let is_table = times.get(KEY).is_some_and(|value| value.get_ref().is_table());
@@ -80,7 +80,7 @@ fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
     values::duration(place, value, |time| TIMES.contains(&time), "a time, \"0ms\" to \"60s\"")
 }
 
-/// A key that is `true` or `false`; left out it is false.
+/// A key that is `true` or `false`; false if left out.
 fn truth(reader: &mut Reader<'_>, section: &Section<'_, '_>, key: &str) -> bool {
     reader.value(section, key, values::truth).is_some_and(|truth| truth.value)
 }

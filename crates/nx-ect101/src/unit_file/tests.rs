@@ -131,7 +131,7 @@ fn mistakes_without_number_are_told_up_to_twenty() {
     let first = errors.iter().next().unwrap();
     assert_eq!((first.line, first.message.as_str()), (1, "unknown key `key_19999`"));
     assert_eq!(errors.to_string().lines().last(), Some("and 19980 more"));
-    // Text that is no TOML at all, with more than one mistake in each line.
+    // Text that is not TOML at all, with more than one mistake in each line.
     let broken = UnitFile::parse(&"= ] [ \"\n".repeat(20_000)).unwrap_err();
     assert!(broken.iter().count() <= 20 && broken.to_string().len() < 10_000, "{broken}");
 }
@@ -189,7 +189,7 @@ fn numbers_beyond_a_maximum_are_kept_for_the_rules() {
     assert_eq!(pdo.mappings[0].entries.value, Entries::Count(99));
 }
 
-/// The manual's three examples (6-3-4): both sides of each file come to the manual's total.
+/// The manual's three examples (6-3-4): both sides of each file have the total in the manual.
 #[test]
 fn the_files_of_the_manuals_examples_have_its_totals() {
     for (text, total) in [(FACTORY, 180), (ARRAYS, 1200), (MIXED, 520)] {
@@ -227,7 +227,7 @@ const fn address(index: u16, sub: u8) -> EntryAddress {
     EntryAddress { index: wire::ObjectIndex(index), sub: wire::SubIndex(sub) }
 }
 
-/// Wrong files, a line of `=` between them; what a user is told is in the snapshot.
+/// Wrong files, with a line of `=` between them; the messages for the user are in the snapshot.
 const WRONG: &[(&str, &str)] = &[
     ("empty file", ""),
     ("comment only", "# nothing\n"),
@@ -345,7 +345,7 @@ fn a_file_of_deep_tables_is_refused() {
     assert!(UnitFile::parse(&text).is_err());
 }
 
-/// Pieces that reach further into the reader than random letters do.
+/// Pieces that reach more of the reader than random letters do.
 fn pieces() -> impl Strategy<Value = String> {
     let piece = prop::sample::select(vec![
         "model",
@@ -400,7 +400,7 @@ proptest! {
     }
 }
 
-/// Nothing panics; every error lies in the text.
+/// Nothing panics; every error is inside the text.
 fn check_errors(text: &str) -> Result<(), TestCaseError> {
     if let Err(errors) = UnitFile::parse(text) {
         prop_assert!(errors.iter().count() > 0);

@@ -1,4 +1,4 @@
-//! Random settings of both sides: right ones, ones with one rule broken, and any.
+//! Random settings of both sides: correct ones, ones that violate one rule, and any.
 
 use nx_ect101::unit_file::EntryAddress;
 use nx_ect101::{Configuration, DataSetKind, Direction, IoAllocation, IoEntry, PdoEntry, PdoSettings};
@@ -11,7 +11,7 @@ use crate::model::{MAXIMUM, io_entry, pdo, pdo_entry};
 /// Index and subindex.
 pub(crate) type Address = (u16, u8);
 
-/// Both sides by way (0 is master to CPU Unit) and data set.
+/// Both sides by direction (0 is master to CPU Unit) and data set.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
     pub(crate) io: [[Vec<Address>; 3]; 2],
@@ -53,12 +53,12 @@ impl Settings {
     }
 }
 
-/// Counts of three data sets that hold together in 1,200 bytes, with room for a slip.
+/// Counts of three data sets that together fit into 1,200 bytes, with room for a mistake.
 fn small_counts() -> impl Strategy<Value = [u8; 3]> + Clone {
     [0..=20u8, 0..=9u8, 0..=31u8]
 }
 
-/// Counts of 1,200 bytes, the most that is exchanged.
+/// Counts of 1,200 bytes, the maximum that is exchanged.
 fn full_counts() -> impl Strategy<Value = [u8; 3]> + Clone {
     prop::sample::select(vec![[40, 0, 0], [38, 2, 10], [36, 10, 5]])
 }
@@ -75,7 +75,7 @@ pub(crate) fn unequal_settings() -> impl Strategy<Value = Settings> {
     sides.prop_map(|[a, b, c, d]| Settings::of([a, b], [c, d]))
 }
 
-/// Settings with any number of slips, none included.
+/// Settings with any number of mistakes, including none.
 pub(crate) fn any_settings() -> impl Strategy<Value = Settings> {
     let many = [0..=42u8, 0..=12u8, 0..=34u8];
     let counts = prop_oneof![4 => small_counts(), 1 => many, 1 => full_counts()];
@@ -89,20 +89,20 @@ pub(crate) fn any_settings() -> impl Strategy<Value = Settings> {
     })
 }
 
-/// A change that may break a rule.
+/// A change that may violate a rule.
 #[derive(Clone, Debug)]
 enum Slip {
     Swap(Place, Index, Index),
     Remove(Place, Index),
     Insert(Place, Index, Address),
-    /// So many neighbours.
+    /// This number of neighbours.
     Replace(Place, Index, usize, Address),
     Assign(bool, Index, u16),
     Unassign(bool, Index),
     SwapAssigned(bool, Index, Index),
 }
 
-/// A list of entries: I/O side or not, way, data set.
+/// A list of entries: I/O side or not, direction, data set.
 type Place = (bool, bool, usize);
 
 fn slip() -> impl Strategy<Value = Slip> {
@@ -168,16 +168,16 @@ fn insert<T>(list: &mut Vec<T>, at: &Index, element: T) {
     list.insert(at.index(list.len() + 1), element);
 }
 
-/// Settings with one rule broken, and its event.
+/// Settings that violate one rule, and its event.
 pub(crate) struct Break {
     pub(crate) settings: Settings,
     pub(crate) event: u32,
 }
 
-/// One rule to break, in one direction and on one side.
+/// One rule to violate, in one direction and on one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum BreakOf {
-    /// 5-3-1: the data set of this number is on one side only; the other one takes its place there.
+    /// 5-3-1: the data set with this number is only on one side; the other one replaces it there.
     Combination { way: usize, set: usize },
     /// 5-3-2.
     Total { io: bool, way: usize },
@@ -210,7 +210,7 @@ pub(crate) fn any_break() -> impl Strategy<Value = BreakOf> {
 }
 
 impl BreakOf {
-    /// Breaks the rule in right settings; the direction that is broken begins with 5, 4 and 3 entries.
+    /// Violates the rule in correct settings; the changed direction initially has 5, 4 and 3 entries.
     pub(crate) fn of(self, right: Settings) -> Break {
         let five_four_three = Settings::of([[5, 4, 3]; 2], [[5, 4, 3]; 2]);
         let mut settings = right;

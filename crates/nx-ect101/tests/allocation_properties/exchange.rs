@@ -7,10 +7,10 @@ use crate::CASES;
 use crate::configurations::{Settings, any_settings, unequal_settings};
 use crate::model::{ENTRY_BYTES, pdo, status_bytes};
 
-/// What was in an image before the plan was applied.
+/// The contents of an image before the plan was applied.
 const UNTOUCHED: u8 = 0xEE;
 
-/// Where entry k of each data set lies in the CPU Unit's image: one data set after the other.
+/// The position of entry k of each data set in the CPU Unit's image: one data set after the other.
 fn io_offset(settings: &Settings, way: usize, set: usize, entry: usize) -> usize {
     io_bytes(settings, way, set) + entry * ENTRY_BYTES[set]
 }
@@ -20,7 +20,7 @@ fn io_bytes(settings: &Settings, way: usize, sets: usize) -> usize {
     (0..sets).map(|set| settings.io[way][set].len() * ENTRY_BYTES[set]).sum()
 }
 
-/// Where entry k of each data set lies in the SyncManager: in the order of the assignment, status in between.
+/// The position of entry k of each data set in the SyncManager: in the order of the assignment, status in between.
 fn pdo_offset(settings: &Settings, way: usize, set: usize, entry: usize) -> usize {
     let before = settings.assigned[way].iter().take_while(|&&index| index != pdo(way, set));
     before.map(|&index| pdo_bytes(settings, way, index)).sum::<usize>() + entry * ENTRY_BYTES[set]
@@ -38,14 +38,14 @@ fn lengths(settings: &Settings, way: usize) -> (usize, usize) {
     (io, pdo)
 }
 
-/// Entries that both sides have.
+/// Entries that exist on both sides.
 fn common(settings: &Settings, way: usize, set: usize) -> usize {
     let assigned = settings.assigned[way].contains(&pdo(way, set));
     let pdo = if assigned { settings.pdo[way][set].len() } else { 0 };
     settings.io[way][set].len().min(pdo)
 }
 
-/// The image that a plan of `way` should leave behind.
+/// The expected image after a plan of `way`.
 fn expected(settings: &Settings, way: usize, from: &[u8], length: usize) -> Vec<u8> {
     let mut image = vec![UNTOUCHED; length];
     for set in 0..3 {

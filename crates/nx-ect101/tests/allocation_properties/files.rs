@@ -1,4 +1,4 @@
-//! Settings by way of a unit file: the order of its tables and keys changes nothing.
+//! Settings from a unit file: the order of its tables and keys changes nothing.
 
 use nx_ect101::Configuration;
 use nx_ect101::unit_file::UnitFile;
@@ -41,7 +41,7 @@ fn file(tables: &[(String, Vec<String>)]) -> String {
     format!("model = \"nx-ect101\"\n{}", tables.collect::<String>())
 }
 
-/// The tables, and the same in another order, lines too.
+/// The tables, and the same in another order, including their lines.
 fn two_orders() -> impl Strategy<Value = (Settings, String)> {
     any_settings().prop_flat_map(|settings| {
         let shuffled = tables(&settings)

@@ -1,4 +1,4 @@
-//! The allocator against an independent model: findings, their order, and every byte of the exchange.
+//! The allocator, compared with an independent model: findings, their order, and every byte of the exchange.
 
 #![expect(clippy::needless_range_loop, reason = "a data set is its number, in several lists at once")]
 
@@ -16,10 +16,10 @@ use proptest::test_runner::TestRunner;
 
 use configurations::{Break, any_break, any_settings, right_settings};
 
-/// Cases of each property; together they are more than the 20,000 that the rules are held to.
+/// Cases of each property; together they are more than the 20,000 that are required for the rules.
 const CASES: u32 = 20_000;
 
-/// A finding as the model tells it.
+/// A finding in the form of the model.
 fn told(finding: &Finding) -> model::Told {
     model::Told {
         event: finding.event.0,
@@ -30,7 +30,7 @@ fn told(finding: &Finding) -> model::Told {
     }
 }
 
-/// The properties would prove little of a rule that random settings never break.
+/// The properties would prove little about a rule that random settings never violate.
 #[test]
 fn random_settings_break_every_rule_and_none() {
     let mut runner = TestRunner::deterministic();

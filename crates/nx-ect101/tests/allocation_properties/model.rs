@@ -1,8 +1,8 @@
-//! The setting rules once more, from the words of the manual and not from the code (5-3, 7-5-4, 8-3-4).
+//! The setting rules again, written from the manual and not from the code (5-3, 7-5-4, 8-3-4).
 
 use crate::configurations::{Address, Settings};
 
-/// What is told of a finding.
+/// The reported data of a finding.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Told {
     pub(crate) event: u32,
@@ -60,7 +60,7 @@ pub(crate) fn findings(settings: &Settings) -> Vec<Told> {
     for (way, direction) in WAYS.into_iter().filter(|&(way, _)| sound[way]) {
         unequal.extend(mismatch(settings, way, direction));
     }
-    // 5-3-1 stands before 5-3-5.
+    // 5-3-1 comes before 5-3-5.
     unequal.sort_by_key(|finding| finding.rule != "combination");
     told.extend(unequal);
     told
@@ -151,8 +151,8 @@ fn entry_order(settings: &Settings, told: &mut Vec<Told>) {
     }
 }
 
-/// Between two neighbours of the right type, no more subindexes are missing than entries of a wrong type stand
-/// there; nothing empty stands before an entry of the right type.
+/// Between two neighbours of the correct type, the number of missing subindexes does not exceed the number of
+/// entries of a wrong type between them; there is no empty element before an entry of the correct type.
 fn in_order(entries: &[Address], index: u16, maximum: u8, knows_empty: bool) -> bool {
     let right = |entry: &Address| entry.0 == index && (1..=maximum).contains(&entry.1);
     let places: Vec<usize> = (0..entries.len()).filter(|&place| right(&entries[place])).collect();
@@ -187,7 +187,7 @@ fn total(settings: &Settings, told: &mut Vec<Told>) {
     }
 }
 
-/// 5-3-1 and 5-3-5, of a direction whose other rules are satisfied: one event.
+/// 5-3-1 and 5-3-5, in a direction whose other rules are satisfied: one event.
 fn mismatch(settings: &Settings, way: usize, direction: &'static str) -> Option<Told> {
     let io = |set: usize| settings.io[way][set].len();
     let pdo_entries = |set: usize| match settings.assigned[way].contains(&pdo(way, set)) {

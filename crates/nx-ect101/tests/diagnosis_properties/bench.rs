@@ -1,4 +1,4 @@
-//! The unit between a master, a CPU Unit and a memory, by its public faces.
+//! The unit between a master, a CPU Unit and a memory, through its public interfaces.
 
 use device::{Action, Check, Exchange, PortLinks, RefreshCause, SmIndex, Start, Unit};
 use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
@@ -13,7 +13,7 @@ use crate::settings::{IoSetting, PdoSetting};
 
 const NOW: Instant = Instant::ZERO;
 
-/// A unit under power, and what is around it.
+/// A unit with power, and its environment.
 #[derive(Debug)]
 pub(crate) struct Bench {
     pub(crate) unit: NxEct101,
@@ -30,7 +30,7 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    /// Power comes for the first time; the user has made these events observations.
+    /// The first power-on; the user has set these events to observation.
     pub(crate) fn power_on(
         io: &IoSetting,
         newest_acknowledged: NewestAcknowledged,
@@ -59,7 +59,7 @@ impl Bench {
         bench
     }
 
-    /// Power goes and comes: the unit finds the bytes that were stored, or cannot read them.
+    /// A power cycle: the unit finds the bytes that were stored, or cannot read them.
     pub(crate) fn cycle_power(&mut self, damaged: bool) {
         let memory = match NonVolatileMemory::decode(&self.stored).expect("what a unit has stored") {
             _ if damaged => MemoryAtPowerOn::Damaged,
@@ -70,7 +70,7 @@ impl Bench {
         self.state = AlState::Init;
     }
 
-    /// Stores the memory if the unit says so.
+    /// Stores the memory if the unit requests it.
     pub(crate) fn store(&mut self) {
         if self.unit.take_memory_change(&self.sii_image, 0) {
             self.unit.memory().encode_into(&mut self.stored);
@@ -118,7 +118,7 @@ impl Bench {
         self.unit.refresh(NOW, Exchange { cause, state: self.state, links, outputs: None, inputs });
     }
 
-    /// The bytes of all emergency messages that wait, `most` at most.
+    /// The bytes of all waiting emergency messages, `most` at most.
     pub(crate) fn take_emergencies(&mut self, most: usize) -> Vec<[u8; 8]> {
         let mut emergencies = Vec::new();
         while emergencies.len() < most {
@@ -145,7 +145,7 @@ impl Bench {
         self.sdo.upload(objects, index, sub).expect("an entry that exists")
     }
 
-    /// Writes mapping and assignment objects as masters do it.
+    /// Writes mapping and assignment objects with the sequence of masters.
     pub(crate) fn map(&mut self, setting: &PdoSetting) {
         for (index, elements, width) in [
             (0x1C12, &setting.assigned_rx, 2),

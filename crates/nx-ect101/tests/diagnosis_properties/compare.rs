@@ -1,4 +1,4 @@
-//! What each side is told, read back and compared with the model.
+//! The reports to each side, read back and compared with the model.
 
 use nx_ect101::{ErrorLog, EventLevel, LogRecord};
 use proptest::prelude::*;
@@ -9,11 +9,12 @@ use crate::model::{CURRENT, Error, Model};
 use crate::rows::{INFORMATION, MINOR_FAULT, OBSERVATION};
 use crate::run::Run;
 
-/// Most bytes that a memory with full logs takes, beside its EEPROM image: 37 records of 30 bytes, and a head.
+/// Maximum length in bytes of a memory with full logs, in addition to its EEPROM image: 37 records of 30 bytes,
+/// and a header.
 const LOGS_BYTES_MAX: usize = 37 * 30 + 32;
 
 impl Run {
-    /// A refresh, and what it tells both sides.
+    /// A refresh, and its reports to both sides.
     pub(crate) fn refresh(&mut self, time_ns: u64, refreshing: bool) -> TestCaseResult {
         self.bench.refresh(time_ns, refreshing);
         self.model.refresh(time_ns, refreshing);
@@ -96,7 +97,7 @@ impl Run {
         compare_log(self.bench.unit.error_log(), self.model.log.shown())
     }
 
-    /// What is stored.
+    /// The stored memory.
     fn compare_memory(&self) -> TestCaseResult {
         let memory = nx_ect101::NonVolatileMemory::decode(&self.bench.stored);
         let memory = memory.map_err(|damage| TestCaseError::fail(damage.to_string()))?;

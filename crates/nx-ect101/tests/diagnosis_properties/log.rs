@@ -1,5 +1,5 @@
-//! Both event logs as the manual tells them (8-3-2, 8-4-2, A-6-4): everything since the last clear, of which the
-//! newest show.
+//! Both event logs as in the manual (8-3-2, 8-4-2, A-6-4): everything since the last clear, of which the newest
+//! records are visible.
 
 use crate::rows::emergency_code;
 
@@ -20,7 +20,8 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// The diagnosis message. One piece of attached information is 32 bits wide; of several, two of 16 bits fit.
+    /// The diagnosis message. A single piece of attached information is 32 bits wide; if there are several, two
+    /// of 16 bits fit.
     pub(crate) fn message(&self) -> Vec<u8> {
         let (data_type, width, fitting) = if self.details.len() == 1 { (7u16, 4, 1) } else { (6, 2, 2) };
         let shown: Vec<u32> = self.details.iter().copied().take(fitting).collect();
@@ -38,12 +39,12 @@ impl Record {
     }
 }
 
-/// What the non-volatile memory keeps.
+/// The contents of the non-volatile memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Log {
     /// Everything since the last clear, the oldest first.
     pub(crate) history: Vec<Record>,
-    /// The newest record was acknowledged.
+    /// The newest record has been acknowledged.
     pub(crate) acknowledged: bool,
     /// Everything since the last clear, the oldest first.
     pub(crate) access: Vec<Record>,
@@ -75,7 +76,7 @@ impl Log {
         !self.history.is_empty() && !self.acknowledged
     }
 
-    /// What is at a subindex of 10F3: the newest of all that ever went there.
+    /// The record at a subindex of 10F3: the newest of all that were ever stored there.
     pub(crate) fn at(&self, sub: u8) -> Option<&Record> {
         let place = usize::from(sub.checked_sub(FIRST)?);
         self.history.iter().enumerate().rfind(|(nth, _)| nth % HISTORY == place).map(|(_, record)| record)

@@ -1,4 +1,4 @@
-//! The diagnosis against an independent model: every channel after every step of random sequences.
+//! The diagnosis, compared with an independent model: every channel after every step of random sequences.
 
 #![expect(clippy::expect_used, reason = "a panic here is a failed test")]
 
@@ -26,7 +26,7 @@ use run::Run;
 /// Sequences of operations.
 const SEQUENCES: u32 = 5_000;
 
-/// The property would prove little of what random sequences never come by.
+/// The property would prove little about situations that random sequences never reach.
 #[test]
 fn random_sequences_come_by_every_event_and_every_corner() {
     let mut runner = TestRunner::deterministic();

@@ -1,4 +1,4 @@
-//! A unit's diagnosis as the manual tells it (8-3 to 8-6, A-6-4, A-6-7), in plain lists.
+//! A unit's diagnosis as in the manual (8-3 to 8-6, A-6-4, A-6-7), in plain lists.
 
 mod requests;
 
@@ -14,10 +14,10 @@ use crate::settings::{IoSetting, PdoSetting, Told};
 
 /// Current errors, observations and minor faults together (8-3-2).
 pub(crate) const CURRENT: usize = 10;
-/// Emergency messages that wait.
+/// Maximum number of waiting emergency messages.
 pub(crate) const WAITING: usize = 16;
 
-/// Situations that random sequences have to come by.
+/// Situations that random sequences must reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Situation {
     Event(u32),
@@ -36,7 +36,7 @@ pub(crate) enum Situation {
     CauseGoneBeforeReset,
 }
 
-/// An error that exists.
+/// A current error.
 #[derive(Clone, Debug)]
 pub(crate) struct Error {
     pub(crate) level: u16,
@@ -52,17 +52,17 @@ impl Error {
     }
 }
 
-/// The unit, as far as its events go.
+/// The unit, for its events.
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) log: Log,
-    /// What was last stored.
+    /// The memory as last stored.
     pub(crate) stored: Log,
     log_changed: bool,
     /// In the order in which they occurred.
     pub(crate) errors: Vec<Error>,
     pub(crate) error_status: u8,
-    /// Settings that are wrong and mismatches that last.
+    /// Wrong settings and mismatches that persist.
     standing: Vec<(u32, Vec<u32>)>,
     /// Causes by injection.
     injected: BTreeSet<Fault>,
@@ -70,30 +70,30 @@ pub(crate) struct Model {
     memory_damaged: bool,
     /// The controller could not load the SII.
     sii_not_loaded: bool,
-    /// The CPU Unit did refresh I/O and does no more.
+    /// The CPU Unit did refresh I/O and no longer does.
     cpu_stopped: bool,
     cpu_refreshing: bool,
     found: BTreeSet<Fault>,
-    /// What the start has found and the first refresh will tell.
+    /// The findings of the start, which the first refresh will report.
     untold: BTreeSet<Fault>,
     is_starting: bool,
     pub(crate) emergencies: Vec<[u8; 8]>,
     pub(crate) emergencies_lost: u64,
     pub(crate) emergencies_enabled: bool,
     pub(crate) last_acknowledged: u8,
-    /// Mismatch levels as set, and as in force since the start.
+    /// Mismatch levels as set, and as effective since the start.
     set_levels: Vec<(u32, u16)>,
     levels: Vec<(u32, u16)>,
     time_ns: u64,
     pub(crate) state: AlState,
     io: IoSetting,
-    /// The mapping that the unit entered SAFE-OP with.
+    /// The mapping with which the unit entered SAFE-OP.
     pub(crate) mapped: PdoSetting,
     pub(crate) seen: BTreeSet<Situation>,
 }
 
 impl Model {
-    /// Power comes for the first time; the user has made these events observations.
+    /// The first power-on; the user has set these events to observation.
     pub(crate) fn power_on(io: IoSetting, mapped: PdoSetting, observations: &[u32]) -> Self {
         let levels: Vec<_> = observations.iter().map(|&event| (event, OBSERVATION)).collect();
         Self {
@@ -125,10 +125,10 @@ impl Model {
         }
     }
 
-    /// Power goes and comes. Only what was stored is left, if it can be read.
+    /// A power cycle. Only the stored data are kept, if they can be read.
     pub(crate) fn cycle_power(&mut self, damaged: bool) {
         self.log = if damaged { Log::default() } else { self.stored.clone() };
-        // A new memory is to be stored as soon as it is sound.
+        // A new memory must be stored as soon as the hardware works.
         self.log_changed = damaged;
         self.injected.clear();
         self.memory_damaged = damaged;
@@ -139,7 +139,7 @@ impl Model {
         self.start();
     }
 
-    /// The unit is started again, and keeps its voltage or not; or its controller alone is reset.
+    /// The unit is restarted, with or without a power cycle; or only its controller is reset.
     pub(crate) fn restart(&mut self, start: Start) {
         if start == Start::EscReset {
             return self.enter(AlState::Init);
@@ -152,7 +152,7 @@ impl Model {
         }
     }
 
-    /// The unit starts (8-6): the current errors are gone, the logs stay.
+    /// The unit starts (8-6): the current errors are cleared, the logs are kept.
     fn start(&mut self) {
         self.clear_errors();
         self.standing.clear();
@@ -168,7 +168,7 @@ impl Model {
         self.untold.clone_from(&self.found);
     }
 
-    /// Whether the cause of a fault is there.
+    /// Whether there is a cause of a fault.
     fn is_present(&self, fault: Fault) -> bool {
         let is_seen = match fault {
             Fault::NonVolatileMemory => self.memory_damaged,
@@ -179,7 +179,7 @@ impl Model {
         is_seen || self.injected.contains(&fault)
     }
 
-    /// What is stored follows the log. What changes while the memory is broken is stored with the first change
+    /// The stored memory follows the log. Changes while the memory is broken are stored with the first change
     /// after that.
     pub(crate) fn store(&mut self) {
         let broken = self.found.contains(&Fault::NonVolatileMemory);
@@ -196,7 +196,7 @@ impl Model {
         self.error_status != 0 || self.found.contains(&Fault::NonVolatileMemory)
     }
 
-    /// What keeps the unit in INIT: the AL status code of the first fault that has one, else 0.
+    /// The AL status code that keeps the unit in INIT: that of the first fault that has one, else 0.
     pub(crate) fn fault(&self) -> Option<u16> {
         let found = FAULTS.iter().filter(|row| self.found.contains(&row.fault));
         let codes: Vec<u16> = found.filter_map(|row| row.stops_in_init).collect();
@@ -236,7 +236,7 @@ impl Model {
         }
     }
 
-    /// Ten errors, the oldest and highest first (8-3-2); the status tells the others too.
+    /// Ten errors, the oldest and highest first (8-3-2); the status includes the others too.
     fn exists(&mut self, error: Error) {
         match error.level {
             MINOR_FAULT => self.error_status |= 0x20,
@@ -262,7 +262,7 @@ impl Model {
         self.errors.push(error);
     }
 
-    /// An emergency message, if the master wants them and the event has one.
+    /// An emergency message, if the master has enabled them and the event has one.
     fn notify(&mut self, event: u32) {
         let Some(code) = rows::emergency_code(event) else { return };
         if !self.emergencies_enabled || !rows::can_be_notified(event) {

@@ -1,4 +1,4 @@
-//! What can happen to a unit, at random.
+//! Random operations on a unit.
 
 use device::Start;
 use nx_ect101::{EventLevel, EventLog, Fault};
@@ -8,24 +8,24 @@ use wire::AlState;
 
 use crate::rows::{MISMATCH_C_TO_M, MISMATCH_M_TO_C};
 
-/// Operations of one sequence at most.
+/// Maximum number of operations of one sequence.
 const LENGTH_MAX: usize = 48;
-/// What the stack has to say against settings, in the order in which the first one counts.
+/// The codes that the stack may find in the settings, in the order of their priority.
 const AGAINST_SETTINGS: [u16; 5] = [0x001D, 0x001E, 0x0030, 0x0029, 0x001F];
-/// What else it tells: one code of BOOT and one that is no event of the unit.
+/// Other codes of the stack: one code of BOOT and one without an event of the unit.
 const AL_ERRORS: [u16; 8] = [0x0011, 0x0012, 0x0013, 0x0016, 0x001B, 0x001D, 0x001E, 0x0042];
 
-/// How a unit is set up.
+/// The settings of a unit.
 #[derive(Clone, Debug)]
 pub(crate) struct Setup {
     pub(crate) io: Index,
-    /// Object 10F3:03 reads what was written last.
+    /// Object 10F3:03 reads the value written last.
     pub(crate) reads_last_acknowledged: bool,
-    /// The user has made both mismatches observations.
+    /// The user has set both mismatches to observation.
     pub(crate) mismatches_are_observations: bool,
 }
 
-/// One thing that happens.
+/// One operation.
 #[derive(Clone, Debug)]
 pub(crate) enum Operation {
     Inject(Fault),
@@ -45,7 +45,7 @@ pub(crate) enum Operation {
     TakeEmergencies(usize),
 }
 
-/// An SDO download, right or wrong.
+/// An SDO download, correct or not.
 #[derive(Clone, Debug)]
 pub(crate) enum Write {
     Acknowledge(u8),
@@ -89,7 +89,7 @@ fn operations() -> impl Strategy<Value = Operation> {
     ]
 }
 
-/// Those that leave the unit in its state come more often, so that there is more to tell.
+/// Those that do not change the state of the unit are more frequent, so that there are more reports.
 fn faults() -> impl Strategy<Value = Fault> {
     prop_oneof![
         select(Fault::ALL.to_vec()),
@@ -101,7 +101,7 @@ fn al_errors() -> impl Strategy<Value = Operation> {
     (select(AL_ERRORS.to_vec()), often()).prop_map(|(code, times)| Operation::AlErrors { code, times })
 }
 
-/// Mostly once, and now and then more often than there are records.
+/// Usually once, and sometimes more often than there are records.
 fn often() -> impl Strategy<Value = u8> {
     prop_oneof![9 => Just(1), 1 => 2..=40u8]
 }

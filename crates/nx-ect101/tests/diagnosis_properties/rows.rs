@@ -1,8 +1,8 @@
-//! The events once more, from the words of the manual and not from the table of the code (8-3-3, 8-4-3, 8-5-2).
+//! The events again, written from the manual and not from the table of the code (8-3-3, 8-4-3, 8-5-2).
 
 use nx_ect101::Fault;
 
-/// Event level as a diagnosis message tells it (A-6-4).
+/// Event level in a diagnosis message (A-6-4).
 pub(crate) const INFORMATION: u16 = 0;
 pub(crate) const OBSERVATION: u16 = 1;
 pub(crate) const MINOR_FAULT: u16 = 2;
@@ -15,7 +15,7 @@ pub(crate) const MESSAGE_DISCARDED: u32 = 0x8022_0000;
 pub(crate) const LOG_CLEARED: u32 = 0x9040_0000;
 pub(crate) const RESTARTED: u32 = 0x94B8_0000;
 
-/// Emergency error codes with their events (8-4-3). What is not here is in no error log of object 10F3.
+/// Emergency error codes with their events (8-4-3). Events that are not listed are in no error log of object 10F3.
 const EMERGENCY_CODES: [(u16, &[u32]); 21] = [
     (0x5540, &[0x1041_0000]),
     (0x5600, &[0x0945_0000]),
@@ -48,7 +48,7 @@ pub(crate) fn emergency_code(event: u32) -> Option<u16> {
     mismatch.or_else(|| EMERGENCY_CODES.iter().find(|row| row.1.contains(&event)).map(|row| row.0))
 }
 
-/// Whether an emergency message can tell it: "Possible" (8-4-3).
+/// Whether an emergency message can report it: "Possible" (8-4-3).
 pub(crate) fn can_be_notified(event: u32) -> bool {
     matches!(emergency_code(event), Some(0x5540 | 0x6350..=0x6355 | 0xFF20 | 0xFF30 | 0xFF31))
 }
@@ -62,7 +62,7 @@ pub(crate) fn level(event: u32) -> u16 {
     }
 }
 
-/// The access event log keeps it (8-3-3, log category).
+/// Recorded in the access event log (8-3-3, log category).
 pub(crate) fn is_access_event(event: u32) -> bool {
     matches!(event, LOG_CLEARED | RESTARTED)
 }
@@ -72,9 +72,9 @@ pub(crate) fn is_access_event(event: u32) -> bool {
 pub(crate) enum Found {
     AtStart,
     AtOnce,
-    /// By the check that looks for it.
+    /// By the check for it.
     ByCheck,
-    /// Whenever it is injected, and it does not last.
+    /// At each injection, and it does not persist.
     Passing,
 }
 
@@ -91,7 +91,7 @@ const fn row(fault: Fault, event: u32, found: Found, stops_in_init: Option<u16>)
     FaultRow { fault, event, found, stops_in_init }
 }
 
-/// In the order in which they count.
+/// In the order of their priority.
 pub(crate) const FAULTS: [FaultRow; 9] = [
     row(Fault::NonVolatileMemory, MEMORY_BROKEN, Found::AtStart, Some(0x0002)),
     row(Fault::Esc, 0x0945_0000, Found::AtStart, Some(0)),
@@ -109,7 +109,7 @@ pub(crate) fn of_fault(fault: Fault) -> FaultRow {
     FAULTS.into_iter().find(|row| row.fault == fault).expect("every fault has a row")
 }
 
-/// The event of an AL status code that the stack finds, and what the master reads for it (8-5-2). The unit's list
+/// The event of an AL status code that the stack finds, and the code for the master (8-5-2). The unit's list
 /// has no code for a bootstrap that does not exist.
 pub(crate) fn of_al_status_code(code: u16) -> (Option<u32>, u16) {
     let event = match code {

@@ -1,4 +1,4 @@
-//! Unit and model side by side: every operation is done to both, and what they answer is compared.
+//! Unit and model in parallel: both execute every operation, and their answers are compared.
 
 use device::{Check, Start};
 use nx_ect101::{EventCode, EventLevel, EventLog, NewestAcknowledged};
@@ -17,7 +17,7 @@ use crate::settings::{PdoSetting, io_settings, pdo_settings};
 pub(crate) struct Run {
     pub(crate) bench: Bench,
     pub(crate) model: Model,
-    /// Object 10F3:03 reads what was written last.
+    /// Object 10F3:03 reads the value written last.
     pub(crate) reads_last_acknowledged: bool,
     pdo_settings: Vec<PdoSetting>,
 }
@@ -43,7 +43,7 @@ impl Run {
         }
     }
 
-    /// Does one thing to both, then what a slave stack and a memory do with every step.
+    /// Executes one operation on both, and then the regular actions of a slave stack and a memory.
     pub(crate) fn step(&mut self, operation: &Operation) -> TestCaseResult {
         match operation {
             Operation::AlErrors { code, times } => {
@@ -77,7 +77,7 @@ impl Run {
         Ok(())
     }
 
-    /// What hardware, CPU Unit and user do.
+    /// The actions of hardware, CPU Unit and user.
     fn do_outside(&mut self, operation: &Operation) -> TestCaseResult {
         let Self { bench, model, .. } = self;
         match operation {
@@ -131,7 +131,7 @@ impl Run {
         self.model.enter(state);
     }
 
-    /// The slave goes down, if `state` is below where it is.
+    /// The slave goes to a lower state, if `state` is below its present one.
     fn leave_for(&mut self, state: AlState) {
         let ladder = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];
         let height = |state| ladder.iter().position(|&step| step == state);
@@ -140,7 +140,7 @@ impl Run {
         }
     }
 
-    /// The master goes to INIT and asks for PRE-OP.
+    /// The master goes to INIT and requests PRE-OP.
     fn ask_for_pre_op(&mut self, found: &[u16]) -> TestCaseResult {
         if self.model.fault().is_some() {
             return Ok(());
@@ -154,7 +154,7 @@ impl Run {
         Ok(())
     }
 
-    /// The master goes to PRE-OP, sets the mapping and asks for SAFE-OP.
+    /// The master goes to PRE-OP, sets the mapping and requests SAFE-OP.
     fn ask_for_safe_op(&mut self, setting: &PdoSetting, found: &[u16]) -> TestCaseResult {
         if self.model.state == AlState::Init {
             self.ask_for_pre_op(&[])?;
@@ -206,7 +206,7 @@ impl Run {
         let code = EventCode(event);
         let taken = self.bench.unit.set_event_level(code, level).is_ok();
         prop_assert_eq!(taken, self.model.set_level(event, number));
-        // A user's setting outlasts the power.
+        // A user's setting is kept without power.
         prop_assert_eq!(self.bench.settings.event_levels.set(code, level).is_ok(), taken);
         Ok(())
     }

@@ -6,7 +6,7 @@ use objects::ObjectServer;
 use wire::AlState;
 
 const SIZES: MailboxSizes = MailboxSizes { receive_bytes: 128, send_bytes: 128 };
-/// Initiate download, size told, and initiate upload.
+/// Initiate download with size indicated, and initiate upload.
 const DOWNLOAD: u8 = 0x21;
 const UPLOAD: u8 = 0x40;
 const ABORT: u8 = 0x80;
@@ -44,7 +44,7 @@ impl Sdo {
         Ok(if is_expedited { tail[..4 - unused].to_vec() } else { tail[4..].to_vec() })
     }
 
-    /// The SDO response: command, then what follows index and subindex; or the abort code.
+    /// The SDO response: command, then the bytes after index and subindex; or the abort code.
     fn exchange(
         &mut self,
         objects: &mut dyn ObjectServer,

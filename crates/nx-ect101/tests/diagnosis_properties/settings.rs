@@ -1,11 +1,11 @@
-//! Settings of both sides, right and wrong, with the events that the manual has for them (5-3, 8-3-4).
+//! Settings of both sides, correct and not, with their events in the manual (5-3, 8-3-4).
 
 use nx_ect101::{DataSetKind, Direction, IoAllocation, IoEntry, ObjectIndex, SubIndex};
 
 /// An event with its attached information 1.
 pub(crate) type Told = (u32, Option<u32>);
 
-/// What a master sets before it asks for SAFE-OP, as the elements of the objects.
+/// The settings of a master before it requests SAFE-OP, as the elements of the objects.
 #[derive(Clone, Debug)]
 pub(crate) struct PdoSetting {
     pub(crate) assigned_rx: Vec<u32>,
@@ -14,19 +14,19 @@ pub(crate) struct PdoSetting {
     pub(crate) rx: Vec<u32>,
     /// 1A01.
     pub(crate) tx: Vec<u32>,
-    /// What keeps the unit in PRE-OP, in the order of the rules.
+    /// The events that keep the unit in PRE-OP, in the order of the rules.
     pub(crate) broken: &'static [Told],
-    /// Whether the sizes do not match what the CPU Unit has allocated: M to C, C to M.
+    /// Whether the sizes differ from the allocation of the CPU Unit: M to C, C to M.
     pub(crate) mismatch: [bool; 2],
 }
 
 impl PdoSetting {
-    /// Where New Messages Available lies among the inputs: the byte, whose bit 0 it is.
+    /// The position of New Messages Available in the inputs: the byte, in which it is bit 0.
     pub(crate) fn new_messages_at(&self) -> usize {
         2 + 30 * self.tx.len()
     }
 
-    /// Where Sysmac Error Status lies among the inputs; none if it is not assigned.
+    /// The position of Sysmac Error Status in the inputs; none if it is not assigned.
     pub(crate) fn error_status_at(&self) -> Option<usize> {
         self.assigned_tx.contains(&0x1BFF).then(|| self.new_messages_at() + 1)
     }
@@ -37,7 +37,7 @@ fn arrays(index: u32, count: u32) -> Vec<u32> {
     (1..=count).map(|sub| index << 16 | sub << 8 | 0xF0).collect()
 }
 
-/// Everything right, with all status.
+/// Everything correct, with all status.
 fn right() -> PdoSetting {
     PdoSetting {
         assigned_rx: vec![0x1601],
@@ -81,7 +81,7 @@ pub(crate) fn pdo_settings() -> Vec<PdoSetting> {
             broken: &[(0x392C_0000, None)],
             ..factory
         },
-        // It is refused for the one direction and does not match in the other.
+        // It is refused for one direction and does not match in the other.
         PdoSetting {
             assigned_tx: vec![0x1A00, 0x1A01, 0x1A03, 0x1BFE],
             rx: arrays(0x7000, 1),
@@ -93,11 +93,11 @@ pub(crate) fn pdo_settings() -> Vec<PdoSetting> {
     ]
 }
 
-/// What the CPU Unit has allocated.
+/// The allocation of the CPU Unit.
 #[derive(Clone, Debug)]
 pub(crate) struct IoSetting {
     pub(crate) allocation: IoAllocation,
-    /// What keeps I/O refreshing from starting, in the order of the rules.
+    /// The events that prevent the start of I/O refreshing, in the order of the rules.
     pub(crate) broken: &'static [Told],
     /// Whether a direction can be compared with the master's side: M to C, C to M.
     pub(crate) is_sound: [bool; 2],
@@ -114,7 +114,7 @@ fn allocate(m_to_c: &[(u16, u8)], c_to_m: &[(u16, u8)]) -> IoAllocation {
     allocation
 }
 
-/// The factory setting with more data than the unit exchanges.
+/// The factory setting with more data than the unit can exchange.
 fn too_much() -> IoAllocation {
     let mut allocation = IoAllocation::empty();
     for direction in Direction::ALL {

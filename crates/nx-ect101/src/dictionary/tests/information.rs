@@ -5,7 +5,7 @@ use wire::{EntryDescription, SdoInfoOpcode};
 
 use super::*;
 
-/// Default, minimum, maximum, and what is in the access word.
+/// Default, minimum, maximum, and the bits of the access word.
 const EVERYTHING: u8 = 0x77;
 
 struct Bench {

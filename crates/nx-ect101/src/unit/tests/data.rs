@@ -26,7 +26,7 @@ impl Bench {
         objects.write(ObjectIndex(index), SubIndex(sub), value)
     }
 
-    /// Lets the CPU Unit ask for one object; the answer comes with a refresh.
+    /// A request of the CPU Unit for one object; the answer arrives with a refresh.
     fn nx(&mut self, index: u16, value: Option<&[u8]>) -> Result<Vec<u8>, NxMessageError> {
         self.nx_entry(index, 1, value)
     }
@@ -41,7 +41,7 @@ impl Bench {
         response.result.map(|value| value.to_vec())
     }
 
-    /// Whether a status has changed that the master is to see at once.
+    /// Whether a status has changed that the master must see immediately.
     fn wants_refresh(&mut self) -> bool {
         core::iter::from_fn(|| self.unit.take_action()).any(|action| action == Action::Refresh)
     }
@@ -285,7 +285,7 @@ fn a_message_that_finds_no_room_is_an_event() {
     assert_eq!(records[0].details.as_slice(), [0, 0], "system information, NX bus");
 }
 
-/// Factory mapping of 6 UINT arrays, and a CPU Unit that has allocated 7 each way.
+/// Factory mapping of 6 UINT arrays, and a CPU Unit that has allocated 7 in each direction.
 fn seven_of_six() -> Bench {
     let mut bench =
         Bench::power_on(&UnitSettings { io_allocation: symmetric([7, 0, 0]), ..UnitSettings::default() });

@@ -1,4 +1,4 @@
-//! What is done to the unit: by the hardware, the CPU Unit, a user and the master.
+//! The actions on the unit: of the hardware, the CPU Unit, a user and the master.
 
 use nx_ect101::Fault;
 use wire::AlState;
@@ -7,9 +7,9 @@ use super::{Error, Model, Situation};
 use crate::rows::{self, FAULTS, Found, MINOR_FAULT, MISMATCH_C_TO_M, MISMATCH_M_TO_C, OBSERVATION};
 use crate::settings::PdoSetting;
 
-/// Abort code of a value that an entry does not take.
+/// Abort code of a value that an entry does not accept.
 const VALUE_RANGE: u32 = 0x0609_0030;
-/// What 2100 takes: "elcl".
+/// The value that 2100 accepts: "elcl".
 const CLEAR_HISTORY: u32 = 0x6C63_6C65;
 
 /// Hardware and CPU Unit.
@@ -35,7 +35,7 @@ impl Model {
         }
     }
 
-    /// An I/O communications error is over with its cause, even if nobody resets it.
+    /// An I/O communications error ends with its cause, even without a reset.
     fn forget_bygone(&mut self, fault: Fault) {
         if fault == Fault::IoCommunications && !self.is_present(fault) && self.found.remove(&fault) {
             self.untold.remove(&fault);
@@ -43,7 +43,7 @@ impl Model {
         }
     }
 
-    /// A fault is told when it is found, and not again while it is there.
+    /// A fault is reported when it is found, and not again while it is present.
     fn find(&mut self, fault: Fault) {
         if self.found.insert(fault) {
             self.tell_fault(fault);
@@ -55,7 +55,7 @@ impl Model {
         self.occurs(rows::of_fault(fault).event, vec![0; system_information]);
     }
 
-    /// A refresh, with the system time of the CPU Unit. The first one tells what the start has found.
+    /// A refresh, with the system time of the CPU Unit. The first one reports the findings of the start.
     pub(crate) fn refresh(&mut self, time_ns: u64, refreshing: bool) {
         self.time_ns = time_ns;
         if core::mem::take(&mut self.is_starting) {
@@ -90,7 +90,7 @@ impl Model {
 
 /// A user at the CPU Unit's side.
 impl Model {
-    /// The errors are reset (8-6); what still has its cause occurs again: faults in their order, then settings.
+    /// The errors are reset (8-6); those whose cause persists occur again: faults in their order, then settings.
     pub(crate) fn reset_errors(&mut self) {
         self.clear_errors();
         let io = Fault::IoCommunications;
@@ -105,7 +105,7 @@ impl Model {
             if self.is_present(row.fault) {
                 self.tell_fault(row.fault);
             } else if row.event != rows::MEMORY_BROKEN {
-                // It stays until the unit starts.
+                // It remains until the unit starts.
                 self.seen.insert(Situation::CauseGoneBeforeReset);
                 let detail = (row.fault == Fault::Processing).then_some(0);
                 self.exists(Error { level: MINOR_FAULT, event: row.event, detail });
@@ -125,7 +125,7 @@ impl Model {
         self.occurs(rows::LOG_CLEARED, vec![number]);
     }
 
-    /// Whether the level can be changed; it is in force from the next start on (6-5-1).
+    /// Whether the level can be changed; it is effective from the next start (6-5-1).
     pub(crate) fn set_level(&mut self, event: u32, level: u16) -> bool {
         let changeable = matches!(event, MISMATCH_C_TO_M | MISMATCH_M_TO_C);
         let taken = changeable && matches!(level, OBSERVATION | MINOR_FAULT);
@@ -185,7 +185,7 @@ impl Model {
         Ok(())
     }
 
-    /// No event tells that the master has cleared the log.
+    /// No event reports that the master has cleared the log.
     fn clear_history(&mut self) {
         self.log.clear_history();
         self.last_acknowledged = 0;
@@ -195,7 +195,7 @@ impl Model {
 
 /// The master, by the state machine.
 impl Model {
-    /// The stack refuses something, or leaves a state. The AL status code that the master reads.
+    /// The stack refuses a request, or leaves a state. Returns the AL status code for the master.
     pub(crate) fn al_error(&mut self, code: u16) -> u16 {
         let (event, code) = rows::of_al_status_code(code);
         self.tell(&event.map(|event| (event, None)).into_iter().collect::<Vec<_>>());
@@ -205,7 +205,7 @@ impl Model {
     pub(crate) fn enter(&mut self, state: AlState) {
         self.state = state;
         if !matches!(state, AlState::SafeOp | AlState::Op) {
-            // No data are exchanged, so that no sizes have to match.
+            // No data are exchanged, so that no sizes must match.
             self.standing.retain(|(event, _)| !matches!(*event, MISMATCH_C_TO_M | MISMATCH_M_TO_C));
         }
     }
@@ -224,7 +224,7 @@ impl Model {
         first.map_or(Ok(()), |&code| Err(code))
     }
 
-    /// PRE-OP to SAFE-OP: everything that is wrong is told, the first of it stops the unit.
+    /// PRE-OP to SAFE-OP: all violations are reported, the first one stops the unit.
     pub(crate) fn check_process_data(&mut self, setting: &PdoSetting, found: &[u16]) -> Result<(), u16> {
         self.tell(setting.broken);
         let mut codes: Vec<u16> = setting.broken.iter().map(|told| al_status_code(told.0)).collect();
