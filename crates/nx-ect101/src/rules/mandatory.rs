@@ -2,7 +2,6 @@
 //! 7-5-2, 7-5-4).
 //!
 //! Passes: 1C13 = 1A00, 1A01; 1602 with the entries 01 to 0A; TxPDOs of 1,204 bytes.
-//!
 //! Fails:  1C13 = 1A01; 1C12 = 1A00; 1602 with the entries 01 to 0B; TxPDOs of 1,205 bytes by status assigned
 //! twice. The rule `total` covers more data than 1,200 bytes.
 

@@ -1,7 +1,6 @@
 //! Type of entry: a mapping contains only entries of its own data set (manual, 5-3-3).
 //!
 //! Passes: 7000:01 for 15 UINT arrays from the CPU Unit to the master, on the CPU Unit's side.
-//!
 //! Fails:  7001:01 there; 7000:29 there, which does not exist. On the master's side the rule `mandatory` reports
 //! entries that do not exist.
 
