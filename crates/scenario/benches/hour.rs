@@ -1,5 +1,5 @@
-//! How long an hour of virtual time takes: one unit in OP, process data every 1 ms, CPU task of 1 ms; without a user
-//! program, with the manual's A-3-3, and with A-4-4 and A-4-3 at the master besides.
+//! The duration of an hour of virtual time: one unit in OP, process data every 1 ms, CPU task of 1 ms; without
+//! a user program, with the manual's A-3-3, and with A-4-4 plus A-4-3 in the master.
 //!
 //! `cargo bench -p ectwin-scenario --bench hour`
 

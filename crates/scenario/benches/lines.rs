@@ -1,5 +1,5 @@
-//! How the cost of virtual time grows with a line: 36 s in OP, process data every 1 ms, for 1, 25 and 100 units; each
-//! with a user program of its own and small process data, as the factory setting has them.
+//! How the cost of virtual time increases with a line: 36 s in OP, process data every 1 ms, for 1, 25 and 100
+//! units; each with its own user program and small process data, as in the factory setting.
 //!
 //! `cargo bench -p ectwin-scenario --bench lines`, or with other lengths: `… --bench lines -- 10 1000`
 
@@ -29,7 +29,7 @@ fn main() {
     }
 }
 
-/// The time of the exchange alone: a line that ends when all units are in OP is taken away.
+/// The time of the exchange alone: the time of a line that ends when all units are in OP is subtracted.
 fn measure(count: usize) -> f64 {
     replay(count, SECONDS) - replay(count, 0)
 }

@@ -11,8 +11,8 @@ use crate::run::Scenario;
 use crate::words::{NoSentence, Say};
 use user_file::Wanted;
 
-/// Writes a scenario step by step. Each method adds one step, or says when the next one is due. Orders and conditions are
-/// sentences or typed values.
+/// Builds a scenario step by step. Each method adds one step, or sets when the next one is due. Orders and
+/// conditions are sentences or typed values.
 ///
 /// ```
 /// use scenario::model::{Condition, LineOrder, CableNumber};
@@ -39,11 +39,11 @@ pub struct ScenarioBuilder {
     units: Vec<String>,
     /// Names and texts of user programs.
     programs: Vec<(String, String)>,
-    /// What is said of the next step so far.
+    /// The keys of the next step so far.
     next: StepForm,
-    /// How many steps were said, right ones and wrong ones.
+    /// Number of steps so far, correct or not.
     said: usize,
-    /// What is wrong with steps, before units and programs are known.
+    /// The mistakes in steps, before units and programs are known.
     wrong: Vec<ScenarioError>,
 }
 
@@ -60,7 +60,7 @@ impl ScenarioBuilder {
         }
     }
 
-    /// Adds a unit at the end of the line, by the text of its unit file. Without any it is one default unit.
+    /// Adds a unit at the end of the line, by the text of its unit file. Without any units there is one default unit.
     pub fn unit(mut self, unit_file: &str) -> Self {
         // The file is found by its position.
         self.script.units.push(ScriptUnit::File(self.units.len().to_string()));
@@ -68,20 +68,20 @@ impl ScenarioBuilder {
         self
     }
 
-    /// A user program in Structured Text that units, steps or [`Self::master_program`] name so.
+    /// A user program in Structured Text, with the name that units, steps or [`Self::master_program`] use.
     pub fn program(mut self, name: &str, text: &str) -> Self {
         self.programs.push((name.to_owned(), text.to_owned()));
         self
     }
 
-    /// The scripted master runs the program of this name in its process data cycle.
+    /// The scripted master runs the program with this name in its process data cycle.
     pub fn master_program(mut self, name: &str) -> Self {
         let program = Paths::One(name.to_owned());
         self.script.master = Some(ScriptMaster { program, device_names: Vec::new(), task_period: None });
         self
     }
 
-    /// The next step is due at this time from the beginning.
+    /// The next step is due at this time from the start.
     pub fn at(self, at: Duration) -> Self {
         self.key("at", at, |next| &mut next.at)
     }
@@ -91,52 +91,52 @@ impl ScenarioBuilder {
         self.key("after", after, |next| &mut next.after)
     }
 
-    /// The next step is due as soon as this holds.
+    /// The next step is due as soon as this condition is true.
     pub fn when(self, condition: impl Say<Condition>) -> Self {
         self.said_key("when", condition, |next| &mut next.when)
     }
 
-    /// The next expectation has to hold at some moment before this time has passed.
+    /// The next expectation must be true at some time before this time has passed.
     pub fn within(self, within: Duration) -> Self {
         self.key("within", within, |next| &mut next.within)
     }
 
-    /// The next expectation has to hold until this does.
+    /// The next expectation must be true until this condition is true.
     pub fn until(self, condition: impl Say<Condition>) -> Self {
         self.said_key("until", condition, |next| &mut next.until)
     }
 
-    /// Orders something of the scripted master.
+    /// An order to the scripted master.
     pub fn master(self, order: impl Say<MasterOrder>) -> Self {
         self.said_key("master", order, |next| &mut next.master).add()
     }
 
-    /// Does something to a unit by hand.
+    /// An action on a unit by hand.
     pub fn unit_order(self, order: impl Say<UnitOrder>) -> Self {
         self.said_key("unit", order, |next| &mut next.unit).add()
     }
 
-    /// Does something to a CPU Unit.
+    /// An action on a CPU Unit.
     pub fn cpu(self, order: impl Say<CpuOrder>) -> Self {
         self.said_key("cpu", order, |next| &mut next.cpu).add()
     }
 
-    /// Does something to the line.
+    /// An action on the line.
     pub fn line(self, order: impl Say<LineOrder>) -> Self {
         self.said_key("line", order, |next| &mut next.line).add()
     }
 
-    /// Asks for something that has to hold.
+    /// A condition that must be true.
     pub fn expect(self, condition: impl Say<Condition>) -> Self {
         self.said_key("expect", condition, |next| &mut next.expect).add()
     }
 
-    /// Asks for something that must not hold, to the end or until something else does.
+    /// A condition that must not be true, to the end or until another condition is true.
     pub fn never(self, condition: impl Say<Condition>) -> Self {
         self.said_key("never", condition, |next| &mut next.never).add()
     }
 
-    /// Adds a typed step. It has its own moment.
+    /// Adds a typed step. It has its own time.
     pub fn step(mut self, step: Step) -> Self {
         if core::mem::take(&mut self.next) != StepForm::default() {
             self.refuse("a typed step has its own moment", "remove the moment in front of `step`");
@@ -149,7 +149,7 @@ impl ScenarioBuilder {
     /// The scenario.
     ///
     /// # Errors
-    /// What is wrong with steps, or else with values and units, each with the number of its step or unit.
+    /// The mistakes in steps, or else in values and units, each with the number of its step or unit.
     pub fn finish(mut self) -> Result<Scenario, ScenarioErrors> {
         if self.next != StepForm::default() {
             self.refuse("a moment without a step", "add the step, or remove the moment");
@@ -161,7 +161,7 @@ impl ScenarioBuilder {
         Scenario::of(script, &mut self)
     }
 
-    /// Says one key of the next step.
+    /// Sets one key of the next step.
     fn key<T>(mut self, name: &str, value: T, key: impl FnOnce(&mut StepForm) -> &mut Option<T>) -> Self {
         if key(&mut self.next).replace(value).is_some() {
             self.refuse(format!("a step has one `{name}`"), "");
@@ -184,7 +184,7 @@ impl ScenarioBuilder {
         }
     }
 
-    /// Adds the step that is said.
+    /// Adds the next step.
     fn add(mut self) -> Self {
         let form = core::mem::take(&mut self.next);
         let number = self.said + 1;
@@ -198,7 +198,7 @@ impl ScenarioBuilder {
         self
     }
 
-    /// Notes what is wrong with the step that is being said.
+    /// Records a mistake in the next step.
     fn refuse(&mut self, message: impl Into<String>, help: impl Into<String>) {
         let place = ErrorPlace::Step(self.said + 1);
         self.wrong.push(ScenarioError { place, message: message.into(), help: help.into() });
@@ -209,7 +209,7 @@ impl ScenarioBuilder {
     }
 }
 
-/// The files of a builder are texts that it was given.
+/// The files of a builder are the texts passed to it.
 impl Files for ScenarioBuilder {
     fn text(&mut self, name: &str, _wanted: Wanted) -> Result<String, String> {
         let unit = name.parse().ok().and_then(|at: usize| self.units.get(at));

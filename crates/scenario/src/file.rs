@@ -1,4 +1,4 @@
-//! Reading a scenario file: its text becomes a script; lines and columns travel beside, for messages.
+//! Reading a scenario file: its text becomes a script; lines and columns are kept separately, for messages.
 
 mod draft;
 mod entries;
@@ -20,13 +20,13 @@ use nearest::nearest_name;
 use reader::Reader;
 
 impl Scenario {
-    /// Reads the text of a scenario file. `files` gives the text of a unit file or of a user program that it names,
-    /// by its path as it is seen from the scenario.
+    /// Reads the text of a scenario file. `files` returns the text of a unit file or of a user program, by its
+    /// path relative to the scenario.
     ///
     /// # Errors
-    /// What is wrong, in the order of the file: text that is no TOML (then nothing else is judged),
-    /// unknown keys, sentences that are none, units that do not exist, steps that contradict each other, and what is
-    /// wrong with programs, with its place in their files.
+    /// The mistakes, in the order of the file: text that is not TOML (then nothing else is checked), unknown
+    /// keys, invalid sentences, units that do not exist, steps that contradict each other, and problems of
+    /// programs, with their positions in their files.
     pub fn parse(
         text: &str,
         files: impl FnMut(&str) -> Result<String, String>,
@@ -34,7 +34,7 @@ impl Scenario {
         Self::parse_with(text, &mut Texts(files))
     }
 
-    /// Reads the text of a scenario file that may name folders of programs too.
+    /// Reads the text of a scenario file that may also refer to folders of programs.
     ///
     /// # Errors
     /// As [`Scenario::parse`].
@@ -52,10 +52,10 @@ impl Scenario {
 }
 
 impl Script {
-    /// Reads the text of a scenario file, and leaves the files that it names alone.
+    /// Reads the text of a scenario file without the files that it refers to.
     ///
     /// # Errors
-    /// What is wrong, in the order of the file, as far as it shows without units and programs.
+    /// The mistakes, in the order of the file, as far as they are visible without units and programs.
     pub fn parse(text: &str) -> Result<Self, ScenarioErrors> {
         let file = file(text)?;
         let mut reader = Reader::new(text);

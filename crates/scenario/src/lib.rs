@@ -1,8 +1,8 @@
 //! Scenarios: units, a scripted master, CPU Units, faults and expectations in virtual time.
 //!
-//! [`model`] is what happens and what must follow, as plain values. [`words`] spells it in sentences. A file or a
-//! [`Script`](model::Script) becomes a [`Scenario`], whose replay is the same on every machine. Nothing here reads a
-//! clock or a file: the caller gives texts in and takes bytes out.
+//! [`model`] contains actions and expectations as plain values. [`words`] contains their sentences. A file or a
+//! [`Script`](model::Script) becomes a [`Scenario`], whose replay is the same on every machine. Nothing here
+//! reads a clock or a file: the caller passes texts in and gets bytes out.
 
 mod builder;
 mod file;

@@ -1,7 +1,7 @@
 //! Scenarios as plain values: steps, orders and conditions, with their form in JSON and TOML.
 //!
-//! No sentence is read here, and nothing of the world is known that the values are about. Units and cables are named by
-//! their numbers, from 1; faults, patterns, variables and programs by their names.
+//! No sentences are read here, and the model is independent of the world that its values describe. Units and
+//! cables are identified by their numbers, from 1; faults, patterns, variables and programs by their names.
 
 mod bytes;
 mod condition;

@@ -1,4 +1,4 @@
-//! Steps that the dice write: faults, hands and orders in any order.
+//! Random steps: faults, actions by hand and orders in any order.
 
 use time::Duration;
 
@@ -6,10 +6,10 @@ use crate::model::{Order, Step, Trigger};
 use crate::run::{DICE_OF_STEPS, Dice, Scenario, WrittenStep};
 use crate::words::Spoken;
 
-/// Who is told, by the key of the file.
+/// The addressee of a step, by the key of the file.
 type Teller = &'static str;
 
-/// What the dice choose from; `#` is a unit, `@` a cable, `~` a small number.
+/// The choices of the random generator; `#` is a unit, `@` a cable, `~` a small number.
 const POOL: &[(Teller, &str)] = &[
     ("line", "unplug cable @"),
     ("line", "plug cable @"),
@@ -53,7 +53,7 @@ const POOL: &[(Teller, &str)] = &[
     ("master", "exchange process data every 1ms"),
 ];
 
-/// A step of the dice.
+/// A random step.
 #[derive(Clone, Debug)]
 pub(crate) struct RandomStep {
     teller: Teller,
@@ -62,14 +62,14 @@ pub(crate) struct RandomStep {
 }
 
 impl RandomStep {
-    /// The same a whole while sooner; none if it cannot be.
+    /// The same, much earlier; none if that is not possible.
     pub(crate) fn sooner(&self) -> Option<Self> {
         let millis = self.after.as_nanos() / 1_000_000;
         (self.after != Duration::from_millis(millis / 2))
             .then(|| Self { after: Duration::from_millis(millis / 2), ..self.clone() })
     }
 
-    /// The step as it stands in a file.
+    /// The step in the notation of a file.
     pub(crate) fn toml(&self) -> String {
         let Self { teller, text, after } = self;
         format!("{{ after = \"{after}\", {teller} = \"{text}\" }}")
@@ -93,7 +93,7 @@ impl RandomStep {
 }
 
 impl Scenario {
-    /// What the dice of this seed write.
+    /// The random steps for this seed.
     pub(crate) fn random_steps(&self, seed: u64) -> Vec<RandomStep> {
         let Some(part) = &self.random else { return Vec::new() };
         let mut dice = Dice::new(seed ^ DICE_OF_STEPS);
@@ -111,12 +111,12 @@ impl Scenario {
         (0..part.count).map(step).collect()
     }
 
-    /// All steps, with those of the dice in their place.
+    /// All steps, with the random ones in their place.
     pub(crate) fn all_steps(&self, seed: u64) -> Vec<WrittenStep> {
         self.steps_with(&self.random_steps(seed))
     }
 
-    /// All steps, with these in the place of the dice's.
+    /// All steps, with these instead of the random ones.
     pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<WrittenStep> {
         let Some(part) = &self.random else { return self.steps.clone() };
         let mut steps = self.steps.clone();

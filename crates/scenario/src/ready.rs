@@ -1,4 +1,4 @@
-//! What a script needs before it can run: its units and programs, and steps that name what is there.
+//! What a script needs before it can run: its units and programs, and steps that refer to existing names.
 
 mod error;
 mod files;
@@ -27,16 +27,16 @@ pub(crate) struct Draft {
     pub(crate) script: Script,
     /// Of each step.
     pub(crate) written: Vec<Written>,
-    /// Nothing but steps was left out because it is wrong.
+    /// Only steps were left out because of mistakes.
     pub(crate) is_whole: bool,
 }
 
 impl Scenario {
-    /// A scenario that can run, of a script. `files` gives the texts of the files that it names.
+    /// An executable scenario from a script. `files` returns the texts of the files that it refers to.
     ///
     /// # Errors
-    /// What is wrong: units and programs that cannot be read, values beyond their range, units and variables that do
-    /// not exist, steps that run back in time.
+    /// The mistakes: units and programs that cannot be read, values out of range, units and variables that do
+    /// not exist, steps whose times run backwards.
     pub fn of(script: Script, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
         let written = script.steps.iter().enumerate().map(|(at, step)| Written::of_script(at, step));
         let written = written.collect();
@@ -45,7 +45,7 @@ impl Scenario {
     }
 }
 
-/// A scenario, and what is wrong with it: it can run if nothing is.
+/// A scenario, and its mistakes: it is executable if there are none.
 pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Problem>) {
     let Draft { script, written, is_whole } = draft;
     let mut maker = Maker::new(files, script.capture.is_some());

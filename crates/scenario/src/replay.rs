@@ -1,4 +1,4 @@
-//! Replaying a scenario: its steps with those of the dice, and its golden trace.
+//! Replaying a scenario: its steps including the random ones, and its golden trace.
 
 use crate::run::{Failure, Recording, Report, Scenario, play};
 
@@ -22,7 +22,7 @@ impl Scenario {
     }
 }
 
-/// The first line that is not as the golden trace has it.
+/// The first line that differs from the golden trace.
 fn golden_difference(golden: &str, seen: &str) -> Option<String> {
     if golden == seen {
         return None;

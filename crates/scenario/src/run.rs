@@ -1,4 +1,4 @@
-//! Running a scenario: units, CPU Units, line and masters in virtual time, and whether what is expected holds.
+//! Running a scenario: units, CPU Units, line and masters in virtual time, and checking its expectations.
 
 mod calendar;
 mod check;

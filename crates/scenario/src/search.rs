@@ -1,25 +1,25 @@
-//! Search: many seeds, until a replay fails; then the failing steps are cut down to the few that it takes.
+//! Search: many seeds, until a replay fails; then the failing steps are reduced to the necessary ones.
 
 use crate::random::RandomStep;
 use crate::run::{Failure, Recording, Scenario, play};
 
-/// What a search has found.
+/// The result of a search.
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The seed that failed.
     pub seed: u64,
-    /// Steps that its dice had written.
+    /// Number of random steps.
     pub steps_before: usize,
-    /// Steps that are left.
+    /// Number of remaining steps.
     pub steps: usize,
-    /// The expectation that does not hold, with the steps that are left.
+    /// The failed expectation, with the remaining steps.
     pub failure: Failure,
-    /// A scenario file that fails as it does, without dice.
+    /// A scenario file that fails in the same way, without random steps.
     pub text: String,
 }
 
 impl Scenario {
-    /// Replays seeds from `first` on, `runs` of them, until one fails, and cuts its steps down. `text` is the
+    /// Replays seeds from `first` on, `runs` of them, until one fails, and reduces its steps. `text` is the
     /// text of the scenario's file. None if all pass.
     #[must_use]
     pub fn search(&self, text: &str, first: u64, runs: u64) -> Option<Found> {
@@ -34,8 +34,8 @@ impl Scenario {
         play(self, &self.steps_with(random), seed, Recording::new(false, false)).failure
     }
 
-    /// Leaves out what the failure does not need: halves first, then single steps, as long as anything goes; then
-    /// pauses. The failure stays one of the same expectation.
+    /// Removes steps that the failure does not need: halves first, then single steps, until no more can be
+    /// removed; then pauses. The failed expectation remains the same.
     fn shrink(&self, text: &str, seed: u64, mut steps: Vec<RandomStep>) -> Found {
         let steps_before = steps.len();
         let line = self.fails(&steps, seed).map(|failure| failure.line);
@@ -77,7 +77,7 @@ impl Scenario {
         }
     }
 
-    /// The file with these steps in the place of `random`.
+    /// The file with these steps instead of `random`.
     fn without_dice(&self, text: &str, seed: u64, steps: &[RandomStep]) -> String {
         let Some(part) = &self.random else { return text.to_owned() };
         let lines: Vec<String> = steps.iter().map(RandomStep::toml).collect();
@@ -92,7 +92,7 @@ impl Scenario {
         let text = format!("{before}{inside}{after}");
         let kept: Vec<&str> = text.lines().filter(|line| !is_seed(line)).collect();
         let mut text = kept.join("\n");
-        // Behind the title, in front of the first table or list.
+        // After the title, before the first table or list.
         let at = text.find("\nsteps").map_or(0, |at| at + 1);
         text.insert_str(at, &seed_line);
         text.push('\n');

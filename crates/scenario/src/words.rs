@@ -1,4 +1,5 @@
-//! Sentences: one spelling of orders and conditions, read and written. The tables are also the reference of the language.
+//! Sentences: one notation of orders and conditions, for reading and writing. The tables are also the reference
+//! of the language.
 
 mod place;
 mod sentence;

@@ -1,4 +1,4 @@
-//! Scenarios that are written in code: what a step cannot be is refused with its number.
+//! Scenarios that are written in code: an impossible step is refused with its number.
 
 use scenario::model::{Condition, LineOrder, Order, Step};
 use scenario::{ErrorPlace, ScenarioBuilder};
@@ -7,7 +7,7 @@ use time::Duration;
 const SHORT: Duration = Duration::from_millis(1);
 const LONG: Duration = Duration::from_millis(2);
 
-/// The steps that are refused, and why.
+/// The steps that are refused, and the reasons.
 fn refused(builder: ScenarioBuilder) -> Vec<(usize, String)> {
     let Err(errors) = builder.finish() else { return Vec::new() };
     let numbered = errors.iter().map(|error| match error.place {
@@ -21,7 +21,7 @@ fn quiet(builder: ScenarioBuilder) -> ScenarioBuilder {
     builder.line(LineOrder::BeQuiet)
 }
 
-/// What says something of the second step of a scenario.
+/// A call that sets a part of the second step of a scenario.
 type Said = fn(ScenarioBuilder) -> ScenarioBuilder;
 
 const ONE_MOMENT: &str = "a step has one of at, after and when";
@@ -69,7 +69,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
 
 #[test]
 fn what_is_said_of_a_step_is_not_said_of_the_next_one() {
-    // Each wrong step would make its neighbour wrong too, if something of it were left.
+    // Each wrong step would make its neighbour wrong too, if a part of it remained.
     let builder = ScenarioBuilder::new("t")
         .within(SHORT)
         .line(LineOrder::BeQuiet)

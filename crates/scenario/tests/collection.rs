@@ -1,4 +1,4 @@
-//! Every file under `scenarios/` is a test: it is replayed, and has to pass.
+//! Every file under `scenarios/` is a test: it is replayed, and must pass.
 
 use std::fs;
 use std::path::{Path, PathBuf};

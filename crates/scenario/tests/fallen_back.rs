@@ -1,5 +1,5 @@
-//! A unit that falls back while the master waits for a state: the master reports it at once, and does not wait for a
-//! state that cannot come.
+//! A unit that falls back while the master waits for a state: the master reports it immediately, and does not
+//! wait for a state that cannot be reached.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -8,7 +8,7 @@ use scenario::{Recording, Scenario};
 const TO_SAFE_OP: &str =
     r#"{ master = "take unit 1 to SAFE-OP" }, { expect = "unit 1 is in SAFE-OP", within = "1s" }"#;
 const TO_OP: &str = r#"{ master = "take unit 1 to OP" }, { expect = "unit 1 is in OP", within = "1s" }"#;
-/// The master gives up within the few polls that it needs, and not after its 10 s.
+/// The master gives up within the few polls that are necessary, and not after its 10 s.
 const GIVEN_UP: &str = r#"{ expect = "the master has given up", within = "5ms" }"#;
 
 /// The steps, and then the last reason for which the master gave up.
@@ -55,7 +55,7 @@ fn a_unit_whose_power_is_cycled_on_its_way_down_is_below_the_state() {
     assert_eq!(reason, "unit 1 fell back to INIT, asked for SAFE-OP");
 }
 
-/// The state and the AL status code that the unit shows are both told.
+/// The state and the AL status code of the unit are both reported.
 #[test]
 fn a_unit_that_fails_on_its_way_up_shows_its_error() {
     let reason = reason(&[

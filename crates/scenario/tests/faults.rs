@@ -1,10 +1,11 @@
-//! What the line does to frames: every fault that a frame meets shows in the capture, also where several meet.
+//! Faults of frames: every fault of a frame is in the capture, even if there are several.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use scenario::{Recording, Scenario};
 
-/// How often the capture holds these words, which can only stand in a comment. Both ways of a frame have one.
+/// Number of occurrences of these words in the capture, which can only be in a comment. Both directions of a
+/// frame have one.
 fn comments(steps: &str, words: &str) -> usize {
     let text = format!(
         "title = \"t\"\nsteps = [\n{{ master = \"take unit 1 to OP\" }},\n\

@@ -1,4 +1,4 @@
-//! Scenario files: what repeats, and what is refused, with its place and the way out.
+//! Scenario files: repetitions, and refusals, with their places and remedies.
 
 use scenario::{Recording, Scenario};
 
@@ -158,7 +158,7 @@ fn until_holds_as_long_as_it_takes() {
     assert!(vain.as_ref().is_err_and(|failure| failure.contains("waits in vain")), "{vain:?}");
 }
 
-/// An expectation that was never looked at would hold whatever happens.
+/// An expectation that is never checked would always be fulfilled.
 #[test]
 fn what_has_to_hold_for_a_time_has_to_hold_at_once() {
     for span in ["0s", "1ns", "1ms"] {

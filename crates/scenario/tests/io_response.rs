@@ -1,4 +1,5 @@
-//! The I/O response time in virtual time (manual, 7-9-1): for many seeds, none longer than the formula, some close to it.
+//! The I/O response time in virtual time (manual, 7-9-1): for many seeds, none exceeds the formula, some are
+//! close to it.
 
 #![expect(clippy::expect_used, reason = "a scenario of these parts is right")]
 
@@ -8,7 +9,7 @@ use time::Duration;
 
 const SEEDS: u64 = 100;
 
-/// One configuration: entries of 15 UINT each way, which decide on T_slave; T_cpu and T_master.
+/// One configuration: entries of 15 UINT in each direction, which determine T_slave; T_cpu and T_master.
 struct Case {
     entries: usize,
     slave_us: u64,
@@ -37,8 +38,8 @@ impl Case {
         times.maximum()
     }
 
-    /// Whether new outputs come back within this time from the frame that takes them along. They are set right behind
-    /// a frame, so that one more cycle passes until the next.
+    /// Whether new outputs return within this time from the frame that carries them. They are set just after a
+    /// frame, so that one more cycle passes until the next.
     fn returns_within(&self, seed: u64, limit: Duration) -> bool {
         let master = Duration::from_micros(self.master_us);
         let (entries, cpu_us) = (self.entries, self.cpu_us);

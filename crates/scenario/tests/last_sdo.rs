@@ -1,10 +1,10 @@
-//! "The last SDO" is the one that was ordered last: until it is answered, no answer to an older one counts.
+//! "The last SDO" is the one that was ordered last: until it is answered, answers to older ones are ignored.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use scenario::{Recording, Scenario};
 
-/// The step that fails; none if all of them hold.
+/// The step that fails; none if all are fulfilled.
 fn failed_step(steps: &[&str]) -> Option<String> {
     let before =
         "{ master = \"take unit 1 to PRE-OP\" },\n{ when = \"unit 1 is in PRE-OP\", master = \"behave\" },";
@@ -36,10 +36,10 @@ fn no_sentence_holds_between_the_order_and_the_answer() {
         (READ_VENDOR, VENDOR_READ, "the last SDO was taken"),
         (WRITE_VENDOR, VENDOR_REFUSED, "the last SDO was refused with 0x06010002"),
     ] {
-        // Ordered once more, and nothing has happened since.
+        // Ordered again, and nothing has happened since.
         let now = format!("{{ expect = \"{sentence}\" }}");
         assert_eq!(failed_step(&[order, answer, order, &now]).as_deref(), Some(sentence));
-        // It held, and does not hold while the next one is under way.
+        // It was true, and is not true while the next one is in progress.
         let lasting = format!("{{ expect = \"{sentence}\", for = \"1ms\" }}");
         assert_eq!(failed_step(&[order, answer, READ_SERIAL, &lasting]).as_deref(), Some(sentence));
     }
@@ -59,7 +59,7 @@ fn of_two_that_wait_the_answer_to_the_older_one_does_not_count() {
 
 #[test]
 fn an_sdo_on_the_way_to_a_state_does_not_answer_for_the_one_that_waits_behind_it() {
-    // The start-up SDOs of the master are all taken, and the one behind them is refused.
+    // The start-up SDOs of the master are all accepted, and the one after them is refused.
     let never = r#"{ never = "the last SDO was taken" }"#;
     let take = r#"{ master = "take unit 1 to SAFE-OP" }"#;
     let refused = VENDOR_REFUSED.replace("50ms", "2s");

@@ -1,12 +1,12 @@
-//! The programs under `scenarios/programs` are the manual's: statement for statement, with the line breaks of the
-//! print mended and variable tables added as sections.
+//! The programs under `scenarios/programs` are those of the manual: statement for statement, with corrected
+//! line breaks and with variable tables added as sections.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use std::fs;
 use std::path::Path;
 
-/// A-3-3, ST Programming, as it is printed, comments left out (manual, lines 5254 to 5287 of its text).
+/// A-3-3, ST Programming, as printed, without comments (manual, lines 5254 to 5287 of its text).
 const A_3_3: &str = "
 IF NXBus_N1_NX_Unit_I_O_Data_Active_Status=TRUE AND NXBus_N1_NX_Unit_Error_Status=F
 ELSE AND N1_Data_from_EtherCAT_Master_to_CPU_Unit_Valid=TRUE THEN
@@ -55,7 +55,7 @@ D N1_Data_from_CPU_Unit_to_EtherCAT_Master_Valid THEN
 END_IF;
 ";
 
-/// What the print breaks in the middle of a word, and the word.
+/// Words that the print splits at a line break, and the words.
 const MENDED: [(&str, &str); 2] = [("=F\nELSE AND", "=FALSE AND"), ("AND\nD N1_Data", "AND N1_Data")];
 
 #[test]
@@ -67,7 +67,7 @@ fn the_statements_are_the_manuals() {
     }
 }
 
-/// The words of the statements of a program: what stands behind its variables, without comments.
+/// The words of the statements of a program: the part after its variables, without comments.
 fn statements_of(file: &str) -> Vec<String> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/programs").join(file);
     let text = fs::read_to_string(path).expect("a program");

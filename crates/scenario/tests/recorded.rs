@@ -1,4 +1,4 @@
-//! A capture of a master, sent again: the unit answers as it did; another unit does not.
+//! A capture of a master, sent again: the unit answers as before; another unit does not.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -74,7 +74,7 @@ fn an_answer_that_does_not_come_back_is_a_difference() {
 fn an_answer_belongs_to_the_newest_frame_of_its_kind() {
     use capture::{Direction, PcapngWriter};
     use wire::{Command, FrameBuilder};
-    // Both frames look alike; the first one was lost.
+    // Both frames look the same; the first one was lost.
     let frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
     let mut writer = PcapngWriter::new(Vec::new(), "x").expect("a capture");
     for (at_nanos, direction) in
@@ -102,7 +102,7 @@ fn frame(number: u8, answered: bool) -> Vec<u8> {
     frame
 }
 
-/// A capture of these moments, numbers and directions.
+/// A capture with these times, numbers and directions.
 fn captured(packets: impl IntoIterator<Item = (u64, u8, Direction)>) -> Vec<u8> {
     let mut writer = PcapngWriter::new(Vec::new(), "x").expect("a memory takes bytes");
     for (at_nanos, number, direction) in packets {
@@ -155,7 +155,7 @@ fn an_answer_belongs_to_the_newest_frame_of_its_numbers_that_has_none() {
     assert_eq!((frames.len(), frames.answers()), (3, 2));
 }
 
-/// Quadratic, this takes longer than anyone waits.
+/// With quadratic cost, this takes too long.
 #[test]
 fn a_capture_of_frames_and_answers_that_do_not_meet_is_read_in_one_pass() {
     let count = 150_000;

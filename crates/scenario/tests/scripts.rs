@@ -1,4 +1,4 @@
-//! Scripts: every scenario file is one, and its JSON replays as the file does.
+//! Scripts: every scenario file is one, and its JSON has the same replay as the file.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -47,7 +47,7 @@ fn scenario_files() -> Vec<PathBuf> {
     files
 }
 
-/// The frames of a replay, and what it came to.
+/// The frames of a replay, and its result.
 fn replayed(scenario: &Scenario) -> (Option<String>, Option<Vec<u8>>) {
     let report = scenario.replay(scenario.seed, Recording::new(false, true));
     (report.failure.map(|failure| failure.seen), report.recording.into_capture())

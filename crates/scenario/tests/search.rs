@@ -1,4 +1,4 @@
-//! The search: a bug that a test plants in an application is found, and cut down to the few steps that show it.
+//! The search: a bug that a test adds to an application is found, and reduced to the few steps that show it.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -30,7 +30,7 @@ steps = [
 ]
 "#;
 
-/// An echo with a bug: after an error of the unit it never writes again.
+/// An echo with a bug: after an error of the unit it does not write any more.
 #[derive(Default)]
 struct Sulking(bool);
 
@@ -67,7 +67,7 @@ fn a_planted_bug_is_found_and_cut_down() {
     assert!(found.steps <= 5 && found.steps < found.steps_before, "{}", found.text);
     assert_eq!(found.failure.text, "input byte 2 of unit 1 is A5");
 
-    // What it has written fails by itself, with the bug and not without it.
+    // The scenario that it has written fails without the search, with the bug and not without it.
     let mut written = Scenario::parse(&found.text, |_| Err(String::new())).expect("a right scenario");
     assert!(written.random.is_none() && written.seed == found.seed);
     let run = |scenario: &Scenario| scenario.replay(scenario.seed, Recording::new(false, false)).failure;

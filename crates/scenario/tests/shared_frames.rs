@@ -1,4 +1,4 @@
-//! Process data of several units: in frames that they share, each unit with a datagram of its own.
+//! Process data of several units: in shared frames, with a separate datagram for each unit.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -53,7 +53,7 @@ fn units_share_frames_as_far_as_they_fit() {
     }
 }
 
-/// A fault of the line meets the units of one frame together; each still has its own working counter.
+/// A fault of the line affects the units of one frame together; each still has its own working counter.
 #[test]
 fn a_lost_frame_is_that_of_all_its_units() {
     let steps = r#"

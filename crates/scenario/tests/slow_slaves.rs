@@ -1,11 +1,11 @@
-//! Slow and refusing slaves: each sentence lets a master see what it should, and nothing of it without the sentence.
+//! Slow and refusing slaves: with each sentence a master sees the effect, and without the sentence it does not.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use scenario::model::UnitOrder;
 use scenario::{Recording, Scenario};
 
-/// A sentence, the steps before it, and what holds behind it and only behind it.
+/// A sentence, the steps before it, and a condition that is true after it and only after it.
 struct Case {
     before: &'static [&'static str],
     sentence: &'static str,
@@ -22,7 +22,7 @@ const CASES: &[Case] = &[
             r#"{ expect = "unit 1 is in INIT" }"#,
         ],
     },
-    // The mailboxes are not set: PRE-OP is refused, but only when the time is over.
+    // The mailboxes are not set: PRE-OP is refused, but only after its time.
     Case {
         before: &[],
         sentence: "let transition IP of unit 1 take 500ms",
@@ -104,7 +104,7 @@ const CASES: &[Case] = &[
     },
 ];
 
-/// What is wrong with these steps when they are replayed, if anything.
+/// The failure of these steps when they are replayed, if there is one.
 fn failure(steps: &[&str]) -> Option<String> {
     let text = format!("title = \"t\"\nsteps = [\n{}\n]", steps.join(",\n"));
     let scenario = Scenario::parse(&text, |_| Err(String::new())).expect("a right scenario");
@@ -127,7 +127,7 @@ fn each_sentence_does_what_it_says() {
     }
 }
 
-/// The sentences that are tried are those of the table.
+/// The tried sentences are those of the table.
 #[test]
 fn every_sentence_of_conduct_is_tried() {
     let read = |text: &str| scenario::words::read(scenario::words::UNIT, text);
@@ -140,7 +140,7 @@ fn every_sentence_of_conduct_is_tried() {
     }
 }
 
-/// A slow transition: a second request counts nothing, and a master that repeats it gets it taken afterwards.
+/// A slow transition: a second request does not count, and is accepted later if the master repeats it.
 #[test]
 fn a_second_request_waits_until_the_first_is_taken() {
     let steps = [
@@ -157,7 +157,7 @@ fn a_second_request_waits_until_the_first_is_taken() {
     assert_eq!(failure(&steps), None);
 }
 
-/// The times of a unit file hold in a scenario, and `behave` comes back to them.
+/// The times of a unit file apply in a scenario, and `behave` restores them.
 #[test]
 fn a_unit_file_sets_the_same() {
     let unit = r#"units = [{ model = "nx-ect101", times = { transitions = { IP = "300ms" } }, refuse = { op = 0x8007 } }]"#;

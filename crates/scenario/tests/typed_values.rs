@@ -1,4 +1,4 @@
-//! Typed values: each has a sentence and a form in JSON and TOML, and all of them are one value.
+//! Typed values: each has a sentence and a form in JSON and TOML, and all of them are the same value.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -12,14 +12,14 @@ use scenario::words::{Place, Spoken};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-/// The names of the variants of a type, which serde lists when it meets another.
+/// The names of the variants of a type, which serde lists for an unknown one.
 fn variants<T: DeserializeOwned + core::fmt::Debug>() -> BTreeSet<String> {
     let refusal = serde_json::from_str::<T>(r#"{ "?": {} }"#).expect_err("no variant").to_string();
     let names = refusal.split('`').skip(1).step_by(2).skip(1);
     names.map(str::to_owned).collect()
 }
 
-/// What has keys of these names anywhere in the examples of a type.
+/// The values with keys of these names anywhere in the examples of a type.
 fn keys<T: Spoken + Serialize>() -> BTreeSet<String> {
     fn collect(value: &serde_json::Value, keys: &mut BTreeSet<String>) {
         match value {
@@ -56,7 +56,7 @@ fn every_variant_has_a_sentence() {
     assert_eq!(lines.difference(&keys::<LineOrder>()).count(), 0);
 }
 
-/// A value is the same behind its sentence, JSON and TOML.
+/// A value is the same from its sentence, JSON and TOML.
 fn is_one_value<T>(text: &str)
 where
     T: Spoken + Serialize + DeserializeOwned + PartialEq,
@@ -96,7 +96,7 @@ fn every_sentence_is_one_value_with_its_json_and_toml() {
     all::<Condition>();
 }
 
-/// Sentences of a pattern, with anything in their places.
+/// Sentences of a pattern, with any values in their places.
 fn sentences(pattern: &str) -> impl Strategy<Value = String> + use<> {
     let parts: Vec<BoxedStrategy<String>> = pattern
         .split_whitespace()

@@ -1,4 +1,4 @@
-//! User programs in scenarios: read with all that is wrong with them, in step with the exchange, the same each time.
+//! User programs in scenarios: read with all their mistakes, synchronous with the exchange, the same in each run.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -32,7 +32,7 @@ fn errors(text: &str, files: &[(&str, &str)]) -> Vec<String> {
 #[test]
 fn all_that_is_wrong_with_a_program_is_told_with_its_place() {
     let wrong = "N1_UINTs_01_C_to_N[0] := 1;\nN1_UINTs_01_M_to_C[0] := 2;\n";
-    // What steps name is not judged as long as the units are wrong.
+    // Names in steps are not checked while the units are wrong.
     let text = "title = \"t\"\nunits = [\"units/a.toml\"]\nsteps = [{ cpu = \"release all of unit 1\" }]";
     let unit = "model = \"nx-ect101\"\n[cpu]\nprogram = \"wrong.st\"\n";
     let errors = errors(text, &[("units/a.toml", unit), ("units/wrong.st", wrong)]);
@@ -88,7 +88,7 @@ fn what_is_wrong_with_the_master_is_told() {
     }
 }
 
-/// How long the alarm takes, with PROGRAM mode so long behind OP.
+/// The time until the alarm, with PROGRAM mode this time after OP.
 fn until_the_alarm(task_period_us: u64, mode_after_us: u64) -> Duration {
     let unit = format!("{UNIT}cpu.task_period = \"{task_period_us}us\"\n");
     let scenario = with_udint("A-4", &unit).program("unit.st", A_4_4).program("master.st", A_4_3);
@@ -116,9 +116,9 @@ fn response_us(task_period_us: u64) -> u64 {
 
 #[test]
 fn program_mode_is_detected_within_20_ms_and_the_response_time_whatever_the_phases() {
-    // A pulse that is quicker than refresh and master would be lost between two looks of theirs.
+    // A pulse that is shorter than the period of refresh and master could be missed between two of their reads.
     for task_period_us in [1_000, 2_000, 4_000] {
-        // The pulse is high every other task period; the master's timer runs in steps of its cycle.
+        // The pulse is high in every other task period; the master's timer runs in steps of its cycle.
         let least = Duration::from_micros(20_000 - 2 * task_period_us);
         let most = Duration::from_micros(20_000 + response_us(task_period_us) + 1_000);
         for mode_after_us in (0..8_000).step_by(370) {
@@ -131,7 +131,7 @@ fn program_mode_is_detected_within_20_ms_and_the_response_time_whatever_the_phas
     }
 }
 
-/// A program that never ends, beside a master that counts.
+/// A program that never ends, together with a master that counts.
 fn endless() -> Report {
     let scenario = with_udint("endless", &format!("{UNIT}cpu.statement_budget = 2000\n"))
         .program(
@@ -228,7 +228,7 @@ fn what_the_master_writes_goes_to_the_unit_that_it_names() {
     );
 }
 
-/// What is wrong with a line of these units, whose master has this program.
+/// The mistakes of a line with these units, whose master has this program.
 fn errors_of_line(units: &str, program: &str) -> Vec<String> {
     let text = format!("title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{units}]\nsteps = []");
     errors(&text, &[("m.st", program)])

@@ -1,4 +1,4 @@
-//! docs/user/scenario-values.md is what the types and the tables of sentences say.
+//! docs/user/scenario-values.md agrees with the types and the tables of sentences.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -55,7 +55,7 @@ The keys are the same. `Script` is a whole scenario, `Step` one step:
 
 "##;
 
-/// The example in Rust, which is a test of its own.
+/// The example in Rust, which is also a test.
 const IN_RUST: &str = include_str!("../../ectwin/tests/guide/scenario_values.rs");
 
 const VALUES: &str = r##"

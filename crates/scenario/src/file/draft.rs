@@ -1,4 +1,4 @@
-//! A script of the parts of a file; where they stand is noted.
+//! A script from the parts of a file, with their places.
 
 use toml::Spanned;
 
@@ -10,7 +10,7 @@ use crate::model::{Script, ScriptMaster};
 use crate::ready::Draft;
 
 impl Reader<'_> {
-    /// The script with the words of its steps; what is wrong is left out of it.
+    /// The script with the words of its steps; wrong parts are left out.
     pub(super) fn draft(&mut self, file: File) -> Draft {
         let has_master = file.master.is_some();
         let script = self.script(file);

@@ -1,4 +1,4 @@
-//! What a scenario file is made of, with the places of its parts.
+//! The parts of a scenario file, with their places.
 
 use serde::Deserialize;
 use toml::Spanned;

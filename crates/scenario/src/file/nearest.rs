@@ -1,9 +1,9 @@
 //! The known name that is nearest to an unknown one.
 
-/// How alike two names are at least.
+/// Minimum similarity of two names.
 const ALIKE: f64 = 0.7;
 
-/// The nearest of the names that a refusal lists behind the unknown one, each in backticks.
+/// The nearest of the names that a refusal lists after the unknown one, each in backticks.
 pub(super) fn nearest_name(refusal: &str) -> Option<&str> {
     let mut names = refusal.split('`').skip(1).step_by(2);
     let unknown = names.next().filter(|_| refusal.starts_with("unknown "))?;

@@ -1,4 +1,4 @@
-//! Where the parts of a scenario stand in its file: they travel beside the typed values, for messages.
+//! The places of the parts of a scenario in its file: kept separately from the typed values, for messages.
 
 use core::ops::Range;
 
@@ -16,7 +16,7 @@ pub(super) struct Places {
     pub(super) steps: Vec<StepPlaces>,
 }
 
-/// The places of what a file says of the master.
+/// The places of the master's keys in a file.
 #[derive(Default)]
 pub(super) struct MasterPlaces {
     pub(super) program: Span,
@@ -32,12 +32,12 @@ pub(super) struct StepPlaces {
     pub(super) order: Span,
     pub(super) when: Span,
     pub(super) until: Span,
-    /// How often: `repeat` or `random`.
+    /// The repetition: `repeat` or `random`.
     pub(super) count: Span,
 }
 
 impl Places {
-    /// Where a part stands.
+    /// The place of a part.
     pub(super) fn of(&self, part: Part) -> Span {
         match part {
             Part::Script => 0..0,

@@ -1,4 +1,4 @@
-//! What is read of a scenario file so far, and what is wrong with it.
+//! The parts of a scenario file read so far, and their mistakes.
 
 use time::Duration;
 use toml::Spanned;
@@ -33,14 +33,14 @@ impl<'a> Reader<'a> {
         self.mistakes.note(span.start, || ScenarioError::in_text(text, span, message.into(), help.into()));
     }
 
-    /// What is wrong with the file, if anything is.
+    /// The mistakes in the file, if there are any.
     pub(super) fn errors(self) -> Option<ScenarioErrors> {
         let is_right = self.mistakes.is_empty();
         let (list, more) = self.mistakes.into_parts();
         (!is_right).then_some(ScenarioErrors { list, more })
     }
 
-    /// None for what is left out, and for what is no duration.
+    /// None if it is left out, or not a duration.
     pub(super) fn duration(&mut self, text: Option<&Spanned<String>>) -> Option<Duration> {
         let text = text?;
         let duration = text.get_ref().parse();

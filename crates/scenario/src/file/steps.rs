@@ -1,4 +1,4 @@
-//! Steps of a file: each becomes a typed one; its words and places are noted beside.
+//! Steps of a file: each becomes a typed one; its words and places are kept separately.
 
 use toml::Spanned;
 
@@ -17,7 +17,7 @@ pub(super) struct StepReading {
     pub(super) written: Written,
 }
 
-/// A step; none if something is wrong with it.
+/// A step; none if it has a mistake.
 pub(super) fn read_step(reader: &mut Reader<'_>, entry: Spanned<StepEntry>) -> Option<StepReading> {
     let span = entry.span();
     let entry = entry.into_inner();
@@ -69,7 +69,7 @@ fn span_of<T>(part: Option<&Spanned<T>>) -> Span {
 struct PartReader<'r, 'a> {
     reader: &'r mut Reader<'a>,
     is_wrong: bool,
-    /// Where the order stands, and its words.
+    /// The place of the order, and its words.
     order: Option<(Span, String)>,
 }
 
@@ -80,7 +80,7 @@ impl PartReader<'_, '_> {
         duration
     }
 
-    /// The order of the step, or what it expects. A typed value has the words of its sentence.
+    /// The order of the step, or its expectation. A typed value gets the words of its sentence.
     fn order<T: Spoken>(&mut self, entry: Option<&Spanned<SaidEntry<T>>>) -> Option<T> {
         let value = self.said(entry)?;
         let text = entry.map(|entry| match entry.get_ref() {

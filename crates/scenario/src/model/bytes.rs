@@ -1,4 +1,4 @@
-//! Bytes and entries of objects, as sentences write them.
+//! Bytes and entries of objects, in the notation of sentences.
 
 use core::fmt;
 use core::str::FromStr;
@@ -31,7 +31,7 @@ impl<const N: usize> From<[u8; N]> for Bytes {
     }
 }
 
-/// Bytes in words, `nothing` for none.
+/// Bytes as text, `nothing` for none.
 pub(crate) fn hex(bytes: &[u8]) -> String {
     if bytes.is_empty() { "nothing".to_owned() } else { hex_words(bytes) }
 }

@@ -1,4 +1,4 @@
-//! Conditions: what can hold.
+//! Conditions: what can be true.
 
 use serde::{Deserialize, Serialize};
 use wire::AlState;
@@ -9,7 +9,7 @@ use super::numbers::{EventCode, Hex, UserErrorCode};
 use super::spelling::nothing;
 use super::units::{Controller, UnitNumber, UnitSet};
 
-/// What can hold.
+/// What can be true.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table of sentences says what each one means")]
@@ -53,14 +53,14 @@ pub enum Condition {
         register: Hex<u16>,
         value: Bytes,
     },
-    /// From byte `at` on, as the CPU Unit has them.
+    /// From byte `at` on, as in the CPU Unit.
     Outputs {
         unit: UnitNumber,
         #[serde(default)]
         at: u16,
         bytes: Bytes,
     },
-    /// From byte `at` on, as the master has them.
+    /// From byte `at` on, as in the master.
     Inputs {
         unit: UnitNumber,
         #[serde(default)]
@@ -160,7 +160,7 @@ pub enum Condition {
     },
 }
 
-/// Which way data go between the EtherCAT master and the CPU Unit.
+/// The direction of data between the EtherCAT master and the CPU Unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DataDirection {

@@ -1,4 +1,4 @@
-//! What is done to a CPU Unit.
+//! Actions on a CPU Unit.
 
 use serde::{Deserialize, Serialize};
 use time::Duration;
@@ -7,7 +7,7 @@ use super::bytes::Bytes;
 use super::spelling::text;
 use super::units::{UnitNumber, UnitSet};
 
-/// What is done to a CPU Unit.
+/// An action on a CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table of sentences says what each value means")]
@@ -24,9 +24,9 @@ pub enum CpuOrder {
     StartTask { units: UnitSet },
     /// Resets the errors of the NX Bus Function Module, and those of the unit.
     ResetNxBusErrors { units: UnitSet },
-    /// Turns the power of CPU Unit and unit off, and on at once.
+    /// Switches the power of CPU Unit and unit off, and on again immediately.
     CycleRackPower { units: UnitSet },
-    /// Bytes C to M, from the first on.
+    /// Bytes C to M, from the first one on.
     SetInputs { unit: UnitNumber, bytes: Bytes },
     /// The system time jumps ahead.
     JumpSystemTime {
@@ -36,13 +36,13 @@ pub enum CpuOrder {
     },
     /// Writes a device variable, or an element of it, once.
     Write { variable: String, value: String },
-    /// Fixes a device variable, or an element of it, at a value until it is released.
+    /// Forces a device variable, or an element of it, to a value until it is released.
     Force { variable: String, value: String },
     /// Releases a device variable, or an element of it.
     Release { variable: String },
     /// Releases everything.
     ReleaseAll { units: UnitSet },
-    /// Replaces the user program, in PROGRAM mode, by the one of this file, seen from the scenario.
+    /// Replaces the user program, in PROGRAM mode, by the one in this file, relative to the scenario.
     Load { unit: UnitNumber, program: String },
 }
 

@@ -1,4 +1,4 @@
-//! What happens on the line: cables, and faults of frames.
+//! Actions on the line: cables, and faults of frames.
 
 use serde::{Deserialize, Serialize};
 use time::Duration;
@@ -6,75 +6,75 @@ use time::Duration;
 use super::spelling::{nothing, text};
 use super::units::CableNumber;
 
-/// What happens to the line between the master and the units.
+/// An action on the line between the master and the units.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum LineOrder {
     /// A cable is pulled out.
     Unplug {
-        /// Which one.
+        /// Its number.
         cable: CableNumber,
     },
     /// A cable is plugged in.
     Plug {
-        /// Which one.
+        /// Its number.
         cable: CableNumber,
     },
-    /// Frames meet a fault.
+    /// Frames get a fault.
     Disturb(Disturbance),
-    /// No frame meets a fault any more.
+    /// No more faults of frames.
     #[serde(with = "nothing")]
     BeQuiet,
 }
 
-/// Which frames meet a fault.
+/// Which frames get a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Disturbance {
-    /// What happens to them.
+    /// The fault.
     pub fault: FrameFault,
-    /// Which ones.
+    /// The frames.
     pub frames: Frames,
 }
 
-/// What happens to a frame.
+/// A fault of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum FrameFault {
-    /// It gets lost on its way to the units.
+    /// It is lost on its way to the units.
     Lose,
-    /// It passes the units, and its answer gets lost.
+    /// It passes the units, and its answer is lost.
     LoseAnswer,
-    /// It comes later.
+    /// It is delayed.
     Delay {
-        /// By this time.
+        /// The delay.
         #[serde(with = "text")]
         by: Duration,
     },
     /// It passes the units twice.
     Duplicate,
-    /// It ends early.
+    /// It is shortened.
     Cut {
-        /// It has as many bytes then.
+        /// Its remaining number of bytes.
         length_bytes: u16,
     },
     /// A bit error on a cable.
     Corrupt {
-        /// The cable in front of a unit.
+        /// The cable before a unit.
         cable: CableNumber,
     },
-    /// The working counters of its answer are one too low.
+    /// The working counters of its answer are too low by one.
     LowerWorkingCounter,
 }
 
-/// Frames by their kind, and which of them.
+/// Frames by their kind, and a selection of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Frames {
-    /// Of which kind they are.
+    /// The kind.
     #[serde(default)]
     pub kind: FrameKind,
-    /// Which of them.
+    /// The selection.
     pub choice: Choice,
 }
 
@@ -91,17 +91,17 @@ pub enum FrameKind {
     Mailbox,
 }
 
-/// Which frames of a kind.
+/// The selected frames of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Choice {
-    /// As many, beginning with the next one.
+    /// This number of frames, starting with the next one.
     Next(u64),
-    /// Some behind others.
+    /// Some frames after others.
     Behind {
-        /// Frames that pass without a fault first.
+        /// Number of frames that first pass without a fault.
         skip: u64,
-        /// Frames that meet the fault then.
+        /// Number of frames with the fault after that.
         count: u64,
     },
     /// All from now on.

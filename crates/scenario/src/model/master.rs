@@ -10,12 +10,12 @@ use super::numbers::Hex;
 use super::spelling::{nothing, text};
 use super::units::{UnitNumber, UnitSet};
 
-/// What the scripted master does. It works off its orders one after the other, in virtual time.
+/// An action of the scripted master. It executes its orders one after the other, in virtual time.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum MasterOrder {
-    /// Takes units to a state by the way of a real master.
+    /// Takes units to a state with the sequence of a real master.
     Take {
         units: UnitSet,
         #[serde(with = "state")]
@@ -44,13 +44,13 @@ pub enum MasterOrder {
         at: u16,
         bytes: Bytes,
     },
-    /// Entries of a PDO, in force the next time that PRE-OP is passed.
+    /// Entries of a PDO, effective at the next transition to PRE-OP.
     MapPdo { unit: UnitNumber, pdo: Hex<u16>, entries: Vec<Entry> },
-    /// PDOs of an assignment object, in force the next time that PRE-OP is passed.
+    /// PDOs of an assignment object, effective at the next transition to PRE-OP.
     AssignPdos { unit: UnitNumber, object: Hex<u16>, pdos: Vec<Hex<u16>> },
-    /// Lets a SyncManager be set wrongly the next times: its length.
+    /// Sets a wrong length of a SyncManager from the next time on.
     SetSyncManagerLength { unit: UnitNumber, number: u8, length_bytes: u16 },
-    /// Lets a SyncManager be set wrongly the next times: its control byte.
+    /// Sets a wrong control byte of a SyncManager from the next time on.
     SetSyncManagerControl { unit: UnitNumber, number: u8, control: Hex<u8> },
     /// An SDO download.
     WriteSdo { unit: UnitNumber, entry: Entry, value: Bytes },
@@ -65,10 +65,10 @@ pub enum MasterOrder {
     /// Leaves the answers in the mailboxes.
     #[serde(with = "nothing")]
     ReadNoMailbox,
-    /// Does everything right again: counters, lengths, mailboxes.
+    /// Corrects everything again: counters, lengths, mailboxes.
     #[serde(with = "nothing")]
     Behave,
-    /// Starts again: forgets every order and what it has set.
+    /// Restarts: discards all orders and all settings.
     #[serde(with = "nothing")]
     Restart,
 }

@@ -1,4 +1,4 @@
-//! States, indicators and places in programs, as sentences name them.
+//! States, indicators and positions in programs, in the notation of sentences.
 
 use core::fmt;
 use core::str::FromStr;
@@ -7,7 +7,7 @@ use wire::AlState;
 
 use super::spelling::{NotAValue, by_text, number};
 
-/// A state as sentences name it: `SAFE-OP`, or a number such as `0x05`.
+/// A state in the notation of sentences: `SAFE-OP`, or a number such as `0x05`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StateName(pub AlState);
 
@@ -115,7 +115,7 @@ impl FromStr for Position {
 
 by_text! { StateName IndicatorName Position }
 
-/// A field that is a state.
+/// A field whose value is a state.
 pub(super) mod state {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
     use wire::AlState;

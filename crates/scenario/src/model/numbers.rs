@@ -7,7 +7,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::spelling::{NotAValue, TextOrNumber, by_text, number};
 
-/// A number that is written in hexadecimal, with all its digits: `0x001B`. JSON and TOML may give a plain number too.
+/// A number that is written in hexadecimal, with all its digits: `0x001B`. A plain number is also accepted in
+/// JSON and TOML.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Hex<T>(pub T);
 
@@ -62,7 +63,7 @@ impl FromStr for EventCode {
     }
 }
 
-/// The code of a user-defined error, 1 to 40,000, as Structured Text writes it: `16#101`.
+/// The code of a user-defined error, 1 to 40,000, in the notation of Structured Text: `16#101`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct UserErrorCode(pub u16);
 

@@ -1,4 +1,4 @@
-//! A whole scenario as somebody writes it: units and programs by their files, and steps.
+//! A whole scenario as written: units and programs by their files, and steps.
 
 use serde::{Deserialize, Serialize};
 use time::Duration;
@@ -6,39 +6,39 @@ use time::Duration;
 use super::spelling::{optional_text, text};
 use super::step::ScriptStep;
 
-/// Seed of a scenario that names none.
+/// Seed of a scenario without one.
 const DEFAULT_SEED: u64 = 1;
 const DEFAULT_LIMIT: Duration = Duration::from_secs(60);
 const DEFAULT_CYCLE: Duration = Duration::from_millis(1);
 
-/// A scenario, to be written in JSON, or built in code. [`Scenario::of`](crate::Scenario::of) makes one of it that can run.
+/// A scenario, written in JSON or built in code. [`Scenario::of`](crate::Scenario::of) makes an executable one from it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Script {
-    /// What it shows, in one sentence.
+    /// What it demonstrates, in one sentence.
     pub title: String,
-    /// The seed of its dice.
+    /// The seed of its random generator.
     #[serde(default = "default_seed")]
     pub seed: u64,
-    /// The moment at which it is over, whatever waits.
+    /// The time at which it ends, whatever is still waiting.
     #[serde(default = "default_limit", with = "text")]
     pub limit: Duration,
     /// Cycle of the process data, above 0.
     #[serde(default = "default_cycle", with = "text")]
     pub cycle: Duration,
-    /// Where in its period the cycle lies, from the beginning; none: the seed decides.
+    /// Start of the cycle within its period, from the start of the scenario; none: taken from the seed.
     #[serde(default, with = "optional_text", skip_serializing_if = "Option::is_none")]
     pub cycle_phase: Option<Duration>,
-    /// A capture whose frames a recorded master sends; none: the scripted master alone.
+    /// A capture whose frames a recorded master sends; none: only the scripted master.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capture: Option<String>,
-    /// The user program of the master; none: it only does what steps order.
+    /// The user program of the master; none: it only executes the orders of steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub master: Option<ScriptMaster>,
     /// The units of the line, the one next to the master first; none: one unit at its factory setting.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub units: Vec<ScriptUnit>,
-    /// What happens, in this order.
+    /// The steps, in this order.
     pub steps: Vec<ScriptStep>,
 }
 
@@ -55,7 +55,7 @@ const fn default_cycle() -> Duration {
 }
 
 impl Script {
-    /// A scenario with this title and nothing else: one unit at its factory setting, no steps.
+    /// A scenario with only this title: one unit at its factory setting, no steps.
     #[must_use]
     pub fn new(title: &str) -> Self {
         Self {
@@ -72,19 +72,19 @@ impl Script {
     }
 }
 
-/// A unit, and what its CPU Unit runs.
+/// A unit, and the program of its CPU Unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum ScriptUnit {
-    /// A unit file, by its path as it is seen from the scenario.
+    /// A unit file, by its path relative to the scenario.
     File(String),
-    /// A unit file, and another program than its own.
+    /// A unit file, with another program than its own.
     FileWithProgram(FileWithProgram),
     /// The keys of a unit file.
     Keys(toml::Table),
 }
 
-/// A unit file, and another program than its own; paths are seen from the scenario.
+/// A unit file, with another program than its own; paths are relative to the scenario.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FileWithProgram {
@@ -99,12 +99,13 @@ pub struct FileWithProgram {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScriptMaster {
-    /// Its files, as they are seen from the scenario.
+    /// Its files, relative to the scenario.
     pub program: Paths,
-    /// Names of the units as EtherCAT slaves, in the order of the line; those that are left out follow the node address.
+    /// Names of the units as EtherCAT slaves, in the order of the line; names that are left out are made from
+    /// the node address.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub device_names: Vec<String>,
-    /// Period of its task; none: that of the process data, in step with them.
+    /// Period of its task; none: that of the process data, synchronous with them.
     #[serde(default, with = "optional_text", skip_serializing_if = "Option::is_none")]
     pub task_period: Option<Duration>,
 }

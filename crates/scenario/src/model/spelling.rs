@@ -1,4 +1,4 @@
-//! How single values are written: one spelling for files, JSON and sentences.
+//! The notation of single values: the same for files, JSON and sentences.
 
 use core::fmt;
 use core::str::FromStr;
@@ -6,7 +6,7 @@ use core::str::FromStr;
 use serde::de::{self, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Why a text is no value: what was expected.
+/// Why a text is not a value: the expected notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotAValue(pub(super) &'static str);
 
@@ -18,7 +18,7 @@ impl fmt::Display for NotAValue {
 
 impl core::error::Error for NotAValue {}
 
-/// A number in decimal, or in hexadecimal behind `0x` or `16#`.
+/// A number in decimal, or in hexadecimal after `0x` or `16#`.
 pub(crate) fn number(text: &str) -> Option<u64> {
     match text.strip_prefix("0x").or_else(|| text.strip_prefix("16#")) {
         Some(digits) => u64::from_str_radix(digits, 16).ok(),
@@ -26,7 +26,7 @@ pub(crate) fn number(text: &str) -> Option<u64> {
     }
 }
 
-/// At most so many hexadecimal digits, with `0x` in front or without.
+/// At most this number of hexadecimal digits, with or without `0x` before them.
 pub(crate) fn hexadecimal(text: &str, digits: usize) -> Option<u64> {
     let bare = text.strip_prefix("0x").unwrap_or(text);
     (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
@@ -51,7 +51,7 @@ pub(super) mod text {
     }
 }
 
-/// The same, of a field that may be left out.
+/// The same for a field that may be left out.
 pub(super) mod optional_text {
     use super::*;
 
@@ -86,7 +86,7 @@ pub(super) mod nothing {
     }
 }
 
-/// A value that is written as a text, and may be given as a number too.
+/// A value that is written as a text; a number is also accepted.
 pub(super) struct TextOrNumber<T> {
     pub(super) text: fn(&str) -> Option<T>,
     pub(super) number: fn(u64) -> Option<T>,
@@ -114,7 +114,7 @@ impl<T> Visitor<'_> for TextOrNumber<T> {
     }
 }
 
-/// Types that are written as their text.
+/// Types that are written as a text.
 macro_rules! by_text {
     ($($type:ty)*) => {$(
         impl serde::Serialize for $type {

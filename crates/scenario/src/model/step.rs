@@ -1,4 +1,4 @@
-//! What a step does, and when.
+//! The action of a step, and its time.
 
 use time::Duration;
 
@@ -11,102 +11,102 @@ use super::unit::UnitOrder;
 /// One step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// When it is due.
+    /// The time at which it is due.
     pub trigger: Trigger,
-    /// What it does.
+    /// Its action.
     pub order: Order,
-    /// How often it happens again; none: once.
+    /// Its repetition; none: once.
     pub repetition: Option<Repetition>,
 }
 
 impl Step {
-    /// A step that is due as soon as the one in front of it is done.
+    /// A step that is due as soon as the one before it is done.
     #[must_use]
     pub const fn at_once(order: Order) -> Self {
         Self { trigger: Trigger::AtOnce, order, repetition: None }
     }
 }
 
-/// When a step is due; never before the step in front of it.
+/// The time at which a step is due; never before the step before it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Trigger {
-    /// At once.
+    /// Immediately.
     AtOnce,
-    /// At this time from the beginning.
+    /// At this time from the start.
     At(Duration),
-    /// This time after the step in front of it.
+    /// This time after the step before it.
     After(Duration),
-    /// As soon as this holds.
+    /// As soon as this is true.
     When(Condition),
 }
 
-/// A step that happens several times.
+/// A step that is executed several times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Repetition {
-    /// How often in all, 1 to 10,000.
+    /// Total number of executions, 1 to 10,000.
     pub times: u64,
-    /// From one time to the next.
+    /// Time from one execution to the next.
     pub every: Duration,
-    /// Each repetition comes earlier or later by at most this time, at most `every`.
+    /// Each repetition is earlier or later by at most this time, at most `every`.
     pub jitter: Duration,
 }
 
-/// What one step does.
+/// The action of one step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Order {
     /// The scripted master.
     Master(MasterOrder),
-    /// Hands on a unit.
+    /// An action on a unit by hand.
     Unit(UnitOrder),
     /// Its CPU Unit.
     Cpu(CpuOrder),
     /// The line.
     Line(LineOrder),
-    /// What has to hold.
+    /// A condition that must be true.
     Expect(Expectation),
 }
 
-/// What has to hold, and when.
+/// A condition that must be true, and its time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Expectation {
-    /// What has to hold.
+    /// The condition.
     pub condition: Condition,
-    /// When.
+    /// The time.
     pub mode: Mode,
 }
 
-/// When an expectation has to hold.
+/// The time at which an expectation must be true.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// Now.
     Now,
-    /// At some moment before this time has passed.
+    /// At some time before this time has passed.
     Within(Duration),
-    /// At no moment, from now to the end.
+    /// At no time, from now to the end.
     Never,
-    /// At every moment until this time has passed.
+    /// At every time until this time has passed.
     For(Duration),
-    /// At every moment until this holds.
+    /// At every time until this condition is true.
     Until(Condition),
-    /// At no moment until this holds.
+    /// At no time until this condition is true.
     NeverUntil(Condition),
 }
 
-/// Steps that the dice write, in the place of this one.
+/// Random steps, instead of this one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RandomSteps {
-    /// How many, 1 to 10,000.
+    /// Their number, 1 to 10,000.
     pub count: u64,
-    /// How long they take together, at most.
+    /// Their maximum duration together.
     pub within: Duration,
 }
 
-/// What stands in the list of steps.
+/// An entry of the list of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ScriptStep {
     /// A step.
     Step(Step),
-    /// Steps of the dice.
+    /// Random steps.
     Random(RandomSteps),
 }
 

@@ -1,4 +1,4 @@
-//! A step as a file has it: a table of keys, one spelling of moments, orders and expectations.
+//! A step as in a file: a table of keys, one notation of times, orders and expectations.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use time::Duration;
@@ -49,12 +49,12 @@ pub(crate) struct StepForm {
     pub(crate) random: Option<u64>,
 }
 
-/// Keys that do not belong together.
+/// Keys that contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Contradiction {
-    /// What is wrong.
+    /// The contradiction.
     pub(crate) message: String,
-    /// The way out; empty if the message says it.
+    /// The remedy; empty if the message contains it.
     pub(crate) help: &'static str,
 }
 
@@ -65,7 +65,7 @@ impl Contradiction {
 }
 
 impl StepForm {
-    /// What the keys say together.
+    /// The meaning of the keys together.
     pub(crate) fn read(self) -> Result<ScriptStep, Contradiction> {
         if let Some(count) = self.random {
             return self.random_steps(count).map(ScriptStep::Random);
@@ -97,7 +97,7 @@ impl StepForm {
         }
     }
 
-    /// When an expectation has to hold; none: the keys leave it out.
+    /// The time at which an expectation must be true; none: the keys leave it out.
     fn mode(&self) -> Result<Option<Mode>, Contradiction> {
         match (self.within, self.r#for, &self.until) {
             (None, None, None) => Ok(None),

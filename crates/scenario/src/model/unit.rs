@@ -1,4 +1,4 @@
-//! What is done to a unit by hand, and how it behaves as a slave.
+//! Actions on a unit by hand, and its conduct as a slave.
 
 use serde::{Deserialize, Serialize};
 use time::Duration;
@@ -9,18 +9,18 @@ use super::numbers::Hex;
 use super::spelling::text;
 use super::units::{UnitNumber, UnitSet};
 
-/// What is done to a unit by hand.
+/// An action on a unit by hand.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table of sentences says what each value means")]
 pub enum UnitOrder {
     /// Restart by support software.
     Restart { units: UnitSet },
-    /// Off and on at once.
+    /// Power off, and on again immediately.
     CyclePower { units: UnitSet },
-    /// Off.
+    /// Power off.
     PowerOff { units: UnitSet },
-    /// On.
+    /// Power on.
     PowerOn { units: UnitSet },
     /// Resets the errors.
     ResetErrors { units: UnitSet },
@@ -32,9 +32,9 @@ pub enum UnitOrder {
     InvertSiiWord { unit: UnitNumber, word: u16 },
     /// Erases the EEPROM.
     EraseSii { units: UnitSet },
-    /// Changes how it behaves as a slave.
+    /// Changes its conduct as a slave.
     Conduct { units: UnitSet, conduct: ConductOrder },
-    /// The cause of a fault appears, by the name that the unit model gives it.
+    /// The cause of a fault appears, with its name in the unit model.
     InjectFault { units: UnitSet, fault: String },
     /// The cause of a fault disappears.
     RemoveFault { units: UnitSet, fault: String },
@@ -50,7 +50,7 @@ pub enum EventLog {
     Access,
 }
 
-/// How a unit behaves as a slave, until it is changed again.
+/// The conduct of a unit as a slave, until it is changed again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 #[expect(missing_docs, reason = "the table of sentences says what each value means")]
@@ -89,6 +89,6 @@ pub enum ConductOrder {
     },
     /// The acknowledge of an error is ignored.
     IgnoreAcknowledges,
-    /// Times are those of the unit file again, and nothing else is refused or ignored.
+    /// Times are those of the unit file again, and all other changes of the conduct are cleared.
     Behave,
 }

@@ -1,4 +1,4 @@
-//! Whom a value is about: units and cables by their numbers in the line, and who runs a user program.
+//! The subject of a value: units and cables by their numbers in the line, and the owner of a user program.
 
 use core::fmt;
 use core::num::{NonZeroU16, NonZeroUsize};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct UnitNumber(NonZeroUsize);
 
 impl UnitNumber {
-    /// The unit of this number; none for 0.
+    /// The unit with this number; none for 0.
     #[must_use]
     pub const fn new(number: usize) -> Option<Self> {
         match NonZeroUsize::new(number) {
@@ -96,13 +96,13 @@ mod all {
     }
 }
 
-/// The number of a cable: 1 for the one to the master, 2 for the one behind the first unit.
+/// The number of a cable: 1 for the one to the master, 2 for the one after the first unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct CableNumber(NonZeroU16);
 
 impl CableNumber {
-    /// The cable of this number; none for 0.
+    /// The cable with this number; none for 0.
     #[must_use]
     pub const fn new(number: u16) -> Option<Self> {
         match NonZeroU16::new(number) {
@@ -111,7 +111,7 @@ impl CableNumber {
         }
     }
 
-    /// The position of the unit behind it, counted from 0.
+    /// The position of the unit after it, counted from 0.
     #[must_use]
     pub const fn position(self) -> usize {
         self.0.get() as usize - 1
@@ -124,7 +124,7 @@ impl CableNumber {
     }
 }
 
-/// Whose user program it is. In JSON `"master"`, or `{ "unit": 1 }`.
+/// The owner of a user program. In JSON `"master"`, or `{ "unit": 1 }`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Controller {

@@ -1,4 +1,4 @@
-//! What is wrong with a scenario, and where.
+//! The mistakes in a scenario, and their places.
 
 use core::fmt;
 use core::ops::Range;
@@ -7,18 +7,18 @@ use user_file::{Mistakes, shortened};
 
 use super::problem::{Part, Problem};
 
-/// One thing that is wrong.
+/// One mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScenarioError {
-    /// Where.
+    /// Its place.
     pub place: ErrorPlace,
-    /// What is wrong.
+    /// Its message.
     pub message: String,
-    /// The way out; empty if the message says it.
+    /// The remedy; empty if the message contains it.
     pub help: String,
 }
 
-/// Where something is wrong.
+/// The place of a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ErrorPlace {
     /// In a file.
@@ -34,7 +34,7 @@ pub enum ErrorPlace {
     Step(usize),
     /// In this unit of a script, from 1.
     Unit(usize),
-    /// In what a script says of the whole.
+    /// In the general part of a script.
     Script,
 }
 
@@ -45,7 +45,7 @@ impl ScenarioError {
         Self { place, message: shortened(message), help: shortened(help) }
     }
 
-    /// Its line in the file, from 1; none for a script that is no file.
+    /// Its line in the file, from 1; none for a script that is not a file.
     #[must_use]
     pub const fn line(&self) -> Option<usize> {
         match self.place {
@@ -54,7 +54,7 @@ impl ScenarioError {
         }
     }
 
-    /// Its bytes in the file; none for a script that is no file.
+    /// Its bytes in the file; none for a script that is not a file.
     #[must_use]
     pub fn span(&self) -> Range<usize> {
         match &self.place {
@@ -82,7 +82,7 @@ impl fmt::Display for ErrorPlace {
     }
 }
 
-/// What is wrong, in the order of the file; [`MISTAKES_MAX`](user_file::MISTAKES_MAX) things at most.
+/// The mistakes, in the order of the file; at most [`MISTAKES_MAX`](user_file::MISTAKES_MAX).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ScenarioErrors {
     pub(crate) list: Vec<ScenarioError>,
@@ -90,7 +90,7 @@ pub struct ScenarioErrors {
 }
 
 impl ScenarioErrors {
-    /// Of a script that is no file, in the order of its parts.
+    /// Those of a script that is not a file, in the order of its parts.
     pub(super) fn of_script(problems: Vec<Problem>) -> Self {
         let mut mistakes = Mistakes::default();
         for Problem { part, message, help } in problems {
@@ -112,7 +112,7 @@ impl ScenarioErrors {
         self.list.iter()
     }
 
-    /// How many there are beside those of the list.
+    /// Number of mistakes in addition to the list.
     #[must_use]
     pub const fn more(&self) -> usize {
         self.more

@@ -1,17 +1,17 @@
-//! The files that a scenario names, which a reader without a disk asks for.
+//! The files of a scenario, for a reader without access to a disk.
 
 use user_file::Wanted;
 
-/// Gives the texts of files by their paths, as they are seen from the scenario.
+/// Returns the texts of files by their paths, relative to the scenario.
 pub trait Files {
     /// The text of a file.
     ///
     /// # Errors
-    /// Why there is none.
+    /// Why it cannot be read.
     fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String>;
 
-    /// The files of a program that is given by files and folders, in their order: a folder is all programs below it, and
-    /// a file that comes twice is one file.
+    /// The files of a program that consists of files and folders, in their order: a folder means all programs
+    /// in it and below, and a file that occurs twice is one file.
     ///
     /// # Errors
     /// The folder that cannot be read, and why.
@@ -26,7 +26,7 @@ pub trait Files {
     }
 }
 
-/// Texts by a function, which knows no folders.
+/// Texts from a function, which supports no folders.
 pub(crate) struct Texts<F>(pub(crate) F);
 
 impl<F: FnMut(&str) -> Result<String, String>> Files for Texts<F> {

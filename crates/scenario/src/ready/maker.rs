@@ -1,4 +1,4 @@
-//! What of a scenario is ready so far, and what is wrong with it.
+//! The parts of a scenario that are ready, and the mistakes so far.
 
 use plc::DeviceVariables;
 
@@ -8,14 +8,14 @@ use crate::run::{LoadedProgram, MasterProgram, UnitSource};
 
 /// Makes a scenario ready.
 pub(super) struct Maker<'f> {
-    /// Gives the texts of files.
+    /// Returns the texts of files.
     pub(super) files: &'f mut dyn Files,
     pub(super) units: Vec<UnitSource>,
     /// The device variables of the units.
     pub(super) variables: Vec<DeviceVariables>,
     /// The master's own program.
     pub(super) master: Option<MasterProgram>,
-    /// It names a capture.
+    /// It refers to a capture.
     pub(super) has_capture: bool,
     /// Programs that steps load.
     pub(super) programs: Vec<LoadedProgram>,

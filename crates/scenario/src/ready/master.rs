@@ -9,7 +9,7 @@ use super::problem::Part;
 use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber};
 use crate::run::{MasterProgram, MasterVariables, Node, changed_settings};
 
-/// Most characters of a device name.
+/// Maximum number of characters of a device name.
 const NAME_MAX: usize = 127;
 
 impl Maker<'_> {
@@ -34,7 +34,7 @@ impl Maker<'_> {
         }
     }
 
-    /// The units as the program knows them.
+    /// The units for the program.
     fn nodes(&mut self, device_names: &[String]) -> Option<Vec<Node>> {
         let addresses = self.node_addresses()?;
         let names = self.device_names(device_names, &addresses)?;
@@ -42,7 +42,7 @@ impl Maker<'_> {
         Some(nodes.map(|(unit, (address, device_name))| Node { unit, address, device_name }).collect())
     }
 
-    /// A name for each unit: those that the script gives, then by the node address, such as E005.
+    /// A name for each unit: those in the script, then by the node address, such as E005.
     fn device_names(&mut self, given: &[String], addresses: &[u16]) -> Option<Vec<String>> {
         let count = addresses.len();
         if given.len() > count {
@@ -81,7 +81,7 @@ impl Maker<'_> {
     }
 }
 
-/// The variables of all PDO entries that the master has by the factory setting, and by the orders of the steps.
+/// The variables of all PDO entries that the master has in the factory setting, and through the orders of the steps.
 fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
     let mut variables = MasterVariables::new();
     let mut settings = vec![PdoSettings::factory(); nodes.len()];

@@ -1,4 +1,4 @@
-//! Node addresses of the units: a master with a program of its own knows each unit by its ID (manual, 3-3).
+//! Node addresses of the units: a master with its own program identifies each unit by its ID (manual, 3-3).
 
 use nx_ect101::UnitSettings;
 
@@ -7,8 +7,8 @@ use super::problem::Part;
 use crate::run::NODE_ADDRESS_MAX;
 
 impl Maker<'_> {
-    /// The node address of each unit, in the order of the line. Refuses IDs that are missing, equal, or no node
-    /// address, each with its unit.
+    /// The node address of each unit, in the order of the line. Refuses IDs that are missing, equal, or not a
+    /// node address, each with its unit.
     pub(super) fn node_addresses(&mut self) -> Option<Vec<u16>> {
         let ids = self.units.iter().map(|unit| UnitSettings::from_unit_file(&unit.file).explicit_device_id());
         let ids: Vec<u16> = ids.collect();
@@ -22,7 +22,7 @@ impl Maker<'_> {
     }
 }
 
-/// What keeps the ID of the unit at this place from being its node address.
+/// Why the ID of the unit at this position cannot be its node address.
 fn problem(ids: &[u16], at: usize) -> Option<String> {
     let (id, unit) = (*ids.get(at)?, at + 1);
     if id == 0 {
@@ -35,7 +35,7 @@ fn problem(ids: &[u16], at: usize) -> Option<String> {
     Some(format!("units {} and {unit} both have the ID {id}: it is the node address", first + 1))
 }
 
-/// Names a free ID; a line with more units than node addresses has none.
+/// Suggests a free ID; there is none for a line with more units than node addresses.
 fn way_out(ids: &[u16]) -> String {
     let free = (1..=NODE_ADDRESS_MAX).find(|id| !ids.contains(id));
     let keys = free.map_or_else(String::new, |id| {

@@ -1,11 +1,11 @@
-//! What keeps a script from being run, and which part of it is meant.
+//! Why a script cannot run, and which part of it is wrong.
 
-/// Something that is wrong.
+/// A mistake.
 pub(crate) struct Problem {
     pub(crate) part: Part,
-    /// What is wrong.
+    /// Its message.
     pub(crate) message: String,
-    /// The way out; empty if the message says it.
+    /// The remedy; empty if the message contains it.
     pub(crate) help: String,
 }
 
@@ -29,6 +29,6 @@ pub(crate) enum StepPart {
     Order,
     When,
     Until,
-    /// How often: `repeat` or `random`.
+    /// The repetition: `repeat` or `random`.
     Count,
 }

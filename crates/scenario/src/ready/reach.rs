@@ -1,4 +1,4 @@
-//! Which units an order is about, so that it can be told whether they are there.
+//! The units of an order, to check whether they exist.
 
 use crate::model::{Condition, Controller, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitOrder, UnitSet};
 
@@ -68,10 +68,10 @@ pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
     }
 }
 
-/// Whether the cable that an order names is there.
+/// Whether the cable of an order exists.
 pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
     match order {
-        // There is a cable behind the last unit too.
+        // There is also a cable after the last unit.
         LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() <= units,
         LineOrder::Disturb(disturbance) => match disturbance.fault {
             FrameFault::Corrupt { cable } => cable.position() < units,
@@ -86,7 +86,7 @@ pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
     }
 }
 
-/// Whom a condition is about.
+/// The units of a condition.
 pub(super) enum Subject {
     Units(UnitSet),
     Controller(Controller),

@@ -1,4 +1,4 @@
-//! Names and values of variables in steps: whether they are there, and of the right type.
+//! Names and values of variables in steps: whether they exist and have the correct type.
 
 use plc::{DeviceVariables, Target, ValueTextError, VariableAccess};
 
@@ -9,7 +9,7 @@ use crate::model::{Condition, Controller, CpuOrder};
 use crate::run::{LoadedProgram, UserProgram};
 
 impl Maker<'_> {
-    /// Whether the variables of an order are there and take its values. Reads the program that it loads.
+    /// Whether the variables of an order exist and accept its values. Reads the program that it loads.
     pub(super) fn check_variables(&mut self, order: &CpuOrder, part: Part) -> Option<()> {
         match order {
             CpuOrder::Force { variable, value } => self.typed_value(variable, value, part).map(drop),
@@ -39,7 +39,7 @@ impl Maker<'_> {
         Some(())
     }
 
-    /// Writes the value of a condition as the variable shows it.
+    /// Writes the value of a condition in the notation of the variable.
     pub(super) fn resolve(&mut self, condition: &mut Condition, part: Part) -> Option<()> {
         if let Condition::VariableBytes { variable, .. } = condition {
             self.target(variable, part)?;
@@ -73,7 +73,7 @@ impl Maker<'_> {
         Some(())
     }
 
-    /// The value as the variable tells it.
+    /// The value in the notation of the variable.
     fn typed_value(&mut self, name: &str, text: &str, part: Part) -> Option<String> {
         let (at, target) = self.target(name, part)?;
         let variable_type = self.variables.get(at)?.type_of(target).ok()?;
@@ -91,7 +91,7 @@ impl Maker<'_> {
             Controller::Master => canonical_value(self.master.as_ref()?.instance(), name, text),
             Controller::Unit(unit) => match &self.units.get(unit.position())?.program {
                 UserProgram::StructuredText(file) => canonical_value(file.program.instance(), name, text),
-                // What a program of a test has is seen when it runs.
+                // The variables of a test's program are known only when it runs.
                 UserProgram::Custom(_) => Ok(text.to_owned()),
                 UserProgram::None | UserProgram::Builtin(_) => Err(VariableProblem::NoSuchVariable),
             },
@@ -111,7 +111,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Whether a program can be asked.
+    /// Whether the variables of a program are known.
     pub(super) fn check_controller(&mut self, controller: Controller, part: Part) -> Option<()> {
         match controller {
             Controller::Master if self.master.is_none() => {
@@ -128,17 +128,17 @@ impl Maker<'_> {
     }
 }
 
-/// What is wrong with the name or the value of a variable of a program.
+/// The mistake in the name or the value of a program's variable.
 enum VariableProblem {
     NoSuchVariable,
     NoValue {
-        /// What the variable has at the beginning, as an example.
+        /// The initial value of the variable, as an example.
         such_as: String,
     },
 }
 
-/// A value of a variable as the program tells it, so that texts can be compared: `5`, `16#1F`, `T#20ms`, `[0, 1]`.
-/// Only of values of elementary types is told that they are none.
+/// A value of a variable in the notation of the program, so that texts can be compared: `5`, `16#1F`, `T#20ms`,
+/// `[0, 1]`. Only values of elementary types are checked for validity.
 fn canonical_value(program: &st::Instance, name: &str, text: &str) -> Result<String, VariableProblem> {
     let initial = program.value(name).ok_or(VariableProblem::NoSuchVariable)?;
     let mut trial = program.clone();

@@ -1,4 +1,4 @@
-//! Steps: whether they can be, one after the other, and name what is there.
+//! Steps: whether they are possible, one after the other, and refer to existing names.
 
 use time::Duration;
 
@@ -10,24 +10,24 @@ use crate::model::{Condition, Expectation, Mode, Order, RandomSteps, Repetition,
 use crate::run::{RandomPart, WrittenStep};
 use crate::words::Spoken;
 
-/// Most repetitions of a step, and most steps of the dice.
+/// Maximum number of repetitions of a step, and of random steps.
 const STEPS_MAX: u64 = 10_000;
 
-/// The steps that can be run, and where the dice add theirs.
+/// The executable steps, and the position of the random ones.
 #[derive(Default)]
 pub(super) struct ReadySteps {
     pub(super) steps: Vec<WrittenStep>,
     pub(super) random: Option<RandomPart>,
-    /// The earliest moment of the next step.
+    /// The earliest time of the next step.
     reached: Duration,
 }
 
-/// Whether steps can be held against units and programs.
+/// Whether steps can be checked against units and programs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Ground {
-    /// All of them are right.
+    /// All of them are correct.
     Firm,
-    /// A unit or a program is wrong, so that nobody knows what steps may name.
+    /// A unit or a program has mistakes, so it is unknown which names exist.
     Missing,
 }
 
@@ -57,7 +57,7 @@ impl Maker<'_> {
         ready
     }
 
-    /// Times from the beginning that run backwards, or behind the limit, can never be.
+    /// Times from the start that run backwards, or are after the limit, are impossible.
     fn check_moment(&mut self, at: usize, trigger: &Trigger, reached: &mut Duration, limit: Duration) {
         let part = Part::Step(at, StepPart::Whole);
         let moment = match trigger {
@@ -177,7 +177,7 @@ impl Maker<'_> {
         self.resolve(condition, part)
     }
 
-    /// Refuses what no sentence can say: a byte beyond 255, a fault that no unit has, an empty list.
+    /// Refuses values without a sentence: a byte above 255, an unknown fault, an empty list.
     fn said<T: Spoken>(&mut self, value: &T, part: Part) -> Option<()> {
         match T::from_sentence(&value.sentence()) {
             Ok(_) => Some(()),

@@ -1,4 +1,4 @@
-//! Units of a scenario and their user programs, from files that it names.
+//! Units of a scenario and their user programs, from their files.
 
 use std::path::{Path, PathBuf};
 
@@ -12,14 +12,14 @@ use super::problem::Part;
 use crate::model::{FileWithProgram, ScriptUnit};
 use crate::run::{ProgramFile, UnitSource, UserProgram};
 
-/// The unit of a scenario that names none.
+/// The unit of a scenario without units.
 const DEFAULT_UNIT: &str = "model = \"nx-ect101\"";
 
-/// Where a unit comes from.
+/// The source of a unit.
 struct Origin<'a> {
-    /// The path of its file; none if it stands in the scenario.
+    /// The path of its file; none if it is written in the scenario.
     path: Option<&'a str>,
-    /// What it runs instead of the program of its file, seen from the scenario.
+    /// The program that replaces that of its file, relative to the scenario.
     program: Option<Vec<String>>,
 }
 
@@ -66,7 +66,7 @@ impl Maker<'_> {
             Ok(file) => file,
             Err(errors) => {
                 for error in errors.iter() {
-                    // A unit that stands in the scenario has no text of its own to point into.
+                    // A unit that is written in the scenario has no separate text for positions.
                     let message = match origin.path {
                         Some(path) => format!("{path}:{error}"),
                         None => format!("the unit: {}", error.words()),
@@ -144,7 +144,7 @@ impl Maker<'_> {
         self.refuse(part, message, format!("without a file there are {builtins}, or none at all"));
     }
 
-    /// Tells what is wrong with a program, each thing with its place in the program's file.
+    /// Reports the problems of a program, each with its position in the program's file.
     pub(super) fn refuse_program(&mut self, part: Part, problems: &st::Problems) {
         for problem in problems.list() {
             let st::Place { file, line, column, .. } = problems.place(problem);
@@ -157,7 +157,7 @@ impl Maker<'_> {
     }
 }
 
-/// The path of a program that a unit file names, seen from the scenario.
+/// The path of a program in a unit file, relative to the scenario.
 fn seen_from_scenario(unit_file: Option<&str>, program: &Path) -> PathBuf {
     let is_builtin = Builtin::named(&program.display().to_string()).is_some();
     match unit_file.and_then(|path| Path::new(path).parent()) {

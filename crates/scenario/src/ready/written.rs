@@ -1,4 +1,4 @@
-//! How a step was written, and where: it travels beside the typed step, for messages and the trace.
+//! How a step was written, and its place: kept separately from the typed step, for messages and the trace.
 
 use core::ops::Range;
 
@@ -6,7 +6,7 @@ use crate::model::{Expectation, Order, ScriptStep, Step};
 
 /// The words of a step and their place.
 pub(crate) struct Written {
-    /// Line, from 1; of a script that is no file, the number of the step.
+    /// Line, from 1; for a script that is not a file, the number of the step.
     pub(crate) line: usize,
     /// The bytes of the step in the file.
     pub(crate) bytes: Range<usize>,
@@ -15,7 +15,7 @@ pub(crate) struct Written {
 }
 
 impl Written {
-    /// Of the step at this position of a script that is no file.
+    /// For the step at this position of a script that is not a file.
     pub(super) fn of_script(at: usize, step: &ScriptStep) -> Self {
         let text = match step {
             ScriptStep::Step(Step { order, .. }) => sentence(order),

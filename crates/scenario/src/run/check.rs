@@ -1,6 +1,6 @@
-//! Whether a condition holds in a world, and what is seen where it does not.
+//! Whether a condition is true in a world, and the actual state if it is not.
 //!
-//! Every condition has its arm: a condition that was forgotten here would hold always.
+//! Every condition has its arm: a condition that is missing here would always be true.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -14,7 +14,7 @@ use crate::model::{Condition, UnitSet};
 
 pub(super) use seen::Seen;
 
-/// Whether a condition holds now; else what is seen instead.
+/// Whether a condition is true now; otherwise the actual state.
 pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen> {
     match condition {
         Condition::State { units, state, al_status_code } => {
@@ -86,7 +86,7 @@ pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen
     }
 }
 
-/// Whether it holds for each of these units; a unit that is not there holds nothing.
+/// Whether it is true for each of these units; false for a unit that does not exist.
 fn each(
     units: UnitSet,
     world: &mut World,

@@ -1,14 +1,14 @@
-//! The scenario's dice: the same numbers in every run of the same seed (SplitMix64).
+//! The scenario's random generator: the same numbers in every run with the same seed (SplitMix64).
 
 use time::Duration;
 
-/// Makes another seed for the dice of steps, so that a fault of the line does not move them.
+/// Makes a different seed for random steps, so that a fault of the line does not change them.
 pub(crate) const DICE_OF_STEPS: u64 = 0x5EED_0000_57E9_5000;
 
-/// Makes another seed for the phases of units, tasks and master, so that they move neither steps nor faults.
+/// Makes a different seed for the phases of units, tasks and master, so that they change neither steps nor faults.
 const DICE_OF_PHASES: u64 = 0x5EED_0000_0F00_A5E5;
 
-/// The dice for the phases of one participant: the master is 0, the units count from 1.
+/// The generator for the phases of one participant: the master is 0, the units count from 1.
 pub(crate) fn dice_of_phases(seed: u64, participant: u64) -> Dice {
     let mut dice = Dice::new(seed ^ DICE_OF_PHASES);
     Dice::new(dice.next().wrapping_add(participant))
@@ -35,12 +35,12 @@ impl Dice {
         self.next() % limit.max(1)
     }
 
-    /// A moment in a period.
+    /// A time within a period.
     pub(crate) fn phase(&mut self, period: Duration) -> Duration {
         Duration::from_nanos(self.below(period.as_nanos()))
     }
 
-    /// Whether something happens that does so in so many of a hundred cases.
+    /// True with this probability in per cent.
     pub(crate) fn hits(&mut self, percent: u8) -> bool {
         self.next() % 100 < u64::from(percent)
     }

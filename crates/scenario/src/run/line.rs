@@ -1,4 +1,4 @@
-//! What happens to frames between the master and the units.
+//! Faults of frames between the master and the units.
 
 use time::Instant;
 
@@ -14,13 +14,13 @@ pub(crate) struct Line {
     delayed: Vec<Delayed>,
 }
 
-/// A frame on its long way.
+/// A delayed frame.
 #[derive(Debug)]
 pub(crate) struct Delayed {
     pub(crate) at: Instant,
     pub(crate) ticket: Ticket,
     pub(crate) frame: Vec<u8>,
-    /// All that it meets, the delay included.
+    /// All its faults, including the delay.
     pub(crate) faults: Vec<FrameFault>,
 }
 
@@ -37,7 +37,7 @@ impl Line {
         self.disturbances.clear();
     }
 
-    /// The faults that a frame of this kind meets, in the order in which they were told.
+    /// The faults for a frame of this kind, in the order in which they were ordered.
     pub(crate) fn faults(&mut self, kind: FrameKind) -> Vec<FrameFault> {
         let Self { dice, disturbances, .. } = self;
         let meant =
@@ -78,7 +78,7 @@ impl Line {
         self.delayed.iter().map(|delayed| delayed.at).min().unwrap_or(Instant::NEVER)
     }
 
-    /// The next frame whose time has come; of several the one that was sent first.
+    /// The next frame that is due; of several the one that was sent first.
     pub(crate) fn due(&mut self, now: Instant) -> Option<Delayed> {
         let place = self.delayed.iter().position(|delayed| delayed.at <= now)?;
         Some(self.delayed.remove(place))

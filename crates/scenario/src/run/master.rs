@@ -1,5 +1,5 @@
-//! The scripted master: works off its orders in virtual time, one acyclic frame at a time, and exchanges process
-//! data beside.
+//! The scripted master: executes its orders in virtual time, one acyclic frame at a time, and exchanges process
+//! data in parallel.
 
 mod answer;
 mod last_sdo;
@@ -33,18 +33,18 @@ pub(crate) use sent::{Sent, Ticket};
 pub(crate) use slave::changed_settings;
 pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
 
-/// How long an answer may take before the frame counts as lost.
+/// Time-out for an answer; then the frame counts as lost.
 const ANSWER_PATIENCE: Duration = Duration::from_millis(2);
-/// From one look at a status to the next.
+/// Time between two reads of a status.
 const POLL_PERIOD: Duration = Duration::from_micros(500);
-/// From one look into the mailboxes to the next.
+/// Time between two reads of the mailboxes.
 const LISTEN_PERIOD: Duration = Duration::from_millis(10);
-/// How long one operation may take in all.
+/// Time-out for one operation as a whole.
 const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
-/// How long a state may take. The ESI gives a unit 9 s at most, in which it tells why it does not come.
+/// Time-out for a state. The ESI gives a unit at most 9 s, in which it reports why it does not reach the state.
 const STATE_PATIENCE: Duration = Duration::from_secs(10);
 
-/// It reads once more where a read of the mailbox got lost, and asks for the message again if there is none.
+/// If a read of the mailbox is lost, it reads again, and requests the message again if there is none.
 const RIGHT_CONDUCT: MailboxConduct =
     MailboxConduct { lost_read: LostRead::ReadAgain, ..MailboxConduct::NEW };
 
@@ -53,21 +53,21 @@ const RIGHT_CONDUCT: MailboxConduct =
 pub(crate) struct Master {
     slaves: Vec<Slave>,
     operations: VecDeque<Operation>,
-    /// What the first operation waits for.
+    /// What the first operation is waiting for.
     waiting: Waiting,
     process_data: ProcessData,
     /// Its own user program, if it has one.
     task: Option<Task>,
-    /// What the user program knows of the slaves; without one nobody looks.
+    /// The states of the slaves for the user program; without a program they are not read.
     states: States,
-    /// What the user program has told.
+    /// The reports of the user program.
     told: Story,
-    /// It looks into the mailboxes then, if it has nothing else to do.
+    /// The next read of the mailboxes, if there are no other operations.
     next_listen: Instant,
-    /// Units whose mailboxes it looks into.
+    /// Units whose mailboxes it reads.
     listens: Vec<bool>,
     ticket: u64,
-    /// How it treats mailboxes, right or wrong. The counters of its messages are common to all units.
+    /// How it handles mailboxes, correctly or not. All units share the counters of its messages.
     mailbox: MailboxConduct,
     gave_up: Option<String>,
     last_sdo: LastSdo,
@@ -77,11 +77,11 @@ pub(crate) struct Master {
 
 #[derive(Debug)]
 struct Waiting {
-    /// Sends its next frame then.
+    /// Time of its next frame.
     at: Instant,
-    /// The frame that is on its way.
+    /// The frame in flight.
     ticket: Option<u64>,
-    /// Gives up then.
+    /// It gives up at this time.
     until: Instant,
 }
 
@@ -106,7 +106,7 @@ impl Master {
         }
     }
 
-    /// Gives it a user program of its own, which begins now.
+    /// Adds a user program, which starts now.
     pub(crate) fn with_program(mut self, program: MasterProgram, now: Instant) -> Self {
         self.task = Some(Task::new(program, now));
         self
@@ -123,14 +123,14 @@ impl Master {
         if waits_for_state { STATE_PATIENCE } else { OPERATION_PATIENCE }
     }
 
-    /// When it sends next, or loses patience.
+    /// The time of its next frame or time-out.
     pub(crate) fn deadline(&self) -> Instant {
         let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
         let task = self.task.as_ref().map_or(Instant::NEVER, Task::deadline);
         self.waiting.at.min(self.process_data.deadline()).min(listen).min(task)
     }
 
-    /// What it sends now.
+    /// The frames that it sends now.
     pub(crate) fn send(&mut self, now: Instant) -> Vec<Sent> {
         let mut frames = Vec::new();
         let is_cycle = self.process_data.deadline() <= now;
@@ -147,7 +147,7 @@ impl Master {
         frames
     }
 
-    /// A period of the user program begins: it wants to know the states of the slaves.
+    /// A period of the user program begins: the states of the slaves are read.
     fn begin_task(&mut self, now: Instant, is_cycle: bool) -> Vec<Sent> {
         let Some(task) = &mut self.task else { return Vec::new() };
         if is_cycle {
@@ -157,7 +157,7 @@ impl Master {
         if begins { self.states.send(&mut self.ticket) } else { Vec::new() }
     }
 
-    /// Runs the user program, if its period has begun and the frames of this moment are back.
+    /// Runs the user program, if its period has begun and the frames of this time have returned.
     pub(crate) fn scan(&mut self, now: Instant) {
         let scan = |task: &mut Task| task.scan(now, &mut self.process_data, &self.states);
         if let Some(events) = self.task.as_mut().and_then(scan) {
@@ -165,7 +165,7 @@ impl Master {
         }
     }
 
-    /// Looks into the mailboxes, for emergencies.
+    /// Reads the mailboxes, for emergencies.
     fn listen(&mut self, now: Instant) {
         self.next_listen = now + LISTEN_PERIOD;
         let units = self.slaves.iter().zip(&self.listens).enumerate().filter(|(_, (_, listens))| **listens);
@@ -189,12 +189,12 @@ impl Master {
         let (frame, kind) = operation.frame();
         self.ticket += 1;
         self.waiting.ticket = Some(self.ticket);
-        // Without an answer by then the frame is sent once more.
+        // Without an answer by then the frame is sent again.
         self.waiting.at = now + ANSWER_PATIENCE;
         Some(Sent { ticket: Ticket::Scripted(self.ticket), kind, frame })
     }
 
-    /// A frame comes back. What nobody waits for any more is passed over, as a master does.
+    /// A frame returns. Frames that are no longer expected are ignored, as by a real master.
     pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8], now: Instant) {
         let datagrams = returned_datagrams(frame);
         let is_cyclic =
@@ -225,7 +225,7 @@ impl Master {
         }
     }
 
-    /// The first operation is over.
+    /// The first operation is complete.
     fn end_operation(&mut self, now: Instant) {
         self.keep_counters();
         let Some(operation) = self.operations.pop_front() else { return };
@@ -242,7 +242,7 @@ impl Master {
         }
     }
 
-    /// The counters of the mailbox go on from where the first operation leaves them.
+    /// The counters of the mailbox continue from those of the first operation.
     fn keep_counters(&mut self) {
         let Some(operation) = self.operations.front_mut() else { return };
         let unit = operation.unit;
@@ -253,7 +253,7 @@ impl Master {
         }
     }
 
-    /// Changes how it treats mailboxes from now on, the present one too.
+    /// Changes how it handles mailboxes from now on, including the present one.
     fn change_mailbox(&mut self, change: impl Fn(&mut MailboxConduct)) {
         change(&mut self.mailbox);
         if let Some(operation) = self.operations.front_mut() {
@@ -261,7 +261,7 @@ impl Master {
         }
     }
 
-    /// What an operation leads to goes before everything else.
+    /// The operations that follow from an operation come before all others.
     fn take_steps(&mut self, steps: Vec<Step>, now: Instant) {
         for step in steps.into_iter().rev() {
             match step {
@@ -287,7 +287,7 @@ impl Master {
         }
     }
 
-    /// An order that cannot be done takes what belongs to it with it; the next order goes on.
+    /// When an order fails, its remaining operations are dropped and the next order starts.
     fn give_up(&mut self, reason: String, now: Instant) {
         if !self.operations.front().is_some_and(Operation::is_listening) {
             self.story.push(format!("gives up: {reason}"));
@@ -333,7 +333,7 @@ impl Master {
         self.process_data.working_counter(unit)
     }
 
-    /// What its user program has told.
+    /// The reports of its user program.
     pub(crate) const fn told(&self) -> &Story {
         &self.told
     }
@@ -343,7 +343,7 @@ impl Master {
         self.task.as_ref()?.value(name)
     }
 
-    /// What it has to tell since the last call.
+    /// Its reports since the last call.
     pub(crate) fn take_story(&mut self) -> Vec<String> {
         std::mem::take(&mut self.story)
     }

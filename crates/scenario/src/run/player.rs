@@ -1,4 +1,4 @@
-//! Playing steps: in their order, with expectations as they become due, to a verdict.
+//! Playing steps: in their order, with expectations when they become due, to a verdict.
 
 use time::{Duration, Instant};
 
@@ -29,25 +29,25 @@ pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, record
 
 struct Replay<'a> {
     world: World,
-    /// For the moments of steps; the line has its own.
+    /// The random generator for the times of steps; the line has its own.
     dice: Dice,
-    /// Expectations that last.
+    /// Expectations that are still open.
     watches: Vec<Watch<'a>>,
-    /// The step that is being done.
+    /// The step that is being executed.
     current: Option<&'a WrittenStep>,
     limit: Instant,
 }
 
-/// An expectation that is looked at after everything that happens.
+/// An expectation that is checked after every event.
 struct Watch<'a> {
     step: &'a WrittenStep,
     condition: &'a Condition,
     wanted: Wanted,
-    /// The moment at which it is decided.
+    /// The time at which it is decided.
     until: Instant,
 }
 
-/// Whether a condition has to hold.
+/// Whether a condition must be true.
 #[derive(Clone, Copy)]
 enum Wanted {
     Always,
@@ -55,7 +55,7 @@ enum Wanted {
 }
 
 impl Wanted {
-    /// What is wrong with how a condition is now.
+    /// The violation in the present state of a condition.
     fn judge(self, checked: Result<(), Seen>) -> Result<(), Seen> {
         match (self, checked) {
             (Self::Always, checked) => checked,
@@ -65,7 +65,7 @@ impl Wanted {
     }
 }
 
-/// Whether a watch goes on.
+/// Whether a watch continues.
 enum Watched {
     Open,
     Satisfied,
@@ -132,7 +132,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Until a step is due once more; the dice decide how much earlier or later.
+    /// Until a step is due again; the random generator determines how much earlier or later.
     fn wait_again(&mut self, Repetition { every, jitter, .. }: Repetition) -> Verdict {
         let now = self.world.now();
         if jitter.is_zero() {
@@ -164,7 +164,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Time passes until it holds.
+    /// Time advances until it is true.
     fn expect_within(&mut self, step: &'a WrittenStep, condition: &Condition, until: Instant) -> Verdict {
         loop {
             let Err(seen) = check(condition, &mut self.world) else { return Ok(()) };
@@ -175,7 +175,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// Time passes until `until` holds; so long the condition has to hold, or must not.
+    /// Time advances until `until` is true; until then the condition must be true, or must not.
     fn expect_until(
         &mut self,
         step: &'a WrittenStep,
@@ -195,7 +195,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// The scenario is over: what had to hold to the end has.
+    /// The scenario has ended: expectations that had to be true to the end are fulfilled.
     fn end(&mut self) -> Verdict {
         self.look()
     }
@@ -209,7 +209,7 @@ impl<'a> Replay<'a> {
         }
     }
 
-    /// To the next thing that happens, at most to `end`.
+    /// Advances to the next event, at most to `end`.
     fn advance(&mut self, end: Instant) -> Verdict {
         if let Some(step) = self.current.filter(|_| self.world.now() > self.limit) {
             let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
@@ -221,7 +221,7 @@ impl<'a> Replay<'a> {
         self.look()
     }
 
-    /// Looks at the expectations that last.
+    /// Checks the open expectations.
     fn look(&mut self) -> Verdict {
         let mut place = 0;
         while let Some(watch) = self.watches.get(place) {

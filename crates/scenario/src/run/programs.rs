@@ -2,12 +2,12 @@
 
 use plc::StructuredText;
 
-/// A user program in Structured Text, read and checked against the device variables of its CPU Unit.
+/// A user program in Structured Text, checked with the device variables of its CPU Unit.
 #[derive(Clone, Debug)]
 pub struct ProgramFile {
-    /// Its files, as they are named.
+    /// Its files, as named.
     pub name: String,
-    /// The program, at its beginning.
+    /// The program in its initial state.
     pub program: StructuredText,
 }
 

@@ -1,8 +1,8 @@
 //! A recorded master: the frames of a capture are sent again at their times, and the answers are compared.
 //!
-//! What has to differ between two runs of the same master is passed over: the moment at which a state or a mailbox
-//! changes, times of distributed clocks, error counters, and process data, which depend on the phase of the CPU
-//! Unit. Working counters are compared everywhere.
+//! Differences that are unavoidable between two runs of the same master are ignored: the time at which a state
+//! or a mailbox changes, times of distributed clocks, error counters, and process data, which depend on the
+//! phase of the CPU Unit. Working counters are always compared.
 
 mod areas;
 mod differences;
@@ -24,10 +24,10 @@ pub use refusal::NotReplayable;
 const LEAD: Duration = Duration::from_millis(10);
 /// Bit of a source address that every ESC sets: the frame has passed the units.
 const PASSED: u8 = 0x02;
-/// Where the first byte of the source address lies.
+/// Position of the first byte of the source address.
 const SOURCE_ADDRESS: usize = 6;
 
-/// The longest silence between two frames of a master: a replay passes through it period by period.
+/// The longest pause between two frames of a master: a replay runs through it period by period.
 const SILENCE_MAX: Duration = Duration::from_secs(3_600);
 /// The longest time from the first frame to the last.
 const DURATION_MAX: Duration = Duration::from_secs(24 * 3_600);
@@ -46,13 +46,13 @@ struct Exchange {
 }
 
 impl RecordedFrames {
-    /// Reads a capture: frames of a master and the answers that belong to them.
+    /// Reads a capture: frames of a master and their answers.
     ///
     /// # Errors
     /// [`NotReplayable`].
     pub fn read(bytes: &[u8]) -> Result<Self, NotReplayable> {
         let mut exchanges: Vec<Exchange> = Vec::new();
-        // Of each sequence of datagrams: the frames that have no answer yet, the oldest first.
+        // For each sequence of datagrams: the frames without an answer yet, the oldest first.
         let mut unanswered: HashMap<Names, Vec<usize>> = HashMap::new();
         let mut origin = None;
         for packet in packets(bytes)? {
@@ -62,7 +62,7 @@ impl RecordedFrames {
                 continue;
             }
             if is_answer(&packet) {
-                // The newest: numbers come again, and an older frame may have been lost.
+                // The newest: numbers repeat, and an older frame may have been lost.
                 let asked = unanswered.get_mut(&names(&datagrams)).and_then(Vec::pop);
                 if let Some(exchange) = asked.and_then(|asked| exchanges.get_mut(asked)) {
                     exchange.answer = Some(packet.frame);
@@ -79,25 +79,25 @@ impl RecordedFrames {
         Ok(Self { exchanges })
     }
 
-    /// How many frames of a master it holds.
+    /// Number of frames of a master in it.
     #[must_use]
     pub fn len(&self) -> usize {
         self.exchanges.len()
     }
 
-    /// Whether it holds none.
+    /// Whether it has none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.exchanges.is_empty()
     }
 
-    /// How many of them have come back.
+    /// Number of them that have returned.
     #[must_use]
     pub fn answers(&self) -> usize {
         self.exchanges.iter().filter(|exchange| exchange.answer.is_some()).count()
     }
 
-    /// How many units the longest line had: each adds 1 to the address of a datagram that passes by position.
+    /// Number of units of the longest line: each adds 1 to the address of a datagram that passes by position.
     #[must_use]
     pub fn units(&self) -> usize {
         let answered = self.exchanges.iter().filter_map(|exchange| {
@@ -118,7 +118,7 @@ impl RecordedFrames {
     }
 }
 
-/// By what the capture says, else by the mark that ESCs leave.
+/// By the direction in the capture, else by the mark of ESCs.
 fn is_answer(packet: &Packet) -> bool {
     match packet.direction {
         Some(direction) => direction == Direction::Outbound,
@@ -126,14 +126,14 @@ fn is_answer(packet: &Packet) -> bool {
     }
 }
 
-/// Commands and numbers of the datagrams of a frame: an answer has those of its question.
+/// Commands and numbers of the datagrams of a frame: an answer has those of its request.
 type Names = Vec<(Command, u8)>;
 
 fn names(datagrams: &[Returned]) -> Names {
     datagrams.iter().map(|datagram| (datagram.header.command, datagram.header.index)).collect()
 }
 
-/// A clock that was set while the capture ran must not make a replay of years.
+/// A clock that was set during the capture must not cause a replay of years.
 fn refuse_long(frame: usize, before: Duration, after: Duration) -> Result<(), NotReplayable> {
     let silence = Duration::from_nanos(after.as_nanos() - before.as_nanos());
     if silence > SILENCE_MAX {
@@ -151,7 +151,7 @@ pub(crate) struct Recorded {
     frames: RecordedFrames,
     sent: usize,
     answered: usize,
-    /// Numbers of frames that are on their way, or lost, and were answered in the capture.
+    /// Numbers of frames that are in flight, or lost, and were answered in the capture.
     missing: BTreeSet<usize>,
     differences: Differences,
 }
@@ -166,7 +166,7 @@ impl Recorded {
         next.map_or(Instant::NEVER, |exchange| Instant::ZERO + LEAD + exchange.after)
     }
 
-    /// The next frame whose time has come, with its number.
+    /// The next frame that is due, with its number.
     pub(crate) fn send(&mut self, now: Instant) -> Option<(usize, Vec<u8>)> {
         if self.deadline() > now {
             return None;
@@ -180,7 +180,7 @@ impl Recorded {
         Some((number, exchange.frame.clone()))
     }
 
-    /// An answer comes back.
+    /// An answer returns.
     pub(crate) fn receive(&mut self, number: usize, frame: &[u8]) {
         self.answered += 1;
         self.missing.remove(&number);
@@ -199,7 +199,7 @@ impl Recorded {
         format!("{} of {} frames are sent, {} came back", self.sent, self.frames.len(), self.answered)
     }
 
-    /// The first of them in words: what was answered in another way, then what has not come back.
+    /// The first of them as text: answers that differ, then answers that are missing.
     pub(crate) fn differences(&self) -> Vec<String> {
         self.all_differences().described().to_vec()
     }

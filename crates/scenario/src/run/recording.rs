@@ -1,11 +1,11 @@
-//! What a replay leaves behind: the trace, which tells the story, and the capture, which holds the frames.
+//! The results of a replay: the trace, with its events, and the capture, with its frames.
 
 use capture::{Direction, PcapngWriter};
 use time::Instant;
 
 use super::calendar::SYSTEM_TIME_NS;
 
-/// The trace of a replay, and its capture where one is wanted.
+/// The trace of a replay, and its capture if requested.
 pub struct Recording {
     trace: Option<String>,
     capture: Option<PcapngWriter<Vec<u8>>>,
@@ -25,19 +25,19 @@ impl Recording {
         self
     }
 
-    /// The trace, line by line; none if none was wanted.
+    /// The trace, line by line; none if it was not requested.
     #[must_use]
     pub fn trace(&self) -> Option<&str> {
         self.trace.as_deref()
     }
 
-    /// The capture in the pcapng format; none if none was wanted.
+    /// The capture in the pcapng format; none if it was not requested.
     #[must_use]
     pub fn into_capture(self) -> Option<Vec<u8>> {
         self.capture.and_then(|capture| capture.finish().ok())
     }
 
-    /// Somebody does something.
+    /// An action of a participant.
     pub(crate) fn tell(&mut self, now: Instant, who: &str, what: &str) {
         if let Some(trace) = &mut self.trace {
             let (ms, ns) = (now.as_nanos() / 1_000_000, now.as_nanos() % 1_000_000);
@@ -57,12 +57,12 @@ impl Recording {
         self.packet(now, Direction::Inbound, frame, comment);
     }
 
-    /// It comes back.
+    /// It returns.
     pub(crate) fn returned(&mut self, now: Instant, frame: &[u8], comment: Option<&str>) {
         self.packet(now, Direction::Outbound, frame, comment);
     }
 
-    /// A frame gets lost on its way.
+    /// A frame is lost on its way.
     pub(crate) fn lost(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: &str) {
         self.note(now, comment);
         self.packet(now, direction, frame, Some(comment));
@@ -72,7 +72,7 @@ impl Recording {
         if let Some(capture) = &mut self.capture {
             let comment = comment.map(|comment| format!("fault: {comment}"));
             let comment = comment.as_deref();
-            // A vector takes every byte.
+            // A vector accepts every byte.
             let _ = capture.packet(SYSTEM_TIME_NS + now.as_nanos(), direction, frame, comment);
         }
     }

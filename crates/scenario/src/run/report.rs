@@ -1,41 +1,41 @@
-//! What a replay came to.
+//! The result of a replay.
 
 use time::Duration;
 
 use super::recorded::DifferenceKind;
 use super::recording::Recording;
 
-/// What a replay came to.
+/// The result of a replay.
 pub struct Report {
-    /// The seed of its dice.
+    /// The seed of its random generator.
     pub seed: u64,
-    /// The first expectation that did not hold; none: the scenario passes.
+    /// The first failed expectation; none: the scenario passes.
     pub failure: Option<Failure>,
-    /// Virtual time that has passed.
+    /// Elapsed virtual time.
     pub lasted: Duration,
-    /// Process data cycles of the master.
+    /// Number of process data cycles of the master.
     pub cycles: u64,
-    /// In what the answers of a capture differ, the most frequent kind first.
+    /// The differences to the answers of a capture, the most frequent kind first.
     pub differences: Vec<DifferenceKind>,
-    /// Trace and capture, where they were wanted.
+    /// Trace and capture, if requested.
     pub recording: Recording,
 }
 
-/// An expectation that did not hold.
+/// A failed expectation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     /// Line of the step in the file, from 1.
     pub line: usize,
     /// The words of the step.
     pub text: String,
-    /// When it failed, from the beginning.
+    /// The time of the failure, from the start.
     pub at: Duration,
-    /// What was seen instead.
+    /// The actual state.
     pub seen: String,
 }
 
 impl Report {
-    /// Whether every expectation held.
+    /// Whether all expectations were fulfilled.
     #[must_use]
     pub const fn passes(&self) -> bool {
         self.failure.is_none()

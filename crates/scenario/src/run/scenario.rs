@@ -1,4 +1,4 @@
-//! A scenario that can be run: units, master, steps, all of them checked.
+//! An executable scenario: units, master, steps, all of them checked.
 
 use nx_ect101::unit_file::UnitFile;
 use plc::{Builtin, Io, Program};
@@ -12,36 +12,36 @@ use crate::model::Step;
 /// A scenario, ready to be replayed.
 #[derive(Clone, Debug)]
 pub struct Scenario {
-    /// What it shows, in one sentence.
+    /// What it demonstrates, in one sentence.
     pub title: String,
-    /// The seed of its dice.
+    /// The seed of its random generator.
     pub seed: u64,
-    /// The moment at which it is over, whatever waits.
+    /// The time at which it ends, whatever is still waiting.
     pub limit: Duration,
     /// The units of the line, the one next to the master first.
     pub units: Vec<UnitSource>,
     /// Cycle of the process data.
     pub cycle: Duration,
-    /// Where in its period the cycle lies, from time 0; none: the seed decides.
+    /// Start of the cycle within its period, from time 0; none: taken from the seed.
     pub cycle_phase: Option<Duration>,
-    /// The master's own user program; none: it only does what steps order.
+    /// The master's own user program; none: it only executes the orders of steps.
     pub master: Option<MasterProgram>,
     /// Programs that steps load into CPU Units.
     pub(crate) programs: Vec<LoadedProgram>,
-    /// What happens, in this order.
+    /// The steps, in this order.
     pub steps: Vec<WrittenStep>,
-    /// The capture whose frames a recorded master sends, as the file names it.
+    /// The capture whose frames a recorded master sends, as named in the file.
     pub capture: Option<String>,
-    /// Its frames, once [`Scenario::load_capture`] has read them.
+    /// Its frames, after [`Scenario::load_capture`] has read them.
     pub(crate) recorded: RecordedFrames,
-    /// The trace that the scenario's own seed has to give, byte for byte; none: any.
+    /// The required trace for the scenario's own seed, byte for byte; none: any.
     pub golden_trace: Option<String>,
-    /// Where the dice add steps of their own; none: nowhere.
+    /// The position of random steps; none: there are none.
     pub random: Option<RandomPart>,
 }
 
 impl Scenario {
-    /// Takes the bytes of the capture that the file names. Without them nothing of it is sent.
+    /// Stores the bytes of the capture in the file. Without them none of its frames are sent.
     ///
     /// # Errors
     /// [`NotReplayable`].
@@ -51,14 +51,14 @@ impl Scenario {
     }
 }
 
-/// The part of a scenario that its dice write.
+/// The random part of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RandomPart {
-    /// In front of which step it goes.
+    /// The step before which it is inserted.
     pub place: usize,
-    /// How many steps.
+    /// Number of steps.
     pub count: usize,
-    /// How long they take together, at most.
+    /// Their maximum duration together.
     pub span: Duration,
     /// Its line in the file, from 1.
     pub line: usize,
@@ -71,20 +71,20 @@ pub struct RandomPart {
 pub struct UnitSource {
     /// Its unit file.
     pub file: UnitFile,
-    /// What its CPU Unit runs.
+    /// The program of its CPU Unit.
     pub program: UserProgram,
 }
 
-/// What a CPU Unit runs.
+/// The program of a CPU Unit.
 #[derive(Clone, Debug)]
 pub enum UserProgram {
-    /// Nothing: the data stay as they are set.
+    /// None: the data keep their values.
     None,
-    /// A program that needs no file.
+    /// A built-in program.
     Builtin(Builtin),
     /// A program in Structured Text.
     StructuredText(Box<ProgramFile>),
-    /// A program of a test, made anew for each replay.
+    /// A program of a test, created again for each replay.
     Custom(fn() -> Box<dyn Program + Send>),
 }
 
@@ -104,8 +104,8 @@ impl UserProgram {
 pub struct WrittenStep {
     /// The step.
     pub step: Step,
-    /// Its line in the file, from 1; of a script that is no file, its number.
+    /// Its line in the file, from 1; for a script that is not a file, its number.
     pub line: usize,
-    /// The sentence of the order or of the condition, as it was written.
+    /// The sentence of the order or of the condition, as written.
     pub text: String,
 }

@@ -1,11 +1,12 @@
-//! What user programs and their CPU Units have told: told once while it goes on, and kept for conditions.
+//! The reports of user programs and their CPU Units: a persistent one is reported once, and all are kept for
+//! conditions.
 
 use plc::{CpuEvent, ProgramEvent, ProgramTrouble};
 
-/// What one controller has told.
+/// The reports of one controller.
 #[derive(Debug, Default)]
 pub(crate) struct Story {
-    /// What the last task period told, and goes on if this one tells it too.
+    /// The reports of the last task period; one that occurs again in this period is not new.
     going_on: Vec<CpuEvent>,
     alarms: Vec<Alarm>,
     overruns: u64,
@@ -22,7 +23,8 @@ struct Alarm {
 }
 
 impl Story {
-    /// A task period is over and has told this; what goes on since the one before is left out of the answer.
+    /// A task period is over, with these events; events that were already in the period before are left out of
+    /// the result.
     pub(crate) fn period(&mut self, events: impl Iterator<Item = CpuEvent>) -> Vec<String> {
         let told: Vec<CpuEvent> = events.collect();
         let is_news = |event: &&CpuEvent| !self.going_on.iter().any(|before| is_same_trouble(before, event));
@@ -31,7 +33,7 @@ impl Story {
         news.iter().map(|event| self.note(event)).collect()
     }
 
-    /// Something has happened between two task periods.
+    /// An event between two task periods.
     pub(crate) fn between(&mut self, events: impl Iterator<Item = CpuEvent>) -> Vec<String> {
         events.map(|event| self.note(&event)).collect()
     }
@@ -62,7 +64,7 @@ impl Story {
         }
     }
 
-    /// How often a user-defined error came, and whether it stands.
+    /// Number of occurrences of a user-defined error, and whether it is present.
     pub(crate) fn alarm(&self, code: u16) -> (u64, bool) {
         let alarm = self.alarms.iter().find(|alarm| alarm.code == code);
         alarm.map_or((0, false), |alarm| (alarm.times, alarm.stands))
@@ -84,7 +86,7 @@ impl Story {
         self.overruns
     }
 
-    /// Errors of the program, the oldest first; one that goes on is one.
+    /// Errors of the program, the oldest first; a persistent one is one error.
     pub(crate) fn errors(&self) -> &[ProgramTrouble] {
         &self.errors
     }
@@ -104,7 +106,7 @@ fn listed(what: &str, words: impl Iterator<Item = String>) -> String {
     if words.is_empty() { format!("there were no {what}") } else { format!("{what}: {}", words.join(", ")) }
 }
 
-/// Whether it is the same again, so that nobody wants to read it in every task period.
+/// Whether it is the same again, which is not reported in every task period.
 fn is_same_trouble(before: &CpuEvent, now: &CpuEvent) -> bool {
     let (CpuEvent::Program(before), CpuEvent::Program(now)) = (before, now) else { return false };
     match (before, now) {

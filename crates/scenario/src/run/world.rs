@@ -1,4 +1,4 @@
-//! The world of a scenario: units, CPU Units, line and master in virtual time, and who watches them.
+//! The world of a scenario: units, CPU Units, line and master in virtual time, and their observer.
 
 mod frames;
 mod looks;
@@ -22,7 +22,7 @@ use super::scenario::{Scenario, UnitSource};
 use super::story::Story;
 use crate::model::{FrameKind, StateName};
 
-/// Everything that a scenario moves.
+/// The complete state of a running scenario.
 pub(crate) struct World {
     network: Network<NxEct101>,
     cpus: Vec<Cpu>,
@@ -31,7 +31,7 @@ pub(crate) struct World {
     recorded: Recorded,
     now: Instant,
     watched: Vec<Watched>,
-    /// What steps load into CPU Units.
+    /// The programs that steps load into CPU Units.
     programs: Vec<LoadedProgram>,
     recording: Recording,
 }
@@ -42,7 +42,7 @@ struct Cpu {
     told: Story,
 }
 
-/// What the watcher has seen of a unit last.
+/// The state of a unit at the observer's last check.
 #[derive(Default)]
 struct Watched {
     status: AlStatus,
@@ -51,7 +51,7 @@ struct Watched {
 }
 
 impl World {
-    /// Gives power to the units of a scenario.
+    /// Powers on the units of a scenario.
     pub(crate) fn power_on(scenario: &Scenario, seed: u64, recording: Recording) -> Self {
         let now = Instant::ZERO;
         let mut cpus = Vec::new();
@@ -108,7 +108,7 @@ impl World {
         self.recording
     }
 
-    /// When something happens next.
+    /// The time of the next event.
     pub(crate) fn deadline(&self) -> Instant {
         let cpus = self.cpus.iter().filter(|cpu| cpu.is_running).map(|cpu| cpu.unit.deadline());
         let cpus = cpus.min().unwrap_or(Instant::NEVER);
@@ -116,13 +116,13 @@ impl World {
         self.network.deadline().min(cpus).min(self.line.deadline()).min(masters)
     }
 
-    /// Lets time pass to `to`, at which something happens or not.
+    /// Advances the time to `to`, with or without an event there.
     pub(crate) fn advance(&mut self, to: Instant) {
         self.now = self.now.max(to);
         self.happen();
     }
 
-    /// Everything that is due now, in the one order: CPU Units, units, late frames, master and its user program.
+    /// Does everything that is due now, in a fixed order: CPU Units, units, late frames, master and its user program.
     fn happen(&mut self) {
         let now = self.now;
         for (at, cpu) in self.cpus.iter_mut().enumerate() {
@@ -148,7 +148,7 @@ impl World {
         self.watch();
     }
 
-    /// Writes down what has changed.
+    /// Records the changes.
     fn watch(&mut self) {
         for at in 0..self.network.len() {
             let Some(device) = self.network.device_mut(at) else { continue };
@@ -176,7 +176,7 @@ impl World {
     }
 }
 
-/// A unit with its CPU Unit, as its file says. Phases that it leaves out are the dice's.
+/// A unit with its CPU Unit, according to its file. Phases that are left out are random.
 fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
     let mut settings = UnitSettings::from_unit_file(&source.file);
     let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
@@ -198,5 +198,5 @@ pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {
     if status.error { format!("{state} with AL status code {:#06X}", code.0) } else { state.to_string() }
 }
 
-/// Longest pause in which nothing at all happens.
+/// Maximum pause without any event.
 pub(crate) const QUIET_STEP: Duration = Duration::from_secs(1);

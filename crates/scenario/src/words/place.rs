@@ -1,4 +1,4 @@
-//! The places of a sentence: what a word means where a pattern has `{…}`.
+//! The places of a sentence: the meaning of a word at `{…}` in a pattern.
 
 mod read;
 
@@ -15,18 +15,18 @@ use read::{
 pub struct Place {
     /// Its name in patterns.
     pub name: &'static str,
-    /// What can stand there, for the reference.
+    /// Its possible values, for the reference.
     pub meaning: &'static str,
     read: fn(&[&str]) -> Option<(Value, usize)>,
-    /// How many words of one that cannot be read would fit.
+    /// Number of words that match at the start of a value that cannot be read.
     fitting: fn(&[&str]) -> usize,
 }
 
 impl Place {
-    /// The place of this name.
+    /// The place with this name.
     ///
     /// # Panics
-    /// If a pattern names one that does not exist: the patterns are ours.
+    /// If a pattern uses one that does not exist: the patterns are part of this program.
     #[must_use]
     pub fn named(name: &str) -> &'static Self {
         match PLACES.iter().find(|place| place.name == name) {
@@ -41,7 +41,7 @@ impl Place {
         PLACES
     }
 
-    /// What the words mean, and how many they are; else how many of them fit, and what is expected.
+    /// The value of the words, and their number; otherwise the number of matching words, and the expected value.
     pub(super) fn read(&self, words: &[&str]) -> Result<(Value, usize), (usize, String)> {
         (self.read)(words).ok_or_else(|| {
             let fitting = (self.fitting)(words);

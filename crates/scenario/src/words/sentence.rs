@@ -1,7 +1,7 @@
 //! Sentences: the one grammar of steps, as tables of patterns.
 //!
-//! A pattern is words and places, such as `take {units} to {state}`. A table of them reads text, writes values, gives
-//! the reference of the language, and names the nearest sentence when none fits.
+//! A pattern consists of words and places, such as `take {units} to {state}`. A table of patterns reads text,
+//! writes values, generates the reference of the language, and finds the nearest sentence if none matches.
 
 use core::fmt;
 
@@ -13,18 +13,18 @@ use crate::model::UnitSet;
 pub struct Sentence<T> {
     /// Words and places.
     pub pattern: &'static str,
-    /// A sentence that is read by it.
+    /// A sentence that it reads.
     pub example: &'static str,
-    /// What it means.
+    /// Its meaning.
     pub meaning: &'static str,
-    /// The typed value, of what its places have read, in their order.
+    /// The typed value, from the values of its places, in their order.
     pub(super) build: fn(&[Value]) -> Option<T>,
-    /// What its places have for a typed value; none if the value has another sentence.
+    /// The values of its places for a typed value; none if the value has another sentence.
     pub(super) take_apart: fn(&T) -> Option<Vec<Value>>,
 }
 
-/// A row of a table: pattern, example, meaning, and the typed value with the fields that the places have, in their
-/// order. The value is read by the row and written by it.
+/// A row of a table: pattern, example, meaning, and the typed value with the fields of the places, in their
+/// order. The row reads the value and writes it.
 macro_rules! row {
     ($pattern:literal, $example:literal, $meaning:literal, || $($value:tt)+) => {
         $crate::words::sentence::row!($pattern, $example, $meaning, | | $($value)+)
@@ -51,27 +51,28 @@ macro_rules! row {
 
 pub(super) use row;
 
-/// Why a text is no sentence of a table.
+/// Why a text is not a sentence of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoSentence {
-    /// What is wrong.
+    /// The mistake.
     pub message: String,
-    /// What can stand there.
+    /// The possible sentences.
     pub help: String,
 }
 
-/// Reads a sentence by the first row that fits.
+/// Reads a sentence by the first row that matches.
 ///
 /// # Errors
-/// No row fits: what is wrong with the row that fits furthest.
+/// No row matches: the mistake according to the row that matches furthest.
 ///
 /// # Panics
-/// If a row has other fields than its pattern has places: the tables are ours, and a test reads every example.
+/// If a row has other fields than its pattern has places: the tables are part of this program, and a test reads
+/// every example.
 pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
     try_read(table, text).map_err(|misfit| misfit.words())
 }
 
-/// The same; what is wrong is put into words by those who need them.
+/// The same; the message of a mistake is made only on request.
 pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result<T, Misfit<'a, T>> {
     let words: Vec<&str> = text.split_whitespace().collect();
     let mut furthest = None;
@@ -98,8 +99,8 @@ pub fn row_of<'t, T>(table: &'t [Sentence<T>], text: &str) -> Option<&'t Sentenc
     table.iter().find(|sentence| fit(sentence.pattern, &words).is_ok())
 }
 
-/// The sentence of a value. Of several that mean the same it is the one whose verb agrees with the units, else the
-/// first. None if the table has none, which a test rules out.
+/// The sentence of a value. Of several with the same meaning it is the one whose verb agrees with the units,
+/// else the first. None if the table has none, which a test excludes.
 pub(super) fn say<T>(table: &[Sentence<T>], value: &T) -> Option<String> {
     let said = table.iter().filter_map(|row| (row.take_apart)(value).map(|values| (row.pattern, values)));
     let said: Vec<_> = said.collect();
@@ -124,16 +125,16 @@ fn fill(pattern: &str, values: &[Value]) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-/// The name of the place that a part of a pattern is.
+/// The name of the place in a part of a pattern.
 fn place(part: &str) -> Option<&str> {
     part.strip_prefix('{')?.strip_suffix('}')
 }
 
-/// A text that is no sentence of a table.
+/// A text that is not a sentence of a table.
 pub(crate) struct Misfit<'a, T> {
     table: &'a [Sentence<T>],
     text: &'a str,
-    /// The row that fits furthest, and what is wrong there; none: not a word fits.
+    /// The row that matches furthest, and the mistake there; none: no word matches.
     furthest: Option<(&'a Sentence<T>, Problem<'a>)>,
 }
 
@@ -148,7 +149,7 @@ impl<T> Misfit<'_, T> {
         }
     }
 
-    /// Nothing of the text fits: the example whose words are nearest.
+    /// No part of the text matches: the example with the nearest words.
     fn nearest(&self) -> NoSentence {
         let nearest = self.table.iter().max_by(|a, b| {
             let likeness = |sentence: &Sentence<T>| strsim::jaro_winkler(sentence.example, self.text);
@@ -159,14 +160,14 @@ impl<T> Misfit<'_, T> {
     }
 }
 
-/// What is wrong with words where a pattern stops to fit.
+/// The mistake at the position where a pattern stops matching.
 #[derive(Debug)]
 pub(super) enum Problem<'a> {
-    /// Another word is there, or the end.
+    /// There is another word, or the end.
     Expected { word: &'static str, found: Option<&'a str> },
-    /// A place does not take what is there, for this reason.
+    /// A place does not accept the word, for this reason.
     Place(String),
-    /// The pattern ends in front of this word.
+    /// The pattern ends before this word.
     More(&'a str),
 }
 
@@ -183,7 +184,7 @@ impl fmt::Display for Problem<'_> {
     }
 }
 
-/// Reads words by a pattern; else how many words fitted, and what the next one lacks.
+/// Reads words by a pattern; otherwise the number of matching words, and the mistake in the next one.
 pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Vec<Value>, (usize, Problem<'a>)> {
     let mut values = Vec::new();
     let mut at = 0;

@@ -14,7 +14,7 @@ pub trait Spoken: Clone + fmt::Debug + 'static {
     /// Reads a sentence.
     ///
     /// # Errors
-    /// It is none of [`Self::SENTENCES`].
+    /// It is not one of [`Self::SENTENCES`].
     fn from_sentence(text: &str) -> Result<Self, NoSentence> {
         read(Self::SENTENCES, text)
     }
@@ -25,12 +25,12 @@ pub trait Spoken: Clone + fmt::Debug + 'static {
     }
 }
 
-/// What gives a typed value: the value itself, or its sentence.
+/// A source of a typed value: the value itself, or its sentence.
 pub trait Say<T> {
     /// The value.
     ///
     /// # Errors
-    /// The text is no sentence.
+    /// The text is not a sentence.
     fn value(self) -> Result<T, NoSentence>;
 }
 

@@ -1,4 +1,4 @@
-//! The language of steps: who may be told what. Each table is also the reference of its sentences.
+//! The language of steps: the orders of each addressee. Each table is also the reference of its sentences.
 
 mod condition;
 mod cpu;

@@ -1,4 +1,4 @@
-//! The grammar: every example is read by its own row and written by it, and what is wrong is told.
+//! The grammar: every example is read and written by its own row, and mistakes are reported.
 
 use super::sentence::fit;
 use super::*;
@@ -7,7 +7,7 @@ use crate::model::{
     Position, UnitNumber, UnitOrder, UserErrorCode,
 };
 
-/// The examples of a table are read, each as its own row means it, and the value is the same sentence.
+/// The examples of a table are read, each by its own row, and the value gives the same sentence.
 fn examples_are_read_and_written<T: Spoken + PartialEq>() {
     for sentence in T::SENTENCES {
         let words: Vec<&str> = sentence.example.split_whitespace().collect();

@@ -1,4 +1,4 @@
-//! What stands in the places of a sentence, and how it is written there.
+//! The values of the places of a sentence, and their notation.
 
 use core::fmt;
 
@@ -10,7 +10,7 @@ use crate::model::{
     Position, StateName, UnitNumber, UnitSet, UserErrorCode,
 };
 
-/// What stands in a place.
+/// The value of a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
     /// `unit 2`, `all units`.
@@ -21,7 +21,7 @@ pub enum Value {
     State(AlState),
     /// `12`, `0x0C`.
     Number(u64),
-    /// The same, written in hexadecimal with as many digits.
+    /// The same, written in hexadecimal with a fixed number of digits.
     Hexadecimal(u64, usize),
     /// `1.5ms`.
     Duration(Duration),
@@ -109,11 +109,11 @@ fn write_frames(frames: Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Resu
     })
 }
 
-/// A field of a typed value, as it stands in a place.
+/// A field of a typed value, as the value of a place.
 pub(crate) trait Field: Sized {
-    /// The field that a place has read; none if the place reads another kind.
+    /// The field from the value of a place; none if the place reads another kind.
     fn of(value: &Value) -> Option<Self>;
-    /// The value that is written into the place.
+    /// The value that is written at the place.
     fn value(&self) -> Value;
 }
 

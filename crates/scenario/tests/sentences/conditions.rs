@@ -2,7 +2,7 @@
 
 use crate::rows::{Around, ConditionRow, IN_OP, IN_PRE_OP, OP, PRE_OP, condition};
 
-/// A program whose input decides what goes wrong: 5 raises an error, 6 never ends, 20 is no index.
+/// A program whose input determines the error: 5 raises an error, 6 never ends, 20 is not an index.
 const PROGRAM: Around = Around {
     head: "units = [{ model = \"nx-ect101\", cpu = { program = \"a.st\", statement_budget = 1_000 } }]",
     programs: &[(

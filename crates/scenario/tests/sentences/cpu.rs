@@ -1,4 +1,4 @@
-//! What is done to a CPU Unit.
+//! Actions on a CPU Unit.
 
 use crate::rows::{Around, IN_OP, OP, OrderRow, Steps, order};
 
@@ -29,7 +29,7 @@ const STOPPED: Steps = &[
     r#"{ cpu = "stop I/O refreshing of unit 1" }"#,
     r#"{ expect = "the I/O data of unit 1 is not active", within = "10ms" }"#,
 ];
-/// The task has stopped, and the unit has noticed.
+/// The task has stopped, and the unit has detected it.
 const TASK_STOPPED: Steps = &[
     r#"{ expect = "the I/O data of unit 1 is active", within = "10ms" }"#,
     r#"{ cpu = "stop the task of unit 1" }"#,

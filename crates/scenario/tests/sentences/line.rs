@@ -1,4 +1,4 @@
-//! What happens on the line.
+//! Actions on the line.
 
 use crate::rows::{IN_OP, OP, OrderRow, order};
 

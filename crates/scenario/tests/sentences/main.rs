@@ -1,6 +1,6 @@
-//! Every sentence of the public tables stands in a scenario that passes and in one that must fail.
+//! Every sentence of the public tables is in a scenario that passes and in one that must fail.
 //!
-//! The tables come first: a sentence without a row here fails this test.
+//! The tables determine the list: a sentence without a row here fails this test.
 
 mod conditions;
 mod cpu;
@@ -13,7 +13,7 @@ use rows::{ConditionRow, OrderRow};
 use scenario::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
 use scenario::words::{Spoken, row_of};
 
-/// The sentences of a table that no row stands for.
+/// The sentences of a table without a row.
 fn missing<T: Spoken>(rows: &[&str]) -> Vec<&'static str> {
     let patterns: Vec<&str> = rows
         .iter()

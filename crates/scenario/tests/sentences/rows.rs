@@ -1,8 +1,8 @@
-//! Rows: a sentence with the steps around it, and what their replays must come to.
+//! Rows: a sentence with the steps around it, and the required results of their replays.
 
 use scenario::{Recording, Scenario};
 
-/// Steps of a scenario, each as its table in a file.
+/// Steps of a scenario, each as a table in a file.
 pub(crate) type Steps = &'static [&'static str];
 
 /// All units in OP.
@@ -12,7 +12,7 @@ pub(crate) const IN_OP: &str = r#"{ expect = "all units are in OP", within = "1s
 pub(crate) const PRE_OP: &str = r#"{ master = "take unit 1 to PRE-OP" }"#;
 pub(crate) const IN_PRE_OP: &str = r#"{ expect = "the master has nothing to do", within = "1s" }"#;
 
-/// What stands beside title and steps in a file.
+/// The parts of a file in addition to title and steps.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Around {
     pub(crate) head: &'static str,
@@ -42,7 +42,7 @@ impl Around {
     }
 }
 
-/// The words of a failing step, and what was seen there.
+/// The words of a failing step, and the actual state there.
 struct Failed {
     text: String,
     seen: String,
@@ -62,7 +62,7 @@ fn expect(condition: &str, within: &str) -> Vec<String> {
     vec![format!("{{ expect = \"{condition}\", within = \"{within}\" }}")]
 }
 
-/// Must not hold for this time.
+/// Must not be true for this time.
 fn never(condition: &str, within: &str) -> Vec<String> {
     let wait = format!("{{ after = \"{within}\", expect = \"0 cycles are done\" }}");
     vec![format!("{{ never = \"{condition}\" }}"), wait]
@@ -72,7 +72,7 @@ fn texts(steps: Steps) -> Vec<String> {
     steps.iter().map(|step| (*step).to_owned()).collect()
 }
 
-/// An order, and a condition that holds behind it and only behind it.
+/// An order, and a condition that is true after it and only after it.
 pub(crate) struct OrderRow {
     pub(crate) sentence: &'static str,
     around: Around,
@@ -99,7 +99,7 @@ impl OrderRow {
         Self { around, ..self }
     }
 
-    /// The condition holds behind the order; that it never does fails; and without the order it does not hold.
+    /// The condition is true after the order; that it is never true fails; and without the order it is not true.
     pub(crate) fn try_out(&self, key: &str) -> Result<(), String> {
         let Self { sentence, around, condition, within, .. } = self;
         let (before, behind) = (texts(self.before), texts(self.behind));
@@ -117,12 +117,12 @@ impl OrderRow {
     }
 }
 
-/// A condition, steps behind which it holds, and others behind which it does not.
+/// A condition, steps after which it is true, and others after which it is not.
 pub(crate) struct ConditionRow {
     pub(crate) sentence: &'static str,
     around: Around,
     holds: Steps,
-    /// What stands around the steps behind which it does not hold.
+    /// The parts around the steps after which it is not true.
     other: Around,
     fails: Steps,
     within: &'static str,
@@ -147,7 +147,7 @@ impl ConditionRow {
         Self { other, ..self }
     }
 
-    /// It holds behind the first steps, where `never` fails; behind the others it fails, and says what is seen.
+    /// It is true after the first steps, where `never` fails; after the others it fails, and reports the actual state.
     pub(crate) fn try_out(&self) -> Result<(), String> {
         let Self { sentence, around, other, within, .. } = self;
         let (holds, fails) = (texts(self.holds), texts(self.fails));
@@ -166,7 +166,7 @@ fn is_passed(failure: Option<Failed>) -> Result<(), String> {
     failure.map_or(Ok(()), |Failed { text, seen }| Err(format!("`{text}` fails: {seen}")))
 }
 
-/// Whether this condition has failed, with what is seen.
+/// Whether this condition has failed, with the actual state.
 fn is_failed(failure: Option<Failed>, condition: &str) -> Result<(), String> {
     match failure {
         None => Err("it passes".to_owned()),

@@ -1,4 +1,4 @@
-//! What is done to a unit by hand, and how it behaves as a slave.
+//! Actions on a unit by hand, and its conduct as a slave.
 
 use crate::rows::{IN_OP, IN_PRE_OP, OP, OrderRow, PRE_OP, order};
 
@@ -62,7 +62,7 @@ fn by_hand() -> Vec<OrderRow> {
 }
 
 fn conduct() -> Vec<OrderRow> {
-    // Without mailboxes PRE-OP is refused, but only when the time is over.
+    // Without mailboxes PRE-OP is refused, but only after its time.
     const ASK: &[&str] = &[
         r#"{ master = "request PRE-OP of unit 1" }"#,
         r#"{ after = "499ms", expect = "register 0x0120 of unit 1 is 02 00" }"#,

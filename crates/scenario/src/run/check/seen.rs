@@ -1,8 +1,8 @@
-//! What is seen in place of what was expected.
+//! The actual state, for a failed expectation.
 
 use crate::model::{Bytes, hex};
 
-/// In words.
+/// As text.
 pub(in crate::run) type Seen = String;
 
 pub(super) fn holds(condition: bool, seen: impl FnOnce() -> Seen) -> Result<(), Seen> {
@@ -27,7 +27,7 @@ pub(super) fn truth(value: bool) -> &'static str {
     if value { "TRUE" } else { "FALSE" }
 }
 
-/// Whether something was seen as often as wanted; without a number at least once.
+/// Whether the number of occurrences is the expected one; without a number at least one.
 pub(super) fn is_often_enough(seen: u64, times: Option<u64>) -> bool {
     times.map_or(seen > 0, |times| seen == times)
 }

@@ -1,4 +1,4 @@
-//! Conditions of one unit, the one at a position of the line.
+//! Conditions of one unit, at a position of the line.
 
 use wire::{AlState, ObjectIndex, SubIndex};
 

@@ -1,4 +1,4 @@
-//! What an operation that is over leads to.
+//! The consequences of a completed operation.
 
 use ::master::{AlReport, ServiceFailure, StateRequest, Wait};
 use wire::AlState;
@@ -9,33 +9,33 @@ use super::process_data::ProcessData;
 use super::slave::Slave;
 use crate::model::StateName;
 
-/// How an operation ends.
+/// The end of an operation.
 pub(crate) enum Outcome {
-    /// It is done, and this follows.
+    /// It is done, with this consequence.
     Done(Vec<Step>),
-    /// It cannot be done.
+    /// It has failed.
     Failed(String),
 }
 
-/// What follows from an operation.
+/// The consequence of an operation.
 pub(crate) enum Step {
-    /// A further operation.
+    /// Another operation.
     Do(Operation),
     /// Process data of a unit begin.
     Exchange(usize),
     /// Process data of a unit end.
     Close(usize),
-    /// A unit has a mailbox from now on, or has none any more.
+    /// A unit has a mailbox from now on, or no longer has one.
     Listen { unit: usize, listens: bool },
     /// An SDO was answered.
     SdoResult { number: Option<SdoNumber>, result: SdoResult },
-    /// Something to tell.
+    /// A report.
     Tell(String),
 }
 
 impl Operation {
-    /// Why it cannot be done, whatever comes: while a state is waited for, an error indication is a refusal, and a
-    /// state below the lowest is that of a unit which has fallen back, such as one whose power was cycled.
+    /// Why it cannot succeed any more: while it waits for a state, an error indication is a refusal, and a
+    /// state below the lowest one shows that the unit has fallen back, for example after a power cycle.
     pub(super) fn refusal(&self) -> Option<String> {
         let What::Reach { request, lowest } = &self.what else { return None };
         let AlReport { status, code } = request.report();
@@ -49,7 +49,7 @@ impl Operation {
         Some(format!("unit {} {verb} {shown}{code}, asked for {wanted}", self.unit + 1))
     }
 
-    /// It is over.
+    /// It is complete.
     pub(super) fn end(self, slaves: &mut [Slave], process_data: &mut ProcessData) -> Outcome {
         if let Some(reason) = self.refusal() {
             return Outcome::Failed(reason);
@@ -77,7 +77,7 @@ impl Operation {
     }
 }
 
-/// How far up a state is; none for BOOT and for what is no state.
+/// The level of a state; none for BOOT and for a value that is not a state.
 fn floor(state: AlState) -> Option<usize> {
     WAY_UP.iter().position(|&step| step == state)
 }
@@ -86,7 +86,7 @@ fn is_below(state: AlState, other: AlState) -> bool {
     floor(state).zip(floor(other)).is_some_and(|(state, other)| state < other)
 }
 
-/// The way from where a unit is to where it is to be, as a real master goes it.
+/// The way from the present state of a unit to its target, like that of a real master.
 fn way(
     unit: usize,
     shown: AlReport,
@@ -95,7 +95,7 @@ fn way(
     process_data: &mut ProcessData,
 ) -> Vec<Step> {
     let part = |operation: Operation| Step::Do(operation.within_an_order());
-    // How long a state may take is the same for all transitions.
+    // The time-out of a state is the same for all transitions.
     let reach =
         |state, lowest| part(Operation::reach(unit, StateRequest::new(state, Wait::SafeOpOp), lowest));
     if slave.take_reset() {
@@ -117,7 +117,7 @@ fn way(
         steps.push(reach(target, target));
     }
     if at == 2 && goal == 3 {
-        // A unit waits for outputs on its way to OP: a master that has stopped begins with them again.
+        // A unit waits for outputs on its way to OP: a master that has stopped starts to send them again.
         steps.push(part(Operation::open(unit)));
     }
     while at < goal {

@@ -1,25 +1,25 @@
-//! The SDO that was ordered last, and its answer: what sentences call "the last SDO".
+//! The SDO that was ordered last, and its answer: "the last SDO" in sentences.
 
 use crate::model::hex;
 
-/// The value that was read, nothing for one that was written, or the abort code.
+/// The value that was read, empty after a write, or the abort code.
 pub(super) type SdoResult = Result<Vec<u8>, u32>;
 
 /// The number of an SDO that a step orders.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SdoNumber(u64);
 
-/// What is known of the last SDO.
+/// The state of the last SDO.
 #[derive(Debug, Default)]
 pub(crate) struct LastSdo {
     ordered: u64,
-    /// It is ordered, and neither answered nor given up.
+    /// It has been ordered, and neither answered nor dropped.
     awaited: Option<SdoNumber>,
     result: Option<SdoResult>,
 }
 
 impl LastSdo {
-    /// A step orders an SDO. From now on no answer to an older one counts.
+    /// A step orders an SDO. From now on answers to older ones are ignored.
     pub(super) const fn order(&mut self) -> SdoNumber {
         self.ordered += 1;
         let number = SdoNumber(self.ordered);
@@ -27,21 +27,21 @@ impl LastSdo {
         number
     }
 
-    /// An SDO is answered; without a number it is one that the master sends by itself on the way to a state.
+    /// An SDO is answered; without a number it is one that the master sends on the way to a state.
     pub(super) fn answer(&mut self, number: Option<SdoNumber>, result: SdoResult) {
         if self.awaited.is_none() || self.awaited == number {
             (self.awaited, self.result) = (None, Some(result));
         }
     }
 
-    /// An SDO is given up. If it is the last one, it has no answer, and never gets one.
+    /// An SDO is dropped. If it is the last one, it has no answer, and never gets one.
     pub(super) fn give_up(&mut self, number: Option<SdoNumber>) {
         if number.is_some() && self.awaited == number {
             (self.awaited, self.result) = (None, None);
         }
     }
 
-    /// The answer; none as long as there is none.
+    /// The answer; none before it is received.
     pub(crate) const fn result(&self) -> Option<&SdoResult> {
         if self.awaited.is_some() { None } else { self.result.as_ref() }
     }

@@ -1,4 +1,4 @@
-//! Operations: what one order of the master comes down to, a frame at a time.
+//! Operations: the parts of a master's order, one frame at a time.
 
 use ::master::{
     Access, Address, AlReport, Answer, Dialogue, MailboxConduct, MailboxDialogue, Progress, Reading,
@@ -19,23 +19,23 @@ pub(crate) struct Operation {
     pub(super) what: What,
     /// It belongs to a larger order.
     is_part: bool,
-    /// The step that orders it asks for an SDO, and for nothing else.
+    /// The step with the order requests only an SDO.
     ordered_sdo: Option<SdoNumber>,
 }
 
 #[derive(Clone, Debug)]
 pub(super) enum What {
-    /// Writes a register until somebody has taken it.
+    /// Writes a register until a slave has accepted it.
     Write { offset: u16, write: RegisterWrite },
-    /// Looks where the unit is, and goes on from there.
+    /// Reads the state of the unit, and continues from there.
     Take { target: AlState, look: RegisterRead },
-    /// Asks for a state and waits for it; meanwhile the unit is in no state below `lowest`.
+    /// Requests a state and waits for it; meanwhile the unit must not be in a state below `lowest`.
     Reach { request: StateRequest, lowest: AlState },
-    /// Everything is set for the process data: they begin.
+    /// Everything is set for the process data: they start.
     Open(RegisterRead),
     /// An SDO.
     Sdo { transfer: &'static str, entry: Entry, mailbox: Box<MailboxDialogue>, is_begun: bool },
-    /// Looks into the mailbox, once.
+    /// Reads the mailbox once.
     Listen { mailbox: Box<MailboxDialogue>, is_begun: bool },
 }
 
@@ -90,12 +90,12 @@ impl Operation {
         Self::new(unit, What::Listen { mailbox, is_begun: false })
     }
 
-    /// The same as a part of a larger order, which it takes with it when it fails.
+    /// The same as part of a larger order, whose remaining operations are dropped if it fails.
     pub(crate) fn within_an_order(self) -> Self {
         Self { is_part: true, ..self }
     }
 
-    /// The same as the SDO of this number.
+    /// The same as the SDO with this number.
     pub(super) fn ordered_as(self, number: SdoNumber) -> Self {
         Self { ordered_sdo: Some(number), ..self }
     }
@@ -146,7 +146,7 @@ impl Operation {
         }
     }
 
-    /// The mailbox that it speaks through.
+    /// The mailbox that it uses.
     pub(super) fn mailbox(&mut self) -> Option<&mut MailboxDialogue> {
         match &mut self.what {
             What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => Some(mailbox),
@@ -154,8 +154,7 @@ impl Operation {
         }
     }
 
-    /// Begins to speak through the mailbox, the first time that it is asked for a frame. A master that reads no replies
-    /// looks for emergencies all the same.
+    /// Starts to use the mailbox, before its first frame. A master that reads no replies still reads emergencies.
     pub(super) fn begin(&mut self, conduct: MailboxConduct) {
         let (mailbox, is_begun, conduct) = match &mut self.what {
             What::Sdo { mailbox, is_begun, .. } => (mailbox, is_begun, conduct),
@@ -169,7 +168,7 @@ impl Operation {
         }
     }
 
-    /// Changes how it treats the mailbox from now on.
+    /// Changes how it handles the mailbox from now on.
     pub(super) fn change_mailbox(&mut self, change: impl Fn(&mut MailboxConduct)) {
         if let What::Sdo { mailbox, .. } = &mut self.what {
             change(mailbox.conduct_mut());
@@ -188,7 +187,7 @@ impl Operation {
         (frame.finish(), kind)
     }
 
-    /// What came back for its frame; none: the frame is lost. With the emergencies that were read.
+    /// The answer to its frame; none: the frame is lost. Returns the emergencies that were read.
     pub(super) fn answered(&mut self, answer: Option<Answer<'_>>) -> (Progress, Vec<Emergency>) {
         let progress = self.dialogue_mut().answer(answer);
         let mailbox = self.mailbox();

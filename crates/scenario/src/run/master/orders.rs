@@ -1,4 +1,4 @@
-//! What the scripted master makes of an order. Every order has its arm: a forgotten one would do nothing.
+//! How the scripted master executes an order. Every order has its arm: a missing one would do nothing.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -11,7 +11,7 @@ use super::slave::Slave;
 use crate::model::{MasterOrder, UnitNumber, UnitSet};
 
 impl Master {
-    /// Takes an order.
+    /// Accepts an order.
     pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
         match order {
             MasterOrder::Take { units, state } => {

@@ -1,4 +1,4 @@
-//! The cyclic exchange: a datagram for each unit that has process data, in frames that they share.
+//! The cyclic exchange: a datagram for each unit with process data, in shared frames.
 
 use core::ops::Range;
 
@@ -9,7 +9,7 @@ use wire::{FrameBuilder, Returned};
 use super::sent::{Sent, Ticket};
 use crate::model::FrameKind;
 
-/// Most output bytes that a unit can have.
+/// Maximum number of output bytes of a unit.
 const OUTPUTS_MAX: usize = 1200;
 
 /// The process data of all units.
@@ -18,13 +18,13 @@ pub(crate) struct ProcessData {
     exchange: ::master::ProcessData,
     /// Outputs as the scenario sets them, of any length.
     outputs: Vec<Vec<u8>>,
-    /// Frames of this cycle that have not come back, and the datagrams that they carry.
+    /// Frames of this cycle that have not returned, and their datagrams.
     awaited: Vec<(u64, Range<usize>)>,
 }
 
 impl ProcessData {
     pub(crate) fn new(units: usize, period: Duration, phase: Duration) -> Self {
-        // LRW, or LWR and LRD where one datagram is too short; the working counter of each unit is its own.
+        // LRW, or LWR and LRD if one datagram is too short; each unit has a separate working counter.
         let exchange = Exchange {
             period,
             phase,
@@ -48,7 +48,7 @@ impl ProcessData {
         self.exchange.exchange().phase
     }
 
-    /// Goes on with this cycle.
+    /// Continues with this cycle.
     pub(crate) fn exchange(&mut self, cycle: Duration, now: Instant) {
         self.exchange.start(now, cycle);
     }
@@ -57,12 +57,12 @@ impl ProcessData {
         self.exchange.stop();
     }
 
-    /// An order that comes to process data lets them begin.
+    /// An order that needs process data permits them to start.
     pub(crate) const fn allow(&mut self) {
         self.exchange.allow();
     }
 
-    /// The FMMUs of a unit, whose process data have a place from now on if they had none that fits.
+    /// The FMMUs of a unit, whose process data are placed now unless they have a suitable place.
     pub(crate) fn place(&mut self, unit: usize, settings: &SlaveSettings) -> Vec<FmmuSettings> {
         if !self.exchange.holds(unit, settings) {
             self.exchange.place(unit, settings);
@@ -100,7 +100,7 @@ impl ProcessData {
         self.exchange.deadline()
     }
 
-    /// The frames of one cycle, which begins now.
+    /// The frames of one cycle, which starts now.
     pub(crate) fn send(&mut self, now: Instant, ticket: &mut u64) -> Vec<Sent> {
         self.exchange.next_cycle(now);
         self.awaited.clear();
@@ -118,7 +118,7 @@ impl ProcessData {
         .collect()
     }
 
-    /// Takes what comes back; false if it is no frame of this exchange.
+    /// Processes a returned frame; false if it does not belong to this exchange.
     pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
         let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
             return false;
@@ -138,12 +138,12 @@ impl ProcessData {
         self.exchange.inputs(unit)
     }
 
-    /// Outputs as they go with the next cycle; those that nobody has set are left out.
+    /// The outputs of the next cycle; bytes that have not been set are left out.
     pub(crate) fn outputs(&self, unit: usize) -> &[u8] {
         self.outputs.get(unit).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether the process data of a unit go and come.
+    /// Whether the process data of a unit are exchanged.
     pub(crate) fn is_exchanging(&self, unit: usize) -> bool {
         self.exchange.is_running() && self.exchange.is_open(unit)
     }

@@ -1,4 +1,4 @@
-//! The master's own user program in Structured Text: a task that runs behind each process data cycle.
+//! The master's own user program in Structured Text: a task that runs after each process data cycle.
 
 use core::task::Poll;
 
@@ -21,16 +21,16 @@ const TABLE_BYTES: usize = NODE_ADDRESS_MAX as usize;
 /// The user program of the master, read and checked.
 #[derive(Clone, Debug)]
 pub struct MasterProgram {
-    /// Its files, as the scenario names them.
+    /// Its files, as named in the scenario.
     pub name: String,
-    /// Period of the task; none: that of the process data, and in step with them.
+    /// Period of the task; none: that of the process data, synchronous with them.
     pub task_period: Option<Duration>,
     instance: Instance,
     bindings: Vec<Binding>,
     nodes: Vec<Node>,
 }
 
-/// A variable of the master that the program names.
+/// A variable of the master that the program uses.
 #[derive(Clone, Debug)]
 struct Binding {
     external: External,
@@ -66,15 +66,16 @@ impl MasterProgram {
 #[derive(Debug)]
 pub(crate) struct Task {
     program: MasterProgram,
-    /// Where the entry of each binding lies; none as long as its slave has no process data.
+    /// The position of each binding's entry; none while its slave has no process data.
     places: Vec<Option<Place>>,
     next: Instant,
-    /// When its last period began.
+    /// Start of its last period.
     last: Option<Instant>,
     is_due: bool,
-    /// The bytes of a variable on their way.
+    /// Buffer for the bytes of a variable.
     bytes: Vec<u8>,
-    /// What each binding took in last: what the program cannot write and what has not changed is there already.
+    /// The last value of each binding: a value that the program cannot write and that has not changed is not
+    /// loaded again.
     taken: Vec<Vec<u8>>,
 }
 
@@ -86,7 +87,7 @@ impl Task {
         Self { program, places, next: now, last: None, is_due: false, bytes, taken }
     }
 
-    /// The master starts anew: what is declared with RETAIN stays.
+    /// The master restarts: variables with RETAIN are kept.
     pub(crate) fn restart(mut self, now: Instant) -> Self {
         self.program.instance.restart();
         Self::new(self.program, now)
@@ -100,17 +101,17 @@ impl Task {
         self.program.instance.value(name)
     }
 
-    /// A cycle of the process data begins, and a task without a period of its own with it.
+    /// A cycle of the process data begins, and with it the period of a task without a separate period.
     pub(crate) fn in_step(&mut self, now: Instant) {
         if self.program.task_period.is_none() {
             self.next = now;
         }
     }
 
-    /// Whether its period begins now; it scans when the frames of this moment are back.
+    /// Whether its period begins now; it executes its scan when the frames of this time have returned.
     pub(crate) fn begin(&mut self, now: Instant, cycle: Duration) -> bool {
         if self.next <= now {
-            // Process data may begin at a moment at which it has scanned already.
+            // Process data may start at a time at which it has already executed its scan.
             self.is_due = self.last != Some(now);
             self.last = Some(now);
             self.next = now + self.program.task_period.unwrap_or(cycle);
@@ -118,7 +119,7 @@ impl Task {
         self.is_due
     }
 
-    /// A slave has process data now, which lie as these settings say.
+    /// A slave has process data from now on, at the positions in these settings.
     pub(crate) fn open(&mut self, unit: usize, settings: &PdoSettings) {
         for (place, binding) in self.places.iter_mut().zip(&self.program.bindings) {
             if binding.source.unit() == Some(unit) {
@@ -127,8 +128,8 @@ impl Task {
         }
     }
 
-    /// One scan, if its period has begun: takes in what the slaves sent, and gives out what goes to them with the
-    /// next cycle. None if it is not due.
+    /// One scan, if its period has begun: reads the inputs of the slaves, and writes the outputs for the next
+    /// cycle. None if it is not due.
     pub(crate) fn scan(
         &mut self,
         now: Instant,
@@ -193,7 +194,7 @@ impl Task {
     }
 }
 
-/// An element for each node address, from 1 on; FALSE for those that no slave has.
+/// An element for each node address, from 1 on; FALSE for those without a slave.
 fn table(bytes: &mut Vec<u8>, nodes: &[Node], states: &States, is_set: impl Fn(usize, AlState) -> bool) {
     bytes.resize(TABLE_BYTES, 0);
     for Node { unit, address, .. } in nodes {
@@ -205,7 +206,7 @@ fn table(bytes: &mut Vec<u8>, nodes: &[Node], states: &States, is_set: impl Fn(u
     }
 }
 
-/// What the program asks of the world around it.
+/// The environment of the program.
 #[derive(Default)]
 struct MasterHost {
     told: Vec<ProgramEvent>,

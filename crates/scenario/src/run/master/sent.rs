@@ -1,8 +1,8 @@
-//! A frame of a master on its way.
+//! A frame of a master in flight.
 
 use crate::model::FrameKind;
 
-/// Whose frame it is, and which one.
+/// The master that sent the frame, and the frame's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ticket {
     /// The scripted master's.

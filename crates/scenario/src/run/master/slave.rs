@@ -1,4 +1,4 @@
-//! What the scripted master knows of one unit, and what it is going to set, right or wrong.
+//! The state of one unit in the scripted master, and the settings that it is going to write, correct or not.
 
 use ::master::{FmmuSettings, ProcessDataArea, SlaveSettings, SyncManagerSettings, registers};
 use nx_ect101::unit_file::EntryAddress;
@@ -12,17 +12,17 @@ use crate::model::{Entry, Hex, MasterOrder};
 #[derive(Debug)]
 pub(crate) struct Slave {
     unit: usize,
-    /// What its description says.
+    /// The settings in its description.
     settings: SlaveSettings,
-    /// What the unit has by the factory setting, with the orders of the scenario.
+    /// The factory setting of the unit, with the orders of the scenario.
     pdo: PdoSettings,
-    /// What has to be written in PRE-OP, in the order in which it was told.
+    /// The writes for PRE-OP, in the order in which they were ordered.
     startup: Vec<Startup>,
     wrong_lengths: Vec<(u8, u16)>,
     wrong_controls: Vec<(u8, u8)>,
-    /// It was taken to INIT since the master has started.
+    /// It has been taken to INIT since the master started.
     is_reset: bool,
-    /// The counter of the last message that came from its mailbox.
+    /// The counter of the last message received from its mailbox.
     received: u8,
 }
 
@@ -33,7 +33,7 @@ enum Startup {
 }
 
 impl Slave {
-    /// The units of a line, as their description says.
+    /// The units of a line, according to their description.
     pub(crate) fn line(units: usize) -> Vec<Self> {
         let settings = SlaveSettings::from_description(&nx_ect101::description(&UnitSettings::default()));
         (0..units).map(|unit| Self::new(unit, settings.clone())).collect()
@@ -52,7 +52,7 @@ impl Slave {
         }
     }
 
-    /// The SyncManagers of its mailbox, right in any case.
+    /// The SyncManagers of its mailbox, always correct.
     pub(crate) fn mailbox(&self) -> MailboxChannels {
         let channels = self.settings.mailbox.as_ref().map(|mailbox| (mailbox.out, mailbox.inward));
         channels.unwrap_or_default()
@@ -66,12 +66,12 @@ impl Slave {
         self.received = counter;
     }
 
-    /// What the master has set, or sets the next time that PRE-OP is passed.
+    /// The settings that the master has written, or will write at the next transition to PRE-OP.
     pub(crate) const fn settings(&self) -> &PdoSettings {
         &self.pdo
     }
 
-    /// Whether the master has yet to take it to INIT, as it does with every unit that it finds; the first time.
+    /// Whether the master has not yet taken it to INIT, as it does with every unit that it finds; true once.
     pub(crate) const fn take_reset(&mut self) -> bool {
         !core::mem::replace(&mut self.is_reset, true)
     }
@@ -95,13 +95,13 @@ impl Slave {
         self.wrong_controls.push((number, control));
     }
 
-    /// Sets everything right from the next time on; the PDO settings stay.
+    /// Makes all settings correct from the next time on; the PDO settings are kept.
     pub(crate) fn behave(&mut self) {
         self.wrong_lengths.clear();
         self.wrong_controls.clear();
     }
 
-    /// As the unit counts: whatever is assigned, also what has no place there.
+    /// As the unit counts: everything that is assigned, even if it does not belong there.
     fn size_bytes(&self, direction: Direction) -> u16 {
         let entries = self.pdo.assigned(direction).flat_map(|pdo| self.pdo.entries(pdo));
         let bits: usize = entries.map(|entry| usize::from(entry.bit_length)).sum();
@@ -133,7 +133,7 @@ impl Slave {
         operations
     }
 
-    /// The SDOs of PRE-OP: what the scenario orders, then the reset of errors that the ESI asks for.
+    /// The SDOs of PRE-OP: the orders of the scenario, then the reset of errors that the ESI requires.
     pub(crate) fn startup_sdos(&self) -> Vec<Operation> {
         let mut operations: Vec<_> =
             self.startup.iter().flat_map(|startup| self.startup_sdo(startup)).collect();
@@ -199,7 +199,7 @@ const fn sync_manager(direction: Direction) -> u8 {
     }
 }
 
-/// The FMMU of an area without process data: it is set all the same, and maps nothing.
+/// The FMMU of an area without process data: it is written nevertheless, and maps nothing.
 fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
     FmmuSettings {
         number: area.fmmu,
@@ -211,7 +211,7 @@ fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
     }
 }
 
-/// The PDO settings behind an order that maps or assigns.
+/// The PDO settings after an order that maps or assigns.
 pub(crate) fn changed_settings(settings: &mut PdoSettings, order: &MasterOrder) {
     if let MasterOrder::MapPdo { pdo, entries, .. } = order {
         map(settings, pdo.0, entries);
@@ -225,7 +225,7 @@ fn map(settings: &mut PdoSettings, pdo: u16, entries: &[Entry]) {
     settings.map(ObjectIndex(pdo), entries.iter().map(address).map(PdoEntry::at));
 }
 
-/// The direction of the assignment object; none if it is none.
+/// The direction of the assignment object; none if it is not one.
 fn assign(settings: &mut PdoSettings, index: u16, pdos: &[Hex<u16>]) -> Option<Direction> {
     let direction = Direction::ALL.into_iter().find(|&way| Assignment::of(way).object.0 == index)?;
     settings.assign(direction, pdos.iter().map(|pdo| ObjectIndex(pdo.0)));

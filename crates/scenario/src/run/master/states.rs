@@ -1,4 +1,4 @@
-//! What the master knows of the states of its slaves, by one look at each AL status in each task period.
+//! The states of the slaves in the master, from one read of each AL status in each task period.
 
 use core::ops::Range;
 
@@ -9,14 +9,14 @@ use super::sent::{Sent, Ticket};
 use crate::model::FrameKind;
 
 const LOOK: Access<'static> = Access::Read { offset: registers::AL_STATUS, length_bytes: 2 };
-/// Looks without an answer, one after the other, after which a slave counts as gone.
+/// Number of consecutive reads without an answer after which a slave counts as missing.
 const MISSED_MAX: u8 = 2;
 
-/// The states of all slaves, as they were seen last.
+/// The states of all slaves, as last read.
 #[derive(Debug)]
 pub(crate) struct States {
     looks: Vec<Look>,
-    /// Frames that have not come back, and the slaves that they look at.
+    /// Frames that have not returned, and the slaves that they read.
     awaited: Vec<(u64, Range<usize>)>,
 }
 
@@ -31,7 +31,7 @@ impl States {
         Self { looks: vec![Look::default(); units], awaited: Vec::new() }
     }
 
-    /// A look at each slave, in frames that they share. What has not come back by now is missed.
+    /// A read of each slave, in shared frames. Reads that have not returned by now count as missed.
     pub(crate) fn send(&mut self, ticket: &mut u64) -> Vec<Sent> {
         for (_, slaves) in self.awaited.drain(..) {
             self.looks[slaves].iter_mut().for_each(Look::miss);
@@ -56,7 +56,7 @@ impl States {
         frames
     }
 
-    /// Takes what comes back; false if it is no look.
+    /// Processes a returned frame; false if it is not such a read.
     pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
         let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
             return false;
@@ -68,7 +68,7 @@ impl States {
         true
     }
 
-    /// The state of a slave, whether it has an error or not; none if it is not there.
+    /// The state of a slave, with or without an error; none if it is missing.
     pub(crate) fn state(&self, unit: usize) -> Option<AlState> {
         let status = self.looks.get(unit)?.status?;
         Some(status.state)
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
     use wire::returned_datagrams;
 
-    /// One look, answered with this state and working counter, or not at all.
+    /// One read, answered with this state and working counter, or not at all.
     fn look(states: &mut States, answer: Option<(u16, u16)>) -> Option<AlState> {
         let mut ticket = 7;
         let sent = states.send(&mut ticket).remove(0);

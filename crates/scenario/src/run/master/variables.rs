@@ -1,4 +1,4 @@
-//! The variables that the master's user program has: the PDO entries of its slaves as device variables, and the
+//! The variables of the master's user program: the PDO entries of its slaves as device variables, and the
 //! system-defined tables (manual, A-4-3 and A-5-1).
 
 use nx_ect101::unit_file::EntryAddress;
@@ -8,13 +8,13 @@ use nx_ect101::{
 use plc::{VariableType, variable_name};
 use st::{Elementary, Global};
 
-/// Node addresses that the tables have an element for, from 1 on.
+/// Number of node addresses with an element in the tables, from 1 on.
 pub(crate) const NODE_ADDRESS_MAX: u16 = 192;
 
-/// A unit as the master's program knows it.
+/// A unit for the master's program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Node {
-    /// Its place in the line.
+    /// Its position in the line.
     pub(crate) unit: usize,
     /// Its node address, 1 to [`NODE_ADDRESS_MAX`]: the ID of the unit (manual, 3-3).
     pub(crate) address: u16,
@@ -22,7 +22,7 @@ pub(crate) struct Node {
     pub(crate) device_name: String,
 }
 
-/// What a variable tells or orders.
+/// The meaning of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Source {
     /// `_EC_PDSlavTbl`: the slaves that are in OP and exchange process data.
@@ -36,7 +36,7 @@ pub(crate) enum Source {
 }
 
 impl Source {
-    /// The unit that it is about.
+    /// Its unit.
     pub(crate) const fn unit(&self) -> Option<usize> {
         match self {
             Self::Entry { unit, .. } | Self::InputBit { unit, .. } => Some(*unit),
@@ -44,7 +44,7 @@ impl Source {
         }
     }
 
-    /// Where it lies in the process data by these settings; none if it is not mapped.
+    /// Its position in the process data with these settings; none if it is not mapped.
     pub(crate) fn place(&self, settings: &PdoSettings) -> Option<Place> {
         match *self {
             Self::Entry { direction, address, .. } => place(settings, direction, address),
@@ -61,12 +61,12 @@ impl Source {
 #[derive(Clone, Debug)]
 pub(crate) struct MasterVariables {
     pub(crate) globals: Vec<Global>,
-    /// What each of them tells.
+    /// The meaning of each of them.
     pub(crate) sources: Vec<Source>,
 }
 
 impl MasterVariables {
-    /// Those that every master has.
+    /// The variables of every master.
     pub(crate) fn new() -> Self {
         let mut variables = Self { globals: Vec::new(), sources: Vec::new() };
         variables.add("_EC_PDSlavTbl", Source::ProcessDataTable);
@@ -85,7 +85,7 @@ impl MasterVariables {
         self.sources.push(source);
     }
 
-    /// Adds the PDO entries that a unit has by these settings, as far as they are not there already.
+    /// Adds the PDO entries of a unit with these settings, unless they already exist.
     pub(crate) fn add_slave(&mut self, node: &Node, settings: &PdoSettings) {
         for direction in Direction::ALL {
             for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
@@ -132,7 +132,7 @@ impl MasterVariables {
     }
 }
 
-/// The bits of an entry that are I/O ports of their own: those of Sysmac Error Status (manual, 7-5-5).
+/// The bits of an entry that are I/O ports themselves: those of Sysmac Error Status (manual, 7-5-5).
 fn bits(address: EntryAddress) -> &'static [StatusBit] {
     match (address.index.0, address.sub.0) {
         (0x2002, 1) => &[OBSERVATION_BIT, MINOR_FAULT_BIT],
@@ -140,7 +140,7 @@ fn bits(address: EntryAddress) -> &'static [StatusBit] {
     }
 }
 
-/// None for padding and for what is no type of a variable.
+/// None for padding and for a type that is not a type of variables.
 fn type_of(direction: Direction, entry: &PdoEntry) -> Option<VariableType> {
     let is_of = |set: &&DataSet| set.direction == direction && set.pdo_entry == entry.index;
     match (DataSet::all().iter().find(is_of), entry.bit_length) {
@@ -151,16 +151,16 @@ fn type_of(direction: Direction, entry: &PdoEntry) -> Option<VariableType> {
     }
 }
 
-/// Where an entry lies in the process data of its direction.
+/// The position of an entry in the process data of its direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Place {
     /// Its first bit.
     pub(crate) start: usize,
-    /// How many it has.
+    /// Its number of bits.
     pub(crate) length: usize,
 }
 
-/// The place of an entry by these settings; none if it is not mapped.
+/// The position of an entry with these settings; none if it is not mapped.
 fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
     let mut start = 0;
     for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
@@ -174,7 +174,8 @@ fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) ->
 }
 
 impl Place {
-    /// The value as a variable has it: whole bytes, or a bit as 0 or 1. What has not come yet is 0.
+    /// The value in the form of a variable: whole bytes, or a bit as 0 or 1. Data that have not been received
+    /// yet are 0.
     pub(crate) fn take(self, image: &[u8], value: &mut Vec<u8>) {
         let rest = image.get(self.start / 8..).unwrap_or_default();
         if self.length == 1 {

@@ -1,4 +1,4 @@
-//! What the addresses of a unit hold, and whether two runs of the same master find the same there.
+//! The contents of a unit's addresses, and whether they are the same in two runs of the same master.
 
 use nx_ect101::layout;
 
@@ -14,7 +14,7 @@ const fn compared(first: u16, last: u16, name: &'static str) -> Area {
     Area { first, last, name, is_compared: true }
 }
 
-/// The value depends on the moment of the look.
+/// The value depends on the time of the read.
 const fn passed_over(first: u16, last: u16, name: &'static str) -> Area {
     Area { first, last, name, is_compared: false }
 }
@@ -23,7 +23,7 @@ const fn mailbox(start: u16, name: &'static str) -> Area {
     compared(start, start + layout::MAILBOX_BYTES - 1, name)
 }
 
-/// In the order of their addresses, but for the mailboxes, which lie in the process memory.
+/// In the order of their addresses, except for the mailboxes, which are in the process memory.
 const AREAS: &[Area] = &[
     compared(0x0000, 0x000F, "ESC information"),
     compared(0x0010, 0x0013, "station address and alias"),
@@ -45,13 +45,13 @@ const AREAS: &[Area] = &[
     compared(0x1000, 0xFFFF, "process memory"),
 ];
 
-/// The name of what begins at this address.
+/// The name of the area at this address.
 pub(super) fn name(address: u16) -> &'static str {
     let area = AREAS.iter().find(|area| (area.first..=area.last).contains(&address));
     area.map_or("other registers", |area| area.name)
 }
 
-/// Whether none of these addresses depends on the moment of the look.
+/// Whether none of these addresses depends on the time of the read.
 pub(super) fn are_compared(first: u16, length_bytes: u16) -> bool {
     let last = first.saturating_add(length_bytes.saturating_sub(1));
     AREAS.iter().all(|area| area.is_compared || first > area.last || area.first > last)

@@ -1,36 +1,36 @@
-//! In what the answers of a replayed capture differ: every difference has a kind, and each kind is counted.
+//! The differences of the answers of a replayed capture: every difference has a kind, and each kind is counted.
 
 use wire::{Command, Returned};
 
 use super::areas;
 use crate::model::hex;
 
-/// Differences that are described one by one.
+/// Number of differences that are described one by one.
 const DESCRIBED: usize = 3;
 
-/// What is not as it was captured.
+/// What differs from the capture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aspect {
-    /// Other units, or other ones of their SyncManagers and FMMUs, have taken the datagram.
+    /// Other units, or other SyncManagers and FMMUs of them, have processed the datagram.
     WorkingCounter,
     /// The data of the datagram.
     Data,
     /// The answer has other datagrams.
     Datagrams,
-    /// The answer that was captured does not come back.
+    /// The captured answer does not return.
     MissingAnswer,
 }
 
-/// Differences of one kind: the same aspect of the same command in the same place.
+/// Differences of one kind: the same aspect of the same command at the same place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DifferenceKind {
     /// What differs.
     pub aspect: Aspect,
-    /// The command of the datagram; none for what concerns a whole frame.
+    /// The command of the datagram; none if it concerns a whole frame.
     pub command: Option<Command>,
-    /// What the datagram asks for, such as `mailbox to the master`; none for what concerns a whole frame.
+    /// The target of the datagram, such as `mailbox to the master`; none if it concerns a whole frame.
     pub place: Option<&'static str>,
-    /// How many there are.
+    /// Their number.
     pub count: u64,
     /// The first of them.
     pub first: String,
@@ -57,7 +57,7 @@ impl DifferenceKind {
     }
 }
 
-/// Everything that differs so far.
+/// All differences so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Differences {
     kinds: Vec<DifferenceKind>,
@@ -69,7 +69,7 @@ impl Differences {
         self.kinds.iter().map(|kind| kind.count).sum()
     }
 
-    /// The first ones, in words.
+    /// The first ones, as text.
     pub(super) fn described(&self) -> &[String] {
         &self.described
     }
@@ -81,7 +81,7 @@ impl Differences {
         kinds
     }
 
-    /// Compares the datagrams of an answer, the one to frame `number`, with those that were captured.
+    /// Compares the datagrams of an answer, the one to frame `number`, with the captured ones.
     pub(super) fn compare(&mut self, number: usize, seen: &[Returned], captured: &[Returned]) {
         let frame = format!("frame {}", number + 1);
         let commands = |datagrams: &[Returned]| -> Vec<Command> {
@@ -100,7 +100,7 @@ impl Differences {
         }
     }
 
-    /// These frames were answered in the capture, and are not now.
+    /// These frames were answered in the capture, and are not answered now.
     pub(super) fn with_missing(mut self, numbers: impl Iterator<Item = usize>) -> Self {
         for number in numbers {
             self.add(Aspect::MissingAnswer, None, format!("frame {}: no answer comes back", number + 1));
@@ -123,7 +123,7 @@ impl Differences {
     }
 }
 
-/// What a datagram asks for.
+/// The target of a datagram.
 fn place(datagram: &Returned) -> &'static str {
     if is_logical(datagram) { "process data" } else { areas::name(datagram.header.offset) }
 }
@@ -132,7 +132,7 @@ fn is_logical(datagram: &Returned) -> bool {
     matches!(datagram.header.command, Command::Lrd | Command::Lwr | Command::Lrw)
 }
 
-/// What is not as it was; none if nothing is. A datagram that other units have taken has other data too.
+/// The difference; none if there is none. If other units have processed a datagram, its data differ too.
 fn difference(seen: &Returned, captured: &Returned) -> Option<(Aspect, String)> {
     let header = &captured.header;
     let name = format!("{:?} of {:#06X}", header.command, header.offset);

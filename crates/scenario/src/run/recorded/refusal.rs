@@ -10,13 +10,13 @@ use super::{DURATION_MAX, SILENCE_MAX};
 /// Why the frames of a capture cannot be sent again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NotReplayable {
-    /// Its bytes are no capture.
+    /// Its bytes are not a capture.
     NotACapture(NotACapture),
-    /// The master is silent for too long.
+    /// The master pauses for too long.
     Silence {
-        /// The frame behind the silence, from 1.
+        /// The frame after the pause, from 1.
         frame: usize,
-        /// How long it lasts.
+        /// The duration of the pause.
         silence: Duration,
     },
     /// It lasts too long.

@@ -1,4 +1,4 @@
-//! The way of a frame: what the line does to it, the units, and its answer.
+//! The path of a frame: faults of the line, the units, and its answer.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -12,7 +12,7 @@ use crate::run::line::Delayed;
 use crate::run::master::{Sent, Ticket};
 
 impl World {
-    /// A frame leaves its master and meets the faults of the line.
+    /// A frame is sent by its master and gets the faults of the line.
     pub(super) fn transmit(&mut self, sent: Sent) {
         let Sent { ticket, kind, mut frame } = sent;
         let mut faults = self.line.faults(kind);
@@ -28,7 +28,7 @@ impl World {
                 }
                 FrameFault::Delay { by } => delay = Some(by),
                 FrameFault::Cut { length_bytes } => frame.truncate(usize::from(length_bytes).max(14)),
-                // What these do is done when the frame passes the units.
+                // These take effect when the frame passes the units.
                 FrameFault::LoseAnswer
                 | FrameFault::Duplicate
                 | FrameFault::Corrupt { .. }
@@ -44,7 +44,7 @@ impl World {
         }
     }
 
-    /// A frame passes the units, once or twice, and its answer comes back, if it does.
+    /// A frame passes the units, once or twice, and its answer returns, if it does.
     pub(super) fn pass(&mut self, ticket: Ticket, frame: Vec<u8>, faults: &[FrameFault]) {
         if faults.contains(&FrameFault::Duplicate) {
             self.pass_once(ticket, frame.clone(), &[FrameFault::Duplicate]);
@@ -86,7 +86,7 @@ impl World {
 }
 
 impl FrameFault {
-    /// What a trace and a capture say of it.
+    /// The text for a trace and a capture.
     const fn words(self) -> &'static str {
         match self {
             Self::Lose => "a frame is lost on the way to the units",
@@ -100,7 +100,7 @@ impl FrameFault {
     }
 }
 
-/// What a capture says beside a frame: every fault that it meets.
+/// The comment of a frame in a capture: all its faults.
 fn comment(faults: &[FrameFault]) -> Option<String> {
     let words: Vec<&str> = faults.iter().map(|fault| fault.words()).collect();
     (!words.is_empty()).then(|| words.join("; "))

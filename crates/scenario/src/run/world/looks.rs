@@ -1,4 +1,4 @@
-//! What conditions look at.
+//! The values that conditions check.
 
 use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Unit};
@@ -14,7 +14,7 @@ use crate::model::IndicatorName;
 const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observation];
 
 impl World {
-    /// The unit at a position that the scenario has been checked for.
+    /// The unit at a position that was checked when the scenario was read.
     pub(crate) fn unit(&self, at: usize) -> &NxEct101 {
         self.device(at).unit()
     }

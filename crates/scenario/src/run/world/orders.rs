@@ -1,4 +1,4 @@
-//! What steps do to units, CPU Units and the line. Every order has its arm: a forgotten one would do nothing.
+//! The effects of steps on units, CPU Units and the line. Every order has its arm: a missing one would do nothing.
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
@@ -13,7 +13,7 @@ use super::{Cpu, World};
 use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, LineOrder, UnitOrder, UnitSet};
 use crate::run::master::Master;
 
-/// A byte of an EEPROM that nobody has written.
+/// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
 
 impl World {
@@ -92,7 +92,7 @@ impl World {
         self.tell_of_cpus();
     }
 
-    /// What CPU Units have told since their last task periods.
+    /// The reports of CPU Units since their last task periods.
     fn tell_of_cpus(&mut self) {
         for (at, cpu) in self.cpus.iter_mut().enumerate() {
             let events = cpu.unit.take_events().map(|record| record.event);
@@ -123,7 +123,7 @@ impl World {
         }
     }
 
-    /// Does something with a fault of each unit. The name was checked when the scenario was read.
+    /// An action on a fault of each unit. The name was checked when the scenario was read.
     fn each_fault(&mut self, units: UnitSet, name: &str, order: impl Fn(&mut NxEct101, Fault)) {
         if let Some(fault) = Fault::named(name) {
             self.each_unit(units, |unit| order(unit, fault));

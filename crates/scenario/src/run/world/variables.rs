@@ -1,4 +1,4 @@
-//! Device variables of the CPU Units, by the names that the manual gives them (A-3-2), and variables of programs.
+//! Device variables of the CPU Units, by their names in the manual (A-3-2), and variables of programs.
 
 use plc::{Io, Target, VariableError};
 
@@ -7,8 +7,8 @@ use crate::model::Controller;
 use crate::run::story::Story;
 
 impl World {
-    /// The bytes of a variable or of an element such as `N1_UINTs_01_M_to_C[3]`, little endian; none if no CPU Unit
-    /// has it.
+    /// The bytes of a variable or of an element such as `N1_UINTs_01_M_to_C[3]`, little endian; none if no CPU
+    /// Unit has it.
     pub(crate) fn variable(&self, name: &str) -> Option<Vec<u8>> {
         let (io, target) = self.find(name)?;
         io.read(target).ok().map(|value| value.to_vec())
@@ -29,7 +29,7 @@ impl World {
         }
     }
 
-    /// What a controller has told; none if it is not there.
+    /// The reports of a controller; none if it does not exist.
     pub(crate) fn told(&self, by: Controller) -> Option<&Story> {
         match by {
             Controller::Master => Some(self.master.told()),

@@ -1,4 +1,4 @@
-//! How words are read: each function takes what fits, and how many words it is.
+//! Reading words: each function takes the matching ones, and returns their number.
 
 use crate::model::{
     Bytes, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName, Position, StateName,
@@ -124,7 +124,7 @@ pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Percent(percent), length))
 }
 
-/// Which frames, and of which kind.
+/// The selection of frames, and their kind.
 pub(super) fn frames(words: &[&str]) -> Option<(Value, usize)> {
     let (choice, length) = choice(words)?;
     let (kind, more) = match words.get(length..)? {

@@ -1,4 +1,4 @@
-//! Sentences of conditions: what `expect` asks for, and what `when` waits for.
+//! Sentences of conditions: for `expect` and for `when`.
 
 use crate::model::Condition::{self, *};
 use crate::model::DataDirection;

@@ -1,4 +1,4 @@
-//! Sentences of the line: cables, and what happens to frames.
+//! Sentences of the line: cables, and faults of frames.
 
 use crate::model::LineOrder::{self, *};
 use crate::model::{Disturbance, FrameFault};

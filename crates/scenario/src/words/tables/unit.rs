@@ -1,4 +1,4 @@
-//! Sentences of hands on a unit, and of its faults.
+//! Sentences of actions on a unit by hand, and of its faults.
 
 use crate::model::UnitOrder::{self, *};
 use crate::model::{ConductOrder as Slave, EventLog};
