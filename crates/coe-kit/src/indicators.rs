@@ -1,6 +1,6 @@
-//! Indicators of ETG.1300: patterns of light over time, and what RUN, ERR and L/A show (reference 9).
+//! Indicators of ETG.1300: patterns of light over time, and the states of RUN, ERR and L/A (reference 9).
 //!
-//! A model adds its own indicators, and its own rows where its documents differ from the standard.
+//! A model adds its own indicators, and its own rows if its documents differ from the standard.
 
 mod pattern;
 mod standard;

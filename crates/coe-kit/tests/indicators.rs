@@ -1,6 +1,6 @@
-//! Patterns over two seconds of virtual time, and what RUN, ERR and L/A show.
+//! Patterns over two seconds of virtual time, and the states of RUN, ERR and L/A.
 //!
-//! The expectations are written by hand, from ETG.1300 (reference 9); they do not come from the tables of the crate.
+//! The expectations are written by hand from ETG.1300 (reference 9); they do not come from the tables of the crate.
 
 use coe_kit::indicators::{Pattern, PortCondition, err, run};
 use proptest::prelude::*;
@@ -81,7 +81,7 @@ fn l_a_shows_the_port() {
 }
 
 proptest! {
-    /// A panel that waits for the next change misses nothing, and waits for no change in vain.
+    /// An observer that waits for the next change misses none, and no wait ends without a change.
     #[test]
     fn nothing_changes_before_the_next_change(
         pattern in prop::sample::select(&Pattern::ALL[2..]),

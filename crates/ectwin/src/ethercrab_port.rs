@@ -9,8 +9,8 @@ use ethercrab::{PduRx, PduTx};
 use link::FramePort;
 use time::Duration;
 
-/// The network side of ethercrab's `PduStorage`, as a port that frames come from and go to. It belongs to the
-/// thread that receives from it first: ethercrab wakes that one when it has a frame to send.
+/// The network side of ethercrab's `PduStorage`, as a port for frames. It belongs to the thread that first
+/// receives from it: ethercrab wakes that thread when it has a frame to send.
 pub struct EthercrabPort<'s> {
     tx: PduTx<'s>,
     rx: PduRx<'s>,
@@ -18,14 +18,14 @@ pub struct EthercrabPort<'s> {
 }
 
 impl<'s> EthercrabPort<'s> {
-    /// Takes the two halves that `PduStorage::try_split` gives beside the `PduLoop`.
+    /// Takes the two halves that `PduStorage::try_split` returns in addition to the `PduLoop`.
     #[must_use]
     pub fn new(tx: PduTx<'s>, rx: PduRx<'s>) -> Self {
         Self { tx, rx, receiver: None }
     }
 
     fn take_frame(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
-        // Registered before looking: a frame that becomes ready after the look still wakes us.
+        // Registered before the check: a frame that becomes ready after the check still wakes the thread.
         let waker = self.receiver.get_or_insert_with(|| Waker::from(Arc::new(Unpark(thread::current()))));
         self.tx.replace_waker(waker);
         if self.tx.should_exit() {

@@ -1,9 +1,9 @@
-//! `ectwin explain WHAT`: what a code, an object, a register, an indicator or a word means, and what to do.
+//! `ectwin explain WHAT`: the meaning of a code, an object, a register, an indicator or a word, and the correction.
 //!
-//! A text may be several things: 0x0020 is an AL status code, an ESC register, and in a diagnosis message the event
-//! 00200000. [`explain`] gives all of them, as facts under headings; [`event_pages`] writes the same facts as the
-//! pages of docs/events. Names and meanings come from the tables of the model, docs/glossary.md and
-//! docs/user/unit-file.md.
+//! A text may have several meanings: 0x0020 is an AL status code, an ESC register, and in a diagnosis message
+//! the event 00200000. [`explain`] returns all of them, as facts under headings; [`event_pages`] writes the
+//! same facts as the pages of docs/events. Names and meanings come from the tables of the model,
+//! docs/glossary.md and docs/user/unit-file.md.
 
 mod al_status;
 mod al_status_codes;
@@ -37,17 +37,17 @@ pub use unexplained::Unexplained;
 
 /// Longer than every name of the tables.
 const TEXT_BYTES_MAX: usize = 200;
-/// So many meanings of one name are explained in whole.
+/// Maximum number of meanings of one name that are explained completely.
 const WHOLE_MAX: usize = 3;
-/// So many names that share a part are shown.
+/// Maximum number of names with a common part that are shown.
 const PARTS_MAX: usize = 20;
 
-/// Explains `text`: a code, an index or a register in hexadecimal digits, with or without `0x`, `hex` and underscores;
-/// an object's entry, such as `10F3:05`; a name of the tables, a key of the unit file or a word of the glossary; or words
-/// that are a part of such names. All that it can be, one at least.
+/// Explains `text`: a code, an index or a register in hexadecimal digits, with or without `0x`, `hex` and
+/// underscores; an object's entry, such as `10F3:05`; a name of the tables, a key of the unit file or a word of
+/// the glossary; or words that are part of such names. Returns all its meanings, at least one.
 ///
 /// # Errors
-/// No table has it.
+/// It is in no table.
 pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     if text.len() > TEXT_BYTES_MAX {
         return Err(unknown::too_long(text));
@@ -65,7 +65,7 @@ pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     }
 }
 
-/// The names that have the words of `text` in them.
+/// The names that contain the words of `text`.
 fn named_by_a_part(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     let meanings: Vec<_> = names::containing(text).into_iter().filter_map(explanation).collect();
     match meanings.len() {
@@ -75,7 +75,7 @@ fn named_by_a_part(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     }
 }
 
-/// More explanations than these are shown by their first lines.
+/// If there are more explanations than this, only their first lines are shown.
 fn shortened(meanings: Vec<Explanation>, whole_max: usize) -> Vec<Explanation> {
     if meanings.len() <= whole_max {
         return meanings;
@@ -83,14 +83,14 @@ fn shortened(meanings: Vec<Explanation>, whole_max: usize) -> Vec<Explanation> {
     meanings.into_iter().map(first_line).collect()
 }
 
-/// What it is and what it is called; of an entry, the object's name too.
+/// Its kind and its name; for an entry, also the object's name.
 fn first_line(known: Explanation) -> Explanation {
     let object = object::name_around(known.subject);
     let name = object.map_or_else(|| known.name.clone(), |object| format!("{}, {object}", known.name));
     Explanation { name, facts: Vec::new(), advice: Vec::new(), sections: Vec::new(), ..known }
 }
 
-/// The explanations as text: an empty line between two, and none between first lines.
+/// The explanations as text: with an empty line between two, but not between first lines.
 #[must_use]
 pub fn to_text(explanations: &[Explanation]) -> String {
     let is_line = |known: &Explanation| known.facts.is_empty() && known.sections.is_empty();
@@ -98,7 +98,7 @@ pub fn to_text(explanations: &[Explanation]) -> String {
     explanations.iter().map(ToString::to_string).collect::<Vec<_>>().join(between)
 }
 
-/// What is known of it; none if no table has it.
+/// The explanation; none if it is in no table.
 fn explanation(subject: Subject) -> Option<Explanation> {
     match subject {
         Subject::Event(code) => event::explanation(code),

@@ -1,6 +1,6 @@
 //! ectwin, the EtherCAT twin: virtual slave units for tests of EtherCAT masters.
 //!
-//! A unit file makes a [`Twin`]. It takes frames in virtual time:
+//! A unit file makes a [`Twin`]. It processes frames in virtual time:
 //!
 //! ```
 //! use ectwin::{FrameFate, Twin};
@@ -18,9 +18,9 @@
 //! # Ok::<(), ectwin::SetupError>(())
 //! ```
 //!
-//! Or it answers a link in real time: [`Twin::serve`] for any [`link::FramePort`], such as one end of
+//! It can also answer a link in real time: [`Twin::serve`] for any [`link::FramePort`], such as one end of
 //! [`link::memory::pair`], and `Twin::serve_ethercrab` for an ethercrab master in the same process. The test
-//! looks at the other side of the unit by [`Twin::unit`] and [`Live::look`].
+//! accesses the other side of the unit through [`Twin::unit`] and [`Live::look`].
 
 #[cfg(feature = "ethercrab")]
 mod ethercrab_port;

@@ -23,17 +23,17 @@ const STOP_CHECK: Duration = Duration::from_millis(100);
 pub struct Ended {
     /// The counters of the run.
     pub statistics: Statistics,
-    /// Memory files that lack the last changes of their units, such as on a full disk.
+    /// Memory files that do not contain the last changes of their units, for example because of a full disk.
     pub lost: Vec<ChangesLost>,
 }
 
 /// Answers `port` in real time until `stop` is set or the link is closed, and then sets `stop`. The units
-/// answer on this thread, their CPU Units run on another one; the two meet in the triple buffers only. `stop` ends a
-/// scan that is under way too. A user program is reloaded when its file changes, and events of the CPU Units are
-/// logged.
+/// answer on this thread, their CPU Units run on another one; the two are connected only by the triple buffers.
+/// `stop` also ends a scan in progress. A user program is reloaded when its file changes, and events of the CPU
+/// Units are logged.
 ///
 /// # Errors
-/// The medium is gone, or there is no thread to be had.
+/// The medium is gone, or no thread can be started.
 pub fn run<'o, P: FramePort>(
     twin: Twin,
     port: &mut P,
@@ -75,7 +75,7 @@ fn cpu_units_panicked() -> io::Error {
     io::Error::other("the thread of the CPU Units panicked: a user program of the test, or a mistake of ours")
 }
 
-/// Calls `turn` at the moments that it returns.
+/// Calls `turn` at the times that it returns.
 fn keep_pace(clock: &Clock, stop: &AtomicBool, mut turn: impl FnMut(Instant) -> Instant) {
     while !stop.load(Ordering::Relaxed) {
         let next = turn(clock.now());
@@ -90,10 +90,10 @@ fn turn(cpus: &mut [CpuUnit], now: Instant) -> Instant {
 }
 
 impl Twin {
-    /// Answers `port` in real time on threads of its own, from the present moment on.
+    /// Answers `port` in real time on separate threads, from the present time on.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     pub fn serve(self, port: impl FramePort + 'static) -> io::Result<Live> {
         let Parts { line, cpus, now, .. } = self.into_parts();
         let shared =
@@ -108,10 +108,10 @@ impl Twin {
         Ok(live)
     }
 
-    /// Answers an ethercrab master in this process: give it the halves of its `PduStorage`.
+    /// Answers an ethercrab master in this process, with the halves of its `PduStorage`.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     #[cfg(feature = "ethercrab")]
     pub fn serve_ethercrab(
         self,
@@ -132,16 +132,16 @@ pub struct Live {
 }
 
 impl Live {
-    /// Looks at the side of the unit at `position` that no master sees. Frames wait until `look` returns.
+    /// Accesses the side of the unit at `position` that is not visible to the master. Frames wait until `look` returns.
     ///
     /// # Panics
-    /// If the line has no unit there.
+    /// If there is no such unit.
     pub fn look<T>(&self, position: usize, look: impl FnOnce(&mut UnitSide<'_>) -> T) -> T {
         let (mut line, mut cpus) = (self.shared.line(), self.shared.cpus());
         look(&mut line.unit(&mut cpus, position, self.clock.now()))
     }
 
-    /// Switches the units off and tells what they did.
+    /// Switches the units off and returns their statistics.
     ///
     /// # Errors
     /// The medium was gone, or the last changes of a unit could not be stored in its memory file.
@@ -177,7 +177,7 @@ impl Drop for Live {
     }
 }
 
-/// What the threads and the test share.
+/// The data shared by the threads and the test.
 #[derive(Debug)]
 struct Shared {
     line: Mutex<Line>,
@@ -185,7 +185,7 @@ struct Shared {
     stop: AtomicBool,
 }
 
-/// A thread that panicked has told so; what it left is looked at all the same.
+/// A thread that panicked has already reported it; its data are still accessible.
 impl Shared {
     fn line(&self) -> MutexGuard<'_, Line> {
         self.line.lock().unwrap_or_else(PoisonError::into_inner)

@@ -7,23 +7,23 @@ use device::Network;
 use nx_ect101::{Damage, MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
 use storage::{ChangesLost, StoredFile};
 
-/// What a unit has found in its file, and who keeps the file from now on.
+/// The contents of a unit's file, and its owner from now on.
 #[derive(Debug)]
 pub(crate) struct MemoryFile {
     found: MemoryAtPowerOn,
-    /// None for memory only.
+    /// None for a memory without a file.
     writer: Option<storage::Writer>,
 }
 
 impl MemoryFile {
-    /// Memory only: nothing is found, and nothing is kept.
+    /// A memory without a file: it is new, and it is not stored.
     pub(crate) const fn none() -> Self {
         Self { found: MemoryAtPowerOn::Factory, writer: None }
     }
 
-    /// Claims the file for this unit, and reads it. One that is damaged gets another name and is left alone; the unit
-    /// starts with the fault that the manual names, and stores a new memory once its power was cycled. One that never
-    /// was a memory is refused, and not touched.
+    /// Claims the file for this unit, and reads it. A damaged file is renamed and not changed; the unit starts
+    /// with the fault in the manual, and stores a new memory after its power was cycled. A file that has never
+    /// been a memory is refused, and not changed.
     pub(crate) fn open(path: &Path) -> io::Result<Self> {
         let file = StoredFile::claim(path)?;
         let found = match file.read()?.map(|bytes| NonVolatileMemory::decode(&bytes)) {
@@ -43,7 +43,7 @@ impl MemoryFile {
         Ok(Self { found, writer: Some(writer) })
     }
 
-    /// What was found, and who writes.
+    /// The contents, and the writer.
     pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, Option<storage::Writer>) {
         (self.found, self.writer)
     }
@@ -59,7 +59,7 @@ fn room_bytes(found: &MemoryAtPowerOn) -> usize {
     }
 }
 
-/// Keeps the memory of one unit in its file.
+/// Stores the memory of one unit in its file.
 #[derive(Debug)]
 pub(crate) struct Keeper {
     position: usize,
@@ -67,12 +67,12 @@ pub(crate) struct Keeper {
 }
 
 impl Keeper {
-    /// Keeps the unit at `position`, counted from the master.
+    /// Stores the memory of the unit at `position`, counted from the master.
     pub(crate) const fn new(position: usize, writer: storage::Writer) -> Self {
         Self { position, writer }
     }
 
-    /// Hands the memory over to its writer, if it has changed. Nothing waits for the disk.
+    /// Passes the memory to its writer, if it has changed. This does not wait for the disk.
     pub(crate) fn keep(&mut self, network: &mut Network<NxEct101>) {
         let Some((device, esc)) = network.slave_mut(self.position) else { return };
         let unit = device.unit_mut();

@@ -3,7 +3,7 @@
 use objects::{AccessRights, Entry, ObjectCode};
 use wire::{AlState, DataType};
 
-/// What kind of object it is.
+/// The kind of an object.
 #[must_use]
 pub const fn code(code: ObjectCode) -> &'static str {
     match code {
@@ -30,7 +30,7 @@ pub fn type_name(data_type: DataType) -> String {
     .to_owned()
 }
 
-/// Whether a master reads and writes: `RO`, `RW`, `WO` or `none`.
+/// The access of a master: `RO`, `RW`, `WO` or `none`.
 #[must_use]
 pub fn access(rights: AccessRights) -> &'static str {
     match (rights.intersects(AccessRights::READ), rights.intersects(AccessRights::WRITE)) {
@@ -51,7 +51,7 @@ pub fn writable_in(rights: AccessRights) -> Vec<String> {
         .collect()
 }
 
-/// The kind of PDO that can map an entry; none if none can.
+/// The kind of PDO to which an entry can be mapped; none if it cannot be mapped.
 #[must_use]
 pub fn pdo(rights: AccessRights) -> Option<&'static str> {
     match (rights.contains(AccessRights::RX_PDO), rights.contains(AccessRights::TX_PDO)) {
@@ -62,7 +62,7 @@ pub fn pdo(rights: AccessRights) -> Option<&'static str> {
     }
 }
 
-/// The value at power-on: a text as it is, a number with its most significant digit first.
+/// The value at power-on: a text unchanged, a number with its most significant digit first.
 #[must_use]
 pub fn default(entry: &Entry) -> String {
     if entry.data_type == DataType::VISIBLE_STRING {

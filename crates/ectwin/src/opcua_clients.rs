@@ -8,12 +8,12 @@ use opcua::Server;
 use crate::Twin;
 
 impl Twin {
-    /// Lets OPC UA clients that come to `listener` read, write and watch the variables of the CPU Units, as long as the
-    /// returned server is kept. Whoever reaches the listener may do so: there is no security. Call it before
-    /// [`Twin::serve`]: in virtual time a client waits until time passes.
+    /// Lets OPC UA clients that connect to `listener` read, write and monitor the variables of the CPU Units,
+    /// until the returned server is dropped. Anyone with access to the listener may do so: there is no
+    /// security. Call this before [`Twin::serve`]: in virtual time a client waits until time advances.
     ///
     /// # Errors
-    /// The listener cannot be used, or there is no thread to be had.
+    /// The listener cannot be used, or no thread can be started.
     pub fn serve_opcua(&mut self, listener: TcpListener) -> io::Result<Server> {
         opcua::serve(listener, self.connect_outside())
     }

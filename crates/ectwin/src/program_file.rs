@@ -1,4 +1,4 @@
-//! A user program in files: the ending of a name tells the language.
+//! A user program in files: the ending of a file name determines the language.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -16,13 +16,13 @@ const WEB_ASSEMBLY: &str = "wasm";
 pub(crate) enum ProgramFileError {
     /// A file cannot be read.
     Unreadable { path: PathBuf, reason: Unreadable },
-    /// What is wrong with a program in Structured Text, and where.
+    /// The problems of a program in Structured Text, with their positions.
     StructuredText(st::Problems),
-    /// What is wrong with a program in WebAssembly.
+    /// The problem of a program in WebAssembly.
     WebAssembly { path: PathBuf, reason: String },
 }
 
-/// What the files of a program hold.
+/// The contents of a program's files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum ProgramText {
     StructuredText(Sources),
@@ -51,10 +51,10 @@ impl ProgramText {
         }
     }
 
-    /// The program for a CPU Unit that has these variables.
+    /// The program for a CPU Unit with these variables.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// The problems.
     pub(crate) fn compile(
         &self,
         variables: &DeviceVariables,

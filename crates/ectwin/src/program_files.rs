@@ -1,4 +1,5 @@
-//! User programs in files while they run: a changed file is loaded anew, and what the CPU Units tell is logged.
+//! User programs in files while they run: they are reloaded when a file changes, and reports of the CPU Units
+//! are logged.
 
 use std::io;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
@@ -10,22 +11,22 @@ use time::{Duration, Instant};
 
 use crate::watched_program::{Loaded, Watch, WatchedProgram};
 
-/// How often the files are looked at.
+/// Interval at which the files are checked.
 const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
-/// How often the events of the CPU Units are logged.
+/// Interval at which the events of the CPU Units are logged.
 const TELL_AGAIN: Duration = Duration::from_millis(1_000);
 
-/// Programs that have been changed, on their way to their CPU Units. Dropping it ends the watch.
+/// Changed programs on their way to their CPU Units. Dropping it ends the watch.
 pub(crate) struct ProgramChanges {
     changed: Receiver<Loaded>,
     _watch: Option<Sender<()>>,
 }
 
 impl ProgramChanges {
-    /// Watches the files of programs on a thread of its own.
+    /// Watches the files of programs on a separate thread.
     ///
     /// # Errors
-    /// There is no thread to be had.
+    /// No thread can be started.
     pub(crate) fn watch(programs: Vec<(usize, WatchedProgram)>) -> io::Result<Self> {
         let (sender, changed) = sync_channel(1);
         if programs.is_empty() {
@@ -45,7 +46,7 @@ impl ProgramChanges {
         Ok(Self { changed, _watch: Some(watch) })
     }
 
-    /// Loads what has been changed, in PROGRAM mode; a CPU Unit in RUN mode goes back to it.
+    /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it.
     pub(crate) fn apply(&mut self, cpus: &mut [CpuUnit]) {
         while let Ok((position, program)) = self.changed.try_recv() {
             let Some(cpu) = cpus.get_mut(position) else { continue };
@@ -59,7 +60,7 @@ impl ProgramChanges {
     }
 }
 
-/// What CPU Units tell, on its way into the log.
+/// The events of CPU Units that are not logged yet.
 #[derive(Debug, Default)]
 pub(crate) struct Reports {
     next: Instant,
@@ -67,7 +68,7 @@ pub(crate) struct Reports {
 }
 
 impl Reports {
-    /// Logs what has happened, at most once in a second: what goes on and on is one line with its count.
+    /// Logs events, at most once a second: one that repeats is one line with its count.
     pub(crate) fn tell(&mut self, cpus: &mut [CpuUnit], now: Instant) {
         if now < self.next {
             return;
@@ -76,7 +77,7 @@ impl Reports {
         self.tell_all(cpus);
     }
 
-    /// Logs what has not been logged.
+    /// Logs the events that have not been logged.
     pub(crate) fn tell_all(&mut self, cpus: &mut [CpuUnit]) {
         for (position, cpu) in cpus.iter_mut().enumerate() {
             for record in cpu.take_events() {
@@ -100,7 +101,7 @@ fn tell(unit: usize, record: &CpuRecord) {
         CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { .. }) => {
             tracing::info!("CPU Unit of unit {unit}: {event}");
         }
-        // A machine that is busy for a moment does this to every real-time program.
+        // A machine that is briefly busy with other work causes this in every real-time program.
         CpuEvent::TaskPeriodExceeded { .. } => {
             tracing::debug!("CPU Unit of unit {unit}: {event} ({count} times)")
         }

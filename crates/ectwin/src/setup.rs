@@ -1,4 +1,4 @@
-//! One unit before it gets power: its file, its user program.
+//! One unit before it is powered on: its file, its user program.
 
 mod error;
 
@@ -17,14 +17,14 @@ use crate::watched_program::{self, Stamps, WatchedProgram};
 
 pub use error::SetupError;
 
-/// A unit and its CPU Unit, ready for power. The CPU Unit runs the program that the unit file names: none;
-/// `builtin:copy`, which copies what comes from the master back to it ([`plc::Echo`], the manual's example A-3); or
-/// `builtin:messages`, which does so with messages too ([`plc::MessageEcho`]); or `builtin:pulse`, which counts
+/// A unit and its CPU Unit, ready for power-on. The CPU Unit runs the program in the unit file: none;
+/// `builtin:copy`, which copies the data from the master back to it ([`plc::Echo`], the manual's example A-3);
+/// `builtin:messages`, which also does so with messages ([`plc::MessageEcho`]); `builtin:pulse`, which counts
 /// ([`plc::Pulse`], A-4); or a file ([`Setup::program_file`]).
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
-    /// The files of the program, if it is in files.
+    /// The files of the program, if it has files.
     program_files: Option<ProgramFiles>,
     system_time_ns: Option<u64>,
     memory: Option<MemoryFile>,
@@ -33,41 +33,40 @@ pub struct Setup {
 /// The files of a user program as they were read.
 struct ProgramFiles {
     paths: Vec<PathBuf>,
-    /// What they looked like before.
+    /// Their state before reading.
     stamps: Option<Stamps>,
     text: ProgramText,
 }
 
 impl Setup {
-    /// Reads the text of a unit file. A text has no place, so the file that `storage` names is left alone until
-    /// [`Setup::with_storage`] says where it is, and `program` can name a builtin program only:
-    /// [`Setup::from_toml_in`] knows the folder of others.
+    /// Reads the text of a unit file. A text has no location, so the file in `storage` is not used until
+    /// [`Setup::with_storage`] sets its folder, and `program` can only be a built-in program:
+    /// [`Setup::from_toml_in`] sets the folder for other programs.
     ///
     /// # Errors
-    /// What is wrong with it, and where.
+    /// The mistakes, with their places.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         Self::read(text, None)
     }
 
-    /// Reads the text of a unit file that lies in this folder, and the user program that it names, seen from there.
+    /// Reads the text of a unit file in this folder, and its user program, relative to the folder.
     ///
     /// # Errors
-    /// What is wrong with it, or with the program, and where.
+    /// The mistakes in it or in the program, with their places.
     pub fn from_toml_in(text: &str, folder: &Path) -> Result<Self, SetupError> {
         Self::read(text, Some(folder))
     }
 
-    /// Reads the text of a unit file, and the user program in these files and folders in place of the one that the text
-    /// names.
+    /// Reads the text of a unit file, and the user program in these files and folders instead of the one in the text.
     ///
     /// # Errors
-    /// What is wrong with it, or with the program, and where.
+    /// The mistakes in it or in the program, with their places.
     pub fn from_toml_with_programs(text: &str, programs: &[PathBuf]) -> Result<Self, SetupError> {
         let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
         Self::without_program(file).with_program_files(programs)
     }
 
-    /// Gives the CPU Unit another user program, such as `|io: &mut Io| { … }`.
+    /// Sets another user program for the CPU Unit, such as `|io: &mut Io| { … }`.
     #[must_use]
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
         self.program = Box::new(program);
@@ -75,17 +74,17 @@ impl Setup {
         self
     }
 
-    /// Gives the CPU Unit a user program in Structured Text.
+    /// Sets a user program in Structured Text for the CPU Unit.
     ///
     /// # Errors
-    /// Everything that is wrong with it, with places.
+    /// All its problems, with their positions.
     pub fn structured_text(self, source: &str) -> Result<Self, st::Problems> {
         let program = self.compile(source)?;
         Ok(self.program(program))
     }
 
-    /// Gives the CPU Unit the user program in this file: in WebAssembly if its name ends with `.wasm` and the build has
-    /// the feature `wasm`, else in Structured Text.
+    /// Sets the user program in this file for the CPU Unit: in WebAssembly if its name ends with `.wasm` and
+    /// the build has the feature `wasm`, else in Structured Text.
     ///
     /// # Errors
     /// [`SetupError::ProgramUnreadable`], [`SetupError::ProgramWrong`], [`SetupError::WebAssemblyWrong`].
@@ -93,8 +92,8 @@ impl Setup {
         self.with_program_files(&[path.to_owned()])
     }
 
-    /// Gives the CPU Unit the user program in these files: several in Structured Text are one program, and a folder
-    /// stands for all files below it that end with `.st`.
+    /// Sets the user program in these files for the CPU Unit: several in Structured Text are one program, and a
+    /// folder means all files in it and below that end with `.st`.
     ///
     /// # Errors
     /// As [`Setup::program_file`].
@@ -103,12 +102,12 @@ impl Setup {
         Ok(self)
     }
 
-    /// Gives the unit the non-volatile memory in the file that the unit file names, seen from `folder`, and
-    /// keeps it there. Without a name it stays memory only. A damaged file gets another name, and the unit
-    /// starts with the fault that the manual names (00200000).
+    /// Loads the non-volatile memory of the unit from the file in the unit file, relative to `folder`, and
+    /// stores it there. Without such a file the memory is not stored. A damaged file is renamed, and the unit
+    /// starts with the fault in the manual (00200000).
     ///
     /// # Errors
-    /// [`SetupError::Storage`] when the file cannot be used: another unit keeps its memory there, it is not the
+    /// [`SetupError::Storage`] if the file cannot be used: another unit stores its memory there, it is not the
     /// memory of a unit, or its folder is missing or cannot be written.
     pub fn with_storage(mut self, folder: &Path) -> Result<Self, SetupError> {
         if let Some(storage) = &self.file.storage {
@@ -124,14 +123,14 @@ impl Setup {
         Ok(self)
     }
 
-    /// Drops the waits of the unit, whatever its file says of `timing`.
+    /// Removes the simulated times of the unit, whatever `timing` in its file is.
     #[must_use]
     pub fn fast(mut self) -> Self {
         self.file.timing.value = Timing::Fast;
         self
     }
 
-    /// Gives the CPU Unit a system time: nanoseconds since 1970-01-01 at power-on.
+    /// Sets the system time of the CPU Unit: nanoseconds since 1970-01-01 at power-on.
     #[must_use]
     pub const fn system_time_ns(mut self, system_time_ns: u64) -> Self {
         self.system_time_ns = Some(system_time_ns);
@@ -144,26 +143,26 @@ impl Setup {
         &self.file
     }
 
-    /// What the unit is set to.
+    /// The settings of the unit.
     #[must_use]
     pub fn settings(&self) -> UnitSettings {
         UnitSettings::from_unit_file(&self.file)
     }
 
-    /// The I/O map: the device variables that the CPU Unit has for this unit.
+    /// The I/O map: the device variables of the CPU Unit for this unit.
     #[must_use]
     pub fn device_variables(&self) -> DeviceVariables {
         DeviceVariables::of_unit_file(&self.file)
     }
 
-    /// The files of the user program, those of its folders too; none if it is not in files.
+    /// The files of the user program, including those in its folders; none if it has no files.
     #[must_use]
     pub fn program_paths(&self) -> Vec<PathBuf> {
         let paths = self.program_files.as_ref().map_or(&[][..], |files| &files.paths);
         user_files::program_files(paths).unwrap_or_else(|_| paths.to_vec())
     }
 
-    /// The files of the user program, if it is in files; they are handed over.
+    /// The files of the user program, if it has files; they are moved out.
     pub(crate) fn watched_program(&mut self) -> Option<WatchedProgram> {
         let ProgramFiles { paths, stamps, text } = self.program_files.take()?;
         let budget_statements = self.file.cpu.statement_budget.value;
@@ -239,7 +238,7 @@ impl Setup {
     }
 }
 
-/// A unit that has got power, on its way into a line.
+/// A unit that has been powered on, before it is added to a line.
 pub(crate) struct Powered {
     pub(crate) config: device::DeviceConfig,
     pub(crate) unit: NxEct101,

@@ -1,4 +1,4 @@
-//! A line of units in virtual time: frame in, frame out, and a look at the units' side.
+//! A line of units in virtual time: frame in, frame out, and access to the units' internal side.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -18,10 +18,10 @@ use crate::unit_side::UnitSide;
 use crate::watched_program::WatchedProgram;
 use crate::{Setup, SetupError};
 
-/// Units under power, in the order of the chain, with their CPU Units.
+/// Units with power, in the order of the chain, with their CPU Units.
 ///
-/// Nothing happens by itself: time passes by [`Twin::run_for`], and only then. The same calls give the same
-/// bytes, on every machine. In real time [`Twin::serve`] answers a link.
+/// Time advances only through [`Twin::run_for`]. The same calls produce the same bytes, on every machine. In
+/// real time [`Twin::serve`] answers a link.
 #[derive(Debug)]
 pub struct Twin {
     line: Line,
@@ -31,7 +31,7 @@ pub struct Twin {
     now: Instant,
 }
 
-/// What a twin is made of, for who runs it in real time.
+/// The parts of a twin, for code that runs it in real time.
 pub(crate) struct Parts {
     pub(crate) line: Line,
     pub(crate) cpus: Vec<CpuUnit>,
@@ -41,19 +41,19 @@ pub(crate) struct Parts {
     pub(crate) now: Instant,
 }
 
-/// A flag that someone outside sets, so that the errors of all NX Bus Function Modules are reset.
+/// A flag that is set from outside to reset the errors of all NX Bus Function Modules.
 pub(crate) type ErrorReset = Arc<AtomicBool>;
 
 impl Twin {
-    /// Gives power to one unit, as its unit file tells it.
+    /// Powers on one unit, according to its unit file.
     ///
     /// # Errors
-    /// What is wrong with the text, and where.
+    /// The mistakes in the text, with their places.
     pub fn from_toml(unit_file: &str) -> Result<Self, SetupError> {
         Ok(Self::power_on([Setup::from_toml(unit_file)?]))
     }
 
-    /// Gives power to a line of units, the one next to the master first.
+    /// Powers on a line of units, starting with the one next to the master.
     #[must_use]
     pub fn power_on(setups: impl IntoIterator<Item = Setup>) -> Self {
         let mut twin = Self::power_on_for_run(setups);
@@ -61,8 +61,8 @@ impl Twin {
         twin
     }
 
-    /// Gives power to a line of units for [`crate::run`]: whatever is due at once, such as the first scan of each
-    /// program, waits for it.
+    /// Powers on a line of units for [`crate::run`]: work that is due immediately, such as the first scan of
+    /// each program, waits for it.
     #[must_use]
     pub fn power_on_for_run(setups: impl IntoIterator<Item = Setup>) -> Self {
         let now = Instant::ZERO;
@@ -79,14 +79,14 @@ impl Twin {
         Self { line, cpus, programs, error_reset: ErrorReset::default(), now }
     }
 
-    /// Sends one Ethernet frame, without FCS, into the line at the present moment; the answer is in its place.
+    /// Sends one Ethernet frame, without FCS, to the line at the present time; the answer replaces it.
     pub fn frame(&mut self, frame: &mut [u8]) -> FrameFate {
         let fate = self.line.frame(self.now, frame);
         self.line.poll(self.now);
         fate
     }
 
-    /// Lets virtual time pass; what is due in it happens at its moment.
+    /// Advances virtual time; work that becomes due is done at its time.
     pub fn run_for(&mut self, duration: Duration) {
         let end = self.now + duration;
         while self.deadline() <= end {
@@ -96,7 +96,7 @@ impl Twin {
         self.now = end;
     }
 
-    /// The present moment, counted from power-on.
+    /// The present time, counted from power-on.
     #[must_use]
     pub const fn now(&self) -> Instant {
         self.now
@@ -108,21 +108,21 @@ impl Twin {
         self.cpus.len()
     }
 
-    /// Whether there is no unit at all.
+    /// Whether there are no units.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.cpus.is_empty()
     }
 
-    /// The side of the unit at `position`, counted from the master, that no master sees.
+    /// The internal side of the unit at `position`, counted from the master.
     ///
     /// # Panics
-    /// If the line has no unit there.
+    /// If there is no such unit.
     pub fn unit(&mut self, position: usize) -> UnitSide<'_> {
         self.line.unit(&mut self.cpus, position, self.now)
     }
 
-    /// Attaches a way in for runtimes on other threads to each CPU Unit, in the order of the line.
+    /// Attaches a gateway for runtimes on other threads to each CPU Unit, in the order of the line.
     #[cfg(any(feature = "modbus", feature = "opcua"))]
     pub(crate) fn connect_outside(&mut self) -> Vec<OutsideEnd> {
         let connect = |cpu: &mut CpuUnit| {
@@ -133,8 +133,8 @@ impl Twin {
         self.cpus.iter_mut().map(connect).collect()
     }
 
-    /// Lets [`crate::run`] reset the errors of all NX Bus Function Modules, and of their units, whenever this flag is
-    /// set: a signal handler can do that.
+    /// Lets [`crate::run`] reset the errors of all NX Bus Function Modules, and of their units, whenever this
+    /// flag is set, for example by a signal handler.
     pub fn reset_errors_on(&mut self, flag: Arc<AtomicBool>) {
         self.error_reset = flag;
     }
@@ -161,16 +161,16 @@ pub(crate) fn cycle(cpus: &mut [CpuUnit], now: Instant) {
     }
 }
 
-/// When the next task begins.
+/// The time of the next task.
 pub(crate) fn cpu_deadline(cpus: &[CpuUnit]) -> Instant {
     cpus.iter().map(CpuUnit::deadline).min().unwrap_or(Instant::NEVER)
 }
 
-/// The units without their CPU Units, as a link sees them.
+/// The units without their CPU Units, for a link.
 #[derive(Debug)]
 pub(crate) struct Line {
     network: Network<NxEct101>,
-    /// Those units whose memory is kept in a file.
+    /// The units whose memory is stored in a file.
     keepers: Vec<Keeper>,
 }
 
@@ -184,7 +184,7 @@ impl Line {
         UnitSide::of(&mut self.network, cpus, position, now)
     }
 
-    /// Stores what has changed, and gives up the files. What could not be stored is lost.
+    /// Stores the changes, and releases the files. Changes that cannot be stored are lost.
     pub(crate) fn finish(&mut self) -> Vec<ChangesLost> {
         self.keep();
         self.keepers.drain(..).filter_map(|keeper| keeper.finish().err()).collect()
@@ -198,7 +198,7 @@ impl Line {
     }
 }
 
-/// What was done to a unit since the line was polled last is stored too.
+/// Actions on a unit since the last poll of the line are stored too.
 impl Drop for Line {
     fn drop(&mut self) {
         self.keep();

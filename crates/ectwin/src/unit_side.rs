@@ -1,4 +1,4 @@
-//! The side of a unit that no master sees: its state inside, its CPU Unit, its faults and logs.
+//! The internal side of a unit: its state, its CPU Unit, its faults and logs.
 
 use coe_kit::indicators::PortCondition;
 use device::{Device, Network, Start};
@@ -10,7 +10,7 @@ use plc::{CpuUnit, Io};
 use time::Instant;
 use wire::{AlState, AlStatus, AlStatusCode};
 
-/// What a unit is like inside, and what its CPU Unit has.
+/// The internal state of a unit, and its CPU Unit.
 #[derive(Debug)]
 pub struct UnitSide<'a> {
     network: &'a mut Network<NxEct101>,
@@ -21,7 +21,7 @@ pub struct UnitSide<'a> {
 
 impl<'a> UnitSide<'a> {
     /// # Panics
-    /// If the line has no unit there.
+    /// If there is no such unit.
     pub(crate) fn of(
         network: &'a mut Network<NxEct101>,
         cpus: &'a mut [CpuUnit],
@@ -71,14 +71,14 @@ impl<'a> UnitSide<'a> {
         self.device().al_status_code()
     }
 
-    /// The data from the master as the CPU Unit has it, entry after entry of the I/O allocation.
+    /// The data from the master in the CPU Unit, entry after entry of the I/O allocation.
     #[must_use]
     pub fn outputs(&self) -> &[u8] {
         self.cpu.io().m_to_c()
     }
 
-    /// Sets the data to the master, entry after entry; it goes out with the next task period, unless the user
-    /// program writes it too. What `bytes` has too many of is left out.
+    /// Sets the data to the master, entry after entry; they are sent in the next task period, unless the user
+    /// program writes them too. Excess bytes of `bytes` are ignored.
     pub fn set_inputs(&mut self, bytes: &[u8]) {
         for (input, byte) in self.cpu.io_mut().c_to_m_mut().iter_mut().zip(bytes) {
             *input = *byte;
@@ -91,12 +91,12 @@ impl<'a> UnitSide<'a> {
         self.cpu.io()
     }
 
-    /// The I/O by data set, to be changed.
+    /// The I/O by data set, for changes.
     pub fn io_mut(&mut self) -> &mut Io {
         self.cpu.io_mut()
     }
 
-    /// The CPU Unit, such as for its operating mode.
+    /// The CPU Unit, for example to change its operating mode.
     pub fn cpu(&mut self) -> &mut CpuUnit {
         self.cpu
     }
@@ -104,13 +104,13 @@ impl<'a> UnitSide<'a> {
 
 /// Events and faults.
 impl UnitSide<'_> {
-    /// The cause of a fault appears. Some faults are found at once, others when the unit starts or when the
-    /// master asks for a state (manual, 8-3-4, detection timing).
+    /// The cause of a fault appears. Some faults are detected immediately, others when the unit starts or when
+    /// the master requests a state (manual, 8-3-4, detection timing).
     pub fn inject(&mut self, fault: Fault) {
         self.unit_mut().inject(fault);
     }
 
-    /// The cause of a fault disappears. What it has done stays until the recovery that the manual names.
+    /// The cause of a fault disappears. Its effect remains until the recovery in the manual.
     pub fn remove(&mut self, fault: Fault) {
         self.unit_mut().remove(fault);
     }
@@ -127,7 +127,7 @@ impl UnitSide<'_> {
         self.unit().error_status()
     }
 
-    /// How many emergency messages were lost since power-on: they found no room, or no mailbox.
+    /// Number of emergency messages lost since power-on: there was no room, or no mailbox.
     #[must_use]
     pub fn emergencies_lost(&self) -> u64 {
         self.device().emergencies_lost()
@@ -139,15 +139,15 @@ impl UnitSide<'_> {
         self.unit().error_log()
     }
 
-    /// Changes the level of an event, in force from the next start of the unit on (manual, 6-5-1).
+    /// Changes the level of an event, effective from the next start of the unit (manual, 6-5-1).
     ///
     /// # Errors
-    /// [`LevelNotChangeable`]: the manual lets users change 39160000 and 39170000, to minor fault and observation.
+    /// [`LevelNotChangeable`]: the manual permits changes of 39160000 and 39170000, to minor fault and observation.
     pub fn set_event_level(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
         self.unit_mut().set_event_level(code, level)
     }
 
-    /// A user resets the errors from the CPU Unit (manual, 8-6). An error whose cause is still there occurs again.
+    /// A user resets the errors from the CPU Unit (manual, 8-6). An error whose cause persists occurs again.
     pub fn reset_errors(&mut self) {
         self.unit_mut().reset_errors();
     }
@@ -160,7 +160,8 @@ impl UnitSide<'_> {
 
 /// Indicators.
 impl UnitSide<'_> {
-    /// What each indicator does now (manual, 3-2). [`Indicators::lights`] tells which of them are lit at a moment.
+    /// The present pattern of each indicator (manual, 3-2). [`Indicators::lights`] shows which of them are lit
+    /// at a point in time.
     #[must_use]
     pub fn indicators(&self) -> Indicators {
         let device = self.device();
@@ -176,25 +177,25 @@ impl UnitSide<'_> {
     }
 }
 
-/// What hands do to the unit.
+/// Actions on the unit by hand.
 impl UnitSide<'_> {
-    /// Restarts the unit, as support software does: NX Unit Restart (94B80000).
+    /// Restarts the unit, like support software: NX Unit Restart (94B80000).
     pub fn restart(&mut self) {
         self.network.restart(self.position, self.now, Start::Restart);
     }
 
-    /// Turns the unit off and on again. What is in its non-volatile memory stays.
+    /// Switches the unit off and on again. The contents of its non-volatile memory are kept.
     pub fn cycle_power(&mut self) {
         self.network.restart(self.position, self.now, Start::PowerOn);
     }
 
-    /// Turns the power of the CPU Rack off and on again: that of the unit and of its CPU Unit.
+    /// Switches the power of the CPU Rack off and on again: that of the unit and of its CPU Unit.
     pub fn cycle_rack_power(&mut self) {
         self.cycle_power();
         self.cpu.cycle_power(self.now);
     }
 
-    /// Turns the ID switch. The unit looks at it when it starts (manual, 3-3).
+    /// Turns the ID switch. The unit reads it when it starts (manual, 3-3).
     pub fn set_id_switch(&mut self, id_switch: u8) {
         self.unit_mut().set_id_switch(id_switch);
     }

@@ -1,4 +1,4 @@
-//! Reading files that users write: regular files, up to a size, of the kind that is wanted.
+//! Reading user files: regular files, up to a maximum size, of the required kind.
 
 mod beside;
 mod folders;
@@ -31,7 +31,7 @@ const fn limit_bytes(wanted: Wanted) -> u64 {
     }
 }
 
-/// Why a file is not read.
+/// Why a file cannot be read.
 #[derive(Debug)]
 pub struct Unreadable {
     reason: Reason,
@@ -41,7 +41,7 @@ pub struct Unreadable {
 #[derive(Debug)]
 enum Reason {
     Io(io::Error),
-    /// What it is instead of a regular file.
+    /// Its kind, if it is not a regular file.
     NotRegular(&'static str),
     TooLarge,
     LineTooLong {
@@ -53,7 +53,7 @@ enum Reason {
 /// The bytes of a file.
 ///
 /// # Errors
-/// It is no regular file, is too large, or cannot be read.
+/// It is not a regular file, is too large, or cannot be read.
 pub fn bytes(path: &Path, wanted: Wanted) -> Result<Vec<u8>, Unreadable> {
     read(path, limit_bytes(wanted)).map_err(|reason| Unreadable { reason, wanted })
 }
@@ -61,17 +61,17 @@ pub fn bytes(path: &Path, wanted: Wanted) -> Result<Vec<u8>, Unreadable> {
 /// The text of a file.
 ///
 /// # Errors
-/// As [`bytes`], or the file is of another kind than is wanted, or not in UTF-8.
+/// As [`bytes`], or the file is of another kind than required, or not UTF-8.
 pub fn text(path: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     let text = user_file::text(bytes(path, wanted)?, &path.to_string_lossy(), wanted);
     text.map_err(|refusal| Unreadable { reason: Reason::OfAnotherKind(refusal), wanted })
 }
 
-/// The files of a program: those that are named, and of a folder all that end with .st, in the order of their paths. A
-/// file that comes twice, by whatever path, is one file, at its first place.
+/// The files of a program: the given files, and of a folder all that end with .st, in the order of their paths.
+/// A file that occurs twice, by any path, is one file, at its first position.
 ///
 /// # Errors
-/// The folder that cannot be read, or has none, and why.
+/// The folder that cannot be read, or contains no such files, and why.
 pub fn program_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, (PathBuf, Unreadable)> {
     let mut files = Vec::new();
     for path in paths {
@@ -112,7 +112,7 @@ fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Reason> {
     if bytes.len() as u64 > limit_bytes { Err(Reason::TooLarge) } else { Ok(bytes) }
 }
 
-/// A device may be disturbed by being opened, and a FIFO waits for a writer: they are refused before.
+/// Opening a device may have side effects, and a FIFO waits for a writer: they are refused before.
 fn open_regular(path: &Path, limit_bytes: u64) -> Result<File, Reason> {
     refuse_irregular(&fs::metadata(path).map_err(Reason::Io)?, limit_bytes)?;
     let file = File::open(path).map_err(Reason::Io)?;
@@ -145,7 +145,7 @@ fn kind_of(metadata: &fs::Metadata) -> &'static str {
 }
 
 impl Unreadable {
-    /// What helps.
+    /// The remedy.
     #[must_use]
     pub fn help(&self) -> String {
         match (&self.reason, self.wanted) {
@@ -163,7 +163,7 @@ impl Unreadable {
         }
     }
 
-    /// What the system has refused; none if the file itself is refused.
+    /// The error of the system; none if the file itself is refused.
     #[must_use]
     pub const fn refused_by_system(&self) -> Option<&io::Error> {
         match &self.reason {
@@ -172,7 +172,7 @@ impl Unreadable {
         }
     }
 
-    /// Whether it can be a file that is being replaced, so that it may be read soon.
+    /// Whether the file may be in the process of being replaced, so that it may be readable soon.
     pub(crate) fn may_pass(&self) -> bool {
         matches!(self.reason, Reason::Io(_))
     }

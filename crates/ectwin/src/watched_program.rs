@@ -12,14 +12,14 @@ use crate::program_file::{ProgramFileError, ProgramText};
 
 pub(crate) use stamps::{Stamps, stamps};
 
-/// The files of a user program, and what was read from them for one unit.
+/// The files of a user program, and their contents as read for one unit.
 #[derive(Debug)]
 pub(crate) struct WatchedProgram {
-    /// Files and folders, as they are named.
+    /// Files and folders, as named.
     pub(crate) paths: Vec<PathBuf>,
-    /// What they looked like before they were read.
+    /// Their state before they were read.
     pub(crate) stamps: Option<Stamps>,
-    /// What they held.
+    /// Their contents.
     pub(crate) text: ProgramText,
     pub(crate) variables: DeviceVariables,
     pub(crate) budget_statements: u64,
@@ -28,16 +28,16 @@ pub(crate) struct WatchedProgram {
 /// A program to be loaded, and the position of its unit.
 pub(crate) type Loaded = (usize, Box<dyn Program + Send>);
 
-/// Looks at the files of a program again and again, for all units that run it.
+/// Checks the files of a program repeatedly, for all units that run it.
 pub(crate) struct Watch {
-    /// Files and folders, as they are named.
+    /// Files and folders, as named.
     paths: Vec<PathBuf>,
-    /// What the files looked like before they were read last; none: that is not known.
+    /// The state of the files before they were last read; none: it is not known.
     read: Option<Stamps>,
-    /// What they looked like at the last look, or why they have no looks.
+    /// Their state at the last check, or why it could not be determined.
     seen: Result<Stamps, String>,
     users: Vec<User>,
-    /// What was logged last of files that cannot be read.
+    /// The last logged error about files that cannot be read.
     logged: Option<String>,
 }
 
@@ -50,7 +50,7 @@ struct User {
 }
 
 impl Watch {
-    /// One watch for each program: units whose programs are in the same files share one.
+    /// One watch for each program: units whose programs have the same files share one.
     pub(crate) fn all(programs: impl IntoIterator<Item = (usize, WatchedProgram)>) -> Vec<Self> {
         let mut watches = BTreeMap::<Vec<PathBuf>, Self>::new();
         for (position, program) in programs {
@@ -80,12 +80,12 @@ impl Watch {
         }
     }
 
-    /// The program of each unit that has to load it: its files have changed, and it has no mistake there. What is wrong
-    /// is logged once, and the old program continues.
+    /// The program of each unit that must load it: its files have changed, and it has no mistakes for that
+    /// unit. Mistakes are logged once, and the old program continues.
     pub(crate) fn look(&mut self) -> Vec<Loaded> {
         let now = stamps(&self.paths);
-        // A file that is being written changes from look to look, and is read when it has come to rest. While an
-        // editor replaces it, it may be missing for a moment.
+        // A file that is being written changes from check to check, and is read when it no longer changes.
+        // While an editor replaces it, it may be missing for a moment.
         let rests = self.seen == now;
         self.seen = now;
         match &self.seen {
@@ -130,7 +130,7 @@ impl Watch {
         let (name, text) = (self.name(), Arc::new(text));
         let mut loaded = Vec::new();
         let mut wrong = BTreeMap::<String, Vec<usize>>::new();
-        // A start would begin every timer again, for nothing, in a unit that runs this text.
+        // A reload would restart every timer in a unit that already runs this text.
         for user in self.users.iter_mut().filter(|user| user.running != text) {
             match text.compile(&user.variables, user.budget_statements) {
                 Ok(program) => {

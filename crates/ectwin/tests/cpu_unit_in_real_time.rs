@@ -21,7 +21,7 @@ fn serve(program: impl FnMut(&mut Io) + Send + 'static) -> (Live, ethercrab::Pdu
     (Twin::power_on([setup]).serve_ethercrab(tx, rx).unwrap(), pdu_loop)
 }
 
-/// Waits for the error: the test ends by its own limit if none comes.
+/// Waits for the error: the test ends by its own limit if there is none.
 async fn expect_minor_fault(pdu_loop: ethercrab::PduLoop<'static>, meanwhile: impl FnOnce()) {
     let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<2, 512>(ethercat_now).await.unwrap();
@@ -36,7 +36,7 @@ async fn expect_minor_fault(pdu_loop: ethercrab::PduLoop<'static>, meanwhile: im
     assert_eq!(error[..4], 0x8020_0000_u32.to_le_bytes());
 }
 
-/// Runs until something is sent, then waits for ever, until the sender is gone.
+/// Runs until a message is sent, then waits without end, until the sender is dropped.
 fn hangs_on_request(requests: &Receiver<()>) {
     if requests.try_recv().is_ok() {
         let _gone = requests.recv();

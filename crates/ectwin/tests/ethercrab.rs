@@ -19,7 +19,7 @@ use testbed::{add_veth_pair, in_network_namespace};
 const UNIT: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
 const OUTPUTS_BYTES: usize = 180;
 const INPUTS_BYTES: usize = 183;
-/// Where the data of 0x1A01 begins in the inputs: behind the status in 0x1A00.
+/// The start of the data of 0x1A01 in the inputs: after the status in 0x1A00.
 const STATUS_BYTES: usize = 2;
 const CYCLES: u16 = 300;
 
@@ -27,8 +27,8 @@ fn units(count: usize) -> Twin {
     Twin::power_on((0..count).map(|_| Setup::from_toml(UNIT).unwrap()))
 }
 
-/// What the LRWs of one cycle count: the logical memory has all inputs, then all outputs. A unit whose data lies
-/// in two frames counts in both.
+/// The expected working counter of the LRWs of one cycle: the logical memory has all inputs, then all outputs.
+/// A unit whose data are in two frames counts in both.
 fn working_counter(units: usize) -> u16 {
     let areas = [(1, INPUTS_BYTES), (2, OUTPUTS_BYTES)];
     let (mut start, mut counter) = (0, 0);
@@ -41,7 +41,7 @@ fn working_counter(units: usize) -> u16 {
     counter
 }
 
-/// Takes `units` to OP, gives each a pattern of its own in each cycle, and expects the newest ones back.
+/// Takes `units` to OP, sends a different pattern to each in each cycle, and expects the newest ones back.
 async fn exchange(pdu_loop: PduLoop<'static>, units: u16) {
     let master = patient_master::master(pdu_loop, 10);
     let group = master.init_single_group::<16, 4096>(ethercat_now).await.unwrap();
@@ -125,7 +125,7 @@ fn carry_over_udp(mut port: EthercrabPort<'_>, socket: &UdpSocket) {
             Ok(Some(length)) => {
                 socket.send(&buffer[14..length]).unwrap();
                 let answered = socket.recv(&mut buffer[14..]).unwrap();
-                // As if the first slave had marked it: the unit's mark stays on its side of the socket.
+                // As if the first slave had marked it: the unit's mark is not sent through the socket.
                 buffer[6] |= 0x02;
                 port.send(&buffer[..14 + answered]).unwrap();
             }

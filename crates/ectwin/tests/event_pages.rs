@@ -1,4 +1,4 @@
-//! docs/events has the page of each event as `ectwin explain` tells it, and no other.
+//! docs/events has one page for each event with the output of `ectwin explain`, and no other pages.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use ectwin::explain::event_pages;
 
-/// Set to anything, it makes the test write the pages instead of comparing them.
+/// If this is set, the test writes the pages instead of comparing them.
 const BLESS: &str = "ECTWIN_BLESS";
 
 fn folder() -> PathBuf {

@@ -14,7 +14,7 @@ fn apwr(offset: u16, data: &[u8]) -> Vec<u8> {
     FrameBuilder::new().physical(Command::Apwr, 0, offset, data).finish()
 }
 
-/// Sends a copy of a frame, as a master that uses its buffer again.
+/// Sends a copy of a frame, like a master that reuses its buffer.
 fn send(twin: &mut Twin, frame: &[u8], buffer: &mut [u8; 1518]) {
     let buffer = &mut buffer[..frame.len()];
     buffer.copy_from_slice(frame);
@@ -111,7 +111,7 @@ fn sdos_allocate_nothing() {
     assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
 }
 
-/// "RES" in three frames: the controller and its unit begin again, and come to OP again.
+/// "RES" in three frames: the controller and its unit restart, and reach OP again.
 #[test]
 fn an_esc_reset_allocates_nothing() {
     let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
@@ -130,7 +130,7 @@ fn an_esc_reset_allocates_nothing() {
     to_op(&mut twin);
 }
 
-/// Events on every channel, and their storing. Nothing has occurred in this process before.
+/// Events on every channel, and storing them. No event has occurred in this process before.
 #[test]
 fn events_allocate_nothing() {
     let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("no_allocation");
@@ -145,7 +145,7 @@ fn events_allocate_nothing() {
     let counted = measure(|| {
         for _ in 0..60 {
             send(&mut twin, &outputs, &mut buffer);
-            // The watchdog, then a state that does not exist, one that is not there, and back to OP.
+            // The watchdog, then a state that does not exist, one that the unit does not have, and back to OP.
             twin.run_for(Duration::from_millis(150));
             for request in &requests {
                 send(&mut twin, request, &mut buffer);

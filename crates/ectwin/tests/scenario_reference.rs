@@ -1,4 +1,4 @@
-//! docs/user/scenario-reference.md is what the tables of the language say.
+//! docs/user/scenario-reference.md agrees with the tables of the language.
 
 use std::path::{Path, PathBuf};
 

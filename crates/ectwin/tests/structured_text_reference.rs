@@ -1,4 +1,4 @@
-//! docs/user/structured-text-reference.md is what the tables of the language say.
+//! docs/user/structured-text-reference.md agrees with the tables of the language.
 
 use std::path::{Path, PathBuf};
 
@@ -21,7 +21,7 @@ Inputs that take several types use the names of the standard: ANY_INT is SINT to
 ANY_MAGNITUDE is ANY_NUM and TIME.
 ";
 
-/// Generic types of IEC 61131-3, 6.4.3, and the lists that they stand for; longer ones first.
+/// Generic types of IEC 61131-3, 6.4.3, and the lists that they replace; longer ones first.
 const GENERIC_TYPES: [(&str, &str); 4] = [
     ("ANY_MAGNITUDE", "SINT … LINT, USINT … ULINT, REAL … LREAL, TIME"),
     ("ANY_NUM", "SINT … LINT, USINT … ULINT, REAL … LREAL"),
@@ -93,7 +93,7 @@ fn library(page: &mut String, entries: &[Entry]) {
     }
 }
 
-/// With generic types in place of their lists.
+/// With generic types instead of their lists.
 fn shorter(inputs: &str) -> String {
     GENERIC_TYPES.iter().fold(inputs.to_owned(), |inputs, (name, list)| inputs.replace(list, name))
 }

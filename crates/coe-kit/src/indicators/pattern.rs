@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use time::{Duration, Instant};
 
-/// What an indicator does over time.
+/// The pattern of an indicator over time.
 ///
 /// All indicators share one phase: each pattern begins at [`Instant::ZERO`], lit. So patterns of the same kind
 /// flash together, on one unit and on a line of them.
@@ -31,7 +31,7 @@ pub enum Pattern {
     Flashing2s,
 }
 
-/// The document that gives the times of a pattern.
+/// The document with the times of a pattern.
 const ETG_1300: Option<&str> = Some("ETG.1300");
 
 struct Row {
@@ -39,7 +39,7 @@ struct Row {
     id: &'static str,
     /// Lit, dark, lit, dark …, and again from the start.
     steps_ms: &'static [u64],
-    /// None for a steady pattern, and for those that only makers' documents have.
+    /// None for a steady pattern, and for those that are only in manufacturers' documents.
     source: Option<&'static str>,
 }
 
@@ -90,31 +90,31 @@ impl Pattern {
         ROWS[self as usize].id
     }
 
-    /// How long it is lit, dark, lit, dark … in milliseconds, before it begins again; empty if it never changes.
+    /// Durations of lit, dark, lit, dark … in milliseconds, before it begins again; empty if it never changes.
     #[must_use]
     pub const fn steps_ms(self) -> &'static [u64] {
         ROWS[self as usize].steps_ms
     }
 
-    /// The standard that gives its times; none for a steady pattern and for one that only makers' documents have.
+    /// The standard with its times; none for a steady pattern and for one that is only in manufacturers' documents.
     #[must_use]
     pub const fn standard(self) -> Option<&'static str> {
         ROWS[self as usize].source
     }
 
-    /// Whether the indicator is lit at this moment.
+    /// Whether the indicator is lit at this time.
     #[must_use]
     pub fn is_lit(self, at: Instant) -> bool {
         self.step(at).map_or(self == Self::Lit, |step| step.lit)
     }
 
-    /// When it changes next, after `at`; [`Instant::NEVER`] if it never does.
+    /// The time of its next change, after `at`; [`Instant::NEVER`] if it never changes.
     #[must_use]
     pub fn next_change(self, at: Instant) -> Instant {
         self.step(at).map_or(Instant::NEVER, |step| at + step.rest)
     }
 
-    /// The step that a moment falls into; none of a steady pattern.
+    /// The step at a point in time; none for a steady pattern.
     fn step(self, at: Instant) -> Option<Step> {
         let lengths = || self.steps_ms().iter().copied().map(Duration::from_millis);
         let period = lengths().fold(Duration::ZERO, |sum, length| sum + length);
@@ -131,7 +131,7 @@ impl Pattern {
     }
 }
 
-/// Where a pattern is.
+/// The position within a pattern.
 struct Step {
     lit: bool,
     /// Until the next step.

@@ -1,10 +1,10 @@
-//! What RUN, ERR and L/A show by ETG.1300.
+//! The states of RUN, ERR and L/A according to ETG.1300.
 
 use wire::{AlState, AlStatusCode};
 
 use super::Pattern;
 
-/// RUN by state. A state that has no row shows as INIT.
+/// RUN by state. A state without a row is shown as INIT.
 const RUN: [(AlState, Pattern); 5] = [
     (AlState::Init, Pattern::NotLit),
     (AlState::PreOp, Pattern::Blinking),
@@ -13,7 +13,7 @@ const RUN: [(AlState, Pattern); 5] = [
     (AlState::Boot, Pattern::Flickering),
 ];
 
-/// ERR by AL status code. A code that has no row is a refused request or a wrong setting.
+/// ERR by AL status code. A code without a row is a refused request or a wrong setting.
 const ERR: [(AlStatusCode, Pattern); 4] = [
     (AlStatusCode::SYNC_MANAGER_WATCHDOG, Pattern::DoubleFlash),
     (AlStatusCode::SYNCHRONIZATION_ERROR, Pattern::SingleFlash),
@@ -56,7 +56,7 @@ impl PortCondition {
     /// All conditions.
     pub const ALL: [Self; 3] = [Self::NoLink, Self::Link, Self::Active];
 
-    /// From what a segment knows of the port: whether there is a link, and whether frames pass.
+    /// The condition from the data of the segment: whether there is a link, and whether frames pass.
     #[must_use]
     pub const fn new(link: bool, active: bool) -> Self {
         match (link, active) {

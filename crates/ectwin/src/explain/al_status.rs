@@ -1,4 +1,4 @@
-//! AL status codes: those of the standard, and the one of the NX-ECT101 that no standard has.
+//! AL status codes: those of the standard, and the one of the NX-ECT101 that is in no standard.
 
 use nx_ect101::Event;
 use wire::AlStatusCode;

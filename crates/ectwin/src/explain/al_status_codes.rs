@@ -5,16 +5,16 @@ use wire::AlStatusCode;
 
 use super::Advice;
 
-/// AL status code of the NX-ECT101 that no standard has: its manual, 8-5-2.
+/// AL status code of the NX-ECT101 that is in no standard: its manual, 8-5-2.
 pub(super) const CPU_UNIT_ERROR: AlStatusCode = AlStatusCode(0x8004);
 
-/// What a code is called; none if nobody has published a name.
+/// The name of a code; none if there is no published name.
 pub(super) fn name(code: AlStatusCode) -> Option<&'static str> {
     let ours = (code == CPU_UNIT_ERROR).then_some("CPU Unit error (NX-ECT101)");
     ours.or_else(|| code.row().map(|row| row.meaning))
 }
 
-/// All codes that are known.
+/// All known codes.
 pub(super) fn known() -> impl Iterator<Item = AlStatusCode> {
     AlStatusCode::TABLE.iter().map(|row| row.code).chain([CPU_UNIT_ERROR])
 }

@@ -5,7 +5,7 @@ use nx_ect101::{Event, Notified};
 use super::event::{advice, event_facts, section, when_emergencies_are_sent};
 use super::{Explanation, Fact, Subject};
 
-/// What a range of codes is about: highest code of the range, and its class (CiA 301; A000 is of ETG.1000.6).
+/// The meaning of a range of codes: highest code of the range, and its class (CiA 301; A000 is from ETG.1000.6).
 const CLASSES: &[(u16, &str)] = &[
     (0x00FF, "no error"),
     (0x0FFF, "reserved"),
@@ -32,7 +32,7 @@ const CLASSES: &[(u16, &str)] = &[
     (0xFFFF, "device specific"),
 ];
 
-/// What the standards say of a code.
+/// The standards' meaning of a code.
 fn class(code: u16) -> &'static str {
     CLASSES.iter().find(|(last, _)| code <= *last).map_or("device specific", |(_, class)| class)
 }
@@ -41,7 +41,7 @@ fn events_of(code: u16) -> impl Iterator<Item = &'static Event> {
     Event::all().iter().filter(move |event| event.emergency_code == Some(code))
 }
 
-/// All codes that the unit has, some of them more than once.
+/// All codes of the unit, some of them more than once.
 pub(super) fn known() -> impl Iterator<Item = u16> {
     Event::all().iter().filter_map(|event| event.emergency_code)
 }

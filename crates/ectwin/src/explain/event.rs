@@ -1,4 +1,4 @@
-//! What is known of an event of the NX-ECT101, from the rows of its event table.
+//! The explanation of an event of the NX-ECT101, from the rows of its event table.
 
 mod channels;
 mod words;
@@ -40,12 +40,12 @@ pub(super) fn advice(event: &'static Event) -> Vec<Advice> {
     advice.map(|row| Advice { cause: &row.cause, correction: &row.correction }).collect()
 }
 
-/// A section, unless there is nothing in it.
+/// A section, unless it is empty.
 pub(super) fn section(heading: &'static str, facts: Vec<Fact>) -> Vec<Section> {
     if facts.is_empty() { Vec::new() } else { vec![Section { heading, facts }] }
 }
 
-/// The events behind a code, one fact each.
+/// The events with a code, one fact each.
 pub(super) fn event_facts(events: impl Iterator<Item = &'static Event>) -> Vec<Fact> {
     events.map(|event| Fact::new("event", format!("{} {}", event.code, event.name))).collect()
 }

@@ -1,25 +1,25 @@
-//! What there is to say: facts under headings, and advice.
+//! The contents of an explanation: facts under headings, and advice.
 
 use std::borrow::Cow;
 use std::fmt;
 
 use super::Subject;
 
-/// Why a code comes, and what helps.
+/// A cause of a code, and its correction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Advice {
     /// The likely cause.
     pub cause: &'static str,
-    /// What to do about it.
+    /// The correction.
     pub correction: &'static str,
 }
 
-/// Something that is known, under a word that says of what.
+/// A fact, with a label for its subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fact {
-    /// Of what: a word or two.
+    /// Its subject: a word or two.
     pub label: Cow<'static, str>,
-    /// What is known of it.
+    /// The fact.
     pub text: String,
 }
 
@@ -32,28 +32,28 @@ impl Fact {
 /// Facts that belong together.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
-    /// What they are about.
+    /// Their subject.
     pub heading: &'static str,
-    /// The facts, in the order in which they are told.
+    /// The facts, in the order of display.
     pub facts: Vec<Fact>,
 }
 
-/// Something that is known.
+/// The explanation of a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
-    /// What it is.
+    /// Its kind.
     pub subject: Subject,
-    /// What it is called; of a word, what it means.
+    /// Its name; for a word, its meaning.
     pub name: String,
-    /// What there is to say before its causes.
+    /// The facts before its causes.
     pub facts: Vec<Fact>,
-    /// Causes with their corrections, the likeliest first.
+    /// Causes with their corrections, the most likely first.
     pub advice: Vec<Advice>,
-    /// What each side sees of it.
+    /// How each side sees it.
     pub sections: Vec<Section>,
 }
 
-/// Lines of text, a fact each, without the last line's end.
+/// Lines of text, one fact each, without the end of the last line.
 impl fmt::Display for Explanation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}: {}", self.subject, self.name)?;

@@ -12,7 +12,7 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| rows(GLOSSARY));
 #[derive(Debug, PartialEq, Eq)]
 struct Row {
     section: &'static str,
-    /// As the glossary has it: one word, or several with commas between them.
+    /// As in the glossary: one word, or several with commas between them.
     words: &'static str,
     meaning: String,
 }

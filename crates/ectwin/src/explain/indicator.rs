@@ -34,7 +34,7 @@ fn words(pattern: Pattern) -> String {
     }
 }
 
-/// Lit and dark times; none of a steady pattern.
+/// Lit and dark times; none for a steady pattern.
 fn times(pattern: Pattern) -> Option<String> {
     let steps = pattern.steps_ms().iter().zip(["lit", "dark"].iter().cycle());
     let steps: Vec<String> = steps.map(|(ms, light)| format!("{ms} ms {light}")).collect();

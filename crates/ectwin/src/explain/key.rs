@@ -1,4 +1,4 @@
-//! Keys of the unit file: which there are says its reader, what each does says docs/user/unit-file.md.
+//! Keys of the unit file: their list comes from its reader, their description from docs/user/unit-file.md.
 
 use std::sync::LazyLock;
 
@@ -25,12 +25,12 @@ struct Described {
 struct Row {
     /// Paths within the section.
     keys: Vec<String>,
-    /// The other cells under the words of their columns.
+    /// The other cells, each with the name of its column.
     cells: Vec<(&'static str, String)>,
 }
 
-/// Each key with what names it: the whole path, and its end from each dot on. An end that is a number is an object or an
-/// event.
+/// Each key with its names: the whole path, and its end from each dot on. An end that is a number is an object
+/// or an event.
 pub(super) fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
     KEYS.iter().flat_map(|path| {
         let ends = path.match_indices('.').filter_map(|(dot, _)| path.get(dot + 1..));
@@ -39,7 +39,7 @@ pub(super) fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
     })
 }
 
-/// What the page says of a key; of one without a row what it says of the section or key around it.
+/// The description of a key in the page; for a key without a row, that of the section or key around it.
 pub(super) fn explanation(path: &'static str) -> Option<Explanation> {
     let around = || path.match_indices('.').rev().map(|(dot, _)| &path[..dot]);
     let (name, mut facts) = row(path)
@@ -85,7 +85,7 @@ impl Described {
 }
 
 impl Row {
-    /// What it does, and the rest. A table without a column `effect` says it in the first one.
+    /// Its effect, and the other cells. In a table without a column `effect` the first column contains it.
     fn name_and_cells(&self) -> Option<(&str, Vec<&(&'static str, String)>)> {
         let effect = self.cells.iter().position(|(label, _)| *label == "effect").unwrap_or(0);
         let others = self.cells.iter().enumerate().filter(|(at, _)| *at != effect).map(|(_, cell)| cell);

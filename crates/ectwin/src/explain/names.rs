@@ -1,4 +1,4 @@
-//! Names of the tables and words of the glossary: what a text names, and which name is near.
+//! Names of the tables and words of the glossary: the subjects of a text, and the nearest name.
 
 use std::sync::LazyLock;
 
@@ -11,11 +11,11 @@ use super::{Subject, glossary, indicator, key, object, port};
 
 static ALL: LazyLock<Vec<Name>> = LazyLock::new(|| all().map(Name::new).collect());
 
-/// A name and what has it.
+/// A name and its subject.
 #[derive(Debug)]
 struct Name {
     text: String,
-    /// The text without case, spaces and punctuation.
+    /// The text in one case, without spaces and punctuation.
     letters: String,
     subject: Subject,
 }
@@ -26,7 +26,7 @@ impl Name {
     }
 }
 
-/// All that has the name `text`; case, spaces and punctuation do not count.
+/// All subjects with the name `text`; case, spaces and punctuation are ignored.
 pub(super) fn subjects(text: &str) -> Vec<Subject> {
     let wanted = letters(text);
     if wanted.is_empty() {
@@ -41,7 +41,7 @@ pub(super) fn subjects(text: &str) -> Vec<Subject> {
     found
 }
 
-/// All whose names have the words of `text` in a row, but for the case.
+/// All subjects whose names contain the words of `text` in sequence, ignoring case.
 pub(super) fn containing(text: &str) -> Vec<Subject> {
     let wanted = words(text);
     if letters(text).chars().filter(|letter| letter.is_alphabetic()).count() < 3 {
@@ -56,7 +56,7 @@ pub(super) fn containing(text: &str) -> Vec<Subject> {
     found
 }
 
-/// A name that differs from `text` in a letter or two; none if all are further away.
+/// A name that differs from `text` in one or two letters; none if there is none.
 pub(super) fn near(text: &str) -> Option<&'static str> {
     let wanted = letters(text);
     let differing_max = match wanted.len() {
@@ -98,7 +98,7 @@ pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
     indicators.chain(patterns).chain(words).chain(keys).chain(of_model).chain(registers)
 }
 
-/// The entries of all objects. That of a variable is the object, by the same name.
+/// The entries of all objects. That of a variable is the object, with the same name.
 fn entries() -> impl Iterator<Item = (String, Subject)> {
     let mut entries = Vec::new();
     for object in object_table().iter().filter(|object| object.code != ObjectCode::Variable) {
@@ -111,7 +111,7 @@ fn entries() -> impl Iterator<Item = (String, Subject)> {
     entries.into_iter().chain(nx_entries)
 }
 
-/// `L/A IN` is one of the two that `L/A` names.
+/// `L/A IN` is one of the two indicators named `L/A`.
 fn indicator_names(name: &'static str) -> impl Iterator<Item = (String, Subject)> {
     let kind = name.split_once(' ').map(|(kind, _)| kind);
     [Some(name), kind].into_iter().flatten().map(move |known| (known.to_owned(), Subject::Indicator(name)))

@@ -1,4 +1,4 @@
-//! The number of a code, and what it can be: that depends on how many digits it has.
+//! The number of a code, and its possible meanings, which depend on the number of digits.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ use super::{Subject, al_status_codes, emergency};
 /// Low word of a diagnosis code whose high word is an emergency error code (manual, A-6-4).
 const DIAGNOSIS_CODE: u32 = 0xE800;
 
-/// A number of a width.
+/// A number with its width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
     /// Up to four digits.
@@ -20,7 +20,7 @@ pub(super) enum Number {
 }
 
 impl Number {
-    /// The number in `text`; none if it is something else than hexadecimal digits.
+    /// The number in `text`; none if it contains other characters than hexadecimal digits.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let digits = text.trim().to_ascii_lowercase().replace('_', "");
         let digits = digits.strip_prefix("0x").unwrap_or(&digits);
@@ -34,7 +34,7 @@ impl Number {
         u32::from_str_radix(digits, 16).ok().map(Self::Double)
     }
 
-    /// What codes of this width are.
+    /// The kinds of codes with this width.
     pub(super) const fn kinds(self) -> &'static str {
         match self {
             Self::Word(_) => "AL status code, emergency error code, text ID, object or register",
@@ -42,7 +42,7 @@ impl Number {
         }
     }
 
-    /// What it can be, known or not.
+    /// Its possible meanings, known or not.
     pub(super) fn subjects(self) -> Vec<Subject> {
         match self {
             Self::Word(value) => vec![
@@ -62,7 +62,7 @@ impl Number {
         }
     }
 
-    /// The known code that is one more or one less, or, of a long one, has one other digit; none if none is so near.
+    /// The known code that is higher or lower by one, or, for a long one, differs in one digit; none if there is none.
     pub(super) fn near(self) -> Option<Subject> {
         let (own, may_differ_in_a_digit) = match self {
             Self::Word(value) => (value.into(), false),
@@ -75,7 +75,7 @@ impl Number {
         near.min_by_key(|(known, _)| known.abs_diff(own)).map(|(_, code)| code)
     }
 
-    /// The codes that there are in this width.
+    /// The codes with this width.
     pub(super) fn there_is(self) -> String {
         match self {
             Self::Word(_) => {
@@ -98,7 +98,7 @@ impl Number {
         }
     }
 
-    /// All codes that are known in this width, with their numbers.
+    /// All known codes with this width, with their numbers.
     fn known(self) -> Vec<(u32, Subject)> {
         match self {
             Self::Word(_) => {
@@ -119,7 +119,7 @@ fn differing_digits(one: u32, other: u32) -> usize {
     (0..8).filter(|digit| (one ^ other) >> (4 * digit) & 0xF != 0).count()
 }
 
-/// Codes in ascending order, neighbours drawn together: `0001, 0011-001F`.
+/// Codes in ascending order, consecutive ones combined: `0001, 0011-001F`.
 fn runs(mut codes: Vec<u32>, digits: usize) -> String {
     codes.sort_unstable();
     codes.dedup();

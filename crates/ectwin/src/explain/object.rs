@@ -11,10 +11,10 @@ use wire::{ObjectIndex, SubIndex};
 use super::{Explanation, Fact, Section, Subject, Unexplained};
 use crate::object_words::{access, code, default, pdo, type_name, writable_in};
 
-/// Whose bits 4 and 5 are I/O ports of a master.
+/// The object whose bits 4 and 5 are I/O ports of a master.
 pub(super) const SYSMAC_ERROR_STATUS: (ObjectIndex, SubIndex) = (ObjectIndex(0x2002), SubIndex(1));
 
-/// Longest default that is shown among others.
+/// Maximum length of a default that is shown in a list.
 const SHOWN_DEFAULT: usize = 20;
 
 /// Index and subindex, as in `10F3:05`.
@@ -25,7 +25,7 @@ pub(super) struct EntryNumber {
 }
 
 impl EntryNumber {
-    /// None if `text` is something else.
+    /// None if `text` has another form.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let (index, sub) = text.trim().split_once(':')?;
         let index = index.strip_prefix("0x").or(index.strip_prefix("0X")).unwrap_or(index);
@@ -36,7 +36,7 @@ impl EntryNumber {
         Some(Self { index: ObjectIndex(index), sub: SubIndex(u8::from_str_radix(sub, 16).ok()?) })
     }
 
-    /// On both sides, as far as they have it.
+    /// On both sides, if they exist there.
     pub(super) fn explanations(self) -> Result<Vec<Explanation>, Unexplained> {
         let Self { index, sub } = self;
         let found: Vec<_> = entry(index, sub).into_iter().chain(nx_entry(index, sub)).collect();
@@ -59,7 +59,7 @@ impl EntryNumber {
     }
 }
 
-/// The name of the object to which an entry belongs; none for what is no entry.
+/// The name of the object to which an entry belongs; none if it is not an entry.
 pub(super) fn name_around(subject: Subject) -> Option<String> {
     match subject {
         Subject::Entry(index, _) => object_table().object(index).map(|object| object.name.clone()),
@@ -68,7 +68,7 @@ pub(super) fn name_around(subject: Subject) -> Option<String> {
     }
 }
 
-/// Unit files that together have every I/O entry: a data set each, because all of them are more than a unit can hold.
+/// Unit files that together have every I/O entry: one data set each, because all of them exceed one unit.
 pub(super) fn files_with_every_io_entry() -> Vec<UnitFile> {
     let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { return Vec::new() };
     let with = |set: &DataSet| {
@@ -108,7 +108,7 @@ fn entry_line(entry: &Entry) -> String {
     )
 }
 
-/// A default that is short enough to be read.
+/// A default that is short enough to display.
 fn shown_default(default: &str) -> String {
     if default.is_empty() || default.len() > SHOWN_DEFAULT {
         String::new()

@@ -1,11 +1,11 @@
-//! Sections and tables of the project's own pages, which are read as they are printed.
+//! Sections and tables of the project's own pages, as printed.
 
-/// What is under one heading of a page.
+/// The text under one heading of a page.
 #[derive(Debug, Default)]
 pub(super) struct PageSection {
     /// The heading without its marks.
     pub(super) heading: &'static str,
-    /// The first sentence below it; empty if a table comes first.
+    /// The first sentence below it; empty if there is a table first.
     pub(super) sentence: String,
     pub(super) tables: Vec<Table>,
 }
@@ -17,7 +17,7 @@ pub(super) struct Table {
     pub(super) rows: Vec<Vec<&'static str>>,
 }
 
-/// The sections of a page in their order; what precedes the first heading of this level is left out.
+/// The sections of a page in their order; the part before the first heading of this level is left out.
 pub(super) fn sections(page: &'static str) -> Vec<PageSection> {
     let parts = page.split("\n## ").skip(1);
     parts.map(|part| part.split_once('\n').map_or_else(PageSection::default, section)).collect()
@@ -37,13 +37,13 @@ fn table(block: &'static str) -> Option<Table> {
     Some(Table { header: rows.next()?, rows: rows.collect() })
 }
 
-/// The cells of a row; none for another line, and for the one below the header.
+/// The cells of a row; none for any other line, and for the one below the header.
 fn cells(line: &'static str) -> Option<Vec<&'static str>> {
     let row = line.strip_prefix("| ")?.strip_suffix(" |")?;
     Some(row.split(" | ").map(str::trim).collect())
 }
 
-/// Text without marks: of a link its words stay, and backticks go.
+/// Text without markup: links are replaced by their words, and backticks are removed.
 pub(super) fn plain(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut plain = String::new();
@@ -57,7 +57,7 @@ pub(super) fn plain(text: &str) -> String {
     plain.replace(['`', '*'], "")
 }
 
-/// The first link of a text: what is before it, its words, what is behind it.
+/// The first link of a text: the text before it, its words, the text after it.
 fn link(text: &str) -> Option<(&str, &str, &str)> {
     let (words_and_before, behind) = text.split_once("](")?;
     let (before, words) = words_and_before.rsplit_once('[')?;

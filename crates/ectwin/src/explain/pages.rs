@@ -25,7 +25,7 @@ const INDEX_COLUMNS: &str = "\
 pub struct Page {
     /// Its name in that folder.
     pub file_name: String,
-    /// What is in it.
+    /// Its contents.
     pub text: String,
 }
 

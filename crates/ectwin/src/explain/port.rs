@@ -10,16 +10,16 @@ static PORTS: LazyLock<Vec<Port>> = LazyLock::new(ports);
 
 #[derive(Debug)]
 struct Port {
-    /// Name of the I/O port; of a system-defined variable the variable's.
+    /// Name of the I/O port; for a system-defined variable its own name.
     name: String,
-    /// Names of a unit with the device name N1: the variable, and the AT specification.
+    /// Names for a unit with the device name N1: the variable, and the AT specification.
     variable: String,
     at: Option<String>,
     meaning: String,
     facts: Vec<(&'static str, String)>,
 }
 
-/// Each name with the port that it names.
+/// Each name with its port.
 pub(super) fn names() -> impl Iterator<Item = (&'static str, &'static str)> {
     PORTS.iter().flat_map(|port| {
         let names = [Some(&port.name), Some(&port.variable), port.at.as_ref()];

@@ -4,7 +4,7 @@ use esc::{EcatAccess, PdiAccess, REGISTERS, Register};
 
 use super::{Explanation, Fact, Subject};
 
-/// The register that has a byte at `offset`; none where there is none.
+/// The register with a byte at `offset`; none if there is none.
 pub(super) fn explanation(offset: u16) -> Option<Explanation> {
     let (register, first) =
         REGISTERS.iter().find_map(|register| Some((register, first(register, offset)?)))?;
@@ -34,7 +34,7 @@ pub(super) fn explanation(offset: u16) -> Option<Explanation> {
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 
-/// The first byte of that one of its bank which has a byte at `offset`.
+/// The first byte of the register in a bank that has a byte at `offset`.
 fn first(register: &Register, offset: u16) -> Option<u16> {
     let behind = offset.checked_sub(register.offset)?;
     let number = behind / register.stride_bytes.max(1);

@@ -1,4 +1,4 @@
-//! Likely cause and correction of each SDO abort code. What the code is called stands in [`SdoAbort::TABLE`].
+//! Likely cause and correction of each SDO abort code. The names of the codes are in [`SdoAbort::TABLE`].
 
 use wire::SdoAbort;
 

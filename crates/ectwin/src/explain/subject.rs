@@ -1,4 +1,4 @@
-//! What an explanation is of.
+//! The subject of an explanation.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ pub enum Subject {
     Object(ObjectIndex),
     /// One entry of such an object.
     Entry(ObjectIndex, SubIndex),
-    /// NX object, which the CPU Unit sees.
+    /// NX object, which the CPU Unit can access.
     NxObject(ObjectIndex),
     /// One entry of an NX object.
     NxEntry(ObjectIndex, SubIndex),

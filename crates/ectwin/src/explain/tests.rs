@@ -1,4 +1,4 @@
-//! Codes, objects, indicators and words in every usual way of writing, and what each is.
+//! Codes, objects, indicators and words in every usual notation, and their meanings.
 
 use coe_kit::indicators::Pattern;
 use nx_ect101::EventCode;
@@ -7,7 +7,7 @@ use wire::{AlState, AlStatusCode, Command, ObjectIndex, SubIndex};
 
 use super::*;
 
-/// Unit files that come with the project.
+/// Unit files of the project.
 const UNIT_FILES: [(&str, &str); 3] = [
     ("nx-ect101.toml", include_str!("../../../../units/nx-ect101.toml")),
     ("nx-ect101-1200-bytes.toml", include_str!("../../../../units/nx-ect101-1200-bytes.toml")),
@@ -232,7 +232,7 @@ fn a_name_of_many_entries_is_told_as_their_list() {
     assert!(text.lines().all(|line| line.to_lowercase().contains(":00: number of entries, ")), "{text}");
 }
 
-/// Every I/O port, its variable and its AT specification, of every unit file that comes with the project.
+/// Every I/O port, its variable and its AT specification, of every unit file of the project.
 #[test]
 fn every_io_port_of_the_cpu_unit_is_explained() {
     for (file, text) in UNIT_FILES {
@@ -262,7 +262,7 @@ fn every_io_port_of_the_cpu_unit_is_explained() {
     assert!(entry.contains("NX object 0x7000:03: UINTs 03 C to M"), "{entry}");
 }
 
-/// Every key that the reader takes, by its path and by its last word; a number alone is an object or an event.
+/// Every key of the reader, by its path and by its last word; a number alone is an object or an event.
 #[test]
 fn every_key_of_the_unit_file_is_explained() {
     for path in nx_ect101::unit_file::keys() {
@@ -300,7 +300,7 @@ fn every_command_of_a_datagram_is_explained() {
     }
 }
 
-/// An abbreviation has its words beside it; those of states and commands are names.
+/// An abbreviation has its full words; abbreviations of states and commands are names.
 #[test]
 fn every_abbreviation_of_the_glossary_is_known_by_its_words_too() {
     let is_name = |word: &str| {

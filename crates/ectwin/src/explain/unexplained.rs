@@ -1,8 +1,8 @@
-//! What cannot be explained.
+//! Texts that cannot be explained.
 
 use std::fmt;
 
-/// A text that no table has.
+/// A text that is in no table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unexplained {
     message: String,
@@ -14,7 +14,7 @@ impl Unexplained {
         Self { message, help: help.into() }
     }
 
-    /// What can be explained instead.
+    /// The texts that can be explained instead.
     #[must_use]
     pub fn help(&self) -> &str {
         &self.help

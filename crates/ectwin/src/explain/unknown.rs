@@ -1,9 +1,9 @@
-//! What to say of a text that nothing explains: what it might have been, and what there is.
+//! The message for an unknown text: similar names, and the existing ones.
 
 use super::number::Number;
 use super::{Explanation, Unexplained, names};
 
-/// Names that show what more words would be.
+/// Examples of names, to show that more words are needed.
 const SHOWN_PARTS: usize = 3;
 
 const KNOWN: &str = "codes and indexes in hexadecimal digits, such as 391E0000 (event code), 0x001B (AL status code), 0xA000 \
@@ -11,24 +11,24 @@ const KNOWN: &str = "codes and indexes in hexadecimal digits, such as 391E0000 (
     their patterns, such as ERR; names of events, objects, entries, I/O ports and registers; keys of the unit file, such as \
     fail_soft; words of the glossary, such as watchdog";
 
-/// A number that is no code, no object and no register.
+/// A number that is not a code, object or register.
 pub(super) fn number(number: Number, near: Option<Explanation>) -> Unexplained {
     let near = near.map_or_else(String::new, |near| format!("; is {}, {}, meant?", near.subject, near.name));
     Unexplained::new(format!("{number} is not known as {}{near}", number.kinds()), number.there_is())
 }
 
-/// A text that is no number, and no name either.
+/// A text that is neither a number nor a name.
 pub(super) fn name(text: &str) -> Unexplained {
     let near = names::near(text).map_or_else(String::new, |near| format!("; is `{near}` meant?"));
     Unexplained::new(format!("`{}` is not known{near}", text.escape_debug()), KNOWN)
 }
 
-/// A text that no name is as long as.
+/// A text that is longer than every name.
 pub(super) fn too_long(text: &str) -> Unexplained {
     Unexplained::new(format!("`{}` is not known", user_file::shown(text)), KNOWN)
 }
 
-/// Words that are a part of more names than can be shown.
+/// Words that occur in more names than can be shown.
 pub(super) fn part(text: &str, meanings: &[Explanation]) -> Unexplained {
     let message = format!("`{}` is a part of {} names", text.escape_debug(), meanings.len());
     let some = meanings.iter().take(SHOWN_PARTS).map(|known| format!("`{}`", known.name));

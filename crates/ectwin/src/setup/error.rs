@@ -9,36 +9,36 @@ use user_file::FileErrors;
 /// Why a unit file cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SetupError {
-    /// It is no valid unit file.
+    /// It is not a valid unit file.
     UnitFile(FileErrors),
     /// Its user program cannot be read.
     ProgramUnreadable {
         /// The path.
         path: String,
-        /// Why.
+        /// The reason.
         reason: String,
-        /// What helps.
+        /// The remedy.
         help: String,
-        /// Its bytes in the unit file; none if the unit file does not name it.
+        /// Its bytes in the unit file; none if it is not in the unit file.
         span: Option<Range<usize>>,
     },
     /// Its user program is wrong.
     ProgramWrong {
-        /// What is wrong with it, and where.
+        /// Its problems, with their positions.
         problems: st::Problems,
     },
-    /// Its user program is a module in WebAssembly that is wrong, or that this build does not run.
+    /// Its user program is a WebAssembly module that is wrong, or that this build cannot run.
     WebAssemblyWrong {
         /// The path.
         path: String,
-        /// What is wrong with it.
+        /// Its problem.
         reason: String,
     },
     /// The file of its non-volatile memory cannot be used.
     Storage {
         /// The path.
         path: String,
-        /// Why.
+        /// The reason.
         reason: String,
         /// The error number of the system, if the system refused it.
         os_error: Option<i32>,

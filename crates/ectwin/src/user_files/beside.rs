@@ -1,4 +1,4 @@
-//! Files that a scenario names, on the disk.
+//! The files of a scenario, on the disk.
 
 use std::path::{Path, PathBuf};
 
@@ -6,19 +6,19 @@ use scenario::Files;
 
 use super::{Wanted, program_files, text};
 
-/// Reads the files that a scenario in this folder names, and shows each of them to someone.
+/// Reads the files of a scenario in this folder, and passes each of them to an observer.
 pub struct Beside<'f, S: FnMut(&str, Wanted, &str)> {
     folder: &'f Path,
     shown: S,
 }
 
 impl<'f, S: FnMut(&str, Wanted, &str)> Beside<'f, S> {
-    /// The files are seen from `folder`; `shown` gets the path, the kind and the text of each.
+    /// Paths are relative to `folder`; `shown` gets the path, the kind and the text of each file.
     pub const fn new(folder: &'f Path, shown: S) -> Self {
         Self { folder, shown }
     }
 
-    /// The path of a file as the scenario would name it.
+    /// The path of a file as in the scenario.
     fn seen(&self, path: PathBuf) -> String {
         path.strip_prefix(self.folder).map_or(path.clone(), Path::to_owned).display().to_string()
     }

@@ -5,11 +5,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// How many files and folders are looked at: a folder such as `/` was hardly meant.
+/// Maximum number of files and folders that are examined: a folder such as `/` is probably a mistake.
 const ENTRIES_MAX: usize = 100_000;
 
-/// All files below a folder whose names end so, in the order of their paths. Names that begin with a dot are passed over:
-/// editors keep their locks and copies there. A folder that lies in itself by a symbolic link is visited once.
+/// All files in and below a folder with this ending, in the order of their paths. Names that begin with a dot
+/// are skipped: editors store their locks and copies there. A folder that contains itself through a symbolic
+/// link is visited once.
 ///
 /// # Errors
 /// A folder that cannot be read, or too many files.

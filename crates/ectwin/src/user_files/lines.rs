@@ -8,9 +8,9 @@ use super::{MIB, Reason, Unreadable, Wanted, open_regular};
 
 /// Longest line, with its end.
 const LINE_BYTES_MAX: u64 = MIB;
-/// How far into a file its kind is looked for.
+/// Number of bytes in which the kind of a file is detected.
 const HEAD_BYTES: usize = 64 << 10;
-/// The mark in front of a text that some editors write.
+/// The mark before a text that some editors write.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
 /// Reads a file line by line.
@@ -26,7 +26,7 @@ impl Lines {
     /// Opens a file of any size.
     ///
     /// # Errors
-    /// It is no regular file, cannot be read, or is of another kind than is wanted, or not in UTF-8 at its beginning.
+    /// It is not a regular file, cannot be read, or is of another kind than required, or its start is not UTF-8.
     pub fn open(path: &Path, wanted: Wanted) -> Result<Self, Unreadable> {
         let refused = |reason| Unreadable { reason, wanted };
         let file = open_regular(path, u64::MAX).map_err(refused)?;
@@ -40,7 +40,7 @@ impl Lines {
         Ok(Self { reader, wanted, line: Vec::new(), number: 0 })
     }
 
-    /// The next line with its number, from 1, and without its end; none behind the last.
+    /// The next line with its number, from 1, and without its end; none after the last.
     ///
     /// # Errors
     /// The file cannot be read, or the line is too long.
@@ -64,7 +64,7 @@ fn whole_lines(bytes: &[u8]) -> &[u8] {
     let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(bytes.len(), |end| end + 1);
     let lines = bytes.get(..end).unwrap_or(bytes);
     match core::str::from_utf8(lines) {
-        // Cut within a character, not wrong.
+        // Cut within a character, which is not an error.
         Err(error) if error.error_len().is_none() => lines.get(..error.valid_up_to()).unwrap_or(lines),
         _ => lines,
     }

@@ -1,4 +1,4 @@
-//! What a change of files shows by.
+//! How a change of files is detected.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -10,8 +10,8 @@ use crate::user_files;
 /// The stamps of the files of a program, in their order.
 pub(crate) type Stamps = Vec<Stamp>;
 
-/// The name of a file, when it was written last, its length in bytes, and what the system keeps of it that no
-/// program sets: an editor may replace a file by another, or write it in place, and keep time and length.
+/// The name of a file, the time of its last write, its length in bytes, and values of the system that no
+/// program can set: an editor may replace a file by another, or write it in place, and keep time and length.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Stamp {
     path: PathBuf,
@@ -20,17 +20,17 @@ pub(crate) struct Stamp {
     kept: Kept,
 }
 
-/// The number of a file on the disk, and when the system changed it last, in seconds and nanoseconds.
+/// The number of a file on the disk, and the time of its last change by the system, in seconds and nanoseconds.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Kept {
     inode: u64,
     changed: (i64, i64),
 }
 
-/// What the files of a program look like now.
+/// The present state of a program's files.
 ///
 /// # Errors
-/// The first file or folder that is not there, in words.
+/// The first file or folder that does not exist, as text.
 pub(crate) fn stamps(paths: &[PathBuf]) -> Result<Stamps, String> {
     let files = user_files::program_files(paths).map_err(|(path, reason)| unreadable(&path, reason))?;
     files.iter().map(|path| stamp(path).map_err(|error| unreadable(path, error))).collect()

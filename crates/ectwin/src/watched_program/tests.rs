@@ -1,4 +1,4 @@
-//! Looks at files between saves: what is loaded, and how often.
+//! Checks of files between saves: what is loaded, and how often.
 
 use std::fs;
 use std::io;
@@ -10,10 +10,10 @@ use nx_ect101::unit_file::UnitFile;
 
 use super::*;
 
-/// Looks behind each save: far more than it takes for a change to come to rest.
+/// Number of checks after each save: many more than a change needs to settle.
 const LOOKS: usize = 10;
 
-/// Two files of a program in a folder of the test's own, and the watch of the folder.
+/// Two files of a program in a folder of the test, and the watch of the folder.
 struct Bench {
     folder: PathBuf,
     watch: Watch,
@@ -22,7 +22,7 @@ struct Bench {
 impl Bench {
     fn new(name: &str) -> Self {
         let folder = std::env::temp_dir().join(format!("ectwin-watched-{}-{name}", std::process::id()));
-        // What an earlier run has left is not part of this one.
+        // Files of an earlier run are not part of this one.
         let _gone = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).expect("a folder");
         fs::write(folder.join("block.st"), "FUNCTION_BLOCK B VAR_INPUT x : INT; END_VAR END_FUNCTION_BLOCK")
@@ -33,7 +33,7 @@ impl Bench {
         Self { folder, watch }
     }
 
-    /// How many programs so many looks give.
+    /// Number of programs loaded in this number of checks.
     fn loads(&mut self) -> usize {
         (0..LOOKS).map(|_| self.watch.look().len()).sum()
     }
@@ -64,7 +64,7 @@ fn watches(paths: &[&Path], names: &[&str]) -> Vec<Watch> {
     Watch::all(programs)
 }
 
-/// What is logged, for a look at it later.
+/// The logged lines, for later checks.
 #[derive(Clone, Default)]
 struct Log(Arc<Mutex<Vec<u8>>>);
 
@@ -90,7 +90,7 @@ fn logged(run: impl FnOnce()) -> Vec<String> {
 
 impl Drop for Bench {
     fn drop(&mut self) {
-        // A folder that stays hurts no one.
+        // A remaining folder does no harm.
         let _gone = fs::remove_dir_all(&self.folder);
     }
 }
@@ -125,7 +125,7 @@ fn a_file_that_vanishes_and_comes_back_is_loaded_if_it_differs() {
     let main = bench.folder.join("main.st");
     let text = fs::read_to_string(&main).expect("it is there");
     fs::remove_file(&main).expect("removed");
-    // The block alone is no program: told, and nothing is loaded.
+    // The block alone is not a program: reported, and nothing is loaded.
     assert_eq!(bench.loads(), 0);
     fs::write(&main, &text).expect("written");
     assert_eq!(bench.loads(), 0, "it is as it was");
@@ -238,14 +238,14 @@ fn units_that_share_a_program_log_a_change_once_with_all_of_them() {
     assert_eq!((loaded.len(), lines.len()), (0, 2), "{lines:?}");
     assert!(lines[0].contains("there is no variable `Misspelt`"), "{lines:?}");
     assert!(lines[1].ends_with("the old program continues in units 1 to 3"), "{lines:?}");
-    // A variable that one of them has: that one loads it.
+    // A variable that one of them has: only that one loads the program.
     let (loaded, lines) = change("PROGRAM Main N2_UINTs_01_C_to_M[0] := 1; END_PROGRAM");
     assert_eq!((loaded.as_slice(), lines.len()), (&[1][..], 5), "{lines:?}");
     assert!(lines[0].ends_with("is loaded in unit 2"), "{lines:?}");
     for line in [2, 4] {
         assert!(lines[line].contains("is wrong: the old program continues in unit "), "{lines:?}");
     }
-    // Back again: units 1 and 3 run this text already, and their timers with it.
+    // Back again: units 1 and 3 already run this text, and their timers with it.
     let (loaded, lines) = change("PROGRAM Main VAR b : B; END_VAR b(x := 22); END_PROGRAM");
     assert_eq!(loaded, [1], "{lines:?}");
 }

@@ -1,14 +1,14 @@
-//! How each of the 38 events is caused, and how its cause is removed.
+//! How to cause each of the 38 events, and how to remove its cause.
 
 use ectwin::{EventLog, Fault};
 use nx_ect101::layout;
 
 use crate::stage::{INIT, INPUTS_BYTES, OP, OUTPUTS_BYTES, PRE_OP, SAFE_OP, Stage};
 
-/// When the cause appears.
+/// The time at which the cause appears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum When {
-    /// The unit file holds it.
+    /// It is in the unit file.
     UnitFile,
     /// Before the unit starts.
     Start,
@@ -24,12 +24,12 @@ pub(crate) enum When {
 pub(crate) struct Case {
     pub(crate) code: &'static str,
     pub(crate) when: When,
-    /// What the unit file holds beside the model.
+    /// The contents of the unit file in addition to the model.
     pub(crate) unit_file: &'static str,
     pub(crate) cause: fn(&mut Stage),
-    /// Removes the cause, where the recovery does not do it as well.
+    /// Removes the cause, if the recovery does not also remove it.
     pub(crate) remove: fn(&mut Stage),
-    /// Attached information 1, where the event has some.
+    /// Attached information 1, if the event has it.
     pub(crate) detail: Option<u32>,
 }
 
@@ -68,7 +68,7 @@ fn break_and_start(stage: &mut Stage, fault: Fault) {
     stage.run_for_ms(2);
 }
 
-/// Sets lengths that go with the mapping, and asks for SAFE-OP.
+/// Sets lengths that match the mapping, and requests SAFE-OP.
 fn ask_for_safe_op(stage: &mut Stage, outputs_bytes: u16, inputs_bytes: u16) {
     stage.set_process_data(outputs_bytes, inputs_bytes);
     stage.request(SAFE_OP);
@@ -190,7 +190,7 @@ pub(crate) const CASES: &[Case] = &[
     }),
 ];
 
-/// The state in which the cause of a case finds the unit.
+/// The state of the unit in which the cause of a case appears.
 pub(crate) fn state_before(when: When) -> u8 {
     match when {
         When::UnitFile | When::Start | When::Init => INIT,

@@ -1,5 +1,5 @@
-//! Causes that nobody injects: what a master, a CPU Unit and a user really do; and what the manual says of the
-//! channels beyond a single event.
+//! Causes that are not injected: actions of a master, a CPU Unit and a user; and the manual's statements on the
+//! channels that concern more than a single event.
 
 use ectwin::{EventCode, EventLevel, Indicators, Pattern};
 

@@ -1,4 +1,4 @@
-//! Several causes at once, causes that go and come, and what each kind of start leaves.
+//! Several causes at once, intermittent causes, and the state after each kind of start.
 
 use ectwin::{EventCode, EventLevel, Fault};
 use nx_ect101::layout;
@@ -129,7 +129,7 @@ fn two_restarts_in_a_row_are_two_records() {
     assert!(access.iter().all(|record| times.contains(&record.time_ns)), "{access:?}");
 }
 
-/// Manual, 8-6: errors last until they are reset, the power is cycled or the unit is restarted.
+/// Manual, 8-6: errors persist until they are reset, the power is cycled or the unit is restarted.
 #[test]
 fn a_reset_of_the_esc_keeps_errors_faults_and_flags() {
     let mut stage = Stage::power_on("");

@@ -1,5 +1,5 @@
-//! What each side has to be told of an event, from its row of the event table and the formats of the manual
-//! (A-6-4, A-6-7), written out here once more.
+//! The expected reports of an event to each side, from its row of the event table and the formats of the manual
+//! (A-6-4, A-6-7), which are defined here again.
 
 use ectwin::{EventCode, EventLevel, EventLog, Fault};
 use nx_ect101::{Event, IoRefreshEffect};
@@ -8,7 +8,7 @@ use crate::cases::Case;
 use crate::stage::Stage;
 
 pub(crate) struct Expected {
-    /// The diagnosis message without its time stamp; none: the history stays empty.
+    /// The diagnosis message without its time stamp; none: the history remains empty.
     pub(crate) diagnosis_message: Option<[u8; 24]>,
     pub(crate) access_log: Vec<EventCode>,
     pub(crate) error_status: u8,
@@ -33,7 +33,7 @@ impl Expected {
             access_log: if event.event_log == EventLog::Access { vec![event.code] } else { vec![] },
             error_status,
             current_errors: [of(EventLevel::Observation), of(EventLevel::MinorFault)],
-            // A broken memory is no current error, and an error for the CPU Unit all the same.
+            // A broken memory is not a current error, but it is an error for the CPU Unit.
             unit_error: error_status != 0 || Fault::of_event(event.code) == Some(Fault::NonVolatileMemory),
             io_data_active: !matches!(
                 event.io_refresh,

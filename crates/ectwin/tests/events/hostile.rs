@@ -1,5 +1,5 @@
-//! A master that does anything, and a user and hardware that do too: after each of many random operations what the
-//! unit tells goes together. The numbers are the same in every run.
+//! A master, a user and hardware that do anything: after each of many random operations the reports of the unit
+//! are consistent. The numbers are the same in every run.
 
 use std::path::Path;
 
@@ -63,7 +63,7 @@ struct Hostile {
     injected: Vec<Fault>,
 }
 
-/// What the master does.
+/// The actions of the master.
 impl Hostile {
     fn send(&mut self, mut frame: Vec<u8>) {
         let fate = self.twin.frame(&mut frame);
@@ -123,7 +123,7 @@ impl Hostile {
         self.send_sdo(command, index, sub, &data);
     }
 
-    /// Everything right for once, so that more than INIT is come by.
+    /// Correct operations once, so that higher states than INIT are reached.
     fn go_to_op(&mut self) {
         let sync_managers = [
             (layout::MAILBOX_RECEIVE_START, layout::MAILBOX_BYTES, layout::MAILBOX_RECEIVE_CONTROL),
@@ -147,7 +147,7 @@ impl Hostile {
     }
 }
 
-/// What the others do.
+/// The actions of the others.
 impl Hostile {
     fn inject(&mut self) {
         let fault = self.dice.of(&Fault::ALL);
@@ -161,7 +161,7 @@ impl Hostile {
         self.twin.unit(0).remove(fault);
     }
 
-    /// All causes go, and the unit starts.
+    /// All causes disappear, and the unit starts.
     fn heal(&mut self) {
         self.injected.clear();
         let mut unit = self.twin.unit(0);
@@ -210,7 +210,7 @@ impl Hostile {
     }
 }
 
-/// What has to hold.
+/// The conditions that must hold.
 impl Hostile {
     fn check(&mut self) {
         let unit = self.twin.unit(0);
@@ -230,7 +230,7 @@ impl Hostile {
         self.check_stop();
     }
 
-    /// A fault that is found at once takes the unit to INIT with a code, whatever else there is.
+    /// A fault that is detected immediately takes the unit to INIT with a code, whatever else is present.
     fn check_stop(&mut self) {
         let stops = |fault: &Fault| matches!(fault, Fault::Processing | Fault::ClockNotSynchronized);
         if self.injected.iter().any(stops) {

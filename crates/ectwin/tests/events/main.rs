@@ -1,5 +1,5 @@
-//! Every event of the manual: caused, told on every channel that its row of the event table names, and recovered
-//! from as the row says.
+//! Every event of the manual: caused, reported on every channel in its row of the event table, and recovered
+//! from as in the row.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -25,7 +25,7 @@ fn event(case: &Case) -> &'static Event {
     Event::find(EventCode(code)).expect("an event of the table")
 }
 
-/// Brings a unit to where the cause finds it, and causes the event. Emergencies are on wherever they can be.
+/// Brings a unit to the state for the cause, and causes the event. Emergencies are enabled if possible.
 fn caused(case: &Case) -> Stage {
     let mut stage = Stage::power_on(case.unit_file);
     match case.when {
@@ -64,7 +64,7 @@ fn each_event_takes_ethercat_where_its_row_says() {
             EcatEffect::RetainState | EcatEffect::NotAffected => state_before(case.when),
         };
         assert_eq!(stage.al(), (state | error, code), "{} {}", case.code, event.name);
-        // Whoever cannot be stopped goes on to OP; 39340000 can be mended by the master, the others by nobody.
+        // If the state is not stopped, the unit continues to OP; the master can correct 39340000, but not the others.
         if event.ecat_effect == EcatEffect::StopInit && case.code != "39340000" {
             stage.set_mailboxes();
             for state in [PRE_OP, PRE_OP | 0x10, SAFE_OP | 0x10, OP | 0x10] {
@@ -143,7 +143,7 @@ fn the_master_sees_each_event_in_its_process_data() {
             continue;
         }
         let is_op = stage.al().0 == OP;
-        // Behind a watchdog error the outputs are closed until the master acknowledges.
+        // After a watchdog error the outputs are closed until the master acknowledges.
         let inputs = if is_op { stage.exchange(&[0x5A; 180]) } else { stage.inputs() };
         assert_eq!(inputs[182], u8::from(expected.diagnosis_message.is_some()), "{}: 1BFE", case.code);
         assert_eq!(inputs[183], expected.error_status, "{}: 1BFF", case.code);
@@ -165,7 +165,7 @@ fn the_indicators_show_each_event_as_its_row_says() {
         }
         let state = stage.al().0 & 0x0F;
         let shown = stage.twin.unit(0).indicators();
-        // The rows of 10410000 and 80200000 say RUN not lit and mean INIT: they do not touch EtherCAT (A21).
+        // The rows of 10410000 and 80200000 have RUN not lit, which means INIT: they do not affect EtherCAT (A21).
         let run = match state {
             OP => Pattern::Lit,
             SAFE_OP => Pattern::SingleFlash,
@@ -203,7 +203,7 @@ fn emergencies_are_sent_where_the_row_says_and_only_if_they_are_enabled() {
             assert_eq!(stage.emergencies, [], "{}", case.code);
             continue;
         }
-        // What occurred before emergencies could be enabled occurs anew when it is reset with its cause in place.
+        // Events from before emergencies could be enabled occur again at a reset while their cause persists.
         let mut emergencies = stage.take_emergencies();
         if emergencies.is_empty() {
             stage.download(0x2002, 2, &[1]).expect("a reset");

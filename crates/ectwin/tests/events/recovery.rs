@@ -1,4 +1,4 @@
-//! The way back: the cause is removed, the recovery of the event's row is done, and nothing is left.
+//! The recovery: the cause is removed, the recovery in the event's row is executed, and no error remains.
 
 use nx_ect101::{Event, Recovery};
 
@@ -6,7 +6,7 @@ use crate::cases::{CASES, Case};
 use crate::stage::{INIT, OP, Stage};
 use crate::{caused, event};
 
-/// Does what the row says; the unit is anywhere.
+/// Executes the recovery in the row; the unit may be in any state.
 fn recover(event: &Event, case: &Case, mut stage: Stage) -> Stage {
     match event.recovery {
         // Error reset by the CPU Unit; the master's is another test.
@@ -28,7 +28,7 @@ fn recover(event: &Event, case: &Case, mut stage: Stage) -> Stage {
         }
         Recovery::RedoIoAllocationSettings => stage = Stage::power_on(""),
         Recovery::None => {
-            // An observation or an information: nothing is broken, and a reset takes it off the list.
+            // An observation or an information: nothing is broken, and a reset removes it from the list.
             assert!(!case.code.starts_with('3'));
             stage.twin.unit(0).reset_errors();
         }
@@ -43,7 +43,7 @@ fn without_its_cause_and_after_its_recovery_nothing_of_an_event_is_left() {
         let (event, mut stage) = (event(case), caused(case));
         (case.remove)(&mut stage);
         if case.code == "39160000" || case.code == "39170000" {
-            // The cause stands in the I/O allocation.
+            // The cause is in the I/O allocation.
             stage = Stage::power_on("");
         }
         let mut stage = recover(event, case, stage);
@@ -64,7 +64,7 @@ fn without_its_cause_and_after_its_recovery_nothing_of_an_event_is_left() {
     }
 }
 
-/// What a case has set in PRE-OP.
+/// The settings that a case has made in PRE-OP.
 fn restore_mapping(stage: &mut Stage) {
     stage.set_mailboxes();
     stage.request(crate::PRE_OP);

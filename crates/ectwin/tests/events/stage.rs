@@ -1,4 +1,4 @@
-//! The stage: one unit in virtual time, and a master of frames that can do everything wrong.
+//! The test environment: one unit in virtual time, and a master of frames that can do everything incorrectly.
 
 use ectwin::{Duration, FrameFate, Io, Setup, Twin};
 use nx_ect101::layout;
@@ -16,7 +16,7 @@ pub(crate) const INPUTS_BYTES: u16 = 184;
 
 const ALL_STATUS: [u16; 4] = [0x1A00, 0x1A01, 0x1BFE, 0x1BFF];
 
-/// An emergency message as the master gets it.
+/// An emergency message as the master receives it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Emergency(pub(crate) [u8; 8]);
 
@@ -27,7 +27,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// A unit with this text in its file, whose CPU Unit leaves the data alone.
+    /// A unit with this text in its file, whose CPU Unit does not change the data.
     pub(crate) fn power_on(unit_file: &str) -> Self {
         let setup = Setup::from_toml(&format!("model = \"nx-ect101\"\nstart_up = \"0ms\"\n{unit_file}"))
             .expect("a right file");
@@ -63,7 +63,7 @@ impl Stage {
         (registers[0], u16::from_le_bytes([registers[4], registers[5]]))
     }
 
-    /// Asks for a state; AL status and its code then.
+    /// Requests a state; returns AL status and its code after that.
     pub(crate) fn request(&mut self, state: u8) -> (u8, u16) {
         self.write(0x0120, &[state, 0]);
         self.run_for_ms(2);
@@ -87,7 +87,7 @@ impl Stage {
         self.set_sync_manager(3, layout::INPUTS_START, inputs_bytes, layout::INPUTS_CONTROL);
     }
 
-    /// From wherever it is to PRE-OP with the factory setting, every status in the inputs, and emergencies on.
+    /// From any state to PRE-OP with the factory setting, every status in the inputs, and emergencies enabled.
     pub(crate) fn enter_pre_op(&mut self) {
         assert_eq!(self.request(INIT | 0x10), (INIT, 0));
         self.set_mailboxes();
@@ -105,7 +105,7 @@ impl Stage {
         self.exchange(&[0; OUTPUTS_BYTES as usize]);
     }
 
-    /// Writes outputs and lets a few cycles pass; the inputs then.
+    /// Writes outputs and runs a few cycles; returns the inputs after that.
     pub(crate) fn exchange(&mut self, outputs: &[u8]) -> Vec<u8> {
         for _ in 0..10 {
             self.write(layout::OUTPUTS_START, outputs);
@@ -164,14 +164,14 @@ impl Stage {
         self.write(layout::MAILBOX_RECEIVE_START, &message);
         loop {
             let message = self.receive().expect("a response within 50 ms");
-            // CoE service 1 is an emergency, which `receive` has kept.
+            // CoE service 1 is an emergency, which `receive` has stored.
             if message[7] >> 4 != 1 {
                 return message;
             }
         }
     }
 
-    /// The next message in the mailbox, if one comes within 50 ms.
+    /// The next message in the mailbox, if there is one within 50 ms.
     fn receive(&mut self) -> Option<Vec<u8>> {
         for _ in 0..500 {
             if self.read(0x080D, 1)[0] & 0x08 != 0 {
@@ -185,7 +185,7 @@ impl Stage {
         None
     }
 
-    /// Reads what lies in the mailbox; then the emergencies that have come.
+    /// Reads the messages in the mailbox; returns the emergencies among them.
     pub(crate) fn take_emergencies(&mut self) -> Vec<Emergency> {
         while self.receive().is_some() {}
         std::mem::take(&mut self.emergencies)
@@ -196,7 +196,7 @@ impl Stage {
         self.al().0 & 0x0F != INIT
     }
 
-    /// Messages in the diagnosis history, the oldest first, as the unit has them.
+    /// Messages in the diagnosis history, the oldest first, as stored in the unit.
     pub(crate) fn history(&mut self) -> Vec<[u8; 24]> {
         self.twin.unit(0).error_log().history().map(|record| record.diagnosis_message()).collect()
     }

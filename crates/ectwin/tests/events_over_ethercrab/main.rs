@@ -1,4 +1,4 @@
-//! Events as ethercrab meets them: read and reset while process data run, faults that end in INIT, restarts.
+//! Events with ethercrab: read and reset while process data are exchanged, faults that end in INIT, restarts.
 
 #![cfg(feature = "ethercrab")]
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
@@ -18,14 +18,14 @@ const PROCESSING_ERROR: EventCode = EventCode(0x4020_0000);
 const NX_UNIT_RESTART: EventCode = EventCode(0x94B8_0000);
 
 const TOLD: Emergency = Emergency { code: 0xFF20, register: 0, event: IO_COMMUNICATIONS_ERROR };
-/// 80200000 in the history: diagnosis code, flags, text, and no parameters behind the time stamp.
+/// 80200000 in the history: diagnosis code, flags, text, and no parameters after the time stamp.
 const MESSAGE_HEAD: [u8; 8] = [0x00, 0xE8, 0x20, 0xFF, 0x12, 0x00, 0x20, 0x80];
 const CURRENT_ERROR: [u8; 12] = [0x00, 0x00, 0x20, 0x80, 0x00, 0x00, 0x07, 0x00, 0x00, 0x00, 0x00, 0x00];
 const MINOR_FAULT: u8 = 0x20;
 /// Data … Valid, both directions, in the first byte of the inputs.
 const VALID: u8 = 0b110;
 
-/// Data … Valid, and New Messages Available behind the data sets.
+/// Data … Valid, and New Messages Available after the data sets.
 fn flags(inputs: &[u8]) -> (u8, u8) {
     (inputs[0] & VALID, inputs[inputs.len() - 1])
 }
@@ -70,7 +70,7 @@ async fn a_fault_in_op_is_told_on_every_channel_while_process_data_run() {
     stage.while_exchanging(&group, walk).await;
 }
 
-/// One minor fault, in the history, among the current errors and in the error status; OP stays.
+/// One minor fault, in the history, among the current errors and in the error status; OP is kept.
 async fn expect_objects(stage: &Stage, group: &Group<Op>) {
     let unit = group.subdevice(&stage.master, 0).unwrap();
     let message: [u8; 24] = unit.sdo_read(0x10F3, 6).await.unwrap();
@@ -137,8 +137,8 @@ async fn a_lost_memory_is_in_the_al_status_code_and_in_no_log() {
     });
 }
 
-/// ethercrab 0.7 empties the mailbox up to ten times before an SDO, and asserts that what comes then is no
-/// emergency. docs/user/events.md warns of it; if this test fails, ethercrab has learned it.
+/// ethercrab 0.7 empties the mailbox up to ten times before an SDO, and asserts that the message after that is
+/// not an emergency. docs/user/events.md describes this; if this test fails, ethercrab has changed.
 #[tokio::test]
 #[should_panic(expected = "left: Emergency")]
 async fn ethercrab_panics_where_an_emergency_comes_in_place_of_an_sdo_response() {

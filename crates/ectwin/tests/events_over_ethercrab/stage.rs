@@ -1,4 +1,4 @@
-//! A master with process data running, one unit, and the ways by which the unit tells of its events.
+//! A master that exchanges process data, one unit, and the channels on which the unit reports its events.
 
 use std::cell::{Cell, RefCell};
 use std::convert::Infallible;
@@ -13,15 +13,15 @@ use crate::patient_master;
 
 const AL_STATUS: u16 = 0x0130;
 const AL_STATUS_CODE: u16 = 0x0134;
-/// SyncManager 1, status: bit 3 is set while a message of the unit lies in its mailbox at 0x1200.
+/// SyncManager 1, status: bit 3 is set while a message of the unit is in its mailbox at 0x1200.
 const MAILBOX_STATUS: u16 = 0x080D;
 const MAILBOX_FULL: u8 = 1 << 3;
 const MAILBOX: u16 = 0x1200;
 const MAILBOX_BYTES: usize = 400;
 
-/// Ticks of 1 ms in which what must happen has happened, on a host that does other things too.
+/// Number of ticks of 1 ms after which an expected event has occurred, on a host with other load.
 const PATIENCE_TICKS: usize = 1000;
-/// Ticks of 1 ms in which what must not happen would have happened.
+/// Number of ticks of 1 ms after which an unexpected event would have occurred.
 const STILL_TICKS: usize = 50;
 
 pub(crate) type Group<S> = SubDeviceGroup<2, 512, DefaultLock, S>;
@@ -41,7 +41,7 @@ fn ticks() -> tokio::time::Interval {
 pub(crate) struct Stage {
     pub(crate) master: MainDevice<'static>,
     pub(crate) live: Live,
-    /// As the newest cycle has left them: ethercrab holds its image locked while a cycle is under way.
+    /// From the newest cycle: ethercrab locks its image during a cycle.
     inputs: RefCell<Vec<u8>>,
     cycles: Cell<usize>,
 }
@@ -57,7 +57,7 @@ impl Stage {
         Self { master, live, inputs: RefCell::default(), cycles: Cell::default() }
     }
 
-    /// Takes the unit to PRE-OP by INIT, which acknowledges an error.
+    /// Takes the unit to PRE-OP through INIT, which acknowledges an error.
     pub(crate) async fn pre_op(&self) -> Group<PreOp> {
         self.master.init_single_group::<2, 512>(ethercat_now).await.unwrap()
     }
@@ -66,7 +66,7 @@ impl Stage {
         patient_master::into_op(self.pre_op().await, &self.master).await
     }
 
-    /// AL status and AL status code, whoever has which address.
+    /// AL status and AL status code, independent of addresses.
     pub(crate) async fn al(&self) -> (u16, u16) {
         let status = Command::brd(AL_STATUS).receive(&self.master).await.unwrap();
         (status, Command::brd(AL_STATUS_CODE).receive(&self.master).await.unwrap())
@@ -85,7 +85,8 @@ impl Stage {
         panic!("AL status stays {before:#06X}");
     }
 
-    /// Runs `body` with process data each millisecond beside it, each with the right working counter.
+    /// Runs `body` with an exchange of process data every millisecond in parallel, each with the expected
+    /// working counter.
     pub(crate) async fn while_exchanging<T>(&self, group: &Group<Op>, body: impl Future<Output = T>) -> T {
         let before = self.cycles.get();
         let value = tokio::select! {
@@ -107,7 +108,7 @@ impl Stage {
         }
     }
 
-    /// Waits until the inputs are as wanted.
+    /// Waits until the inputs have the expected value.
     pub(crate) async fn wait_for_inputs(&self, is_wanted: impl Fn(&[u8]) -> bool) {
         let (mut ticks, before) = (ticks(), self.cycles.get());
         for _ in 0..PATIENCE_TICKS {
@@ -119,7 +120,7 @@ impl Stage {
         panic!("inputs {:02X?}", self.inputs.borrow());
     }
 
-    /// The one emergency that comes. ethercrab reads the mailbox for its own SDOs only, so the application looks.
+    /// The only emergency. ethercrab reads the mailbox only for its own SDOs, so the application reads it.
     pub(crate) async fn emergency(&self, group: &Group<Op>) -> Emergency {
         let mut ticks = ticks();
         for _ in 0..PATIENCE_TICKS {

@@ -1,5 +1,5 @@
-//! The Rust examples of docs/user, each a file that a reader can copy; crates/ectwin-cli/tests/docs.rs holds them to
-//! the pages.
+//! The Rust examples of docs/user, each a file that a reader can copy; crates/ectwin-cli/tests/docs.rs compares
+//! them with the pages.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 

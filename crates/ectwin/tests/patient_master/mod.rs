@@ -1,22 +1,22 @@
-//! The ethercrab master of these tests: patient, because the machine may be busy with other tests.
+//! The ethercrab master of these tests: with long time-outs, because the machine may be busy with other tests.
 
 use std::time::Duration;
 
 use ethercrab::subdevice_group::{Op, PreOp, SubDeviceGroup};
 use ethercrab::{DefaultLock, MainDevice, MainDeviceConfig, PduLoop, PduRx, PduStorage, PduTx, Timeouts};
 
-/// Process data of one frame; more of it is cut into several.
+/// Maximum length of the process data of one frame; longer process data are split.
 pub(crate) const FRAME_DATA_BYTES: usize = 1100;
 
 type Storage = PduStorage<16, { PduStorage::element_size(FRAME_DATA_BYTES) }>;
 
-/// The ends of a master's frames, which it keeps for as long as the process runs.
+/// The ends of a master's frames, which are kept until the process ends.
 pub(crate) fn frames() -> (PduTx<'static>, PduRx<'static>, PduLoop<'static>) {
     let storage: &'static Storage = Box::leak(Box::new(Storage::new()));
     storage.try_split().unwrap()
 }
 
-/// Takes a group to OP with process data running: a unit waits for outputs.
+/// Takes a group to OP while process data are exchanged: a unit waits for outputs.
 pub(crate) async fn into_op<const UNITS: usize, const BYTES: usize>(
     group: SubDeviceGroup<UNITS, BYTES, DefaultLock, PreOp>,
     master: &MainDevice<'static>,
@@ -32,7 +32,7 @@ pub(crate) async fn into_op<const UNITS: usize, const BYTES: usize>(
     group
 }
 
-/// A master on these frames that reads the clocks of the units so often when it starts.
+/// A master for these frames that reads the clocks of the units this number of times when it starts.
 pub(crate) fn master(pdu_loop: PduLoop<'static>, dc_static_sync_iterations: u32) -> MainDevice<'static> {
     let patience = Duration::from_secs(5);
     let timeouts = Timeouts {

@@ -1,4 +1,4 @@
-//! A master, a unit and its CPU Unit, and what both sides see of an exchange.
+//! A master, a unit and its CPU Unit, and the view of both sides of an exchange.
 
 use std::time::Duration;
 
@@ -9,20 +9,20 @@ use ethercrab::{DefaultLock, MainDevice, SubDeviceGroup};
 
 use crate::patient_master;
 
-/// 0x1A00 in front of the data sets.
+/// 0x1A00 before the data sets.
 const STATUS_BYTES: usize = 2;
 const AL_CONTROL: u16 = 0x0120;
 const AL_STATUS: u16 = 0x0130;
 const AL_STATUS_CODE: u16 = 0x0134;
 
-/// Cycles of 1 ms in which what must happen has happened, on a host that does other things too.
+/// Number of cycles of 1 ms after which an expected event has occurred, on a host with other load.
 const PATIENCE_CYCLES: usize = 1000;
-/// Cycles of 1 ms in which what must not happen would have happened: an I/O response takes some 10.
+/// Number of cycles of 1 ms after which an unexpected event would have occurred: an I/O response takes about 10.
 const STILL_CYCLES: usize = 100;
 
 pub(crate) type Group<S> = SubDeviceGroup<2, 4096, DefaultLock, S>;
 
-/// An object that a master writes whole: 0 to subindex 0, the elements, their number.
+/// An object that a master writes completely: 0 to subindex 0, the elements, their number.
 #[derive(Clone, Debug)]
 pub(crate) enum Setting {
     Mapping(u16, Vec<u32>),
@@ -51,7 +51,7 @@ pub(crate) const fn assign_tx(pdos: &'static [u16]) -> Setting {
     Setting::Assignment(0x1C13, pdos)
 }
 
-/// What tells both sides whether data is exchanged.
+/// The flags that show both sides whether data are exchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Flags {
     /// Bits 1 and 2 of NX Unit Status: Data … Valid, as the master sees them.
@@ -64,7 +64,7 @@ pub(crate) struct Flags {
 
 pub(crate) const EXCHANGING: Flags =
     Flags { nx_unit_status: 0b110, slave_status: 0b110, io_data_active: true, unit_error: false };
-/// Sizes that do not match are an error, and data go on.
+/// Sizes that do not match are an error, but data are exchanged.
 pub(crate) const MISMATCHED: Flags = Flags { unit_error: true, ..EXCHANGING };
 pub(crate) const NOT_REFRESHED: Flags =
     Flags { nx_unit_status: 0, slave_status: 0, io_data_active: false, unit_error: true };
@@ -88,7 +88,7 @@ pub(crate) fn input(place: usize) -> u8 {
     output(place) + 100
 }
 
-/// An image of which `moved_bytes` have arrived; the others have their default.
+/// An image of which `moved_bytes` have arrived; the other bytes have their default.
 pub(crate) fn image(octet: fn(usize) -> u8, moved_bytes: usize, length_bytes: usize) -> Vec<u8> {
     (0..length_bytes).map(|place| if place < moved_bytes { octet(place) } else { 0 }).collect()
 }
@@ -107,7 +107,7 @@ impl Bench {
         Self { master: patient_master::master(pdu_loop, 10), live }
     }
 
-    /// Takes the unit to PRE-OP by INIT, which acknowledges an error, and writes the settings.
+    /// Takes the unit to PRE-OP through INIT, which acknowledges an error, and writes the settings.
     pub(crate) async fn pre_op(&self, settings: &[Setting]) -> Group<PreOp> {
         let group = self.master.init_single_group::<2, 4096>(ethercat_now).await.unwrap();
         let unit = group.subdevice(&self.master, 0).unwrap();
@@ -120,7 +120,7 @@ impl Bench {
         group
     }
 
-    /// Resets the errors on the way to SAFE-OP, as the ESI asks a master to.
+    /// Resets the errors on the way to SAFE-OP, as the ESI requires.
     pub(crate) async fn op(&self, settings: &[Setting]) -> Group<Op> {
         let group = self.pre_op(settings).await;
         let unit = group.subdevice(&self.master, 0).unwrap();
@@ -128,11 +128,11 @@ impl Bench {
         patient_master::into_op(group, &self.master).await
     }
 
-    /// Asks for SAFE-OP with SyncManagers as the mapping asks for them. Returns AL status and AL status code.
+    /// Requests SAFE-OP with the SyncManagers that the mapping requires. Returns AL status and AL status code.
     pub(crate) async fn refused(&self, settings: &[Setting]) -> (u16, u16) {
         let group = self.pre_op(settings).await.into_pre_op_pdi(&self.master).await.unwrap();
         let unit = group.subdevice(&self.master, 0).unwrap();
-        // ethercrab's own way to SAFE-OP waits until its time-out, whatever AL status says.
+        // ethercrab's own transition to SAFE-OP waits until its time-out, whatever AL status is.
         unit.register_write(AL_CONTROL, 0x0004_u16).await.unwrap();
         let answered = async {
             loop {
@@ -149,7 +149,7 @@ impl Bench {
     async fn cycle(&self, group: &Group<Op>) -> Seen {
         group.tx_rx(&self.master).await.unwrap();
         let inputs = group.subdevice(&self.master, 0).unwrap().inputs_raw().to_vec();
-        // The new messages of 0x1BFE are behind the data sets.
+        // The new messages of 0x1BFE are after the data sets.
         let (data_sets, nx_unit_status) =
             (inputs[STATUS_BYTES..inputs.len() - 1].to_vec(), inputs[0] & 0b110);
         self.live.look(0, |unit| {
@@ -164,7 +164,7 @@ impl Bench {
         })
     }
 
-    /// Gives both sides data and exchanges until `wanted` is seen, and longer: it must stay so.
+    /// Sets data on both sides and exchanges them until `wanted` is seen, and longer: it must not change.
     pub(crate) async fn expect(&self, name: &str, group: &Group<Op>, wanted: &Seen) {
         let unit = group.subdevice(&self.master, 0).unwrap();
         let outputs = unit.outputs_raw().len();

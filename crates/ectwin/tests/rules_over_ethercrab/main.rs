@@ -1,7 +1,7 @@
-//! The setting rules as ethercrab meets them, in memory: each broken once, and corrected.
+//! The setting rules with ethercrab, in memory: each violated once, and corrected.
 //!
-//! A broken PDO rule keeps the unit in PRE-OP, a broken I/O entry rule keeps I/O refreshing from starting, a
-//! mismatch stops nothing.
+//! A violated PDO rule keeps the unit in PRE-OP, a violated I/O entry rule prevents the start of I/O
+//! refreshing, a mismatch stops nothing.
 
 #![cfg(feature = "ethercrab")]
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
@@ -23,7 +23,7 @@ const FACTORY_BYTES: usize = 180;
 const INVALID_INPUT_MAPPING: u16 = 0x0024;
 const INVALID_OUTPUT_MAPPING: u16 = 0x0025;
 
-/// A PDO rule that is broken, and what corrects it.
+/// A violated PDO rule, and its correction.
 struct PdoCase {
     name: &'static str,
     broken: Vec<Setting>,
@@ -31,7 +31,7 @@ struct PdoCase {
     corrected: Vec<Setting>,
 }
 
-/// Each PDO rule that has an AL status code, by direction. The corrections lead back to the factory setting.
+/// Each PDO rule that has an AL status code, by direction. The corrections restore the factory setting.
 #[rustfmt::skip]
 fn pdo_cases() -> Vec<PdoCase> {
     let case = |name, broken, al_status_code, corrected| PdoCase { name, broken, al_status_code, corrected };
@@ -86,7 +86,7 @@ async fn a_broken_pdo_rule_keeps_the_unit_in_pre_op_until_it_is_corrected() {
     }
 }
 
-/// What no setting can hold, because the SDO that would write it is refused.
+/// Settings that are impossible, because the SDO that would write them is refused.
 #[tokio::test]
 async fn an_entry_or_pdo_that_does_not_exist_is_refused_when_it_is_written() {
     let bench = Bench::power_on(UNIT);
@@ -117,7 +117,7 @@ fn expect_not_mappable(name: &str, written: Result<(), Error>) {
     assert!(not_mappable, "{name}: {written:?}");
 }
 
-/// Each I/O entry rule by direction, broken in a unit file.
+/// Each I/O entry rule by direction, violated in a unit file.
 const IO_CASES: &[(&str, &str)] = &[
     ("type M to C", "m_to_c.uints = [\"6000:01\", \"6001:01\"]\nc_to_m.uints = 6"),
     ("type C to M", "m_to_c.uints = 6\nc_to_m.uints = [\"7000:01\", \"7001:01\"]"),

@@ -1,4 +1,4 @@
-//! What master and CPU Unit see of an event, channel by channel (manual, 8-1-1).
+//! How master and CPU Unit see an event, channel by channel (manual, 8-1-1).
 
 use nx_ect101::{
     CurrentError, DIAGNOSIS_MESSAGE_BYTES, EcatEffect, Event, EventLevel, Fault, LogRecord, Notified,
@@ -26,7 +26,7 @@ pub(super) fn master(event: &Event) -> Vec<Fact> {
 
 /// The channels to the CPU Unit.
 pub(super) fn cpu_unit(event: &Event) -> Vec<Fact> {
-    // A fault that is no current error, such as a broken memory, counts.
+    // A fault that is not a current error, such as a broken memory, counts.
     let has_error = event.reported_as_current_error || Fault::of_event(event.code).is_some();
     let error = if has_error { "TRUE as long as the error lasts" } else { "as without the event" };
     let mut facts = vec![
@@ -97,7 +97,7 @@ fn diagnosis_history(event: &Event) -> String {
     )
 }
 
-/// The message as the unit makes it, with zeros for time and attached information.
+/// The message of the unit, with zeros for time and attached information.
 fn diagnosis_message(event: &Event, level: EventLevel) -> [u8; DIAGNOSIS_MESSAGE_BYTES] {
     let details = event.attached_information.iter().map(|_| 0).collect();
     LogRecord { event: event.code, level, time_ns: 0, details }.diagnosis_message()

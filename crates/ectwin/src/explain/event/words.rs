@@ -1,4 +1,4 @@
-//! The attributes of events in words for people.
+//! The attributes of events as text for display.
 
 use nx_ect101::{
     DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus, IoRefreshEffect, Recovery,
@@ -13,7 +13,7 @@ pub(crate) const fn level(level: EventLevel) -> &'static str {
     }
 }
 
-/// How an error of a unit ends after the cause is gone.
+/// The recovery from an error of a unit after the cause is gone.
 pub(crate) const fn recovery(recovery: Recovery) -> &'static str {
     match recovery {
         Recovery::ResetErrorInSlaveUnit => "reset the error in the unit: 2002:02 = 1, or from the CPU Unit",
