@@ -1,7 +1,7 @@
-//! Round trips over a veth pair: `ectwin run` against a process that only echoes, in the same run.
+//! Round trips over a veth pair: `ectwin run` compared with a process that only echoes, in the same run.
 //!
-//! `cargo bench -p ectwin-cli --bench veth` makes its own network namespace. Each line is one placement of the two
-//! processes; the echo blocks in its receive call, and is the floor that no emulation can go below.
+//! `cargo bench -p ectwin-cli --bench veth` creates its own network namespace. Each line is one placement of
+//! the two processes; the echo blocks in its receive call, and is the lower limit for any emulation.
 
 use std::io::{Read, Write};
 use std::os::fd::IntoRawFd;
@@ -15,7 +15,7 @@ use testbed::{Process, add_veth_pair, in_network_namespace, skip};
 
 const ROUND_TRIPS: usize = 20_000;
 const WARM_UP: usize = 1_000;
-/// An LRW of 1,200 bytes, as the largest unit gets it.
+/// An LRW of 1,200 bytes, the size for the largest unit.
 const DATA_BYTES: usize = 1_200;
 const NAME: &str = "veth";
 
@@ -28,7 +28,7 @@ fn main() {
 }
 
 fn compare() {
-    // The namespace helper of the tests looks for this line.
+    // The namespace helper of the tests waits for this line.
     println!("running 1 test");
     add_veth_pair("veth0", "veth1");
     for (placement, cores) in [("same core", ["0", "0"]), ("two cores", ["0", "1"])] {
@@ -64,7 +64,7 @@ fn measure([master, answerer]: [&str; 2], command: &[String]) -> Vec<u64> {
     for _ in 0..WARM_UP + ROUND_TRIPS {
         let sent = Instant::now();
         let _ = socket.write(&frame);
-        // The kernel's own IPv6 greetings pass here too.
+        // The kernel also sends IPv6 frames of its own here.
         while socket.read(&mut answer).is_ok_and(|length| length != frame.len()) {}
         times.push(u64::try_from(sent.elapsed().as_nanos()).unwrap_or(u64::MAX));
     }
@@ -98,7 +98,7 @@ fn lrw() -> Vec<u8> {
     frame
 }
 
-/// Answers every frame with itself, as an ESC marks it, and blocks in between.
+/// Answers every frame with the same frame, marked like by an ESC, and blocks in between.
 fn echo(interface: &str) {
     let mut socket = open(interface);
     println!("ready");

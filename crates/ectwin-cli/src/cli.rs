@@ -1,4 +1,4 @@
-//! What can stand on the command line.
+//! The command line.
 
 mod address;
 
@@ -11,11 +11,11 @@ use link::LinkSpec;
 
 use crate::commands::replay::{PartitionChoice, SeedChoice, SeedRange};
 
-/// The EtherCAT twin: virtual slave units that real EtherCAT masters take for real ones.
+/// The EtherCAT twin: virtual slave units that real EtherCAT masters treat as real ones.
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub(crate) struct Cli {
-    /// Log more, to stderr (-v info, -vv debug, -vvv trace); RUST_LOG overrules it
+    /// Log more, to stderr (-v info, -vv debug, -vvv trace); RUST_LOG takes precedence
     #[arg(short, long, action = clap::ArgAction::Count, global = true)]
     pub(crate) verbose: u8,
     #[command(subcommand)]
@@ -24,26 +24,26 @@ pub(crate) struct Cli {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Show a unit and a real master (ethercrab) at work in this process; needs no root and no network
+    /// Run a unit with a real master (ethercrab) in this process; needs no root and no network
     #[cfg(feature = "ethercrab")]
     Demo,
     /// Emulate units, in chain order, until SIGINT or SIGTERM
     Run(RunArgs),
     /// Check I/O allocation and PDO setting of a unit file against the setting rules
     Check(CheckArgs),
-    /// Print the I/O map of a unit: variables, types, places, Modbus addresses
+    /// Print the I/O map of a unit: variables, types, positions, Modbus addresses
     Map(MapArgs),
     /// Write the ESI file (XML) of a unit, for the configuration tool of a master
     Esi(ExportArgs),
     /// Write the SII image (EEPROM) of a unit
     Sii(ExportArgs),
-    /// Replay scenarios in virtual time, and tell which expectations held
+    /// Replay scenarios in virtual time, and report whether their expectations are fulfilled
     Replay(ReplayArgs),
-    /// Make a scenario of a capture: the master's frames are sent again, and the answers compared
+    /// Make a scenario from a capture: the master's frames are sent again, and the answers compared
     Import(ImportArgs),
-    /// Let the dice write steps, seed after seed, until an expectation fails; then cut the steps down
+    /// Add random steps, seed after seed, until an expectation fails; then reduce the steps
     Search(SearchArgs),
-    /// Put the results of all parts of a campaign together; none may be missing
+    /// Merge the results of all parts of a campaign; none may be missing
     Merge(MergeArgs),
     /// Structured Text, the language of user programs
     #[command(subcommand)]
@@ -71,18 +71,17 @@ pub(crate) struct RunArgs {
     /// Write every frame to this file (pcapng)
     #[arg(long, value_name = "FILE")]
     pub(crate) pcap: Option<PathBuf>,
-    /// Run this user program instead of the one that the unit files name: FILE.st in Structured Text, or FILE.wasm
-    /// where the feature `wasm` is built in. Several files, or a folder, are one program. It is reloaded when a file
-    /// changes
+    /// Run this user program instead of the one in the unit files: FILE.st in Structured Text, or FILE.wasm if the
+    /// feature `wasm` is built in. Several files, or a folder, are one program. It is reloaded when a file changes
     #[arg(long = "program", value_name = "FILE")]
     pub(crate) programs: Vec<PathBuf>,
-    /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone is one of 127.0.0.1
+    /// Serve the variables of the CPU Units to Modbus TCP clients at this address; a port alone means 127.0.0.1
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::modbus)]
     pub(crate) modbus: Option<SocketAddr>,
-    /// The same for OPC UA clients, where the feature `opcua` is built in
+    /// The same for OPC UA clients, if the feature `opcua` is built in
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::opcua)]
     pub(crate) opcua: Option<SocketAddr>,
-    /// Drop the waits of the unit, such as 2 ms before each SDO response
+    /// Skip the simulated times of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
 }
@@ -122,34 +121,34 @@ pub(crate) struct ExportArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct ReplayArgs {
-    /// Scenario files; of a folder all .toml files below it
+    /// Scenario files; a folder means all .toml files in it and below
     #[arg(required = true, value_name = "FILE")]
     pub(crate) files: Vec<PathBuf>,
-    /// Seed of the dice instead of the one that each file names; `random` draws one and tells it
+    /// Seed of the random generator instead of the one in each file; `random` chooses one and prints it
     #[arg(long, value_name = "N|random", conflicts_with = "seeds")]
     pub(crate) seed: Option<SeedChoice>,
     /// Replay each scenario with all of these seeds: 1..100, or 100 for the same
     #[arg(long, value_name = "A..B")]
     pub(crate) seeds: Option<SeedRange>,
-    /// Write the golden traces beside the files that have one, and beside those that are named, and end
+    /// Write the golden traces beside the files that have one, and beside those that are named, and exit
     #[arg(long, conflicts_with_all = ["seed", "seeds", "partition"])]
     pub(crate) bless: bool,
-    /// Print what happens and when, below each case
+    /// Print the actions with their times, below each case
     #[arg(long)]
     pub(crate) trace: bool,
     /// Write a JUnit file, for CI systems
     #[arg(long, value_name = "OUT")]
     pub(crate) junit: Option<PathBuf>,
-    /// Write one JSON line for each case, for programs and for `ectwin merge`
+    /// Write one JSON line for each case, for other programs and for `ectwin merge`
     #[arg(long, value_name = "OUT")]
     pub(crate) json: Option<PathBuf>,
-    /// Write every frame (pcapng): of one case to a file, of several to a folder, which ends with /
+    /// Write every frame (pcapng): of one case to a file, of several to a folder, whose path ends with /
     #[arg(long, value_name = "OUT")]
     pub(crate) pcap: Option<PathBuf>,
-    /// Replay only this part of the cases, such as 1/4; `auto` asks the variables of the CI system
+    /// Replay only this part of the cases, such as 1/4; `auto` uses the variables of the CI system
     #[arg(long, value_name = "i/n|auto")]
     pub(crate) partition: Option<PartitionChoice>,
-    /// Number of threads; left out, as many as the machine runs at once. It changes no result
+    /// Number of threads; default: as many as the machine can run in parallel. It does not change the results
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
 }
@@ -166,10 +165,10 @@ pub(crate) struct ImportArgs {
     /// A capture (pcapng) of a master and its units
     #[arg(value_name = "CAPTURE")]
     pub(crate) capture: PathBuf,
-    /// Unit files, in chain order; left out, as many default units as the capture shows
+    /// Unit files, in chain order; default: as many default units as there are in the capture
     #[arg(long = "unit", value_name = "FILE")]
     pub(crate) units: Vec<PathBuf>,
-    /// The scenario file to be written
+    /// The scenario file to write
     #[arg(short, long, value_name = "SCENARIO")]
     pub(crate) output: PathBuf,
 }
@@ -185,14 +184,14 @@ pub(crate) struct SearchArgs {
     /// The first seed
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub(crate) seed: u64,
-    /// Write what is left of a failure to this file; left out, beside FILE with the seed in its name
+    /// Write the reduced scenario of a failure to this file; default: beside FILE, with the seed in its name
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// What the parts have written by `ectwin replay --json`
+    /// The files that the parts have written with `ectwin replay --json`
     #[arg(required = true, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
     /// Write a JUnit file of all cases
@@ -202,16 +201,16 @@ pub(crate) struct MergeArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum St {
-    /// Check a program: whatever is wrong with it, with places and the way out
+    /// Check a program: report all problems, with positions and remedies
     Check(StCheckArgs),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct StCheckArgs {
-    /// The files of the program; of a folder all .st files below it
+    /// The files of the program; a folder means all .st files in it and below
     #[arg(required = true, value_name = "FILE.st")]
     pub(crate) programs: Vec<PathBuf>,
-    /// The unit file whose device variables the program uses; left out, those of the factory setting
+    /// The unit file whose device variables the program uses; default: those of the factory setting
     #[arg(long, value_name = "FILE")]
     pub(crate) unit: Option<PathBuf>,
     /// One JSON document instead of text
@@ -239,7 +238,7 @@ pub(crate) enum List {
         #[arg(long)]
         json: bool,
     },
-    /// What each indicator tells, and its patterns over time
+    /// The meaning of each indicator, and its patterns over time
     Indicators {
         /// One JSON document instead of text
         #[arg(long)]

@@ -1,13 +1,13 @@
-//! Whether what is printed may have colour.
+//! Whether output may be coloured.
 
 use std::io::{self, IsTerminal};
 
-/// Whether messages may have colour: someone looks at them, and has not asked for none.
+/// Whether messages may be coloured: they go to a terminal, and colours are not switched off.
 pub(crate) fn colour_on_stderr() -> bool {
     io::stderr().is_terminal() && is_wanted()
 }
 
-/// Whether results may have colour: someone looks at them, and has not asked for none.
+/// Whether results may be coloured: they go to a terminal, and colours are not switched off.
 pub(crate) fn colour_on_stdout() -> bool {
     io::stdout().is_terminal() && is_wanted()
 }

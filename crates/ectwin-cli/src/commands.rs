@@ -21,7 +21,7 @@ mod st_check;
 use crate::cli::{Command, List, St};
 use crate::failure::Failure;
 
-/// Does what the command line asks for.
+/// Executes the command.
 pub(crate) fn run(command: Command) -> Result<(), Failure> {
     match command {
         #[cfg(feature = "ethercrab")]

@@ -1,17 +1,17 @@
-//! File descriptors: how many this process may have, and what is left of a call that got none.
+//! File descriptors: the limit of this process, and detecting that they are used up.
 
 use std::io;
 
 use rustix::io::Errno;
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
 
-/// Open as long as a unit has its memory in a file: the file, and the lock on its name.
+/// Open while the memory of a unit is in a file: the file, and the lock on its name.
 const EACH_UNIT: u64 = 2;
-/// Links, servers and all else, generously.
+/// Links, servers and everything else, with a margin.
 const EVERYTHING_ELSE: u64 = 128;
 
-/// Makes room for the files of so many units, as far as the system lets us. Where it is too little, a unit is refused
-/// when its file is opened.
+/// Raises the limit for the files of this number of units, as far as the system permits. If that is
+/// insufficient, a unit is refused when its file is opened.
 pub(crate) fn make_room(units: usize) {
     let limit = getrlimit(Resource::Nofile);
     let wanted = EVERYTHING_ELSE + EACH_UNIT * units as u64;
@@ -22,7 +22,7 @@ pub(crate) fn make_room(units: usize) {
     }
 }
 
-/// Whether a call has failed for want of a file descriptor.
+/// Whether a call has failed because there were no file descriptors left.
 pub(crate) fn are_exhausted(error: &io::Error) -> bool {
     [Errno::MFILE, Errno::NFILE].iter().any(|errno| error.raw_os_error() == Some(errno.raw_os_error()))
 }

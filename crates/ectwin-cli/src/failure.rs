@@ -1,4 +1,4 @@
-//! How a command ends that could not do what it was asked: a message, the way out, an exit code.
+//! The failure of a command: a message, the remedy, an exit code.
 
 use std::io::{self, Write};
 use std::net::SocketAddr;
@@ -15,17 +15,17 @@ use crate::file_problem::FileProblems;
 
 /// Why a command failed.
 pub(crate) enum Failure {
-    /// `explain` does not know it.
+    /// `explain` has no such subject.
     Unexplained(Unexplained),
-    /// A file is not what it should be, with the places in it.
+    /// A file is not valid, with the places of its mistakes.
     BadFile(FileProblems),
-    /// The setting rules are not satisfied. The findings are the command's result, told already.
+    /// The setting rules are not satisfied. The findings are the command's result, already printed.
     RulesBroken,
-    /// A program is wrong, with the places in it; nothing if that has been told.
+    /// A program has problems, with their places; empty if they have already been printed.
     ProgramWrong(FileProblems),
-    /// A case of a campaign failed. Its story has been told.
+    /// A case of a campaign failed. This has already been printed.
     CasesFailed,
-    /// What was asked for makes no sense together, or with what is there.
+    /// The arguments contradict each other, or the existing files.
     Refused { message: String, help: String },
     /// A file cannot be read.
     Unreadable { path: PathBuf, source: Unreadable },
@@ -48,7 +48,7 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// Tells the user on stderr, and gives the exit code of the command line's contract.
+    /// Reports it to the user on stderr, and returns the exit code defined for the command line.
     pub(crate) fn report(self) -> ExitCode {
         let (message, help) = self.words();
         let mut text = match self {
@@ -58,7 +58,7 @@ impl Failure {
         if let Some(help) = help {
             text.push_str(&format!("help: {}\n", escaped(&help)));
         }
-        // Nobody is left to tell if stderr is closed.
+        // If stderr is closed, the message cannot be delivered.
         let _ = io::stderr().write_all(text.as_bytes());
         ExitCode::from(self.exit_code())
     }
@@ -84,7 +84,7 @@ impl Failure {
         }
     }
 
-    /// What the system has refused.
+    /// The error of the system.
     fn source(&self) -> Option<&io::Error> {
         match self {
             Self::Unreadable { source, .. } => source.refused_by_system(),

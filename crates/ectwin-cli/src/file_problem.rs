@@ -1,4 +1,4 @@
-//! What is wrong with files that users wrote, with pictures of the places.
+//! The mistakes in user files, with excerpts of their places.
 
 mod excerpt;
 mod shown_file;
@@ -17,24 +17,24 @@ use crate::colour::colour_on_stderr;
 use excerpt::Excerpt;
 pub(crate) use shown_file::ShownFile;
 
-/// What is wrong with the files of a command: the first things in full, and how many more there are.
+/// The mistakes in the files of a command: the first ones in full, and the number of others.
 #[derive(Debug, Default)]
 pub(crate) struct FileProblems {
     list: Vec<FileProblem>,
     more: usize,
-    /// A reader has stopped, so that no one knows how many more there are.
+    /// A reader has stopped, so that the number of others is not known.
     have_stopped: bool,
 }
 
 impl FileProblems {
-    /// These, of which the reader of a file has left out `more`.
+    /// These mistakes, of which the reader of a file has left out `more`.
     pub(crate) fn new(list: impl IntoIterator<Item = FileProblem>, more: usize) -> Self {
         let mut problems = Self { more, ..Self::default() };
         list.into_iter().for_each(|problem| problems.push(problem));
         problems
     }
 
-    /// What is wrong with a program in Structured Text.
+    /// The problems of a program in Structured Text.
     pub(crate) fn of_program(problems: &st::Problems) -> Self {
         let problem = |problem: &st::Problem| {
             let st::Place { file, text, range, .. } = problems.place(problem);
@@ -49,7 +49,7 @@ impl FileProblems {
         self.push_by(|| problem);
     }
 
-    /// Adds a problem, which is put into words only if it is among the first.
+    /// Adds a problem, whose text is made only if it is among the first.
     pub(crate) fn push_by(&mut self, problem: impl FnOnce() -> FileProblem) {
         if self.list.len() < MISTAKES_MAX {
             self.list.push(problem());
@@ -58,12 +58,12 @@ impl FileProblems {
         }
     }
 
-    /// Whether as many are there as are put into words.
+    /// Whether the maximum number of texts has been reached.
     pub(crate) const fn is_full(&self) -> bool {
         self.list.len() >= MISTAKES_MAX
     }
 
-    /// The reader stops at one more that it has found.
+    /// The reader stops at one more problem that it has found.
     pub(crate) const fn stop(&mut self) {
         self.have_stopped = true;
     }
@@ -79,7 +79,7 @@ impl FileProblems {
         self.list.is_empty()
     }
 
-    /// All of them for people, each with its place.
+    /// All of them as text, each with its place.
     pub(crate) fn pictures(&self) -> String {
         let mut text: String = self.list.iter().map(|problem| picture(problem)).collect();
         let more = if self.have_stopped { Some(st::stopped_words()) } else { and_more(self.more) };
@@ -96,7 +96,7 @@ impl From<FileProblem> for FileProblems {
     }
 }
 
-/// One place in a file where something is wrong.
+/// One mistake in a file, with its place.
 #[derive(Debug)]
 pub(crate) struct FileProblem {
     message: String,
@@ -107,31 +107,31 @@ pub(crate) struct FileProblem {
 }
 
 impl FileProblem {
-    /// At a place in the text of a file; an empty help is none.
+    /// At a place in the text of a file; an empty remedy means none.
     pub(crate) fn in_text(path: &Path, text: &str, span: Range<usize>, message: &str, help: &str) -> Self {
         Self::at(path, text, span, message, "here").with_help(help)
     }
 
-    /// In this line of a file, from 1, of which nothing else is kept.
+    /// In this line of a file, from 1; nothing else of the file is kept.
     pub(crate) fn in_line(path: &Path, number: usize, line: &str, message: &str, help: &str) -> Self {
         let excerpt = Excerpt::of_line(&path.display().to_string(), number, line);
         Self { message: escaped(message), label: "here".to_owned(), help: None, excerpt: Some(excerpt) }
             .with_help(help)
     }
 
-    /// Of a file as a whole.
+    /// For a file as a whole.
     pub(crate) fn of_file(message: &str, help: &str) -> Self {
         let message = escaped(message);
         Self { message, label: String::new(), help: None, excerpt: None }.with_help(help)
     }
 
-    /// At a place that this label explains.
+    /// At a place with this label.
     pub(crate) fn at(path: &Path, text: &str, span: Range<usize>, message: &str, label: &str) -> Self {
         let excerpt = Some(Excerpt::of(&path.display().to_string(), text, span));
         Self { message: escaped(message), label: escaped(label), help: None, excerpt }
     }
 
-    /// Of a unit file.
+    /// For a unit file.
     pub(crate) fn of_unit_file(path: &Path, text: &str, error: &FileError) -> Self {
         let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
         let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));
@@ -146,7 +146,7 @@ impl FileProblem {
     }
 }
 
-/// The place in the file with what is wrong there, in plain letters unless someone looks at it in colour.
+/// The excerpt of the file with the message, without colour unless the output may be coloured.
 fn picture(diagnostic: &dyn Diagnostic) -> String {
     let theme = if colour_on_stderr() { GraphicalTheme::unicode() } else { GraphicalTheme::none() };
     let mut text = String::new();

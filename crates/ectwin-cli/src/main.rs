@@ -20,8 +20,8 @@ use signal_hook::consts::SIGXFSZ;
 fn main() -> ExitCode {
     let cli = cli::Cli::parse();
     output::start_logging(cli.verbose);
-    // A write beyond the file size limit of the process is then refused, as by a full disk, and does not end it. There
-    // is no handler to be had for a signal that the system does not know.
+    // A write beyond the file size limit of the process is then refused, like by a full disk, and does not end
+    // the process. On a system without this signal no handler is needed.
     let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
     match commands::run(cli.command) {
         Ok(()) => ExitCode::SUCCESS,

@@ -1,4 +1,4 @@
-//! Where results and logs go: results to stdout, logs to stderr.
+//! The targets of results and logs: results to stdout, logs to stderr.
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -9,10 +9,10 @@ use user_file::escaped;
 use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
 
-/// Longer lines are cut. The longest that is of use has the bytes of a whole SyncManager.
+/// Longer lines are cut. The longest useful line contains the bytes of a whole SyncManager.
 const LINE_CHARACTERS_MAX: usize = 8_000;
 
-/// Sends logs to stderr; `RUST_LOG` overrules the level that `-v` asks for.
+/// Sends logs to stderr; `RUST_LOG` takes precedence over the level of `-v`.
 pub(crate) fn start_logging(verbose: u8) {
     let level = match verbose {
         0 => "warn",
@@ -28,7 +28,7 @@ pub(crate) fn start_logging(verbose: u8) {
         .init();
 }
 
-/// A JSON document with its last line ended.
+/// A JSON document, with the end of its last line.
 pub(crate) fn json(document: &impl serde::Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(document);
     let source =
@@ -36,7 +36,7 @@ pub(crate) fn json(document: &impl serde::Serialize) -> Result<String, Failure> 
     text.map(|text| text + "\n").map_err(source)
 }
 
-/// Prints a result at once. A reader who has seen enough (`| head`) is no error.
+/// Prints a result immediately. If the reader closes the pipe (`| head`), that is not an error.
 pub(crate) fn print(result: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(result).and_then(|()| stdout.flush()) {
@@ -47,13 +47,13 @@ pub(crate) fn print(result: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Prints a text for people at once. What files and names bring into it is harmless to a terminal: control characters
-/// are written out, and lines without end are cut.
+/// Prints a text for display immediately. Text from files and names is made safe for a terminal: control
+/// characters are escaped, and overlong lines are cut.
 pub(crate) fn print_text(text: &str) -> Result<(), Failure> {
     print(for_terminals(text).as_bytes())
 }
 
-/// Prints a line for people at once.
+/// Prints a line for display immediately.
 pub(crate) fn print_line(line: impl std::fmt::Display) -> Result<(), Failure> {
     print_text(&format!("{line}\n"))
 }

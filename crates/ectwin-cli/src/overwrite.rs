@@ -1,4 +1,4 @@
-//! What a command writes never takes the place of what it reads, by whatever path either comes.
+//! The outputs of a command never replace its inputs, whatever paths are used.
 
 use std::path::Path;
 
@@ -6,15 +6,15 @@ use storage::Identity;
 
 use crate::failure::Failure;
 
-/// A file that the command line asks for.
+/// A file of the command line.
 #[derive(Clone, Copy)]
 pub(crate) struct Output<'a> {
-    /// The option that names it.
+    /// Its option.
     pub(crate) option: &'a str,
     pub(crate) path: &'a Path,
 }
 
-/// Refuses outputs that are one of `inputs`, or one file for two of them.
+/// Refuses outputs that are one of `inputs`, or the same file twice.
 pub(crate) fn refuse(
     outputs: &[Output<'_>],
     inputs: impl IntoIterator<Item = impl AsRef<Path>>,
@@ -22,7 +22,7 @@ pub(crate) fn refuse(
     refuse_all(outputs, inputs, "which this command uses")
 }
 
-/// Refuses an output that is one of the files which a unit file names: its memory, its program.
+/// Refuses an output that is one of the files of a unit file: its memory, its program.
 pub(crate) fn refuse_named(
     output: &Output<'_>,
     named: impl IntoIterator<Item = impl AsRef<Path>>,

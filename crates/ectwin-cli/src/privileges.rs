@@ -1,4 +1,4 @@
-//! Capabilities are for opening links and ports only; who answers frames of strangers has none.
+//! Capabilities are only for opening links and ports; the threads that answer received frames have none.
 
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -9,12 +9,12 @@ use rustix::thread::{CapabilitySet, CapabilitySets, capabilities, set_capabiliti
 /// A file that is used while the units run.
 pub(crate) enum LaterUse {
     Read(PathBuf),
-    /// Replaced as a whole, by a new file in its folder.
+    /// Replaced completely, by a new file in its folder.
     Written(PathBuf),
 }
 
-/// Gives up all capabilities, and the way to new ones, for this thread and those that it starts later. The superuser
-/// keeps CAP_DAC_OVERRIDE where a file of another user is out of reach without it.
+/// Drops all capabilities, and the possibility to gain new ones, for this thread and those that it starts
+/// later. The superuser keeps CAP_DAC_OVERRIDE if a file of another user is not accessible without it.
 pub(crate) fn give_up(files: &[LaterUse]) {
     let kept = if in_reach_without_capabilities(files) {
         CapabilitySet::empty()
@@ -32,7 +32,7 @@ fn keep_only(kept: CapabilitySet) -> rustix::io::Result<()> {
     set_capabilities(None, CapabilitySets { effective: permitted, permitted, inheritable })
 }
 
-/// Capabilities are those of a thread: one that has none tries.
+/// Capabilities belong to a thread: one without any tries to access the files.
 fn in_reach_without_capabilities(files: &[LaterUse]) -> bool {
     thread::scope(|scope| {
         let tried = scope.spawn(|| keep_only(CapabilitySet::empty()).is_ok() && files.iter().all(in_reach));

@@ -1,4 +1,4 @@
-//! Reading unit files for the command line, with a picture of what is wrong in them.
+//! Reading unit files for the command line, with excerpts at their mistakes.
 
 use std::io;
 use std::ops::Range;
@@ -13,8 +13,8 @@ use crate::descriptors;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
 
-/// Reads one unit file, and the user program that it names, seen from its folder. The files of a program that are given
-/// take the place of those that it names. The non-volatile memory that it names is left alone until [`with_storage`].
+/// Reads one unit file, and its user program, relative to its folder. Files of a program that are given replace
+/// those in the unit file. The non-volatile memory is not accessed before [`with_storage`].
 pub(crate) fn read(path: &Path, programs: &[PathBuf]) -> Result<Setup, Failure> {
     let text = text_of(path)?;
     let setup = if programs.is_empty() {
@@ -25,7 +25,7 @@ pub(crate) fn read(path: &Path, programs: &[PathBuf]) -> Result<Setup, Failure> 
     setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
 }
 
-/// Gives the unit of this file the non-volatile memory that it names, and the thread that keeps it.
+/// Loads the non-volatile memory of this file's unit, and starts the thread that stores it.
 pub(crate) fn with_storage(path: &Path, setup: Setup) -> Result<Setup, Failure> {
     let opened = setup.with_storage(folder_of(path));
     opened.map_err(|error| match lack_of_descriptors(&error) {
@@ -37,7 +37,7 @@ pub(crate) fn with_storage(path: &Path, setup: Setup) -> Result<Setup, Failure> 
     })
 }
 
-/// The failure of a memory file that is not at fault itself: this process has too many open files.
+/// The error for a memory file that is not at fault itself: this process has too many open files.
 fn lack_of_descriptors(error: &SetupError) -> Option<Failure> {
     let SetupError::Storage { path, os_error: Some(os_error), .. } = error else { return None };
     let source = io::Error::from_raw_os_error(*os_error);
@@ -45,13 +45,13 @@ fn lack_of_descriptors(error: &SetupError) -> Option<Failure> {
     descriptors::are_exhausted(&source).then_some(source).map(unwritable)
 }
 
-/// The file of the non-volatile memory that this unit file names, behind symbolic links.
+/// The file of the non-volatile memory in this unit file, after symbolic links.
 pub(crate) fn storage_path(path: &Path, file: &UnitFile) -> Option<PathBuf> {
     let path = folder_of(path).join(&file.storage.as_ref()?.value);
     Some(storage::resolve(&path).unwrap_or(path))
 }
 
-/// The files that this unit file names: the memory and those of the program.
+/// The files of this unit file: the memory and those of the program.
 pub(crate) fn named_files(path: &Path, file: &UnitFile) -> Vec<PathBuf> {
     let named = file.cpu.program.iter().flat_map(|program| &program.value);
     let is_file = |name: &&PathBuf| Builtin::named(&name.display().to_string()).is_none();
@@ -70,7 +70,7 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
     user_files::text(path, Wanted::UnitFile).map_err(unreadable)
 }
 
-/// Reads one unit file with its text, and nothing that it names.
+/// Reads one unit file with its text, without the files that it refers to.
 pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
     let text = text_of(path)?;
     match UnitFile::parse(&text) {

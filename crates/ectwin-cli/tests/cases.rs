@@ -1,4 +1,4 @@
-//! The files of tests/cases: each is one test, and the end of its name says what the command has to do with it.
+//! The files of tests/cases: each is one test, and the end of its name selects how the command is tested with it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,18 +6,18 @@ use std::process::Command;
 
 use libtest_mimic::{Arguments, Failed, Trial};
 
-/// What the command has to do with files whose names end like this. The first ending that fits counts.
+/// The tests for files whose names end like this. The first ending that matches is used.
 struct Kind {
     ending: &'static str,
     command: &'static [&'static str],
     exit_code: i32,
-    /// What stdout or stderr has to contain.
+    /// The required contents of stdout or stderr.
     says: &'static [&'static str],
 }
 
 const KINDS: &[Kind] = &[
     Kind { ending: ".check.st", command: &["st", "check"], exit_code: 0, says: &["no problems"] },
-    // A program that the scenario of the same name runs.
+    // A program for the scenario with the same name.
     Kind { ending: ".st", command: &["st", "check"], exit_code: 0, says: &["no problems"] },
     Kind { ending: ".mustfail.toml", command: &["replay"], exit_code: 1, says: &["FAILED"] },
     Kind { ending: ".toml", command: &["replay"], exit_code: 0, says: &["1 ok, 0 failed"] },

@@ -166,7 +166,7 @@ fn list_rules_has_the_seven_rules_and_their_events() {
     }
 }
 
-/// Breaks the rules of type and order in every data set on both sides, and the order of the PDOs.
+/// Violates the rules of type and order in every data set on both sides, and the order of the PDOs.
 const EVERYTHING_BROKEN: &str = r#"
 [io_allocation]
 m_to_c = { uints = ["6001:01", "6000:05"], bytes = ["6000:01", "6001:05"], udint = ["6000:01", "6002:05"] }

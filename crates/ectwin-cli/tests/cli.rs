@@ -1,4 +1,4 @@
-//! The command refuses what it cannot do with the place, the reason and a way out, and the right exit code.
+//! The command refuses impossible requests with the place, the reason and the remedy, and the correct exit code.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -14,7 +14,7 @@ fn factory() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../units/nx-ect101.toml")
 }
 
-/// `ectwin run` with a unit file of this text, on a link that is not reached.
+/// `ectwin run` with a unit file with this text; the link is never opened.
 fn run_unit_file(name: &str, text: &str) -> Output {
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let written = std::fs::write(&file, text);
@@ -26,7 +26,7 @@ fn output_of(command: &mut Command) -> Output {
     command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"))
 }
 
-/// The exit code, and every fragment on standard error; standard output stays empty.
+/// The exit code, and every fragment on standard error; standard output is empty.
 fn expect(output: &Output, code: i32, fragments: &[&str]) {
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(code), "{told}");
@@ -93,7 +93,7 @@ fn a_user_without_permission_is_told_which_one_is_missing() {
     expect(&output, NO_LINK, &["lo", "CAP_NET_RAW"]);
 }
 
-/// ectwin as an ordinary user starts it, whoever runs the tests.
+/// ectwin as started by an ordinary user, whichever user runs the tests.
 fn without_raw_sockets() -> Command {
     let id = output_of(Command::new("id").arg("--user"));
     if id.stdout.trim_ascii() != b"0" {

@@ -1,4 +1,4 @@
-//! The commands that end by themselves: what they print and how they end.
+//! The commands that end without a signal: what they print and how they end.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,5 +1,5 @@
-//! Too few file descriptors: a message at the start, and no panic at any number of them; later, whoever is connected is
-//! served.
+//! Too few file descriptors: a message at the start, and no panic at any number of them; later, connected
+//! clients are still served.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -15,20 +15,20 @@ use std::time::Duration;
 use started::{Started, folder_of, free_link};
 
 const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
-/// With fewer not even the program's libraries are found.
+/// With fewer, even the program's libraries cannot be loaded.
 const FEWEST: u32 = 4;
 const MOST: u32 = 64;
-/// A server that does not answer is found out after so long.
+/// A server that does not answer is detected after this time.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// Reads a register; whether there is an answer.
+/// Reads a register; returns whether there is an answer.
 fn is_served(client: &mut TcpStream) -> bool {
     let request = [0, 1, 0, 0, 0, 6, 1, 0x03, 0, 0, 0, 1];
     client.set_read_timeout(Some(PATIENCE)).unwrap();
     client.write_all(&request).is_ok() && client.read_exact(&mut [0; 11]).is_ok()
 }
 
-/// The memory files of units are claimed last: whatever the number, it is not the unit file that is at fault.
+/// The memory files of units are claimed last: for no number of descriptors is the unit file reported as the cause.
 #[test]
 fn at_any_number_of_descriptors_a_unit_with_a_memory_file_starts_or_says_why_not() {
     let folder = folder_of("memory");
@@ -64,7 +64,7 @@ fn at_any_number_of_descriptors_there_is_a_message_or_a_server_that_goes_on() {
         None
     });
     let mut server = first_ready.unwrap();
-    // Few are left: some clients are taken in, and each further one takes the place of one without a request.
+    // Few are left: some clients are admitted, and each further one replaces one without a request.
     let mut working = TcpStream::connect(&modbus).unwrap();
     assert!(is_served(&mut working));
     let mute: Vec<TcpStream> = (0..30).map(|_| TcpStream::connect(&modbus).unwrap()).collect();

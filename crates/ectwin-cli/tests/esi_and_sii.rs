@@ -1,5 +1,5 @@
-//! What the exported ESI and SII say, against each other and against the registers: what a configurator and a
-//! conformance test compare first. Every unit file of the repository is a case.
+//! The contents of the exported ESI and SII, compared with each other and with the registers: the first checks
+//! of a configurator and a conformance test. Every unit file of the repository is a case.
 
 #![expect(
     clippy::unwrap_used,
@@ -55,7 +55,7 @@ impl Unit {
         u32::from(self.word(address)) | (u32::from(self.word(address + 1)) << 16)
     }
 
-    /// The categories, by number and content; the end has to be 0xFFFF.
+    /// The categories, by number and content; the end must be 0xFFFF.
     fn categories(&self) -> Vec<(u16, &[u8])> {
         let (mut categories, mut at) = (Vec::new(), 0x40);
         while self.word(at) != 0xFFFF {
@@ -83,7 +83,7 @@ fn find<'a>(node: Node<'a, 'a>, name: &str) -> Node<'a, 'a> {
     node.descendants().find(|each| each.has_tag_name(name)).unwrap_or_else(|| panic!("no {name}"))
 }
 
-/// The element with the protocols; another one of its name, in Info, has time-outs.
+/// The element with the protocols; another element with this name, in Info, has time-outs.
 fn mailbox<'a>(device: Node<'a, 'a>) -> Node<'a, 'a> {
     device.children().find(|node| node.has_tag_name("Mailbox")).expect("the device has a mailbox")
 }
@@ -204,7 +204,7 @@ fn the_controller_has_as_many_fmmus_and_sync_managers_as_the_esi_asks_for() {
     });
 }
 
-/// C029: Y is MII (3), K is EBUS (2), and a port that is not named does not exist (0).
+/// C029: Y is MII (3), K is EBUS (2), and a port that is not listed does not exist (0).
 #[test]
 fn physics_are_the_port_descriptor() {
     with_each(|unit, device| {
@@ -232,7 +232,7 @@ fn the_esi_has_what_a_configurator_needs() {
     });
 }
 
-/// C035: the walk over the categories comes to the end, and finds them in the order of the field.
+/// C035: the walk over the categories reaches the end, and finds them in the usual order.
 #[test]
 fn categories_end_where_their_lengths_say() {
     with_each(|unit, _| {

@@ -1,4 +1,4 @@
-//! `ectwin import`: a capture becomes a scenario, which `ectwin replay` takes.
+//! `ectwin import`: a capture becomes a scenario, which `ectwin replay` accepts.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -67,7 +67,7 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
     let bench = with_capture("import-refused");
     bench.put("text.pcapng", "no capture");
     bench.put("old.toml", "");
-    // A section and nothing in it.
+    // An empty section.
     let mut empty = vec![0x0A, 0x0D, 0x0D, 0x0A, 28, 0, 0, 0, 0x4D, 0x3C, 0x2B, 0x1A, 1, 0, 0, 0];
     empty.extend([0xFF; 8]);
     empty.extend([28, 0, 0, 0]);
@@ -93,7 +93,7 @@ fn differences_are_counted_by_kind_in_text_and_json() {
     let bench = with_capture("import-kinds");
     let two = ["--unit", "units/unit.toml", "--unit", "units/unit.toml", "-o", "units/two.toml"];
     assert_eq!(bench.ectwin(&[&["import", "captures/live.pcapng"], &two[..]].concat()).code, Some(0));
-    // The third unit is not there, and two frames get lost besides.
+    // The third unit does not exist, and two frames are lost in addition.
     let lose = "steps = [\n  { line = \"lose the next 2 frames\" },";
     bench.put("units/two.toml", &bench.text("units/two.toml").replace("steps = [", lose));
     let ended = bench.ectwin(&["replay", "units/two.toml", "--json", "out.jsonl"]);
@@ -130,7 +130,7 @@ fn block(block_type: u32, body: &[u8]) -> Vec<u8> {
     [&block_type.to_le_bytes()[..], &length, body, &length].concat()
 }
 
-/// A frame with APRD of two bytes at this position: from the master, or as it comes back.
+/// A frame with APRD of two bytes at this position: from the master, or as returned.
 fn by_position(position: u16, answered: bool) -> Vec<u8> {
     let mut frame = vec![0; 60];
     frame[..6].fill(0xFF);

@@ -1,4 +1,4 @@
-//! The map of docs/user/modbus.md is the one that the server answers by, and the command tells what it cannot serve.
+//! The server uses the map of docs/user/modbus.md, and the command reports what it cannot serve.
 
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
@@ -13,7 +13,7 @@ use ectwin::unit_file::UnitFile;
 use ectwin::{Setup, Twin};
 use plc::{DeviceVariables, VariableSource};
 
-/// As much of each data set as there is; the setting rules do not matter here.
+/// The maximum of each data set; the setting rules do not matter here.
 const EVERYTHING: &str = "model = \"nx-ect101\"\n[io_allocation]\n\
     m_to_c = { uints = 40, bytes = 10, udint = 32 }\nc_to_m = { uints = 40, bytes = 10, udint = 32 }\n";
 
@@ -106,7 +106,7 @@ fn each_unit_of_a_line_has_its_unit_identifier() {
 fn a_port_that_is_taken_ends_the_command_like_a_link_that_cannot_be_opened() {
     let taken = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = taken.local_addr().unwrap().port().to_string();
-    // A link that can be opened: the port of another socket that has gone.
+    // A link that can be opened: the port of another socket that has been closed.
     let link = UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
     command.args(["run", concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml")]);

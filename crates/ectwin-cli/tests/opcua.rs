@@ -1,4 +1,4 @@
-//! An OPC UA client of others reads, writes and watches variables of the built command, which leaves no files behind.
+//! A third-party OPC UA client reads, writes and monitors variables of the built command, which leaves no files behind.
 
 use std::net::TcpListener;
 use std::path::Path;

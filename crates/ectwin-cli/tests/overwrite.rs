@@ -1,4 +1,4 @@
-//! No command writes over a file that it reads, by whatever path it is named.
+//! No command overwrites a file that it reads, by whatever path it is given.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -12,7 +12,7 @@ use std::path::Path;
 
 use started::{Started, ended, folder_of, free_link};
 
-/// Every command with an output that may be there already, and the input that it names as output.
+/// Every command with an output that may already exist, and the input that is given as the output.
 const CASES: &[(&[&str], &str)] = &[
     (&["esi", "unit.toml", "-o", "OUT"], "unit.toml"),
     (&["sii", "unit.toml", "-o", "OUT"], "unit.toml"),
@@ -28,14 +28,14 @@ const CASES: &[(&[&str], &str)] = &[
     (&["replay", "scenario.toml", "--json", "OUT"], "N1.nvm"),
     (&["replay", "scenario.toml", "--pcap", "OUT"], "live.pcapng"),
     (&["replay", "scenario.toml", "--junit", "OUT"], "scenario.trace"),
-    // Its golden trace would have its own name.
+    // Its golden trace would have a different name.
     (&["replay", "named.trace", "--bless"], "named.trace"),
     (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "unit.toml"),
     (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "N1.nvm"),
     (&["run", "unit.toml", "--link", "LINK", "--pcap", "OUT"], "program.st"),
     (&["run", "unit.toml", "--link", "LINK", "--program", "other.st", "--pcap", "OUT"], "other.st"),
     (&["run", "unit.toml", "--link", "LINK", "--program", "blocks", "--pcap", "OUT"], "blocks/a.st"),
-    // These two write over nothing at all.
+    // These two overwrite nothing at all.
     (&["import", "live.pcapng", "--unit", "unit.toml", "-o", "OUT"], "unit.toml"),
     (&["search", "dice.toml", "-o", "OUT"], "dice.toml"),
 ];
@@ -55,7 +55,7 @@ fn inputs(name: &str) -> std::path::PathBuf {
     put("several.toml", "model = \"nx-ect101\"\n[cpu]\nprogram = [\"program.st\", \"blocks\"]\n");
     fs::create_dir_all(folder.join("blocks")).unwrap();
     put("blocks/a.st", ";\n");
-    // The lock of an editor is no part of the program.
+    // The lock of an editor does not belong to the program.
     symlink("nobody@nowhere", folder.join("blocks/.#a.st")).unwrap();
     put("scenario.toml", LIVE);
     put("named.trace", LIVE);

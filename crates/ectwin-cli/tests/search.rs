@@ -8,7 +8,7 @@ mod bench;
 
 use bench::Bench;
 
-/// Holds only until the unit has had an error.
+/// True only until the unit has had an error.
 const NEVER_AN_ERROR: &str = r#"title = "no error at all"
 seed = 3
 steps = [

@@ -59,7 +59,7 @@ fn a_file_that_is_given_twice_is_one_file() {
         &["main.st", "soft.st", "blocks"],
         &["main.st", "hard.st", "blocks"],
         &["main.st", "blocks", "blocks/share.st", "again"],
-        // The folder has all of it, main.st by three names.
+        // The folder contains all of it, main.st by three names.
         &["."],
     ] {
         let ended = bench.ectwin(&[&["st", "check"], files].concat());
@@ -146,7 +146,7 @@ fn unit_files_and_scenarios_name_lists_and_folders() {
     assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
 }
 
-/// The same paths, seen from a folder beside them.
+/// The same paths, relative to a folder beside them.
 fn above(paths: &str) -> String {
     paths.replace("\"main", "\"../main").replace("\"blocks", "\"../blocks")
 }
@@ -191,6 +191,6 @@ fn a_changed_block_is_loaded_once_and_a_timer_runs_to_its_end() {
     running.wait_for("user-defined error 16#1 ");
     bench.put("blocks/share.st", &block(2));
     running.wait_for("has changed, and is loaded");
-    // Loaded again and again, it would never come to the end of its two seconds.
+    // If it were reloaded repeatedly, it would never reach the end of its two seconds.
     running.wait_for_before("user-defined error 16#2 ", "is loaded");
 }

@@ -1,4 +1,4 @@
-//! The non-volatile memory in a file: what a unit finds again, a damaged file, kills at any moment.
+//! The non-volatile memory in a file: contents that a unit finds again, a damaged file, kills at any time.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
@@ -13,7 +13,7 @@ use nx_ect101::NonVolatileMemory;
 use wire::{Command as Datagram, FrameBuilder, returned_datagrams};
 
 const UNIT: &str = "model = \"nx-ect101\"\nstart_up = \"0ms\"\nid_switch = 0x00\nstorage = \"N1.nvm\"\n";
-/// A word of the EEPROM that means nothing.
+/// A word of the EEPROM without meaning.
 const SPARE_WORD: u32 = 0x03F0;
 const ALIAS_WORD: u32 = 4;
 
@@ -22,7 +22,7 @@ const AL_CONTROL: u16 = 0x0120;
 const AL_STATUS: u16 = 0x0130;
 const SII_CONTROL: u16 = 0x0502;
 
-/// A folder of one test, empty at first.
+/// The folder of one test, empty at first.
 fn folder_of(test: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let _ = fs::remove_dir_all(&path);
@@ -58,7 +58,7 @@ fn write_sii(twin: &mut Twin, word_address: u32, word: u16) {
     send(twin, Datagram::Apwr, SII_CONTROL, &write);
 }
 
-/// Sets the station alias as a master's tool does: word 4, and the checksum in word 7.
+/// Sets the station alias like a master's tool: word 4, and the checksum in word 7.
 fn write_alias(twin: &mut Twin, folder: &Path, alias: u16) {
     let memory = stored(folder).expect("stored");
     let mut configuration: [u8; 14] = memory.sii_image()[..14].try_into().expect("14 bytes");
@@ -106,7 +106,7 @@ fn a_damaged_file_is_a_fault_and_is_kept_aside() {
     assert_eq!(al_status(&mut twin), (0x01, 0x0000), "new memory");
 }
 
-/// The system events that are in the file.
+/// The system events in the file.
 fn stored_events(folder: &Path) -> Vec<String> {
     let memory = stored(folder).expect("stored");
     memory.error_log().history().map(|record| record.event.to_string()).collect()
@@ -187,13 +187,13 @@ fn the_command_points_at_a_storage_that_it_cannot_use() {
     assert!(told.contains("nowhere/N1.nvm cannot be used") && told.contains("unit.toml:2:"), "{told}");
 }
 
-/// Where the child finds its folder. Without it [`the_writer_that_is_killed`] is nothing.
+/// The folder for the child. Without it [`the_writer_that_is_killed`] does nothing.
 const CHILD: &str = "ECTWIN_TEST_STORAGE_CHILD";
 /// The child has sent one more frame.
 const PROGRESS: u8 = 0x01;
 const KILLS: u64 = 200;
 
-/// The child of the test below: a master that writes the EEPROM without end.
+/// The child of the test below: a master that writes the EEPROM continuously.
 #[test]
 fn the_writer_that_is_killed() {
     let Some(folder) = std::env::var_os(CHILD) else { return };
@@ -208,7 +208,7 @@ fn the_writer_that_is_killed() {
     std::thread::park();
 }
 
-/// Starts the child, waits until it has sent `frames` frames, lets `spins` go by and kills it (SIGKILL).
+/// Starts the child, waits until it has sent `frames` frames, waits for `spins` iterations and kills it (SIGKILL).
 fn kill_a_writer(folder: &Path, frames: u64, spins: u64) {
     let program = std::env::current_exe().expect("this test");
     let mut child = Command::new(program)
@@ -217,7 +217,7 @@ fn kill_a_writer(folder: &Path, frames: u64, spins: u64) {
         .stdout(Stdio::piped())
         .spawn()
         .expect("a child");
-    // Open until the kill: a child that nobody listens to would end by itself.
+    // Open until the kill: a child whose output is closed would end without the kill.
     let mut out = child.stdout.take().expect("piped");
     let mut sent = 0;
     while sent < frames {
@@ -246,7 +246,7 @@ fn a_kill_at_any_moment_leaves_a_whole_state() {
     let mut seed = 1;
     let mut states = std::collections::BTreeSet::new();
     for kill in 0..KILLS {
-        // Frames enough that the disk has stored some, also on a machine that does other things too.
+        // Enough frames that the disk has stored some, even on a machine with other load.
         let (frames, spins) = (1 + random(&mut seed) % 4_000, random(&mut seed) % 3_000_000);
         kill_a_writer(&folder, frames, spins);
         let mut twin = start(&folder);
@@ -257,7 +257,7 @@ fn a_kill_at_any_moment_leaves_a_whole_state() {
         let generation = u16::from_le_bytes([spare[0], spare[1]]);
         states.insert(generation);
         let second = u16::from_le_bytes([spare[2], spare[3]]);
-        // Each word is a change of its own: the second one is of this generation or of the one before.
+        // Each word is a separate change: the second one is from this generation or from the one before.
         let erased = (generation, second) == (0xFFFF, 0xFFFF);
         let whole = second == !generation || second == !generation.wrapping_sub(1);
         assert!(erased || whole || generation == 0, "after kill {kill}: {generation:#06X}, {second:#06X}");

@@ -1,4 +1,4 @@
-//! A memory file has one owner, is replaced in its place, and outlives full disks and kills.
+//! A memory file has one owner, is replaced in its place, and survives full disks and kills.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -23,7 +23,7 @@ fn is_memory(path: &Path) -> bool {
     fs::read(path).is_ok_and(|bytes| NonVolatileMemory::decode(&bytes).is_ok())
 }
 
-/// `ectwin run` with these unit files, on a port that is free.
+/// `ectwin run` with these unit files, on a free port.
 fn run<'a>(units: &[&'a str], link: &'a str) -> Vec<&'a str> {
     [&["run"], units, &["--link", link]].concat()
 }
@@ -135,7 +135,7 @@ fn a_full_disk_is_reported_at_once_and_the_memory_is_stored_once_there_is_room()
     }
     let folder = folder_of("full");
     fs::write(folder.join("unit.toml"), UNIT).unwrap();
-    // No file may grow: what a full disk is for a write, without a disk that is full.
+    // No file may grow: a write fails like on a full disk, without a full disk.
     let link = free_link();
     let mut unit = Started::new(&folder, "ulimit -S -f 0;", &run(&["unit.toml"], &link)).ready();
     unit.wait_for("N1.nvm: not stored: ");
@@ -173,18 +173,18 @@ fn a_full_disk_under_the_capture_is_reported_at_once_and_the_units_go_on() {
     let link = free_link();
     let arguments = [run(&["unit.toml"], &link), vec!["--pcap", "/dev/full"]].concat();
     let mut unit = Started::new(&folder, "", &arguments).ready();
-    // No frame has come yet.
+    // No frame has been received yet.
     unit.wait_for("cannot be written: No space left on device");
     let ended = unit.interrupt();
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     assert!(ended.stderr.contains("cannot write /dev/full"), "{}", ended.stderr);
 }
 
-/// Where the child finds its folder. Without it [`the_owner_that_is_killed`] is nothing.
+/// The folder for the child. Without it [`the_owner_that_is_killed`] does nothing.
 const CHILD: &str = "ECTWIN_TEST_OWNER_CHILD";
 const KILLS: u64 = 100;
 
-/// What a child says, in bytes that no test harness prints.
+/// The messages of a child, as bytes that no test harness prints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Said {
     Refused = 1,
@@ -198,7 +198,7 @@ fn say(said: Said) {
     out.write_all(&[said as u8]).and_then(|()| out.flush()).unwrap();
 }
 
-/// The child of the test below: asks for the memory until it gets it, and then changes it without end.
+/// The child of the test below: claims the memory repeatedly until it gets it, and then changes it continuously.
 #[test]
 fn the_owner_that_is_killed() {
     let Some(folder) = std::env::var_os(CHILD) else { return };
@@ -233,7 +233,7 @@ impl Owner {
         Self(program.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit()).spawn().unwrap())
     }
 
-    /// The next thing that it says.
+    /// Its next message.
     fn said(&mut self) -> Said {
         loop {
             let mut byte = [0];
@@ -261,7 +261,7 @@ fn of_two_processes_with_one_memory_the_second_waits_and_after_each_kill_it_find
     for kill in 0..KILLS {
         let mut second = Owner::start(&folder);
         assert_eq!(second.said(), Said::Refused, "kill {kill}");
-        // Another moment each time: a number of frames, and a little more.
+        // A different time in each run: a number of frames, and a short wait.
         for _ in 0..=(kill * 7919) % 300 {
             assert_eq!(owner.said(), Said::FrameSent);
         }
@@ -275,7 +275,7 @@ fn of_two_processes_with_one_memory_the_second_waits_and_after_each_kill_it_find
     }
     drop(owner);
     assert!(is_memory(&folder.join("N1.nvm")));
-    // An owner that ends by itself leaves the memory alone.
+    // An owner that ends normally does not change the memory.
     drop(Setup::from_toml(UNIT).unwrap().with_storage(&folder).unwrap());
     let names: Vec<_> = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names, ["N1.nvm"]);

@@ -9,11 +9,11 @@ use std::fs;
 
 use started::{Started, folder_of, free_link};
 
-/// One scan of it takes half a minute and longer.
+/// One of its scans takes half a minute or longer.
 const UNIT: &str = "model = \"nx-ect101\"\ncpu = { program = \"p.st\", statement_budget = 1_000_000_000 }\n";
 
-/// `ready` comes before the first scan ends, and the command ends before that too: the scan never uses up its
-/// statements, which would be reported.
+/// `ready` is printed before the first scan ends, and the command ends before that too: the scan never uses up
+/// its statements, which would be reported.
 #[test]
 fn an_endless_scan_delays_neither_the_start_nor_the_end() {
     let folder = folder_of("endless");

@@ -1,4 +1,4 @@
-//! What is printed for people is harmless to their terminal, whatever files are called and hold.
+//! Text output is safe for the user's terminal, whatever the names and contents of files are.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -10,14 +10,14 @@ use std::path::Path;
 
 use started::{command, folder_of};
 
-/// Longest line on stdout, with room for what says that it was cut.
+/// Maximum length of a line on stdout, including the remark that it was cut.
 const LINE_BYTES_MAX: usize = 8_100;
 
 fn stdout(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(command(folder, "", arguments).output().unwrap().stdout).unwrap()
 }
 
-/// Checks that nothing in `text` moves a cursor, and that no line of it fills a screen and more.
+/// Checks that nothing in `text` moves a cursor, and that no line of it is longer than a screen.
 fn expect_harmless(text: &str) {
     assert!(!text.is_empty());
     assert!(!text.contains(|character: char| character.is_control() && character != '\n'), "{text:?}");

@@ -1,4 +1,4 @@
-//! Whatever a user gives for a file: each command ends with a message, soon, and without much memory.
+//! Whatever file a user gives: each command ends with a message, soon, and without much memory.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -11,9 +11,9 @@ use std::process::Command;
 
 use bench::{Bench, Ended};
 
-/// Stands for the file in the arguments of a command.
+/// Placeholder for the file in the arguments of a command.
 const FILE: &str = "FILE";
-/// Each command that reads files of users, at each place where it does.
+/// Each command that reads user files, at each position of such a file.
 const COMMANDS: &[&[&str]] = &[
     &["check", FILE],
     &["map", FILE],
@@ -33,11 +33,11 @@ const COMMANDS: &[&[&str]] = &[
     &["import", FILE, "-o", "out.toml"],
     &["merge", FILE],
 ];
-/// Most bytes of a message.
+/// Maximum length of a message in bytes.
 const MESSAGE_BYTES_MAX: usize = 20_000;
 /// Address space of a command, in KiB: many times what a small file takes.
 const ADDRESS_SPACE_KIB: u32 = 1 << 20;
-/// When a command has not ended by then, it does not end.
+/// Time after which a command counts as hanging.
 const SECONDS_MAX: &str = "120";
 
 fn bench(name: &str) -> Bench {
@@ -52,7 +52,7 @@ fn bench(name: &str) -> Bench {
     bench
 }
 
-/// Runs the command with little memory and not for ever.
+/// Runs the command with limited memory and time.
 fn bounded(bench: &Bench, arguments: &[&str]) -> Ended {
     let script = format!("ulimit -v {ADDRESS_SPACE_KIB}; exec timeout {SECONDS_MAX} \"$@\"");
     let mut command = Command::new("sh");
@@ -65,7 +65,7 @@ fn bounded(bench: &Bench, arguments: &[&str]) -> Ended {
     }
 }
 
-/// Each command refuses the file, in few words.
+/// Each command refuses the file with a short message.
 fn all_refuse(bench: &Bench, what: &str) {
     for arguments in COMMANDS {
         let ended = bounded(bench, arguments);
@@ -147,7 +147,7 @@ fn twenty_thousand_unknown_keys_are_twenty_mistakes_and_a_number() {
         "the keys that there are, once:\n{}",
         ended.stderr
     );
-    // Each still has the name that is near.
+    // Each still gets the nearest name.
     bench.put("FILE", "model = \"nx-ect101\"\nstorag = 1\nseriel = 2\n[cpu]\nmodes = 3\n");
     let ended = bounded(&bench, &["check", "FILE"]);
     for name in ["storage", "serial", "mode"] {
@@ -159,7 +159,7 @@ fn twenty_thousand_unknown_keys_are_twenty_mistakes_and_a_number() {
 fn wrong_and_right_steps_are_read_in_one_pass() {
     let bench = bench("many-steps");
     let steps = |step: &str| format!("title = \"t\"\nsteps = [\n{}]\n", step.repeat(180_000));
-    // A look back to the beginning of the file for each step takes minutes.
+    // With a search from the start of the file for each step this takes minutes.
     bench.put("FILE", &steps("{ line = \"sing\" },\n"));
     let ended = bounded(&bench, &["replay", "FILE"]);
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);

@@ -1,4 +1,4 @@
-//! What the built command tells of a user program while it runs.
+//! The reports of the built command about a user program while it runs.
 
 mod running;
 
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use running::{Running, must};
 
-/// A program in a file of the test's own.
+/// A program in a file of the test.
 fn written(name: &str, source: &str) -> PathBuf {
     let program = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.st"));
     change(&program, source);

@@ -1,4 +1,4 @@
-//! User programs in WebAssembly, in a build with the feature: from a file, behind a unit file, changed while they run.
+//! User programs in WebAssembly, in a build with the feature: from a file, in a unit file, changed while they run.
 
 #[expect(dead_code, reason = "each test uses a part of the command")]
 mod running;
@@ -11,7 +11,7 @@ use running::{Running, UNIT, must};
 
 const PAGE: &str = include_str!("../../../docs/user/wasm-programs.md");
 
-/// A folder of the test's own.
+/// A folder of the test.
 fn folder(name: &str) -> PathBuf {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
     must(std::fs::create_dir_all(&folder));

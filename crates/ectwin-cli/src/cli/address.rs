@@ -1,14 +1,14 @@
-//! Addresses at which clients are served; a port alone is one of 127.0.0.1.
+//! Addresses at which clients are served; a port alone means 127.0.0.1.
 
 use std::net::{Ipv4Addr, SocketAddr};
 use std::num::ParseIntError;
 
-/// Where Modbus TCP is served.
+/// The address for Modbus TCP.
 pub(super) fn modbus(text: &str) -> Result<SocketAddr, String> {
     address(text, 1502)
 }
 
-/// Where OPC UA is served.
+/// The address for OPC UA.
 pub(super) fn opcua(text: &str) -> Result<SocketAddr, String> {
     if !cfg!(feature = "opcua") {
         return Err(

@@ -1,4 +1,4 @@
-//! `ectwin check FILE`: the setting rules, before the file comes to a unit.
+//! `ectwin check FILE`: the setting rules, before the file is used for a unit.
 
 mod document;
 mod exchange;
@@ -15,7 +15,7 @@ use crate::cli::CheckArgs;
 use crate::failure::Failure;
 use crate::{output, unit_files};
 
-/// Shows the findings and what would be exchanged. A finding whose event is an observation is a warning.
+/// Shows the findings and the resulting exchange. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let (file, text) = unit_files::parse(&args.unit)?;
     let configuration = Configuration::from_unit_file(&file);

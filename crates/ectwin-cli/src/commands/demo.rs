@@ -1,4 +1,4 @@
-//! `ectwin demo`: a unit and an ethercrab master in this process, and what happens between them.
+//! `ectwin demo`: a unit and an ethercrab master in this process, and their exchange.
 
 mod exchange;
 mod group;
@@ -24,7 +24,7 @@ const FRAME_BYTES: usize = PduStorage::element_size(1100);
 
 static STORAGE: PduStorage<MAX_FRAMES, FRAME_BYTES> = PduStorage::new();
 
-/// The factory setting: what a unit file that names only its model has.
+/// The factory setting: that of a unit file with only its model.
 const UNIT_FILE: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
 
 /// Runs the demo for a few seconds.
@@ -111,7 +111,7 @@ fn conclude(story: &Story, exchanged: &Exchanged, statistics: &Statistics) -> Re
     story.more("next: `ectwin run units/nx-ect101.toml --link udp:127.0.0.1`, and your own master")
 }
 
-/// Patient: a machine that is busy elsewhere is no reason to fail.
+/// With long time-outs: a machine that is busy with other work must not cause a failure.
 fn timeouts() -> Timeouts {
     Timeouts {
         pdu: Duration::from_millis(500),
@@ -124,6 +124,6 @@ fn timeouts() -> Timeouts {
 }
 
 fn master_config() -> MainDeviceConfig {
-    // One unit has no clock to agree with: a short round of clock synchronization is enough.
+    // A single unit has no other clock to synchronize with: a short synchronization is sufficient.
     MainDeviceConfig { dc_static_sync_iterations: 100, retry_behaviour: RetryBehaviour::None }
 }

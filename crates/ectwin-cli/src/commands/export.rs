@@ -10,14 +10,14 @@ use crate::failure::Failure;
 use crate::overwrite::Output;
 use crate::{output, overwrite, unit_files};
 
-/// The ESI file: what the configuration tool of a master reads.
+/// The ESI file, which the configuration tool of a master reads.
 pub(crate) fn esi(args: &ExportArgs) -> Result<(), Failure> {
     let file = unit_file(args)?;
     let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));
     write(args, &file, esi::xml(&description, &nx_ect101::object_table()).as_bytes())
 }
 
-/// The SII image: what the EEPROM of the unit holds at power-on.
+/// The SII image: the contents of the unit's EEPROM at power-on.
 pub(crate) fn sii(args: &ExportArgs) -> Result<(), Failure> {
     let file = unit_file(args)?;
     let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));

@@ -12,10 +12,11 @@ use crate::cli::ImportArgs;
 use crate::failure::Failure;
 use crate::{output, unit_files};
 
-/// Most default units that are written for a capture: the position of a slave in a datagram can be any number.
+/// Maximum number of default units that are written for a capture: the position of a slave in a datagram can be
+/// any number.
 const UNITS_MAX: usize = 1_000;
 
-/// Writes the scenario, and tells what is in it.
+/// Writes the scenario, and reports its contents.
 pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     refuse_existing(&args.output)?;
     let frames = read(&args.capture)?;
@@ -47,7 +48,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The frames of a capture; one without a master, or without an answer, shows nothing.
+/// The frames of a capture; one without a master, or without an answer, is refused.
 fn read(path: &Path) -> Result<RecordedFrames, Failure> {
     let refused = |reason: String| Failure::Refused {
         message: format!("{}: {reason}", path.display()),
@@ -88,7 +89,7 @@ fn text(args: &ImportArgs, frames: &RecordedFrames) -> Result<String, Failure> {
     ))
 }
 
-/// The path of a file from a folder, as a string of TOML.
+/// The relative path of a file from a folder, as a string of TOML.
 fn seen_from(folder: &Path, path: &Path) -> Result<String, Failure> {
     let whole = |path: &Path| {
         path.canonicalize().map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
@@ -97,14 +98,14 @@ fn seen_from(folder: &Path, path: &Path) -> Result<String, Failure> {
     Ok(toml_string(&relative(&folder, &path).display().to_string()))
 }
 
-/// The way from a folder to a file, both of them from the root.
+/// The relative path from a folder to a file, both given from the root.
 fn relative(folder: &Path, path: &Path) -> PathBuf {
     let same = folder.components().zip(path.components()).take_while(|(one, other)| one == other).count();
     let up = folder.components().skip(same).map(|_| Component::ParentDir);
     up.chain(path.components().skip(same)).collect()
 }
 
-/// JSON writes a string as TOML does.
+/// A string in JSON is written as in TOML.
 fn toml_string(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

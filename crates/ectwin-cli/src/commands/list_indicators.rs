@@ -1,4 +1,4 @@
-//! `ectwin list indicators`: what each indicator tells, and the patterns over time.
+//! `ectwin list indicators`: the meaning of each indicator, and the patterns over time.
 
 use std::fmt::Write;
 
@@ -31,7 +31,7 @@ struct StatusRow {
     events: Vec<String>,
 }
 
-/// `steps_ms` are lit, dark, lit, dark …; none for what never changes.
+/// `steps_ms` are lit, dark, lit, dark …; none for a pattern that never changes.
 #[derive(Serialize)]
 struct PatternRow {
     name: &'static str,
@@ -52,7 +52,7 @@ fn document() -> Document {
     }
 }
 
-/// L/A IN and L/A OUT are two indicators that mean the same.
+/// L/A IN and L/A OUT are two indicators with the same meanings.
 fn indicator_rows(indicator: &'static Indicator) -> impl Iterator<Item = IndicatorRow> {
     let row = |name| IndicatorRow {
         name,
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(patterns.len(), 8);
     }
 
-    /// Manual, 3-2-1 and 3-2-2, where each list of errors stands beside its pattern.
+    /// Manual, 3-2-1 and 3-2-2, in which each list of errors is beside its pattern.
     #[test]
     fn events_stand_beside_the_pattern_that_shows_them() {
         let json = json();

@@ -67,7 +67,7 @@ fn entry_row(entry: &'static NxEntry) -> EntryRow {
     }
 }
 
-/// A text as it is, a number with its most significant digit first.
+/// A text unchanged, a number with its most significant digit first.
 fn default(entry: &NxEntry) -> String {
     let is_text = entry.size_bytes > 4 && entry.default.iter().all(|byte| (b' '..=b'~').contains(byte));
     if is_text {

@@ -17,7 +17,7 @@ struct Document {
     variables: Vec<Row>,
 }
 
-/// A variable. The CSV file has these columns in this order; what there is not, is empty there.
+/// A variable. The CSV file has these columns in this order; missing values are empty.
 #[derive(Serialize)]
 struct Row {
     port: Option<String>,
@@ -69,7 +69,7 @@ fn rows(variables: &DeviceVariables) -> Vec<Row> {
     rows.chain([node_location(variables.node_location())]).collect()
 }
 
-/// A variable of programs alone: a structure, which has no place in an image and no Modbus address.
+/// A variable only for programs: a structure, which has no position in an image and no Modbus address.
 fn node_location(location: NodeLocation) -> Row {
     Row {
         port: Some(location.port.to_owned()),
@@ -146,7 +146,7 @@ impl Row {
     }
 }
 
-/// As RFC 4180 has it, but for the end of a line.
+/// As in RFC 4180, except for the line end.
 fn as_csv(rows: &[Row]) -> String {
     let mut text = COLUMNS.join(",") + "\n";
     for row in rows {

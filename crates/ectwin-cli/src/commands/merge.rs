@@ -1,4 +1,4 @@
-//! `ectwin merge RESULT.jsonl…`: the parts of a campaign as one, if none of its cases is missing or double.
+//! `ectwin merge RESULT.jsonl…`: merges the parts of a campaign, if none of its cases is missing or duplicate.
 
 use std::collections::BTreeMap;
 use std::mem;
@@ -13,10 +13,10 @@ use crate::file_problem::{FileProblem, FileProblems};
 use crate::output;
 use crate::overwrite::{self, Output};
 
-/// Cases that one line of a message names.
+/// Maximum number of cases in one line of a message.
 const NAMED_CASES: usize = 8;
 
-/// Tells the failed cases and the sum of all.
+/// Reports the failed cases and the totals.
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         overwrite::refuse(&[Output { option: "--junit", path }], &args.results)?;
@@ -36,7 +36,8 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }
 
-/// Reads file after file. Lines that are no results are told, the first of them in full; one more ends it.
+/// Reads file after file. Lines that are not results are reported, the first of them in full; one more ends the
+/// reading.
 fn read_all(paths: &[PathBuf], kept: Kept) -> Result<Merged<'_>, Failure> {
     let (mut merged, mut problems) = (Merged::new(paths, kept), FileProblems::default());
     for (file, path) in paths.iter().enumerate() {
@@ -51,7 +52,7 @@ fn read_all(paths: &[PathBuf], kept: Kept) -> Result<Merged<'_>, Failure> {
                 problems.stop();
                 break;
             }
-            // A damaged file is told first: what it lacks may be the reason.
+            // A damaged file is reported first: its missing results may be the reason.
             Err(NotMerged::Contrary(_)) if !problems.is_empty() => break,
             Err(NotMerged::Contrary(failure)) => return Err(failure),
         }
@@ -59,7 +60,7 @@ fn read_all(paths: &[PathBuf], kept: Kept) -> Result<Merged<'_>, Failure> {
     if problems.is_empty() { Ok(merged) } else { Err(Failure::BadFile(problems)) }
 }
 
-/// Why the reading of a file ends before its last line.
+/// Why the reading of a file ends early.
 enum NotMerged {
     Unreadable(Unreadable),
     TooManyProblems,
@@ -99,24 +100,24 @@ fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProbl
     FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
 
-/// Which results are kept until the end; of all others nothing is, but that they are there.
+/// Which results are kept until the end; for all others only their presence is recorded.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kept {
     Failed,
     All,
 }
 
-/// The results of one campaign, as they come.
+/// The results of one campaign, in the order of reading.
 struct Merged<'a> {
     paths: &'a [PathBuf],
     kept: Kept,
     campaign: Option<Campaign>,
-    /// For each case the number of the file that has it, from 1; 0: none so far.
+    /// For each case the number of its file, from 1; 0: none so far.
     files: Vec<u32>,
     results: Vec<CaseResult>,
 }
 
-/// What all parts of a campaign have in common, and the file that said so first.
+/// The common values of all parts of a campaign, and the first file with them.
 struct Campaign {
     fingerprint: String,
     cases: u64,
@@ -129,7 +130,7 @@ impl<'a> Merged<'a> {
         Self { paths, kept, campaign: None, files: Vec::new(), results: Vec::new() }
     }
 
-    /// Takes a result of the file at this place.
+    /// Adds a result of the file at this position.
     fn take(&mut self, mut result: CaseResult, file: usize) -> Result<(), Failure> {
         let fingerprint = mem::take(&mut result.campaign);
         let own = Campaign { fingerprint, cases: result.cases, parts: result.partition.count(), file };
@@ -152,7 +153,7 @@ impl<'a> Merged<'a> {
         Ok(())
     }
 
-    /// The case is there.
+    /// The case is present.
     fn note(&mut self, case: u64, file: usize) -> Result<(), Failure> {
         let Some(place) = self.files.get_mut(case as usize - 1) else {
             unreachable!("case {case} is one of its campaign");
@@ -171,7 +172,7 @@ impl<'a> Merged<'a> {
         self.paths.get(file).map(|path| path.display().to_string()).unwrap_or_default()
     }
 
-    /// The results that were kept, in the order of their cases, and the number of all, if none is missing.
+    /// The kept results, in the order of their cases, and the number of all, if none is missing.
     fn complete(mut self) -> Result<(Vec<CaseResult>, u64), Failure> {
         let Some(Campaign { cases, parts, .. }) = self.campaign else {
             return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
@@ -192,7 +193,7 @@ impl Campaign {
     }
 }
 
-/// Which parts lack which cases.
+/// The parts with missing cases, and these cases.
 fn lacking(missing: &[u64], cases: u64, parts: u64) -> Failure {
     let mut by_part: BTreeMap<Partition, Vec<u64>> = BTreeMap::new();
     for &case in missing {

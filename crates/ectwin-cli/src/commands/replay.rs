@@ -1,7 +1,7 @@
-//! `ectwin replay FILE…`: scenarios in virtual time, their verdicts, and what is left of them.
+//! `ectwin replay FILE…`: scenarios in virtual time, their verdicts, and their output files.
 //!
-//! A campaign is scenarios × seeds. Its cases have numbers, so that parts of it can run anywhere and at once: what
-//! is told and written is in the order of the numbers, whatever the threads do.
+//! A campaign is scenarios × seeds. Its cases have numbers, so that parts of it can run anywhere and in
+//! parallel: output is in the order of the numbers, independent of the threads.
 
 mod campaign;
 mod captures;
@@ -34,7 +34,7 @@ pub(crate) use result::{CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 
-/// Replays all cases of our part.
+/// Replays all cases of the selected part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let shard = shard(args.partition)?;
     let mut campaign = Campaign::read(args)?;
@@ -60,7 +60,7 @@ fn outputs(args: &ReplayArgs) -> Vec<Output<'_>> {
     given.collect()
 }
 
-/// Our part of the cases. Only `--partition auto` reads the environment.
+/// The selected part of the cases. Only `--partition auto` reads the environment.
 fn shard(choice: Option<PartitionChoice>) -> Result<Shard, Failure> {
     let partition = match choice {
         None => Partition::WHOLE,

@@ -24,7 +24,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let setups = setups(args)?;
     refuse_overwriting(args, &setups)?;
     let units = setups.len();
-    // First whatever needs a privilege, then no privileges, then the threads, which inherit that.
+    // First everything that needs a privilege, then the privileges are dropped, then the threads are started,
+    // which inherit this.
     let mut port = link::open(&args.link).map_err(Failure::Link)?;
     let link = port.link().unwrap_or_else(|| args.link.clone());
     let listener = args.modbus.map(servers::listen_for_modbus).transpose()?;
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
     let mut recorder = capture.map(|capture| record(capture.begin()?, args, &link, &clock)).transpose()?;
-    // The port is open: a frame that comes from now on waits in it and is answered.
+    // The port is open: a frame that arrives from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
     let ended = ectwin::run(twin, &mut port, observer, &clock, &stop);
@@ -54,7 +55,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     recorded.and_then(|()| refuse_loss(lost))
 }
 
-/// Each loss is logged already.
+/// Each loss has already been logged.
 fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
     match lost.into_iter().next() {
         Some(ChangesLost { path, source }) => Err(Failure::Unwritable { path, source }),
@@ -62,7 +63,7 @@ fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
     }
 }
 
-/// One line that programs read: what is ready, with the real ports.
+/// One line for programs: what is ready, with the actual ports.
 fn ready(link: &LinkSpec, units: usize, modbus: Option<&ModbusServer>) -> String {
     let modbus = modbus.map(|server| format!(" modbus={}", server.address())).unwrap_or_default();
     format!("ready link={link} units={units}{modbus}")
@@ -95,7 +96,7 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
     pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup.file()))
 }
 
-/// What is read or written while the units run. Programs that unit files name are where these are.
+/// The files that are read or written while the units run. Paths of programs in unit files are relative to these files.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
     let read = args.units.iter().chain(&args.programs).cloned();
     memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()

@@ -1,4 +1,4 @@
-//! `ectwin search FILE`: seeds, until a replay fails; what is left of it is a scenario file of a few steps.
+//! `ectwin search FILE`: seeds, until a replay fails; the result is a scenario file of a few steps.
 
 use std::fs::OpenOptions;
 use std::io::Write;
@@ -13,7 +13,7 @@ use crate::cli::SearchArgs;
 use crate::failure::Failure;
 use crate::output;
 
-/// Replays seed after seed; the first that fails is cut down and written.
+/// Replays seed after seed; the first one that fails is reduced and written.
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     let path = &args.scenario;
     let scenario = read_scenario(path)?;
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     }
 }
 
-/// The first seed that fails, cut down, and the virtual time of all replays up to it.
+/// The first seed that fails, reduced, and the virtual time of all replays up to it.
 fn search(scenario: &Scenario, text: &str, args: &SearchArgs) -> (Option<Found>, Duration) {
     let mut lasted = Duration::ZERO;
     for seed in args.seed..args.seed.saturating_add(args.runs.get()) {
@@ -55,7 +55,7 @@ fn tell_nothing(args: &SearchArgs, lasted: Duration) -> Result<(), Failure> {
     ))
 }
 
-/// The failure as the written file shows it: its lines are not those of the file with the dice.
+/// The failure with the line numbers of the written file, which differ from those of the file with random steps.
 fn tell_found(args: &SearchArgs, scenario: &Scenario, found: &Found) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| beside(&args.scenario, found.seed));
     write_new(&output, &found.text)?;
@@ -84,7 +84,7 @@ fn beside(path: &Path, seed: u64) -> PathBuf {
     path.with_file_name(format!("{stem}-{seed}.toml"))
 }
 
-/// Writes a file that is not there yet.
+/// Writes a file that does not exist yet.
 pub(super) fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     refuse_existing(path)?;
     let file = OpenOptions::new().write(true).create_new(true).open(path);
@@ -92,7 +92,7 @@ pub(super) fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     written.map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
 }
 
-/// What somebody has written may be worth more than what we write.
+/// An existing file may be more valuable than the new one.
 pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
     if !path.exists() {
         return Ok(());
@@ -102,7 +102,7 @@ pub(super) fn refuse_existing(path: &Path) -> Result<(), Failure> {
     Err(Failure::Refused { message, help })
 }
 
-/// The written file names the same files as the one that was searched, seen from its own folder.
+/// The written file refers to the same files as the original one, relative to its own folder.
 fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failure> {
     let (folder, other) = (folder_of(path), folder_of(output));
     let mut names = Vec::new();
@@ -122,7 +122,7 @@ fn refuse_elsewhere(path: &Path, text: &str, output: &Path) -> Result<(), Failur
     }
 }
 
-/// The folder of a file; that of the process if its path names none.
+/// The folder of a file; that of the process if its path contains none.
 pub(super) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }

@@ -11,7 +11,7 @@ use crate::failure::Failure;
 use crate::file_problem::FileProblems;
 use crate::{output, unit_files};
 
-/// The unit whose device variables a program sees when none is named: the factory setting.
+/// The unit whose device variables a program uses if none is given: the factory setting.
 const FACTORY: &str = "model = \"nx-ect101\"";
 
 #[derive(Serialize)]
@@ -30,7 +30,7 @@ struct Row<'a> {
     help: Option<&'a str>,
 }
 
-/// Checks a program and tells what is wrong with it.
+/// Checks a program and reports its problems.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
     let variables = DeviceVariables::of_unit_file(&unit_file(args)?);
     let unreadable = |(path, source)| Failure::Unreadable { path, source };
@@ -56,7 +56,7 @@ pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
 fn unit_file(args: &StCheckArgs) -> Result<UnitFile, Failure> {
     match &args.unit {
         Some(path) => unit_files::parse(path).map(|(file, _)| file),
-        // The one key that a unit file needs.
+        // The only key that a unit file needs.
         None => Ok(UnitFile::parse(FACTORY).unwrap_or_else(|_| unreachable!("the factory setting is right"))),
     }
 }

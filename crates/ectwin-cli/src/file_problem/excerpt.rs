@@ -1,4 +1,4 @@
-//! The lines around a place in a file, so that a mistake need not keep the file.
+//! The lines around a place in a file, so that a mistake does not need to keep the whole file.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 use super::shown_lines::{ShownLines, boundary, start_of_line};
 
-/// Most lines of an excerpt.
+/// Maximum number of lines of an excerpt.
 const LINES_MAX: usize = 12;
 
 /// A few lines of a file with a marked place.
@@ -14,16 +14,16 @@ const LINES_MAX: usize = 12;
 pub(super) struct Excerpt {
     name: String,
     text: String,
-    /// The line of the file that the text begins with, from 0.
+    /// The first line of the text, as a line of the file, from 0.
     first_line: usize,
     marked: Range<usize>,
-    /// Where the marked place begins in the file, from 0.
+    /// Start of the marked place in the file, from 0.
     line: usize,
     column: usize,
 }
 
 impl Excerpt {
-    /// The lines of `span` in a file of this name and text, with one before and one behind.
+    /// The lines of `span` in a file with this name and text, with one line before and one after.
     pub(super) fn of(name: &str, source: &str, span: Range<usize>) -> Self {
         let (start, end) = (boundary(source, span.start), boundary(source, span.end.max(span.start)));
         let own = start_of_line(source, start);
@@ -58,7 +58,7 @@ impl Excerpt {
 }
 
 impl SourceCode for Excerpt {
-    /// The place alone, or with whatever lines around it all of the excerpt.
+    /// The place alone; with any lines around it, the whole excerpt.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

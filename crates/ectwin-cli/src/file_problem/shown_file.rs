@@ -1,4 +1,4 @@
-//! A file with several marked places, as a terminal may show it.
+//! A file with several marked places, in a form that is safe for a terminal.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 
 use super::shown_lines::{ShownLines, boundary, start_of_line};
 
-/// All lines of a file, those that are long cut.
+/// All lines of a file; long ones are cut.
 #[derive(Debug)]
 pub(crate) struct ShownFile {
     name: String,
@@ -17,14 +17,14 @@ pub(crate) struct ShownFile {
 /// A marked place.
 #[derive(Debug)]
 struct Mark {
-    /// In the text that is shown.
+    /// In the displayed text.
     shown: Range<usize>,
-    /// Where it begins in its line of the file, in characters from 0.
+    /// Its start in its line of the file, in characters from 0.
     column: usize,
 }
 
 impl ShownFile {
-    /// A file of this name and text with marks at these places.
+    /// A file with this name and text, with marks at these places.
     pub(crate) fn of(name: &str, source: &str, places: impl IntoIterator<Item = Range<usize>>) -> Self {
         let within = |place: Range<usize>| {
             let start = boundary(source, place.start);
@@ -44,14 +44,14 @@ impl ShownFile {
         Self { name: user_file::escaped(name), text: lines.into_text(), marks }
     }
 
-    /// The places, in the order in which they were given.
+    /// The places, in the order in which they were added.
     pub(crate) fn marked(&self) -> impl Iterator<Item = SourceSpan> {
         self.marks.iter().map(|mark| mark.shown.clone().into())
     }
 }
 
 impl SourceCode for ShownFile {
-    /// The lines that are shown. The column of a place alone is that of the file.
+    /// The displayed lines. The column of a single place is that of the file.
     fn read_span<'a>(
         &'a self,
         span: &SourceSpan,

@@ -1,13 +1,13 @@
-//! Lines of a file as a terminal may show them: cut where they are long, and without control characters.
+//! Lines of a file in a form that is safe for a terminal: long ones cut, and without control characters.
 
 use std::ops::Range;
 
-/// Most characters of a line.
+/// Maximum number of characters of a line.
 pub(super) const LINE_CHARACTERS_MAX: usize = 120;
-/// Characters that a cut line keeps in front of the place.
+/// Number of characters that a cut line keeps before the place.
 const CHARACTERS_BEFORE: usize = 40;
 
-/// The lines that are written, and where marked places of the file are in them.
+/// The lines that are written, with the marked places of the file in them.
 #[derive(Debug)]
 pub(super) struct ShownLines {
     text: String,
@@ -18,13 +18,13 @@ pub(super) struct ShownLines {
 struct Mark {
     /// In the file.
     place: Range<usize>,
-    /// In the text, as far as it has come.
+    /// In the text, as far as it has been written.
     start: Option<usize>,
     end: Option<usize>,
 }
 
 impl ShownLines {
-    /// Without a line yet; the places begin and end at characters of the file.
+    /// Without lines yet; the places begin and end at characters of the file.
     pub(super) fn with_marks(places: impl IntoIterator<Item = Range<usize>>) -> Self {
         let mark = |place| Mark { place, start: None, end: None };
         Self { text: String::new(), marks: places.into_iter().map(mark).collect() }
@@ -49,7 +49,7 @@ impl ShownLines {
         }
     }
 
-    /// The marked places in the text, in the order in which they were given.
+    /// The marked places in the text, in the order in which they were added.
     pub(super) fn marks(&self) -> impl Iterator<Item = Range<usize>> {
         let length = self.text.trim_end_matches('\n').len();
         self.marks.iter().map(move |mark| {
@@ -62,7 +62,7 @@ impl ShownLines {
         self.text
     }
 
-    /// The characters of a line that are shown: around the first place that begins here, if one does.
+    /// The displayed characters of a line: around the first place that begins here, if there is one.
     fn shown(&self, body: &str, at: usize) -> Range<usize> {
         let starts = self.marks.iter().filter_map(|mark| mark.place.start.checked_sub(at));
         let before = starts.filter_map(|offset| body.get(..offset)).min_by_key(|before| before.len());
@@ -72,7 +72,7 @@ impl ShownLines {
         from..from + LINE_CHARACTERS_MAX
     }
 
-    /// What is at these bytes of the file comes next.
+    /// The text at these bytes of the file comes next.
     fn note(&mut self, bytes: Range<usize>) {
         let here = self.text.len();
         for mark in &mut self.marks {
@@ -96,7 +96,7 @@ pub(super) fn start_of_line(text: &str, byte: usize) -> usize {
     text.get(..byte).unwrap_or_default().rfind('\n').map_or(0, |end| end + 1)
 }
 
-/// The character, or a picture of one that a terminal would obey.
+/// The character, or a symbol for one that a terminal would interpret.
 fn visible(character: char) -> char {
     match character {
         '\t' => '\t',
@@ -110,7 +110,7 @@ fn visible(character: char) -> char {
 mod tests {
     use super::*;
 
-    /// The text of a file of one line, and what is marked in it.
+    /// The text of a file of one line, and its marked part.
     fn shown(line: &str, places: &[Range<usize>]) -> (String, Vec<String>) {
         let mut lines = ShownLines::with_marks(places.iter().cloned());
         lines.line(line, 0);

@@ -1,15 +1,15 @@
-//! The pages for users tell the truth: every example of README.md and docs/user is run, read or found in a test.
+//! The pages for users are correct: every example of README.md and docs/user is run, read or found in a test.
 //!
-//! What a block is held to depends on its language and on the file name behind it:
+//! The test of a block depends on its language and on the file name after it:
 //!
-//! | block | held to |
+//! | block | test |
 //! |---|---|
 //! | `console` | each `$ ` line is run in a shell, and its output compared with the lines below it |
-//! | `rust` | stands word for word in a test, in crates/ectwin/tests |
+//! | `rust` | occurs word for word in a test, in crates/ectwin/tests |
 //! | `toml` | is a unit file without mistakes |
 //! | `st` | is a program without problems, for a unit at its factory setting |
 //! | `sh` | is good syntax for a shell |
-//! | `toml`, `python`, … with a file name | lies under that name in the folder where the `console` blocks run |
+//! | `toml`, `python`, … with a file name | is a file with that name in the folder where the `console` blocks run |
 //! | `text`, `json`, `yaml`, `mermaid` | nothing |
 
 mod pages;
@@ -83,7 +83,7 @@ fn every_sh_block_is_good_syntax() {
     }
 }
 
-/// In a network of its own: the pages use the default port of UDP, and interfaces that they make themselves.
+/// In a separate network: the pages use the default port of UDP, and interfaces that they create.
 #[test]
 fn every_console_block_prints_what_it_says() {
     const TEST: &str = "every_console_block_prints_what_it_says";

@@ -13,15 +13,15 @@ pub(crate) struct Page {
 pub(crate) struct Block {
     /// The line of its fence.
     line: usize,
-    /// The word behind the fence.
+    /// The word after the fence.
     pub(crate) language: String,
-    /// The word behind the language.
+    /// The word after the language.
     pub(crate) file_name: Option<String>,
     pub(crate) text: String,
 }
 
 impl Page {
-    /// Where a block stands, for people.
+    /// The place of a block, for display.
     pub(crate) fn place(&self, block: &Block) -> String {
         format!("{}:{}", self.name, block.line)
     }

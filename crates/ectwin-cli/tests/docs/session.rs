@@ -1,4 +1,4 @@
-//! A reader at a shell, who types what a page says.
+//! A reader at a shell, who enters the commands of a page.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -10,10 +10,10 @@ use crate::pages::top_folder;
 
 /// In an expected output: any text. Alone on its line: any lines.
 const ANYTHING: &str = "…";
-/// What the pages use of the checkout.
+/// The parts of the checkout that the pages use.
 const FOLDERS: [&str; 3] = ["scenarios", "tests", "units"];
 
-/// One page being followed, in a folder of its own.
+/// One page being followed, in a separate folder.
 pub(crate) struct Session {
     test: &'static str,
     folder: PathBuf,
@@ -24,7 +24,7 @@ pub(crate) struct Session {
     /// `ectwin run`, until `kill %1` or the end of the page.
     running: Option<Process>,
     last_exit_code: i32,
-    /// A command was left out for want of a tool: what comes behind it on the page may need what it made.
+    /// A command was skipped because a tool is missing: later commands of the page may need its results.
     skipped: bool,
     /// The page has made the cable from m0 to u0.
     has_cable: bool,
@@ -33,7 +33,7 @@ pub(crate) struct Session {
 impl Session {
     pub(crate) fn begin(test: &'static str, page: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("docs").join(page.replace('/', "-"));
-        // What an earlier run has left is not what a reader has.
+        // A reader does not have the files of an earlier run.
         let _gone = std::fs::remove_dir_all(&folder);
         must(std::fs::create_dir_all(&folder), &folder);
         for name in FOLDERS {
@@ -63,7 +63,7 @@ impl Session {
         must(std::fs::write(self.folder.join(file_name), text), file_name);
     }
 
-    /// Types the commands of a block, and compares what each prints with the lines below it.
+    /// Enters the commands of a block, and compares the output of each with the lines below it.
     pub(crate) fn run(&mut self, place: &str, block: &str) {
         let commands: Vec<&str> = block.split("\n$ ").collect();
         for (number, text) in commands.iter().enumerate() {
@@ -75,7 +75,7 @@ impl Session {
         }
     }
 
-    /// Ends what still runs, and takes the cable away: the next page makes its own.
+    /// Ends running processes, and removes the cable: the next page creates its own.
     pub(crate) fn end(mut self) {
         self.kill();
         if self.has_cable {
@@ -99,7 +99,7 @@ impl Session {
             return;
         }
         if command == "unshare -Urn" {
-            // We are in a namespace already.
+            // This is already in a namespace.
         } else if command == "kill %1" {
             self.kill();
         } else if command.starts_with("ectwin run") && expected.starts_with("ready") {
@@ -139,9 +139,9 @@ impl Session {
         self.running = Some(process);
     }
 
-    /// Runs a command to its end. It has to succeed, unless the next one looks at its exit code.
+    /// Runs a command to its end. It must succeed, unless the next one checks its exit code.
     fn finish(&mut self, place: &str, command: &str, next: &str) -> String {
-        // What tshark says to the superuser is for him alone.
+        // tshark's warning to the superuser does not concern the reader.
         let stderr = if command.starts_with("tshark") { "/dev/null" } else { "&1" };
         let command = format!("exec 2>{stderr}; (exit {}); {command}", self.last_exit_code);
         let output = self.shell(&command).output().unwrap_or_else(|error| panic!("{place}: {error}"));
@@ -159,7 +159,7 @@ impl Session {
     }
 }
 
-/// The built command and the Python with pysoem before everything else.
+/// The built command and the Python with pysoem before all others.
 fn path(python: Option<&Path>) -> OsString {
     let folders = [Some(Path::new(env!("CARGO_BIN_EXE_ectwin"))), python].into_iter().flatten();
     let folders = folders.filter_map(Path::parent).filter(|folder| !folder.as_os_str().is_empty());
@@ -172,7 +172,7 @@ fn must<T, E: std::fmt::Display>(result: Result<T, E>, path: &Path) -> T {
     result.unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Whether the page's lines are what was printed. Blanks count as one; with `loose` all numbers are the same.
+/// Whether the page's lines equal the output. Runs of blanks are equal; with `loose` all numbers are equal.
 fn matches(expected: &str, printed: &str, loose: bool) -> bool {
     let lines = |text: &str| -> Vec<String> {
         let lines = text.lines().map(|line| plain(line, loose));

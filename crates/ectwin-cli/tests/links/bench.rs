@@ -14,10 +14,10 @@ pub(crate) const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/
 pub(crate) const APRD: u8 = 1;
 pub(crate) const BRD: u8 = 7;
 pub(crate) const LRW: u8 = 12;
-/// Masters send again, as real ones do, this many times.
+/// Number of times that a master sends again, like real ones do.
 const TRIES: usize = 10_000;
 
-/// `ectwin -v run`, and what it prints.
+/// `ectwin -v run`, and its output.
 pub(crate) struct Twin {
     process: Process,
     pub(crate) ready: String,
@@ -61,7 +61,7 @@ impl Twin {
         assert!(Command::new("sh").args(["-c", &kill]).status().unwrap().success(), "{kill}");
     }
 
-    /// Ends it as a user does. Returns its log.
+    /// Ends it like a user does. Returns its log.
     pub(crate) fn end(mut self) -> String {
         self.process.interrupt();
         assert!(self.process.wait().success());
@@ -69,12 +69,12 @@ impl Twin {
     }
 }
 
-/// How often `words` are in a log.
+/// Number of occurrences of `words` in a log.
 pub(crate) fn count(log: &str, words: &str) -> usize {
     log.matches(words).count()
 }
 
-/// The datagrams of an EtherCAT frame behind its Ethernet header: one, with this address field.
+/// The datagrams of an EtherCAT frame after its Ethernet header: one, with this address field.
 pub(crate) fn datagram(command: u8, index: u8, address: [u8; 4], data: &[u8]) -> Vec<u8> {
     let mut bytes = (0x1000 | (12 + data.len()) as u16).to_le_bytes().to_vec();
     bytes.extend([command, index]);
@@ -106,7 +106,7 @@ impl Master {
         Self { port, index: 0 }
     }
 
-    /// Sends a frame. Whether the interface took it.
+    /// Sends a frame. Returns whether the interface accepted it.
     pub(crate) fn send(&mut self, frame: &[u8]) -> bool {
         self.port.send(frame).is_ok()
     }
@@ -118,7 +118,7 @@ impl Master {
         Some(buffer)
     }
 
-    /// Reads a register of the first unit, again and again until it answers.
+    /// Reads a register of the first unit, repeatedly until it answers.
     pub(crate) fn read<const N: usize>(&mut self, offset: u16) -> [u8; N] {
         let [low, high] = offset.to_le_bytes();
         for _ in 0..TRIES {
@@ -134,7 +134,7 @@ impl Master {
     }
 }
 
-/// How many units answer a master at this socket.
+/// Number of units that answer a master at this socket.
 pub(crate) fn count_units(master: &UdpSocket, unit: SocketAddr) -> u8 {
     master.set_read_timeout(Some(WallDuration::from_secs(10))).unwrap();
     master.send_to(&datagram(BRD, 0, [0; 4], &[0, 0]), unit).unwrap();

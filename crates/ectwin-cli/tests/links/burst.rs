@@ -1,4 +1,4 @@
-//! SOEM sends the process data of a cycle at once: with 1,000 units some 250 frames, before it receives the first.
+//! SOEM sends the process data of a cycle at once: with 1,000 units about 250 frames, before it receives the first.
 
 use testbed::{add_veth_pair, in_network_namespace};
 

@@ -1,4 +1,4 @@
-//! Raw links: the carrier is the link of port IN, and an interface may go and come.
+//! Raw links: the carrier is the link of port IN, and an interface may be removed and added again.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -14,7 +14,7 @@ const LOST_LINKS_OF_PORT_IN: u16 = 0x0310;
 /// `IN Port Link ON` of EtherCAT Slave Status.
 const IN_PORT_LINK: u8 = 1 << 6;
 
-/// The low byte of EtherCAT Slave Status, as the CPU Unit has it.
+/// The low byte of EtherCAT Slave Status, as in the CPU Unit.
 fn slave_status(modbus: &mut TcpStream) -> u8 {
     // Read Discrete Inputs 0 to 7.
     modbus.write_all(&[0, 1, 0, 0, 0, 6, 1, 2, 0, 0, 0, 8]).unwrap();
@@ -39,7 +39,7 @@ fn the_carrier_is_the_link_of_port_in() {
         assert_eq!(master.read::<1>(DL_STATUS)[0] & 0x10, 0x10);
         wait_for_link(&mut modbus, true);
         for lost in 1..=2 {
-            // The master's end, then ours.
+            // The master's end, then the unit's.
             let end = if lost == 1 { "m0" } else { "u0" };
             ip(&["link", "set", end, "down"]);
             wait_for_link(&mut modbus, false);
@@ -78,7 +78,7 @@ fn an_interface_that_is_deleted_and_made_100_times_is_answered_every_time() {
         let twin = Twin::start("deleted-and-made", &["--link", "raw:u0"]);
         for number in 0..100 {
             Master::at("m0").read::<1>(0);
-            // Each second time the new interface is there before the command has missed the old one.
+            // Every second time the new interface exists before the command has missed the old one.
             let signals = (number % 2 == 0).then_some(["STOP", "CONT"]);
             signals.iter().for_each(|[stop, _]| twin.signal(stop));
             ip(&["link", "delete", "u0"]);
@@ -103,7 +103,7 @@ fn a_second_ectwin_on_an_interface_is_refused() {
         let told = String::from_utf8_lossy(&second.stderr);
         assert!(told.contains("raw:u0 is in use\nhelp: another ectwin answers on this interface"), "{told}");
         Master::at("m0").read::<1>(0);
-        // Killed: nothing of it stays.
+        // Killed: nothing of it remains.
         drop(first);
         Twin::start("next", &["--link", "raw:u0"]).end();
     });

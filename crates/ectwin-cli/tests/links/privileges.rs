@@ -1,4 +1,4 @@
-//! What the process may do once its links are open.
+//! The permissions of the process after its links have been opened.
 
 use std::fs;
 use std::os::unix::fs::chown;
@@ -12,7 +12,7 @@ use crate::bench::{Master, Twin};
 const DAC_OVERRIDE: u64 = 1 << 1;
 const NOBODY: u32 = 65_534;
 
-/// A folder of this test's own, with a unit file that names a storage file beside it.
+/// A folder of this test, with a unit file that refers to a storage file beside it.
 fn unit_with_storage(name: &str) -> (PathBuf, PathBuf) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     let _gone = fs::remove_dir_all(&folder);
@@ -22,7 +22,7 @@ fn unit_with_storage(name: &str) -> (PathBuf, PathBuf) {
     (folder, unit)
 }
 
-/// The lines of each thread that begin with `Cap`, without the name, and whether it can get new privileges.
+/// The lines of each thread that begin with `Cap`, without the name, and whether it can gain new privileges.
 fn privileges(process: u32) -> Vec<(Vec<u64>, bool)> {
     let tasks = fs::read_dir(format!("/proc/{process}/task")).unwrap();
     tasks
@@ -48,7 +48,7 @@ fn no_thread_has_a_capability_once_the_links_are_open() {
         fs::write(&program, "PROGRAM P\nEND_PROGRAM\n").unwrap();
         let [unit, program, pcap] =
             [unit, program, folder.join("run.pcapng")].map(|path| path.display().to_string());
-        // A port below 1024 needs a capability too.
+        // A port below 1024 requires a capability too.
         let arguments =
             [&unit, "--link", "raw:u0", "--modbus", "502", "--program", &program, "--pcap", &pcap];
         let twin = Twin::start_units("no-capability", &arguments.map(|argument| argument as &str));

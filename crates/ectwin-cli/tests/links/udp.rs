@@ -1,4 +1,4 @@
-//! UDP links: real ports in the line `ready`, and senders that are forged.
+//! UDP links: actual ports in the line `ready`, and forged senders.
 
 use std::net::{SocketAddr, TcpStream, UdpSocket};
 
@@ -28,7 +28,7 @@ fn a_destroyed_datagram_is_logged_with_its_own_length() {
     for length_bytes in [1, 1505, 9000] {
         master.send_to(&vec![0x10; length_bytes], twin.udp()).unwrap();
     }
-    // It is answered behind them.
+    // It is answered after them.
     assert_eq!(count_units(&master, twin.udp()), 1);
     let log = twin.end();
     for words in [
@@ -61,13 +61,13 @@ fn a_forged_sender_makes_no_two_units_answer_each_other_and_none_itself() {
         let links = ["udp:127.0.0.1:34980", "udp:127.0.0.2:34980", "udp:127.0.0.1:5000"];
         let twins = links.map(|link| Twin::start(&link.replace([':', '.'], "-"), &["--link", link]));
         let addresses = twins.each_ref().map(Twin::udp);
-        // Frames that change on their way, and frames that do not: nobody has station address 7.
+        // Frames that change on their way, and frames that do not: no unit has station address 7.
         for payload in [datagram(BRD, 0, [0; 4], &[0, 0]), datagram(4, 0, [7, 0, 0, 0], &[0, 0])] {
             for from in addresses {
                 forge(from, addresses[0], &payload);
             }
         }
-        // A master of another machine may well use the port of EtherCAT itself.
+        // A master on another machine may use the port of EtherCAT itself.
         let master = UdpSocket::bind("127.0.0.3:34980").unwrap();
         for address in addresses {
             assert_eq!(count_units(&master, address), 1);

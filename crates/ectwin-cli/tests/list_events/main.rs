@@ -1,11 +1,11 @@
-//! `ectwin list events --json` has the names and values of the event table, and keeps those it once had.
+//! `ectwin list events --json` has the names and values of the event table, and keeps all earlier ones.
 
 use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
-/// A key of the table that is about the manual, not about the event.
+/// A key of the table that concerns the manual, not the event.
 const NOT_TOLD: &str = "al_in_description";
 
 fn listed() -> Vec<Value> {
@@ -33,7 +33,7 @@ fn every_row_of_the_table_is_there_field_by_field() {
     }
 }
 
-/// Programs read these names and values: `frozen.jsonl` is never made anew, a field may only be added to it.
+/// Programs read these names and values: `frozen.jsonl` is never generated again, fields may only be added.
 #[test]
 fn no_name_or_value_that_programs_know_has_changed() {
     let frozen = include_str!("frozen.jsonl").lines();

@@ -1,4 +1,4 @@
-//! Events over real masters: on every channel while process data run, after power-off, without a memory.
+//! Events with real masters: on every channel while process data are exchanged, after power-off, without a memory.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use crate::run::{Line, Run, with_pysoem};
 
 const UNIT: &str = "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n";
 const MEMORY_ERROR: EventCode = EventCode(0x0020_0000);
-/// The memory is stored soon after a change, and nothing waits for it.
+/// The memory is stored soon after a change, without other code waiting for it.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 #[test]
@@ -31,7 +31,7 @@ fn pysoem_is_told_of_an_event_on_every_channel_while_process_data_run() {
     .run();
 }
 
-/// A unit with a file for its memory, in a folder of its own.
+/// A unit with a file for its memory, in a separate folder.
 struct Unit {
     folder: PathBuf,
 }
@@ -49,12 +49,12 @@ impl Unit {
         self.folder.join("N1.nvm")
     }
 
-    /// Power on, the script of the master, and a signal that ends it all.
+    /// Power on, the script of the master, and a signal that ends everything.
     fn run(&self, cable: usize, python: &Path, arguments: &[&str], signal: &str) {
         let line = Line::start(cable, &[self.folder.join("unit.toml")], None);
         line.run_master(python, "events.py", arguments);
         if signal == "KILL" {
-            // What is on the disk is what a power cut leaves.
+            // The contents of the disk are those after a power failure.
             self.wait_for_log(|log| log.system.is_full() && log.acknowledged);
         }
         let ended = line.end(signal);

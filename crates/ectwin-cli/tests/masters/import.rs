@@ -1,4 +1,4 @@
-//! What a real master has sent is sent again in virtual time, and answered as it was.
+//! The frames of a real master are sent again in virtual time, and the answers are the same.
 
 use std::fs;
 use std::path::Path;

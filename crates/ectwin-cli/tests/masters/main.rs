@@ -1,7 +1,7 @@
 //! Real masters take units to OP through the built command, over a cable between two network namespaces.
 //!
-//! The scripts of the masters are in tests/masters. What a master sees is judged there; here the run is set
-//! up, ended as a user ends it, and its capture read by tshark.
+//! The scripts of the masters are in tests/masters. They check what a master sees; here the run is set up,
+//! ended like by a user, and its capture read with tshark.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -97,7 +97,7 @@ fn pysoem_sends_messages_and_gets_each_of_them_back_once() {
     .run();
 }
 
-/// So many that a lost or doubled one is found; a capture of them would be read for longer than it took.
+/// Enough to detect a lost or duplicate one; reading a capture of them would take longer than the run.
 #[test]
 fn pysoem_sends_10000_messages_without_waiting_and_gets_each_of_them_back_once() {
     Run {

@@ -1,4 +1,4 @@
-//! A PLC runtime outside, over Modbus TCP, while a real master exchanges process data.
+//! An external PLC runtime, over Modbus TCP, while a real master exchanges process data.
 
 use std::path::Path;
 use std::process::Command;
@@ -16,7 +16,7 @@ fn pymodbus_reads_writes_and_forces_while_pysoem_exchanges_process_data() {
         ip(&["link", "set", "lo", "up"]);
         let unit = top_folder().join("tests/masters/units/mismatch.toml");
         let line = Line::start_with(0, &[unit], None, &["--modbus", PORT]);
-        // They meet in the process data: each waits for what the other does.
+        // They are synchronized by the process data: each waits for the other's action.
         let mut master = line.start_master(python, "modbus_master.py", &[]);
         let client = run_client(python);
         assert_eq!((client, master.wait()), (true, 0), "client, and exit code of the master");

@@ -1,4 +1,4 @@
-//! A user program in Structured Text behind a real master.
+//! A user program in Structured Text together with a real master.
 
 use std::path::Path;
 

@@ -20,7 +20,7 @@ pub(crate) struct Run {
 }
 
 impl Run {
-    /// Everything, or a skip that is counted.
+    /// Everything, or a counted skip.
     pub(crate) fn run(&self) {
         if !has_program("tshark") {
             return skip(self.test, "tshark is not installed");
@@ -64,14 +64,14 @@ pub(crate) fn with_python(test: &str, modules: &str, body: impl FnOnce(&Path)) {
     in_network_namespace(test, || body(&python));
 }
 
-/// Units under power at one end of a cable.
+/// Units with power at one end of a cable.
 pub(crate) struct Line {
     ectwin: Process,
     master_interface: String,
 }
 
 impl Line {
-    /// Makes a cable with this number and gives power to the units. A cable serves one master.
+    /// Creates a cable with this number and powers on the units. A cable serves one master.
     pub(crate) fn start(cable: usize, units: &[PathBuf], capture: Option<&Path>) -> Self {
         Self::start_with(cable, units, capture, &[])
     }
@@ -99,7 +99,7 @@ impl Line {
         Self { ectwin, master_interface }
     }
 
-    /// Runs a script of tests/masters at the other end. It has to succeed.
+    /// Runs a script of tests/masters at the other end. It must succeed.
     pub(crate) fn run_master(&self, python: &Path, script: &str, arguments: &[&str]) {
         let mut master = self.start_master(python, script, arguments);
         assert_eq!(master.wait(), 0, "exit code of {script} {arguments:?}");
@@ -113,9 +113,9 @@ impl Line {
         MasterSide::start(&self.master_interface, &master)
     }
 
-    /// Sends a signal to the command. Its exit code; none where the signal has killed it.
+    /// Sends a signal to the command. Returns its exit code; none if the signal has killed it.
     pub(crate) fn end(mut self, signal: &str) -> Option<i32> {
-        // The shell's own kill: the program of that name is not on every machine.
+        // The `kill` of the shell: not every machine has the program of that name.
         let kill = format!("kill -{signal} {}", self.ectwin.id());
         let sent = Command::new("sh").args(["-c", &kill]).status();
         assert!(sent.as_ref().is_ok_and(|sent| sent.success()), "{kill}: {sent:?}");
@@ -128,7 +128,7 @@ pub(crate) fn top_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// How many frames of `capture` match the display filter, as tshark sees it.
+/// Number of frames of `capture` that match the display filter, according to tshark.
 fn count(capture: &Path, filter: &str) -> usize {
     let mut tshark = Command::new("tshark");
     tshark.arg("-r").arg(capture).args(["-Y", filter]).args(["-T", "fields", "-e", "frame.number"]);

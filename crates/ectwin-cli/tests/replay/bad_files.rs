@@ -1,9 +1,9 @@
-//! A wrong scenario file is refused with place and help, and nothing is replayed.
+//! A wrong scenario file is refused with place and remedy, and nothing is replayed.
 
 use crate::WATCHDOG;
 use crate::bench::Bench;
 
-/// Name, steps, and what the message has to say.
+/// Name, steps, and the required text of the message.
 const CASES: &[(&str, &str, &[&str])] = &[
     (
         "unknown-sentence",

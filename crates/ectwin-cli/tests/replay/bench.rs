@@ -1,4 +1,4 @@
-//! A folder of its own for each test, and the built command in it.
+//! A separate folder for each test, and the built command in it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ pub(crate) struct Bench {
     pub(crate) folder: PathBuf,
 }
 
-/// How a command ended.
+/// The result of a command.
 pub(crate) struct Ended {
     pub(crate) code: Option<i32>,
     pub(crate) stdout: String,
@@ -25,7 +25,7 @@ pub(crate) fn top_folder() -> PathBuf {
 impl Bench {
     pub(crate) fn new(name: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("replay").join(name);
-        // What an earlier run has left is not part of this one.
+        // Files of an earlier run are not part of this one.
         let _gone = fs::remove_dir_all(&folder);
         fs::create_dir_all(&folder).unwrap();
         Self { folder }

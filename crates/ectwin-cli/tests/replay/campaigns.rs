@@ -8,7 +8,7 @@ use serde_json::json;
 use crate::bench::Bench;
 use crate::{WATCHDOG, wrong};
 
-/// Three scenarios, of which one fails and one throws dice.
+/// Three scenarios, one of which fails and one has random steps.
 fn campaign(name: &str) -> Bench {
     let bench = Bench::new(name);
     bench.put("s/1-right.toml", WATCHDOG);
@@ -131,7 +131,7 @@ fn merge_reads_files_of_any_size_line_by_line() {
     let bench = campaign("large");
     bench.ectwin(&["replay", "s/1-right.toml", "--json", "one.jsonl"]);
     let one = &bench.json_lines("one.jsonl")[0];
-    // Larger than any file that is read as a whole, by few long lines.
+    // Larger than any file that is read completely, with few long lines.
     let path = bench.folder.join("large.jsonl");
     let mut large = BufWriter::new(File::create(&path).unwrap());
     for case in 1..=CASES {
@@ -158,7 +158,7 @@ fn merge_stops_where_lines_are_no_results() {
     let bench = campaign("no-results");
     bench.put("20.jsonl", &"x\n".repeat(20));
     bench.put("21.jsonl", &"x\n".repeat(21));
-    // Each by itself would take minutes to be told in full.
+    // Each alone would take minutes to report in full.
     bench.put("many.jsonl", &"x\n".repeat(10_000_000));
     bench.put("long.jsonl", &"x".repeat(20_000_000));
     let told = |files: &[&str]| bench.ectwin(&[&["merge"], files].concat()).stderr;

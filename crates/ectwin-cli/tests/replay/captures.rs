@@ -1,4 +1,4 @@
-//! What Wireshark makes of the captures.
+//! How Wireshark reads the captures.
 
 use std::process::Command;
 

@@ -1,11 +1,12 @@
-//! Each scenario of the collection looks: with one expectation turned into its contrary it fails, in that line.
+//! The expectations of each scenario of the collection are effective: if one is inverted, the scenario fails in
+//! that line.
 
 use std::fs;
 use std::path::Path;
 
 use crate::bench::{Bench, top_folder};
 
-/// What an expectation ends with, and what can then not hold. Rows of the same ending: the first one that fits.
+/// The end of an expectation, and its contrary. For rows with the same ending the first one that matches is used.
 const CONTRARIES: &[(&str, &str)] = &[
     ("sees no error", "sees an error"),
     ("have no error", "have recorded 94B80000 77 times"),
@@ -24,7 +25,7 @@ const CONTRARIES: &[(&str, &str)] = &[
     ("is FALSE", "is TRUE"),
 ];
 
-/// Words behind which the rest of an expectation stands, and what to put there instead.
+/// Words after which the rest of an expectation is replaced, and the replacement.
 const REPLACED: &[(&str, &str)] = &[
     (" in ", "BOOT"),
     (" the error ", "94B80000"),
@@ -32,7 +33,7 @@ const REPLACED: &[(&str, &str)] = &[
     ("the master has received emergency ", "0x0001"),
 ];
 
-/// The contrary of an expectation, where there is a mechanical one.
+/// The contrary of an expectation, if it can be made mechanically.
 fn contrary(words: &str) -> Option<String> {
     if let Some((ending, instead)) = CONTRARIES.iter().find(|(ending, _)| words.ends_with(ending)) {
         return Some(words.replace(ending, instead));
@@ -60,12 +61,12 @@ fn other_value(value: &str) -> Option<String> {
         return Some(if value == "flashing_2s" { "lit" } else { "flashing_2s" }.to_owned());
     }
     let number = u64::from_str_radix(value.trim_start_matches("0x"), 16).ok()?;
-    // Two digits are read as a byte, and as a number that is not the same either.
+    // Two digits are read as a byte, and as a number that also differs.
     Some(format!("{}", if number == 0x77 { 66 } else { 77 }))
 }
 
-/// The text with its last expectation turned, and the line in which its step begins. One that has time to
-/// hold could hold before, so those that have none come first.
+/// The text with its last expectation inverted, and the line in which its step begins. An expectation with a
+/// time could be true earlier, so those without one are preferred.
 fn turned(text: &str) -> Option<(String, usize)> {
     const MARK: &str = "expect = \"";
     let places: Vec<usize> = text.match_indices(MARK).map(|(at, _)| at + MARK.len()).collect();

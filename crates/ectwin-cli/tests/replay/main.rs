@@ -1,4 +1,4 @@
-//! `ectwin replay` and `ectwin merge`: what they print, what they leave behind, how they end.
+//! `ectwin replay` and `ectwin merge`: what they print, which files they write, how they end.
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
@@ -10,7 +10,7 @@ mod contrary;
 
 use bench::Bench;
 
-/// Passes: the watchdog of a unit that gets no outputs any more.
+/// Passes: the watchdog of a unit that no longer gets outputs.
 const WATCHDOG: &str = r#"title = "outputs stop in OP"
 steps = [
   { master = "take all units to OP" },

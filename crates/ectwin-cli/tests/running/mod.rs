@@ -1,4 +1,4 @@
-//! `ectwin run` with a user program, and what it tells on stderr, where a user looks.
+//! `ectwin run` with a user program, and its reports on stderr, which a user sees.
 
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -6,12 +6,12 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 
 pub(crate) const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
 
-/// Ends the test where something is not as it should be.
+/// The value of a result; an error fails the test.
 pub(crate) fn must<T, E: std::fmt::Display>(result: Result<T, E>) -> T {
     result.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The command, on a port that nobody else has.
+/// The command, on a free port.
 pub(crate) struct Running {
     child: Child,
     stderr: BufReader<ChildStderr>,
@@ -44,7 +44,7 @@ impl Running {
         let _line = self.line_with(|line| line.contains(words), words);
     }
 
-    /// Waits for a line with these words, in front of which none has those.
+    /// Waits for a line with these words; no line before it may contain `those`.
     pub(crate) fn wait_for_before(&mut self, words: &str, those: &str) {
         let line = self.line_with(|line| line.contains(words) || line.contains(those), words);
         assert!(line.contains(words), "{line}");
@@ -63,7 +63,7 @@ impl Running {
 
 impl Drop for Running {
     fn drop(&mut self) {
-        // An error means that it has ended by itself.
+        // An error means that it has already ended.
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

@@ -1,4 +1,4 @@
-//! The built command under limits of a shell, with what it says on both outputs.
+//! The built command under limits of a shell, with both its outputs.
 
 use std::fs;
 use std::io::{BufRead, BufReader, Read};
@@ -13,27 +13,27 @@ pub(crate) struct Started {
     stderr: BufReader<ChildStderr>,
 }
 
-/// How a command has ended.
+/// The result of a command.
 pub(crate) struct Ended {
     pub(crate) code: Option<i32>,
     pub(crate) stderr: String,
 }
 
-/// A folder of one test, empty at first.
+/// The folder of one test, empty at first.
 pub(crate) fn folder_of(test: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(env!("CARGO_CRATE_NAME")).join(test);
-    // What an earlier run has left is not part of this one.
+    // Files of an earlier run are not part of this one.
     let _gone = fs::remove_dir_all(&path);
     fs::create_dir_all(&path).unwrap();
     path
 }
 
-/// A link that can be opened: the port of another socket that has gone.
+/// A link that can be opened: the port of another socket that has been closed.
 pub(crate) fn free_link() -> String {
     format!("udp:{}", UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap())
 }
 
-/// The command in `folder`, behind `limits` of the shell such as `ulimit -n 20;`.
+/// The command in `folder`, with `limits` of the shell such as `ulimit -n 20;`.
 pub(crate) fn command(folder: &Path, limits: &str, arguments: &[&str]) -> Command {
     let mut command = Command::new("sh");
     command.args(["-c", &format!("{limits} exec \"$0\" \"$@\""), env!("CARGO_BIN_EXE_ectwin")]);
@@ -56,7 +56,7 @@ impl Started {
         Self { child, stdout, stderr }
     }
 
-    /// Waits until it is ready; how it has ended if it never is.
+    /// Waits until it is ready; returns its result if it never is.
     pub(crate) fn try_ready(mut self) -> Result<Self, Ended> {
         let mut line = String::new();
         self.stdout.read_line(&mut line).unwrap();
@@ -81,7 +81,7 @@ impl Started {
         self.child.id().to_string()
     }
 
-    /// Ends it as Ctrl-C does.
+    /// Ends it like Ctrl-C does.
     pub(crate) fn interrupt(self) -> Ended {
         let kill = format!("kill -INT {}", self.child.id());
         assert!(Command::new("sh").args(["-c", &kill]).status().as_ref().is_ok_and(ExitStatus::success));
@@ -96,7 +96,7 @@ impl Started {
 }
 
 impl Drop for Started {
-    /// A test that panics leaves nothing running. An error means that it has ended by itself.
+    /// A test that panics leaves nothing running. An error means that it has already ended.
     fn drop(&mut self) {
         let _ended = self.child.kill().and_then(|()| self.child.wait());
     }

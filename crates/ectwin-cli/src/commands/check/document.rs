@@ -1,4 +1,4 @@
-//! Findings and sizes for programs.
+//! Findings and sizes as data for programs.
 
 use nx_ect101::{
     Amount, Configuration, DataSet, DataSetKind, Direction, EventLevel, EventLevels, ExchangedDataSet, Fact,
@@ -24,7 +24,7 @@ struct FindingRow {
     side: &'static str,
     direction: &'static str,
     data_set: Option<String>,
-    /// What the finding is about on the master's side; none if it is about no size there.
+    /// The size of the finding on the master's side; none if it concerns no size there.
     pdo_bytes: Option<usize>,
     /// The same on the CPU Unit's side.
     io_bytes: Option<usize>,
@@ -38,7 +38,7 @@ struct Sizes {
     c_to_m: DirectionSizes,
 }
 
-/// `pdo_bytes` is the length of the SyncManager, so status PDOs count.
+/// `pdo_bytes` is the length of the SyncManager, so status PDOs are included.
 #[derive(Serialize)]
 struct DirectionSizes {
     pdo_bytes: usize,
@@ -93,7 +93,7 @@ impl FindingRow {
     }
 }
 
-/// The bytes that a finding is about: PDO entries, I/O entries.
+/// The sizes of a finding: PDO entries, I/O entries.
 fn sizes(finding: &Finding) -> (Option<usize>, Option<usize>) {
     match finding.fact {
         Fact::TxPdosTooLong { size_bytes, .. } => (Some(size_bytes), None),

@@ -1,8 +1,8 @@
-//! What would be exchanged.
+//! The resulting exchange.
 
 use nx_ect101::{Configuration, Direction, EventLevel, Finding, Moment, RULES, Verdict};
 
-/// What the unit does with these settings, in a few words.
+/// The reaction of the unit to these settings, in a few words.
 pub(super) fn consequence(verdict: &Verdict, level: impl Fn(&Finding) -> EventLevel) -> String {
     let at_power_on = verdict.findings.iter().any(|finding| {
         let rule = RULES.iter().find(|rule| rule.id == finding.rule);
@@ -30,7 +30,7 @@ pub(super) fn consequence(verdict: &Verdict, level: impl Fn(&Finding) -> EventLe
     }
 }
 
-/// A line for each data set that is selected somewhere, and the totals.
+/// A line for each data set that is selected on a side, and the totals.
 pub(super) fn table(configuration: &Configuration, verdict: &Verdict) -> String {
     let mut text = format!("  {:<18} {:>12} {:>12}   exchanged\n", "data set", "PDO entries", "I/O entries");
     let selected = verdict.data_sets.iter().filter(|set| set.io_entries > 0 || set.pdo_entries > 0);

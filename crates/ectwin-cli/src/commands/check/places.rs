@@ -1,4 +1,4 @@
-//! Where in a unit file a finding has its cause.
+//! The places in a unit file that cause a finding.
 
 use std::ops::Range;
 
@@ -6,14 +6,14 @@ use ectwin::unit_file::{Entries, Located, UnitFile};
 use nx_ect101::{Amount, DataSet, DataSetKind, Direction, Fact, Finding, Side};
 use wire::ObjectIndex;
 
-/// A piece of the file and what to say of it.
+/// A part of the file and its label.
 #[derive(Debug)]
 pub(super) struct Place {
     pub(super) span: Range<usize>,
     pub(super) label: String,
 }
 
-/// The places of a finding; none when the file leaves all of it to the factory setting.
+/// The places of a finding; none if the file leaves all of them at the factory setting.
 pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<Place> {
     let direction = finding.direction;
     match finding.fact {
@@ -59,7 +59,7 @@ fn assigned(file: &UnitFile, direction: Direction, place: usize, label: &str) ->
     element.and_then(|element| located(element, label.to_owned())).into_iter().collect()
 }
 
-/// The entries of a data set on one side, as the file has them.
+/// The entries of a data set on one side, as in the file.
 fn entries<'f>(file: &'f UnitFile, side: Side, set: &DataSet) -> Option<&'f Located<Entries>> {
     if side != Side::IoEntry {
         let mappings = &file.pdo.as_ref()?.value.mappings;
@@ -73,7 +73,7 @@ fn entries<'f>(file: &'f UnitFile, side: Side, set: &DataSet) -> Option<&'f Loca
     sets.iter().find(|entries| entries.kind == set.kind).map(|entries| &entries.entries)
 }
 
-/// One entry of the data set that the finding is about; its number of entries when the file has the short form.
+/// The entry of the finding; the number of entries if the file has the short form.
 fn entry(file: &UnitFile, finding: &Finding, place: usize, label: &str) -> Vec<Place> {
     let set = finding.data_set();
     let Some(entries) = set.and_then(|set| entries(file, finding.side, set)) else { return Vec::new() };
@@ -109,7 +109,7 @@ fn differences(file: &UnitFile, direction: Direction, amounts: &[Amount; 3]) -> 
         let sides = [(Side::IoEntry, amount.io_entries, "I/O"), (Side::PdoEntry, amount.pdo_entries, "PDO")];
         for (side, count, name) in sides {
             let label = format!("{count} {name} {}", if count == 1 { "entry" } else { "entries" });
-            // Entries of a PDO that is not assigned are not what makes the difference.
+            // Entries of a PDO that is not assigned do not cause the difference.
             let entries = entries(file, side, set).filter(|_| count > 0);
             places.extend(entries.and_then(|entries| located(entries, label)));
         }

@@ -1,4 +1,4 @@
-//! One finding as a picture of its place in the file.
+//! One finding with an excerpt of its place in the file.
 
 use std::fmt;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! The cyclic part of the demo: values go out, and are watched coming back.
+//! The cyclic part of the demo: values are sent, and checked when they return.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -15,22 +15,22 @@ use crate::failure::Failure;
 
 const CYCLE: Duration = Duration::from_millis(1);
 const CYCLES: u16 = 3000;
-/// More than the time that the ESI gives a unit.
+/// More than the time-out in the ESI.
 const OP_PATIENCE_CYCLES: u16 = 10_000;
 const CYCLES_BETWEEN_LINES: u16 = 500;
-/// By then the first values have to be back; by the manual they take 7 ms.
+/// By then the first values must have returned; according to the manual they take 7 ms.
 const PATIENCE_CYCLES: u16 = 1000;
-/// One unit that takes an LRW: 1 for the inputs, 2 for the outputs.
+/// One unit that processes an LRW: 1 for the inputs, 2 for the outputs.
 const WORKING_COUNTER: u16 = 3;
 
 const TX_PDO_ASSIGNMENT: u16 = 0x1C13;
-/// TxPDO that carries the UINT arrays of the CPU Unit.
+/// TxPDO with the UINT arrays of the CPU Unit.
 const UINTS_TX_PDO: u16 = 0x1A01;
 
-/// What the exchange came to.
+/// The result of the exchange.
 pub(super) struct Exchanged {
     cycles: u16,
-    /// Cycles that a value took to come back.
+    /// Number of cycles until a value returned.
     delays: Option<RangeInclusive<u16>>,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for Exchanged {
     }
 }
 
-/// Byte of the inputs at which the UINT arrays begin, found as a master finds it: by the assignment and the
+/// Byte of the inputs at which the UINT arrays begin, calculated like in a master: from the assignment and the
 /// mappings before it.
 pub(super) async fn position_of_data(
     master: &MainDevice<'static>,
@@ -72,7 +72,7 @@ pub(super) fn sizes<S: HasPdi>(
     Ok((io.outputs().len(), io.inputs().len()))
 }
 
-/// Asks for OP and sends process data until the unit is there: it waits for outputs.
+/// Requests OP and sends process data until the unit is in OP: it waits for outputs.
 pub(super) async fn into_op(
     master: &MainDevice<'static>,
     group: Group<SafeOp>,
@@ -120,7 +120,7 @@ pub(super) async fn run(
     Ok(Exchanged { cycles: CYCLES, delays: watch.delays })
 }
 
-/// The number of the cycle into every word: an image that was torn would show two numbers.
+/// Writes the number of the cycle to every word: an inconsistent image would contain two numbers.
 fn write(master: &MainDevice<'static>, group: &Group<Op>, cycle: u16) -> Result<(), Failure> {
     let unit = group.subdevice(master, 0).map_err(master_failed("finding the unit"))?;
     for word in unit.outputs_raw_mut().chunks_exact_mut(2) {
@@ -129,7 +129,7 @@ fn write(master: &MainDevice<'static>, group: &Group<Op>, cycle: u16) -> Result<
     Ok(())
 }
 
-/// The number that came back; all words have to agree.
+/// The returned number; all words must be equal.
 fn read(master: &MainDevice<'static>, group: &Group<Op>, first_input: usize) -> Result<u16, Failure> {
     let unit = group.subdevice(master, 0).map_err(master_failed("finding the unit"))?;
     let io = unit.io_raw();
@@ -146,7 +146,7 @@ fn read(master: &MainDevice<'static>, group: &Group<Op>, first_input: usize) -> 
     }
 }
 
-/// Follows the numbers that come back.
+/// Checks the returned numbers.
 #[derive(Default)]
 struct Watch {
     newest: u16,

@@ -1,4 +1,4 @@
-//! The slaves that the master of the demo makes a group of.
+//! The slaves that the master of the demo combines into a group.
 
 use ethercrab::subdevice_group::SubDeviceGroup;
 

@@ -1,15 +1,15 @@
-//! How a step of the demo fails.
+//! The failure of a step of the demo.
 
 use ethercrab::error::Error;
 
 use crate::failure::Failure;
 
-/// Names the step that failed.
+/// Adds the name of the failed step.
 pub(super) fn failed(step: &str, reason: impl std::fmt::Display) -> Failure {
     Failure::Demo(format!("{step}: {reason}"))
 }
 
-/// Names the step in which the master failed.
+/// Adds the name of the step in which the master failed.
 pub(super) fn master_failed(step: &str) -> impl Fn(Error) -> Failure + '_ {
     move |error| failed(step, error)
 }

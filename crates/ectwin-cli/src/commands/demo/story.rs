@@ -1,4 +1,4 @@
-//! What the demo tells: a time, a word, a sentence in each line.
+//! The output of the demo: a time, a word, a sentence in each line.
 
 use std::fmt::Display;
 use std::time::{Duration, Instant};
@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::failure::Failure;
 use crate::output::print_line;
 
-/// The telling of one demo.
+/// The output of one demo.
 pub(crate) struct Story {
     began: Instant,
 }
@@ -28,7 +28,7 @@ impl Story {
         print_line(format_args!("{:24}{sentence}", ""))
     }
 
-    /// Time since the beginning.
+    /// Time since the start.
     pub(crate) fn elapsed(&self) -> Duration {
         self.began.elapsed()
     }

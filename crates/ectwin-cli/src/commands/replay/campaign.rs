@@ -1,4 +1,4 @@
-//! What is to be replayed: scenario files, read and checked, times seeds.
+//! The cases to be replayed: scenario files, read and checked, times seeds.
 
 use std::path::{Path, PathBuf};
 
@@ -33,7 +33,7 @@ struct Loaded {
 
 /// The seeds of each scenario.
 enum Seeds {
-    /// The one that its file names.
+    /// The one in its file.
     Own,
     /// These.
     These(Vec<u64>),
@@ -53,7 +53,7 @@ impl Campaign {
     /// Reads all files.
     ///
     /// # Errors
-    /// Everything that is wrong with any of them.
+    /// All mistakes in any of them.
     pub(super) fn read(args: &ReplayArgs) -> Result<Self, Failure> {
         let seeds = Seeds::wanted(args);
         let mut fingerprint = Fingerprint::new();
@@ -82,10 +82,10 @@ impl Campaign {
         }
     }
 
-    /// Writes the golden traces that are there, and those of files that are named.
+    /// Writes the existing golden traces, and those for files that are named.
     ///
     /// # Errors
-    /// A scenario fails in another way, or a trace cannot be written.
+    /// A scenario fails for another reason, or a trace cannot be written.
     pub(super) fn bless(&mut self, named: &[PathBuf]) -> Result<(), Failure> {
         for Loaded { path, scenario } in &mut self.scenarios {
             if scenario.golden_trace.take().is_none() && !named.contains(path) {
@@ -97,7 +97,7 @@ impl Campaign {
                 return Err(Failure::Refused { message: format!("{}: {failure}", path.display()), help });
             }
             let trace = path.with_extension("trace");
-            // A scenario of that name is no golden trace.
+            // A scenario with that name is not a golden trace.
             overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
             output::write(Some(&trace), report.recording.trace().unwrap_or_default().as_bytes())?;
             output::print_line(format_args!("blessed {}", trace.display()))?;
@@ -110,7 +110,7 @@ impl Campaign {
         &self.inputs
     }
 
-    /// How many cases there are in all parts.
+    /// Number of cases in all parts.
     pub(super) fn count(&self) -> u64 {
         self.scenarios.len() as u64 * self.seeds_each()
     }
@@ -122,7 +122,7 @@ impl Campaign {
         }
     }
 
-    /// The seed, if it was drawn and nobody knows it yet.
+    /// The seed, if it was chosen at random and is not known to the user yet.
     pub(super) fn drawn_seed(&self) -> Option<u64> {
         match &self.seeds {
             Seeds::These(seeds) if self.is_drawn => seeds.first().copied(),
@@ -135,7 +135,7 @@ impl Campaign {
         (1..=self.count()).filter(move |&case| partition.has(case))
     }
 
-    /// The case of this number: all seeds of a scenario, then the next scenario.
+    /// The case with this number: all seeds of a scenario, then the next scenario.
     ///
     /// # Panics
     /// If there is no such case: numbers come from [`Self::cases_of`].
@@ -150,7 +150,7 @@ impl Campaign {
     }
 }
 
-/// The files that the command line names: of a folder all that end with .toml, in order. Each one once.
+/// The files of the command line: of a folder all that end with .toml, in order. Each one once.
 fn files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
     for path in named {
@@ -174,12 +174,12 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     user_files::below(folder, "toml").map_err(unreadable)
 }
 
-/// Reads one scenario, and the files that it names, seen from its folder.
+/// Reads one scenario, and its files, relative to its folder.
 pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     load(path, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
 }
 
-/// Reads a scenario, and the files that it names, seen from its folder.
+/// Reads a scenario, and its files, relative to its folder.
 fn load(
     path: &Path,
     fingerprint: &mut Fingerprint,
@@ -193,7 +193,7 @@ fn load(
     let mut named = Beside::new(folder, |name, wanted, text| {
         let path = folder.join(name);
         if wanted == Wanted::UnitFile {
-            // Not read, and yet not to be replaced: the memory of the unit.
+            // Not read, but must not be replaced: the memory of the unit.
             let file = UnitFile::parse(text).ok();
             inputs.extend(file.and_then(|file| unit_files::storage_path(&path, &file)));
         }
@@ -216,7 +216,7 @@ fn load(
             FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)
         })?;
     }
-    // Beside the file, if at all.
+    // Beside the file, if there is one.
     let golden = path.with_extension("trace");
     if let Ok(trace) = user_files::text(&golden, Wanted::Results) {
         inputs.push(golden);
@@ -237,7 +237,7 @@ fn unreadable(path: &Path, error: &Unreadable) -> FileProblem {
     FileProblem::of_file(&format!("cannot read {}: {error}", path.display()), &error.help())
 }
 
-/// Tells campaigns apart, so that results of two are not taken for one (FNV-1a, 64 bits).
+/// Distinguishes campaigns, so that results of two are not mixed (FNV-1a, 64 bits).
 struct Fingerprint(u64);
 
 impl Fingerprint {

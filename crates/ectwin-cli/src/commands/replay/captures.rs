@@ -1,4 +1,4 @@
-//! Where captures go: one case to a file, several to a folder.
+//! The files for captures: one case to a file, several to a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,18 +7,18 @@ use super::result::CaseResult;
 use crate::failure::Failure;
 use crate::overwrite::{self, Output};
 
-/// Where they go.
+/// The target of the captures.
 pub(super) enum Captures {
-    /// Nobody wants them.
+    /// Captures are not requested.
     None,
     /// The one case.
     File(PathBuf),
-    /// Each case to a file of its own, named after its number, scenario and seed. A scenario may replay one of them.
+    /// Each case to a separate file, named after its number, scenario and seed. A scenario may replay one of them.
     Folder { folder: PathBuf, inputs: Vec<PathBuf> },
 }
 
 impl Captures {
-    /// A path that ends with `/`, or is a folder, is one; else it is a file, and there must be one case.
+    /// A path that ends with `/`, or is a folder, is a folder; otherwise it is a file, and there must be only one case.
     pub(super) fn choose(path: Option<&Path>, cases: usize, inputs: &[PathBuf]) -> Result<Self, Failure> {
         let Some(path) = path else { return Ok(Self::None) };
         if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {

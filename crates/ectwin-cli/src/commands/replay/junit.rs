@@ -1,4 +1,4 @@
-//! Results as JUnit, which every CI system shows. Its times are virtual, and it has no time stamps.
+//! Results as JUnit, which every CI system can display. Its times are virtual, and it has no time stamps.
 
 use std::io;
 use std::path::PathBuf;
@@ -30,7 +30,7 @@ fn test_case(result: &CaseResult) -> TestCase {
     let mut case = TestCase::new(format!("{} (seed {})", result.title, result.seed), status);
     case.set_classname(result.file.as_str());
     case.set_time(Duration::from_nanos(result.virtual_ns));
-    // GitLab and others link a failure to its place by these.
+    // GitLab and others use these as a link from a failure to its place.
     case.extra.insert("file".into(), result.file.as_str().into());
     if let Some(step) = &result.failure {
         case.extra.insert("line".into(), step.line.to_string().into());

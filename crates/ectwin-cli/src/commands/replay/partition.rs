@@ -1,4 +1,4 @@
-//! Which part of the cases runs here: `--partition i/n`, or what a CI system tells its jobs.
+//! The part of the cases that runs here: `--partition i/n`, or from the variables of a CI job.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -6,12 +6,12 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// What `--partition` asks for.
+/// The value of `--partition`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PartitionChoice {
     /// This one.
     Given(Partition),
-    /// The one that the variables of a CI system name.
+    /// The one in the variables of a CI system.
     Auto,
 }
 
@@ -23,7 +23,7 @@ impl FromStr for PartitionChoice {
     }
 }
 
-/// One of so many parts, counted from 1. The cases are dealt out one by one, so that the parts are alike.
+/// One part of several, counted from 1. The cases are distributed one by one, so that the parts are similar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub(crate) struct Partition {
@@ -40,7 +40,7 @@ impl Partition {
         (1..=count).contains(&number).then_some(Self { number, count })
     }
 
-    /// How many parts there are.
+    /// The number of parts.
     pub(crate) const fn count(self) -> u64 {
         self.count
     }
@@ -50,7 +50,7 @@ impl Partition {
         Self { number: case.saturating_sub(1) % count + 1, count }
     }
 
-    /// How many of so many cases are in it.
+    /// The number of its cases, for this total number.
     pub(crate) const fn cases_of(self, cases: u64) -> u64 {
         cases / self.count + (self.number <= cases % self.count) as u64
     }
@@ -92,24 +92,24 @@ impl From<Partition> for String {
     }
 }
 
-/// What a CI system says.
+/// The values of a CI system.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Shard {
-    /// The part that it gives us.
+    /// The part for this job.
     pub(crate) partition: Partition,
-    /// The file by which Bazel learns that we have understood (its test encyclopedia, "Test sharding").
+    /// The file that Bazel checks to see that sharding is supported (its test encyclopedia, "Test sharding").
     pub(crate) status_file: Option<PathBuf>,
 }
 
-/// Where a CI system says which part is ours.
+/// The variables of a CI system for the part.
 struct Source {
     name: &'static str,
-    /// Is there in a job of several.
+    /// Present in a job with several parts.
     index: &'static str,
     partition: fn(u64, &Variables) -> Result<Option<Partition>, String>,
 }
 
-/// Gives the value of an environment variable.
+/// Returns the value of an environment variable.
 type Variables<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
 const SOURCES: &[Source] = &[
@@ -131,10 +131,10 @@ const SOURCES: &[Source] = &[
     },
 ];
 
-/// The part that the environment names.
+/// The part in the environment.
 ///
 /// # Errors
-/// What is wrong: no system names one, several do, or the numbers do not fit.
+/// The mistake: there are variables of no system, or of several, or the numbers do not match.
 pub(crate) fn from_environment(of: &Variables) -> Result<Shard, String> {
     let told: Vec<&Source> = SOURCES.iter().filter(|source| of(source.index).is_some()).collect();
     let source = match told[..] {
@@ -164,7 +164,7 @@ fn from_zero(index: u64, count: u64) -> Option<Partition> {
     Partition::new(index.checked_add(1)?, count)
 }
 
-/// An array may begin anywhere and have steps; one with gaps has no place for each of its tasks.
+/// An array may begin anywhere and have steps; one with gaps cannot be mapped to parts.
 fn slurm(index: u64, of: &Variables) -> Result<Option<Partition>, String> {
     let (first, last) = (number("SLURM_ARRAY_TASK_MIN", of)?, number("SLURM_ARRAY_TASK_MAX", of)?);
     let count = number("SLURM_ARRAY_TASK_COUNT", of)?;

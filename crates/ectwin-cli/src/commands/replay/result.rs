@@ -1,83 +1,83 @@
-//! What a case came to, as a line of JSON: the file that `merge` reads.
+//! The result of a case, as a line of JSON: the file that `merge` reads.
 
 use serde::{Deserialize, Serialize};
 
 use super::case::Case;
 use super::partition::Partition;
 
-/// What a case came to. Nothing of it depends on the machine, on threads or on the time of day.
+/// The result of a case. No part of it depends on the machine, on threads or on the time of day.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CaseResult {
     /// Its number in the campaign, from 1.
     pub(crate) case: u64,
-    /// How many cases the campaign has.
+    /// The number of cases of the campaign.
     pub(crate) cases: u64,
-    /// The part that it ran in, `2/3`.
+    /// The part in which it ran, `2/3`.
     pub(crate) partition: Partition,
     /// Fingerprint of the campaign: version, files, seeds.
     pub(crate) campaign: String,
     /// The scenario file.
     pub(crate) file: String,
-    /// What it shows.
+    /// The title of the scenario.
     pub(crate) title: String,
-    /// The seed of its dice.
+    /// The seed of its random generator.
     pub(crate) seed: u64,
-    /// How it ended.
+    /// Its verdict.
     pub(crate) verdict: Verdict,
-    /// The expectation that did not hold.
+    /// The failed expectation.
     pub(crate) failure: Option<FailedStep>,
-    /// Virtual time that has passed.
+    /// Elapsed virtual time.
     pub(crate) virtual_ns: u64,
     /// Process data cycles of the master.
     pub(crate) cycles: u64,
-    /// In what the answers of a capture differ; left out if they do not.
+    /// The differences to the answers of a capture; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) differences: Vec<Difference>,
 }
 
-/// Answers that differ from the captured ones in one way.
+/// Answers that differ from the captured ones in the same way.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Difference {
-    /// What differs: `working_counter`, `data`, `datagrams`, `missing_answer`.
+    /// The kind of difference: `working_counter`, `data`, `datagrams`, `missing_answer`.
     pub(crate) kind: String,
-    /// Mnemonic of the command; none if it is a whole frame that differs.
+    /// Mnemonic of the command; none if a whole frame differs.
     pub(crate) command: Option<String>,
-    /// What the command asks for; none if it is a whole frame that differs.
+    /// The target of the command; none if a whole frame differs.
     pub(crate) place: Option<String>,
-    /// How many there are.
+    /// Their number.
     pub(crate) count: u64,
-    /// The first of them, in words.
+    /// The first of them, as text.
     pub(crate) first: String,
 }
 
-/// How a case ended.
+/// The verdict of a case.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Verdict {
-    /// Every expectation held.
+    /// All expectations were fulfilled.
     Passed,
-    /// One did not.
+    /// One was not.
     Failed,
 }
 
-/// An expectation that did not hold.
+/// A failed expectation.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct FailedStep {
     /// Its line in the file, from 1.
     pub(crate) line: usize,
-    /// Its words.
+    /// Its text.
     pub(crate) step: String,
-    /// When, from the beginning.
+    /// The time, from the start.
     pub(crate) at_ns: u64,
-    /// What was seen instead.
+    /// The actual state.
     pub(crate) seen: String,
 }
 
 impl CaseResult {
-    /// Of a report.
+    /// From a report.
     pub(super) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
         let failure = report.failure.as_ref().map(|failure| FailedStep {
             line: failure.line,
@@ -113,7 +113,7 @@ impl Difference {
         }
     }
 
-    /// What it is called in a text.
+    /// Its name in a text.
     pub(super) fn words(&self) -> String {
         let kind = self.kind.replace('_', " ");
         match (&self.command, &self.place) {

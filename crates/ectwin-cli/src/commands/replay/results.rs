@@ -1,4 +1,4 @@
-//! Where results go, one by one: told to people, to the file of JSON lines, to JUnit, to captures.
+//! The targets of results, one by one: text output, the file of JSON lines, JUnit, captures.
 
 use std::fs::File;
 use std::io::Write;
@@ -13,7 +13,7 @@ use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::output;
 
-/// Takes the results in the order of their cases.
+/// Accepts the results in the order of their cases.
 pub(super) struct Results {
     lines: Option<(PathBuf, File)>,
     captures: Captures,
@@ -23,7 +23,7 @@ pub(super) struct Results {
 }
 
 impl Results {
-    /// Makes the files, before anything runs in vain.
+    /// Creates the files first, so that a failure does not waste a run.
     pub(super) fn open(args: &ReplayArgs, captures: Captures) -> Result<Self, Failure> {
         let lines = args.json.clone().map(|path| match File::create(&path) {
             Ok(file) => Ok((path, file)),
@@ -53,7 +53,7 @@ impl Results {
         Ok(())
     }
 
-    /// All of our part are there, of so many in all.
+    /// All results of this part are complete; `all` is the total number.
     pub(super) fn close(self, partition: Partition, all: u64) -> Result<(), Failure> {
         if let Some((path, results)) = &self.junit {
             output::write(Some(path), junit::report(results)?.as_bytes())?;

@@ -1,18 +1,18 @@
-//! Which seeds the cases of a campaign have: `--seed`, `--seeds`.
+//! The seeds of the cases of a campaign: `--seed`, `--seeds`.
 
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-/// Most seeds of one campaign: their list is kept in memory.
+/// Maximum number of seeds of one campaign: their list is kept in memory.
 const SEEDS_MAX: u64 = 1_000_000;
 
-/// What `--seed` asks for.
+/// The value of `--seed`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SeedChoice {
     /// This one.
     Fixed(u64),
-    /// One that nobody knows yet; it is told, so that the run can be repeated.
+    /// A random one; it is printed, so that the run can be repeated.
     Random,
 }
 
@@ -32,13 +32,13 @@ impl SeedChoice {
     pub(crate) fn draw(self) -> u64 {
         match self {
             Self::Fixed(seed) => seed,
-            // 32 bits of the keys that the operating system gives each process: short enough to be typed.
+            // 32 bits of the keys that the operating system gives each process: short enough to type.
             Self::Random => RandomState::new().build_hasher().finish() >> 32,
         }
     }
 }
 
-/// What `--seeds` asks for: `1..100`, both ends included, or `100` for the same.
+/// The value of `--seeds`: `1..100`, both ends included, or `100` for the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SeedRange(RangeInclusive<u64>);
 

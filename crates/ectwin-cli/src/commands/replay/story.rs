@@ -1,10 +1,11 @@
-//! A case for people: one line, and more if it failed.
+//! The text output of a case: one line, and more if it failed.
 
 use time::Duration;
 
 use super::result::{CaseResult, Difference, Verdict};
 
-/// One line for a case; of a failure where, what was seen, and how to see it again; then the trace, if wanted.
+/// One line for a case; for a failure the place, the actual state, and the command to repeat it; then the
+/// trace, if requested.
 pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
     let lasted = Duration::from_nanos(result.virtual_ns);
     let word = match result.verdict {
@@ -20,7 +21,7 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
     story
 }
 
-/// What failed; nothing if all is well.
+/// The failure; empty if there is none.
 pub(crate) fn failure(result: &CaseResult) -> String {
     let Some(failed) = &result.failure else { return String::new() };
     let at = Duration::from_nanos(failed.at_ns);
@@ -45,12 +46,12 @@ fn differences(result: &CaseResult) -> String {
     result.differences.iter().map(line).collect()
 }
 
-/// The one command that shows it again.
+/// The single command that repeats it.
 fn repeat(result: &CaseResult) -> String {
     format!("ectwin replay {} --seed {}", quoted(&result.file), result.seed)
 }
 
-/// A path as a shell takes it.
+/// A path quoted for a shell.
 pub(crate) fn quoted(path: &str) -> String {
     let is_plain = path.chars().all(|letter| letter.is_alphanumeric() || "/._-+".contains(letter));
     if is_plain { path.to_owned() } else { format!("'{}'", path.replace('\'', r"'\''")) }

@@ -13,7 +13,7 @@ use super::partition::Partition;
 use super::result::CaseResult;
 use crate::failure::Failure;
 
-/// What a replay has to leave behind.
+/// The outputs that a replay must produce.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     pub(super) trace: bool,
@@ -37,7 +37,7 @@ impl Ended {
     }
 }
 
-/// Replays all cases, and hands on what they came to in their order. Ends early if `take` fails.
+/// Replays all cases, and passes their results on in order. Ends early if `take` fails.
 pub(super) fn replay(
     cases: &[u64],
     threads: NonZeroUsize,
@@ -67,7 +67,7 @@ pub(super) fn replay(
     })
 }
 
-/// Keeps what comes too early.
+/// Keeps results that are early.
 fn in_order(
     ended: impl Iterator<Item = (usize, Ended)>,
     take: &mut impl FnMut(Ended) -> Result<(), Failure>,

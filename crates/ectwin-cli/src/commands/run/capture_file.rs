@@ -1,4 +1,4 @@
-//! The file of `--pcap`: it is opened with the privileges of the start, and what is in it stays until the units run.
+//! The file of `--pcap`: it is opened with the privileges at the start, and its contents are kept until the units run.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -6,23 +6,23 @@ use std::path::{Path, PathBuf};
 
 use crate::failure::Failure;
 
-/// A file that is open and not written yet.
+/// A file that is open and has not been written yet.
 pub(super) struct CaptureFile {
     path: PathBuf,
     file: File,
     made: Made,
 }
 
-/// The file, if it was not there before: it is removed unless it is begun.
+/// The file, if it did not exist before: it is removed unless the capture is started.
 struct Made(Option<PathBuf>);
 
 impl CaptureFile {
-    /// Opens the file, or makes it.
+    /// Opens the file, or creates it.
     pub(super) fn open(path: &Path) -> Result<Self, Failure> {
         let made = OpenOptions::new().write(true).create_new(true).open(path);
         let opened = match made {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                // A link may lead to a file that is to be made.
+                // A link may refer to a file that does not exist yet.
                 let file = OpenOptions::new().write(true).create(true).truncate(false).open(path);
                 file.map(|file| (file, None))
             }
@@ -35,7 +35,7 @@ impl CaptureFile {
         }
     }
 
-    /// Empties the file for the capture: nothing can refuse the run any more.
+    /// Empties the file for the capture: from here on nothing can refuse the run.
     pub(super) fn begin(mut self) -> Result<File, Failure> {
         self.made.0 = None;
         let is_regular = self.file.metadata().is_ok_and(|metadata| metadata.is_file());
@@ -47,7 +47,7 @@ impl CaptureFile {
 impl Drop for Made {
     fn drop(&mut self) {
         if let Some(path) = self.0.take() {
-            // An empty file that stays, because the privileges for its folder are gone, hurts no one.
+            // An empty file that remains, because the privileges for its folder have been dropped, does no harm.
             let _gone = fs::remove_file(path);
         }
     }

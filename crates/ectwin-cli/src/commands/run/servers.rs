@@ -1,4 +1,4 @@
-//! The servers that `run` starts: their ports are opened while there are privileges, and served later.
+//! The servers of `run`: their ports are opened with the initial privileges, and served later.
 
 use std::net::{SocketAddr, TcpListener};
 
@@ -8,7 +8,7 @@ use ectwin::{ModbusServer, Twin};
 
 use crate::failure::Failure;
 
-/// A listener, and the address that was asked for.
+/// A listener, and the requested address.
 pub(super) type Listener = (SocketAddr, TcpListener);
 
 pub(super) fn listen_for_modbus(address: SocketAddr) -> Result<Listener, Failure> {
