@@ -109,7 +109,7 @@ def cycles(count, period_s=0.001):
 
 
 def pattern(seed, length):
-    """An image in which every octet depends on `seed` and on its place, so that a torn one is seen."""
+    """An image in which every byte depends on `seed` and on its position, so that an inconsistent one is detected."""
     first = seed.to_bytes(4, "little")
     body = bytes((seed * 31 + place * 7) & 0xFF for place in range(4, length))
     return (first + body)[:length]

@@ -229,8 +229,8 @@ def abort_code(slave, index, sub, value):
     return None
 
 
-def expect_time(octets, begin_ns, name):
-    seen, now_ns = int.from_bytes(octets, "little"), time.time_ns()
+def expect_time(value, begin_ns, name):
+    seen, now_ns = int.from_bytes(value, "little"), time.time_ns()
     if not begin_ns - CLOCK_TOLERANCE_NS <= seen <= now_ns + CLOCK_TOLERANCE_NS:
         raise bench.Failure(f"{name}: {seen} ns, the master's clock said {begin_ns} to {now_ns}")
 

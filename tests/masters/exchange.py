@@ -30,10 +30,10 @@ def main(interface, units, example, cycles, *options):
         bench.to_op(master, overlap)
         bench.expect(master.expected_wkc, 3 * units, "expected working counter")
         for slave in master.slaves:
-            bench.expect(len(slave.output), size, "output octets")
-            bench.expect(len(slave.input), bench.STATUS_BYTES + size + bench.NEW_MESSAGES_BYTES, "input octets")
+            bench.expect(len(slave.output), size, "output bytes")
+            bench.expect(len(slave.input), bench.STATUS_BYTES + size + bench.NEW_MESSAGES_BYTES, "input bytes")
         slowest = exchange_patterns(master, size, int(cycles), overlap)
-        print(f"{cycles} cycles, {units} units of {size} octets, slowest echo {slowest} cycles")
+        print(f"{cycles} cycles, {units} units of {size} bytes, slowest echo {slowest} cycles")
 
 
 def write_mapping(slave, entries):

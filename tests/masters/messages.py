@@ -11,7 +11,7 @@ import pysoem
 TO_CPU_UNIT, FROM_CPU_UNIT, MESSAGE = 0x3001, 0x3000, 1
 MESSAGE_OCTETS = 200
 NOT_READY = 0x0800_0021
-# NX Unit Status, the first octet of the inputs.
+# NX Unit Status, the first byte of the inputs.
 NX_MESSAGES_ENABLED, NEW_MESSAGE, READY_TO_WRITE = 1 << 0, 1 << 3, 1 << 4
 # Messages that can wait while the master reads none: in 3000, in the program, in 5000.
 ROOM = 3

@@ -46,13 +46,13 @@ def entries(described):
             yield sub, entry
 
 
-def octets(entry):
+def size_bytes(entry):
     return (entry["size_bits"] + 7) // 8
 
 
 def default(entry, sub):
-    """The octets of the value at power-on."""
-    size = octets(entry)
+    """The bytes of the value at power-on."""
+    size = size_bytes(entry)
     if "default_base" in entry:
         return (entry["default_base"] | sub << 8).to_bytes(size, "little")
     value = entry.get("default", 0)
@@ -76,7 +76,7 @@ def in_pre_op(slave, objects):
 def read_in_pre_op(slave, index, sub, entry):
     if entry["access"] in READ_IN_PRE_OP:
         value = slave.sdo_read(index, sub)
-        bench.expect(len(value), octets(entry), f"octets of {index:04X}:{sub:02X}")
+        bench.expect(len(value), size_bytes(entry), f"bytes of {index:04X}:{sub:02X}")
         if (index, sub) not in OF_THE_UNIT:
             bench.expect(value, default(entry, sub), f"default of {index:04X}:{sub:02X}")
     else:
@@ -99,7 +99,7 @@ def write_in_pre_op(slave, index, sub, entry):
     refuse_write(slave, index, sub, value + b"\x00", WRONG_LENGTH)
     outside = outside_of(entry)
     if outside is not None:
-        refuse_write(slave, index, sub, outside.to_bytes(octets(entry), "little"), OUT_OF_RANGE)
+        refuse_write(slave, index, sub, outside.to_bytes(size_bytes(entry), "little"), OUT_OF_RANGE)
     return 2
 
 
@@ -160,7 +160,7 @@ def one_in_op(slave, index, sub, entry):
     if access == "ro_safe_op":
         refuse_write(slave, index, sub, value, READ_ONLY)
     else:
-        written = bench.pattern(index + sub, octets(entry))
+        written = bench.pattern(index + sub, size_bytes(entry))
         slave.sdo_write(index, sub, written)
         bench.expect(slave.sdo_read(index, sub), written, f"{index:04X}:{sub:02X} after a write")
     return 2

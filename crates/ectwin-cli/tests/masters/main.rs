@@ -37,9 +37,9 @@ fn pysoem_exchanges_20000_cycles_with_the_factory_setting() {
 }
 
 #[test]
-fn pysoem_maps_1200_octets_in_each_direction() {
+fn pysoem_maps_1200_bytes_in_each_direction() {
     Run {
-        test: "pysoem_maps_1200_octets_in_each_direction",
+        test: "pysoem_maps_1200_bytes_in_each_direction",
         units: &["nx-ect101-1200-bytes.toml"],
         script: "exchange.py",
         arguments: &["1", "uint-maximum", "1000"],

@@ -1,6 +1,6 @@
 use ectwin::{Duration, Setup, Twin};
 
-/// Tells a user-defined error, and then divides by zero: the scan ends there.
+/// Reports a user-defined error, and then divides by zero: the scan ends there.
 const WRONG: &str = "
     VAR Parts, Machines : INT; END_VAR
     IF Machines = 0 THEN SetAlarm(16#101, Parts); END_IF;

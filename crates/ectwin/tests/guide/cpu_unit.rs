@@ -18,7 +18,7 @@ fn the_program_runs_once_in_each_task_period_and_not_in_program_mode() {
     twin.run_for(Duration::from_millis(20));
     assert_eq!(scans(&mut twin) - first, 10);
 
-    // PROGRAM mode: the program stands, I/O refreshing goes on, the values stay.
+    // PROGRAM mode: the program is stopped, I/O refreshing continues, the values are kept.
     twin.unit(0).cpu().set_mode(OperatingMode::Program);
     let stopped = scans(&mut twin);
     twin.run_for(Duration::from_millis(20));

@@ -12,7 +12,7 @@ fn a_variable_is_found_by_its_name_or_its_at_specification() {
     assert_eq!(io.find("IOBus://unit#1/UINTs 01 M to C"), Some(speed));
     assert_eq!(io.type_of(speed).unwrap().to_string(), "ARRAY[0..14] OF UINT");
 
-    // The master is not in OP: the value is there, but it is not for control.
+    // The master is not in OP: the value is available, but it must not be used for control.
     assert_eq!(io.read(speed).unwrap()[..], [0; 30]);
     assert_eq!(io.validity(speed), Ok(Validity::DataNotValid));
 }

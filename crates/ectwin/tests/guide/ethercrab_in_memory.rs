@@ -7,13 +7,13 @@ static STORAGE: PduStorage<16, { PduStorage::element_size(1100) }> = PduStorage:
 
 #[tokio::test]
 async fn our_application_brings_the_unit_to_op() {
-    // The unit. Its file names no program, so the test sets its inputs.
+    // The unit. Its file has no program, so the test sets its inputs.
     let setup = Setup::from_toml("model = \"nx-ect101\"").unwrap();
     let (tx, rx, pdu_loop) = STORAGE.try_split().unwrap();
     let live = Twin::power_on([setup]).serve_ethercrab(tx, rx).unwrap();
     live.look(0, |unit| unit.io_mut().set_uints(1, [0x1234; 15]));
 
-    // The master, as in any program with ethercrab. Machines for tests are busy: be patient.
+    // The master, as in any program with ethercrab. Test machines are busy, so the time-outs are long.
     let patience = Duration::from_secs(5);
     let timeouts =
         Timeouts { pdu: patience, eeprom: patience, mailbox_response: patience, ..Timeouts::default() };
@@ -22,7 +22,7 @@ async fn our_application_brings_the_unit_to_op() {
     let group = master.init_single_group::<2, 512>(ethercrab::std::ethercat_now).await.unwrap();
     let unit = group.subdevice(&master, 0).unwrap();
     assert_eq!(unit.sdo_read::<u32>(0x1018, 2).await.unwrap(), 0x017C);
-    // A unit waits for outputs on its way to OP, so process data run from SAFE-OP on, a cycle each millisecond.
+    // A unit waits for outputs on its way to OP, so process data start in SAFE-OP, with a cycle of 1 ms.
     let mut ticks = tokio::time::interval(Duration::from_millis(1));
     let group = group.into_safe_op(&master).await.unwrap().request_into_op(&master).await.unwrap();
     while !group.tx_rx(&master).await.unwrap().all_op() {

@@ -2,7 +2,7 @@ use ectwin::{AlState, AlStatusCode, Duration, EventCode, EventLevel, Fault, Setu
 
 const PROCESSING_ERROR: EventCode = EventCode(0x4020_0000);
 const A_WHILE: Duration = Duration::from_millis(10);
-/// What the unit needs to start again, and a little more.
+/// The time that the unit needs to restart, with a margin.
 const START_UP: Duration = Duration::from_millis(310);
 
 #[test]
@@ -12,7 +12,7 @@ fn a_unit_that_fails_says_so_and_comes_back_when_it_is_restarted() {
     let mut twin = Twin::power_on([setup.system_time_ns(1_800_000_000_000_000_000)]);
     twin.run_for(A_WHILE);
 
-    // The cause appears, and the unit finds it: INIT with the error indication.
+    // The cause appears, and the unit detects it: INIT with the error indication.
     twin.unit(0).inject(Fault::Processing);
     twin.run_for(A_WHILE);
     let mut side = twin.unit(0);
@@ -27,7 +27,7 @@ fn a_unit_that_fails_says_so_and_comes_back_when_it_is_restarted() {
     assert_eq!(side.current_errors(EventLevel::MinorFault)[0].event, PROCESSING_ERROR);
     assert_eq!(side.error_status(), 0x20);
 
-    // Its page in docs/events names the recovery: the cause goes, and the unit starts anew.
+    // The recovery is on its page in docs/events: remove the cause and restart the unit.
     side.remove(Fault::Processing);
     side.restart();
     twin.run_for(START_UP);

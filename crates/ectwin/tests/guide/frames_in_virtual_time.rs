@@ -29,16 +29,16 @@ fn init_to_pre_op_and_a_refusal() {
     assert_eq!(datagram(&mut twin, APWR, 0x0120, [0x02, 0]).1, 1);
     assert_eq!(datagram(&mut twin, APRD, 0x0130, [0, 0]), ([0x02, 0], 1));
 
-    // OP is not reached from PRE-OP: the master reads PRE-OP with error, and why.
+    // OP cannot be reached from PRE-OP: the master reads PRE-OP with error, and the reason.
     datagram(&mut twin, APWR, 0x0120, [0x08, 0]);
     assert_eq!(datagram(&mut twin, APRD, 0x0130, [0, 0]).0, [0x12, 0]);
     assert_eq!(datagram(&mut twin, APRD, 0x0134, [0, 0]).0, [0x11, 0]);
 
-    // The other side: what no master sees.
+    // The internal side of the unit, which is not visible to a master.
     assert_eq!(twin.unit(0).state(), AlState::PreOp);
     assert_eq!(twin.unit(0).al_status_code(), AlStatusCode::INVALID_REQUESTED_STATE_CHANGE);
 
-    // An hour passes, and only because we say so.
+    // Advance the time by one hour.
     let before = twin.now();
     twin.run_for(Duration::from_secs(3600));
     assert_eq!(twin.now(), before + Duration::from_secs(3600));

@@ -7,7 +7,7 @@ fn three_units_answer_a_broadcast() {
     let (mut ours, units) = memory::pair();
     let live = Twin::power_on(setups).serve(units).unwrap();
 
-    // BRD of AL status. Any master that sends and receives whole Ethernet frames can stand here.
+    // BRD of AL status. Any master that sends and receives whole Ethernet frames can be used here.
     let mut frame = [0u8; 60];
     frame[..6].fill(0xFF);
     frame[12..16].copy_from_slice(&[0x88, 0xA4, 0x0E, 0x10]);

@@ -6,7 +6,7 @@ const FROM_MASTER: ObjectIndex = ObjectIndex(0x5000);
 const TO_MASTER: ObjectIndex = ObjectIndex(0x5001);
 const MESSAGE: SubIndex = SubIndex(1);
 
-/// Tells the master its own message in upper case.
+/// Sends the master its own message in upper case.
 #[derive(Default)]
 struct Shout {
     reading: Option<NxCall>,
@@ -15,13 +15,13 @@ struct Shout {
 impl ectwin::Program for Shout {
     fn scan(&mut self, io: &mut Io) {
         let status = io.status();
-        // Nothing waits in a scan: a call is made in one, and its result is looked for in the next ones.
+        // A scan never waits: a call is made in one, and the next ones check for its result.
         if let Some(call) = self.reading {
             let Poll::Ready(result) = io.nx_objects().take(call) else { return };
             self.reading = None;
             if let Ok(mut message) = result {
                 message.make_ascii_uppercase();
-                // The flag was seen before the message was read, and nobody else writes.
+                // The flag was seen before the message was read, and there is no other writer.
                 let _ = io.nx_objects().write(TO_MASTER, MESSAGE, &message);
             }
         } else if status.sdo_enabled && status.new_message && status.ready_to_write_message {
@@ -79,7 +79,7 @@ fn a_message_goes_to_the_program_and_comes_back() {
     datagram(&mut twin, APWR, 0x0808, &[0x00, 0x12, 0x90, 0x01, 0x22, 0, 1, 0]);
     datagram(&mut twin, APWR, 0x0120, &[0x02, 0]);
 
-    // The first one is taken; the second one comes before the program, which stands, has read it.
+    // The first one is accepted; the second one arrives before the stopped program has read it.
     twin.unit(0).cpu().set_mode(OperatingMode::Program);
     assert_eq!(write_message(&mut twin, &[b'a'; 200]), Ok(()));
     assert_eq!(write_message(&mut twin, &[b'b'; 200]), Err(NOT_READY));
@@ -97,7 +97,7 @@ fn a_message_goes_to_the_program_and_comes_back() {
     assert_eq!(write_message(&mut twin, &[b'b'; 200]), Ok(()));
 }
 
-/// The program in Structured Text that docs/user/structured-text.md shows.
+/// The program in Structured Text in docs/user/structured-text.md.
 fn program_of_the_page() -> &'static str {
     let page = include_str!("../../../../docs/user/structured-text.md");
     page.split("```st\n")
