@@ -250,6 +250,14 @@ impl Esc {
         }
     }
 
+    /// A good frame arrives at a closed port that has a link: in auto-close mode its loop opens.
+    pub fn frame_at_closed_port(&mut self, port: Port) {
+        if self.ports.frame_arrives(port, &mut self.memory) {
+            self.ports_changed = true;
+            self.raise_ecat_event(EcatEvents::DL_STATUS);
+        }
+    }
+
     /// Whether the path of frames may have changed.
     #[inline]
     pub fn take_ports_changed(&mut self) -> bool {

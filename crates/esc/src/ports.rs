@@ -65,7 +65,8 @@ const PDI_WATCHDOG_OK: u16 = 1 << 1;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ports {
     status: [PortStatus; 2],
-    /// In auto-close mode a loop that was closed by a lost link remains closed until DL control is written.
+    /// In auto-close mode a loop that has no link, or lost it, remains closed until DL control is written while
+    /// there is a link, or a good frame arrives.
     latched_closed: [bool; 2],
 }
 
@@ -97,10 +98,19 @@ impl Ports {
     /// DL control has been written. Returns whether DL status has changed.
     pub(crate) fn dl_control_written(&mut self, memory: &mut Memory) -> bool {
         for port in Port::ALL {
-            if loop_mode(memory, port) == LOOP_AUTO_CLOSE && self.status(port).link {
-                self.latched_closed[usize::from(port.number())] = false;
+            if loop_mode(memory, port) == LOOP_AUTO_CLOSE {
+                self.latched_closed[usize::from(port.number())] = !self.status(port).link;
             }
         }
+        self.update(memory)
+    }
+
+    /// A good frame arrives at a closed port. Returns whether that opens its loop.
+    pub(crate) fn frame_arrives(&mut self, port: Port, memory: &mut Memory) -> bool {
+        if loop_mode(memory, port) != LOOP_AUTO_CLOSE || !self.status(port).link {
+            return false;
+        }
+        self.latched_closed[usize::from(port.number())] = false;
         self.update(memory)
     }
 

@@ -48,6 +48,8 @@ enum WayEnd {
     CrossesOver,
     /// DL control keeps a loop open where there is no cable.
     Lost,
+    /// Port IN of the next ESC is closed.
+    Blocked,
 }
 
 impl Segment {
@@ -129,6 +131,9 @@ impl Segment {
             self.activity.on_way(now);
         }
         if way.reach == 0 {
+            if !matches!(kind, FrameKind::Defective(_)) {
+                self.arrive_at_closed_port(0, Port::In);
+            }
             return FrameFate::Destroyed;
         }
         let fate = match kind {
@@ -148,6 +153,10 @@ impl Segment {
         match (fate, way.end) {
             (FrameFate::Returned, WayEnd::CrossesOver) => FrameFate::CrossedOver,
             (FrameFate::Returned, WayEnd::Lost) => FrameFate::Destroyed,
+            (FrameFate::Returned, WayEnd::Blocked) => {
+                self.arrive_at_closed_port(way.reach, Port::In);
+                FrameFate::Destroyed
+            }
             (fate, _) => fate,
         }
     }
@@ -172,21 +181,23 @@ impl Segment {
 
     /// A frame arrives from the master's second port, at the far end. It runs back without being processed
     /// until it reaches a closed port 0; there it is marked as circulating, and destroyed if it was already
-    /// marked.
+    /// marked. A closed port 1 destroys it.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
-        let far_end = self.escs.last().map(|esc| esc.port(Port::Out)).filter(|port| port.link);
-        let Some(far_end) = far_end else { return FrameFate::Destroyed };
         let far_cable = self.escs.len();
-        if far_end.loop_state == LoopState::Closed {
-            self.activity.over(far_cable..far_cable + 1, now);
+        if !self.escs.last().is_some_and(|esc| esc.port(Port::Out).link) {
             return FrameFate::Destroyed;
         }
-        let open_in = |esc: &Esc| esc.port(Port::In).loop_state == LoopState::Open;
-        let first = self.escs.iter().rposition(|esc| !open_in(esc));
-        self.activity.over(first.map_or(0, |first| first + 1)..far_cable + 1, now);
-        let Some(first) = first else {
-            return FrameFate::CrossedOver;
-        };
+        let is_closed = |esc: &Esc, port: Port| esc.port(port).loop_state == LoopState::Closed;
+        let closed = self.escs.iter().rposition(|esc| is_closed(esc, Port::Out) || is_closed(esc, Port::In));
+        let blocked = closed.filter(|&position| is_closed(&self.escs[position], Port::Out));
+        self.activity.over(closed.map_or(0, |position| position + 1)..far_cable + 1, now);
+        if let Some(position) = blocked {
+            if !matches!(FrameKind::of(frame), FrameKind::Defective(_)) {
+                self.arrive_at_closed_port(position, Port::Out);
+            }
+            return FrameFate::Destroyed;
+        }
+        let Some(first) = closed else { return FrameFate::CrossedOver };
         let FrameKind::Datagrams(layout) = FrameKind::of(frame) else { return FrameFate::Destroyed };
         if layout.datagrams(frame).any(|datagram| datagram.header.circulating) {
             self.escs[first].count_processing_unit_error();
@@ -199,6 +210,14 @@ impl Segment {
         self.pass_datagrams(first..self.escs.len(), now, frame, &layout);
         layout.mark_passed(frame);
         FrameFate::Returned
+    }
+
+    /// A good frame at a closed port: in auto-close mode the loop opens, for the next frame.
+    fn arrive_at_closed_port(&mut self, position: usize, port: Port) {
+        if let Some(esc) = self.escs.get_mut(position) {
+            esc.frame_at_closed_port(port);
+        }
+        self.follow_changed_ports();
     }
 
     /// Datagram by datagram along the line: the ESCs share nothing but the datagram, so the result is the same
@@ -297,7 +316,7 @@ impl Segment {
             if esc.port(Port::In).loop_state == LoopState::Closed {
                 // A closed port with a partner still receives what arrives over the cable.
                 let cables = position + usize::from(esc.port(Port::In).link);
-                return Way { reach: position, cables, end: WayEnd::Lost };
+                return Way { reach: position, cables, end: WayEnd::Blocked };
             }
             let out = esc.port(Port::Out);
             let reach = position + 1;

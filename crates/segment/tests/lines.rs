@@ -81,14 +81,125 @@ fn a_port_that_is_held_open_without_a_cable_loses_the_frame() {
     assert_eq!(count(&mut line), 2, "the write was processed before the frame was lost");
 }
 
-#[test]
-fn auto_close_opens_again_only_by_a_write() {
+/// Loop setting of both ports, as DL control has it.
+const AUTO: u8 = 0b00;
+const AUTO_CLOSE: u8 = 0b01;
+const CLOSED: u8 = 0b11;
+
+/// A line of two whose first ESC has these settings, and whose cable at `port` of that ESC was pulled and plugged
+/// again.
+fn with_loops_after_loss(port: Port, port_in: u8, port_out: u8) -> Segment {
     let mut line = line(2);
-    write(&mut line, 0, 0x0101, &[0x04]);
+    write(&mut line, 0, 0x0101, &[port_out << 2 | port_in]);
+    let cable = if port == Port::In { 0 } else { 1 };
+    line.set_cable(cable, false);
+    line.set_cable(cable, true);
+    line
+}
+
+fn beyond_end() -> Vec<u8> {
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
+    frame[14..16].copy_from_slice(&[0xFF, 0x17]);
+    frame[22..24].copy_from_slice(&[0xFF, 0x07]);
+    frame
+}
+
+#[test]
+fn an_auto_close_loop_of_port_out_opens_again_by_a_write() {
+    for (written, reached) in [(AUTO_CLOSE, 2), (AUTO, 2), (CLOSED, 1)] {
+        let mut line = with_loops_after_loss(Port::Out, AUTO, AUTO_CLOSE);
+        assert_eq!(
+            [count(&mut line), count(&mut line)],
+            [1, 1],
+            "frames from the master do not arrive there"
+        );
+        assert_eq!(read(&mut line, 0, 0x0110, 2), 0x5633u16.to_le_bytes(), "link, loop closed");
+        write(&mut line, 0, 0x0101, &[written << 2]);
+        assert_eq!(count(&mut line), reached, "{written:02b}");
+    }
+}
+
+#[test]
+fn an_auto_close_loop_of_port_in_opens_again_by_a_frame() {
+    let mut line = with_loops_after_loss(Port::In, AUTO_CLOSE, AUTO);
+    let mut frame = FrameBuilder::new().physical(Command::Bwr, 0, 0x0010, &[7, 0]).finish();
+    assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Destroyed, "it opens for the next frame");
+    assert_eq!(read(&mut line, 0, 0x0010, 2), [0, 0], "it was not processed");
+    assert_eq!(count(&mut line), 2);
+    assert_eq!(read(&mut line, 0, 0x0110, 2), 0x5A33u16.to_le_bytes());
+}
+
+#[test]
+fn only_a_good_frame_and_only_a_cable_open_an_auto_close_loop() {
+    let mut line = with_loops_after_loss(Port::In, AUTO_CLOSE, AUTO);
+    for mut frame in [vec![0; 40], beyond_end()] {
+        assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+    }
+    let mut foreign = vec![0; 60];
+    foreign[12..14].copy_from_slice(&[0x08, 0x00]);
+    line.set_cable(0, false);
+    assert_eq!(line.frame(Instant::ZERO, &mut foreign), FrameFate::Destroyed);
+    line.set_cable(0, true);
+    assert_eq!(
+        line.frame(Instant::ZERO, &mut FrameBuilder::new().finish()),
+        FrameFate::Destroyed,
+        "still closed"
+    );
+    assert_eq!(count(&mut line), 2, "now open");
+    let mut line = with_loops_after_loss(Port::In, AUTO_CLOSE, AUTO);
+    assert_eq!(line.frame(Instant::ZERO, &mut foreign), FrameFate::Destroyed);
+    assert_eq!(count(&mut line), 2, "opened by a frame that is not EtherCAT");
+}
+
+#[test]
+fn a_loop_in_the_middle_of_the_line_opens_by_a_frame_from_either_side() {
+    let mut line = line(3);
+    line.set_cable(3, true);
+    // Both ends of the cable between the first two.
+    write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
+    write(&mut line, 1, 0x0101, &[AUTO_CLOSE]);
     line.set_cable(1, false);
     line.set_cable(1, true);
+    let brd = || FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
+    assert_eq!(count(&mut line), 1, "OUT of the first one turns it back");
+    write(&mut line, 0, 0x0101, &[AUTO << 2]);
+    assert_eq!(line.frame(Instant::ZERO, &mut brd()), FrameFate::Destroyed, "at IN of the second one");
+    assert_eq!(line.frame(Instant::ZERO, &mut brd()), FrameFate::CrossedOver);
+
+    write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
+    line.set_cable(1, false);
+    line.set_cable(1, true);
+    assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut brd()), FrameFate::Returned, "IN is closed");
+}
+
+#[test]
+fn an_auto_close_loop_of_port_out_opens_again_by_a_frame_from_the_far_end() {
+    let mut line = line(2);
+    line.set_cable(2, true);
+    write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
+    line.set_cable(1, false);
+    line.set_cable(1, true);
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
+    assert_eq!(
+        line.frame_at_far_end(Instant::ZERO, &mut frame),
+        FrameFate::Destroyed,
+        "opens for the next frame"
+    );
+    assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::CrossedOver);
+    write(&mut line, 0, 0x0101, &[CLOSED << 2]);
+    for _ in 0..2 {
+        assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed, "stays closed");
+    }
+}
+
+#[test]
+fn auto_close_that_is_written_without_a_link_waits_for_a_write_or_a_frame() {
+    let mut line = line(2);
+    line.set_cable(1, false);
+    write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
+    line.set_cable(1, true);
     assert_eq!(count(&mut line), 1);
-    write(&mut line, 0, 0x0101, &[0x04]);
+    write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
     assert_eq!(count(&mut line), 2);
 }
 
