@@ -13,6 +13,8 @@ mod explanation;
 mod glossary;
 mod indicator;
 mod key;
+mod kind;
+mod library;
 mod names;
 mod number;
 mod object;
@@ -30,6 +32,7 @@ mod unknown;
 use wire::SdoAbort;
 
 pub use explanation::{Advice, Explanation, Fact, Section};
+use kind::Kind;
 use number::Number;
 pub use pages::{Page, event_pages};
 pub use subject::Subject;
@@ -43,8 +46,9 @@ const WHOLE_MAX: usize = 3;
 const PARTS_MAX: usize = 20;
 
 /// Explains `text`: a code, an index or a register in hexadecimal digits, with or without `0x`, `hex` and
-/// underscores; an object's entry, such as `10F3:05`; a name of the tables, a key of the unit file or a word of
-/// the glossary; or words that are part of such names. Returns all its meanings, at least one.
+/// underscores; an object's entry, such as `10F3:05`; a name of the tables, a function or block of Structured Text,
+/// a key of the unit file or a word of the glossary; or words that are part of such names. A kind before it, as in
+/// `NX 6000:01`, excludes meanings of other kinds. Returns all its meanings, at least one.
 ///
 /// # Errors
 /// It is in no table.
@@ -52,6 +56,28 @@ pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     if text.len() > TEXT_BYTES_MAX {
         return Err(unknown::too_long(text));
     }
+    let meant = meant_by(text);
+    match kind::split(text) {
+        Some((kind, rest)) if meant.is_err() => of_kind(kind, rest).unwrap_or(meant),
+        _ => meant,
+    }
+}
+
+/// What the rest of a text means as this kind; none if it is something else, or not as definite as a number.
+fn of_kind(kind: &Kind, rest: &str) -> Option<Result<Vec<Explanation>, Unexplained>> {
+    match meant_by(rest) {
+        Ok(meanings) => {
+            let of_kind: Vec<_> =
+                meanings.into_iter().filter(|known| (kind.includes)(&known.subject)).collect();
+            (!of_kind.is_empty()).then_some(Ok(of_kind))
+        }
+        Err(unexplained) => {
+            rest.starts_with(|first: char| first.is_ascii_digit()).then_some(Err(unexplained))
+        }
+    }
+}
+
+fn meant_by(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     if let Some(entry) = object::EntryNumber::parse(text) {
         return entry.explanations();
     }
@@ -114,6 +140,7 @@ fn explanation(subject: Subject) -> Option<Explanation> {
         Subject::Pattern(pattern) => Some(indicator::pattern(pattern)),
         Subject::Port(name) => port::explanation(name),
         Subject::Key(path) => key::explanation(path),
+        Subject::Library(name) => library::explanation(name),
         Subject::Word(word) => glossary::explanation(word),
     }
 }

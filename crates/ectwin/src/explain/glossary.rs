@@ -22,6 +22,11 @@ pub(super) fn words() -> impl Iterator<Item = (&'static str, &'static str)> {
     ROWS.iter().flat_map(|row| split(row.words).map(|word| (word, row.words)))
 }
 
+/// The words of each row as the glossary has them.
+pub(super) fn rows_of_words() -> impl Iterator<Item = &'static str> {
+    ROWS.iter().map(|row| row.words)
+}
+
 /// The row of these words.
 pub(super) fn explanation(words: &'static str) -> Option<Explanation> {
     let row = ROWS.iter().find(|row| row.words == words)?;

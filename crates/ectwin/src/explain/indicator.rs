@@ -18,6 +18,40 @@ pub(super) fn explanation(name: &'static str) -> Option<Explanation> {
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 
+/// What can be seen of each indicator, in the usual spellings, with the indicator: `TS green`, `red ERR LED flickering`.
+pub(super) fn lights() -> impl Iterator<Item = (String, &'static str)> {
+    Indicator::all().iter().flat_map(|indicator| {
+        let statuses = indicator.status.iter().flat_map(seen).collect::<Vec<_>>();
+        indicator.names.iter().flat_map(move |name| {
+            let kind = name.split_once(' ').map_or(name.as_str(), |(kind, _)| kind);
+            let all = [name, kind]
+                .map(|named| statuses.iter().flat_map(|seen| spellings(named, seen)).collect::<Vec<_>>());
+            all.into_iter().flatten().map(move |words| (words, name.as_str()))
+        })
+    })
+}
+
+/// The words for a status: a colour, a pattern, or both in either order.
+fn seen(status: &IndicatorMeaning) -> Vec<String> {
+    let pattern = status.pattern.id().replace('_', " ");
+    if status.pattern == Pattern::NotLit {
+        return ["dark", "off", "out", &pattern].map(str::to_owned).to_vec();
+    }
+    let colour = status.colour.id();
+    // `flashing_1s` without its period.
+    let short = pattern.split_once(' ').map(|(first, _)| first).filter(|first| *first == "flashing");
+    let mut words = vec![colour.to_owned()];
+    for pattern in [Some(pattern.as_str()), short].into_iter().flatten() {
+        words.extend([pattern.to_owned(), format!("{colour} {pattern}"), format!("{pattern} {colour}")]);
+    }
+    words
+}
+
+fn spellings(name: &str, seen: &str) -> Vec<String> {
+    let names = ["", " LED", " indicator"].map(|what| format!("{name}{what}"));
+    names.iter().flat_map(|name| [format!("{name} {seen}"), format!("{seen} {name}")]).collect()
+}
+
 fn status(status: &IndicatorMeaning) -> Fact {
     let events: Vec<String> = status.events().map(|code| code.to_string()).collect();
     let events = if events.is_empty() { String::new() } else { format!(" ({})", events.join(" ")) };

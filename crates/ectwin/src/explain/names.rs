@@ -7,7 +7,7 @@ use esc::REGISTERS;
 use nx_ect101::{Event, MINOR_FAULT_BIT, NxObject, OBSERVATION_BIT, object_table};
 use objects::ObjectCode;
 
-use super::{Subject, glossary, indicator, key, object, port};
+use super::{Subject, glossary, indicator, key, library, object, port};
 
 static ALL: LazyLock<Vec<Name>> = LazyLock::new(|| all().map(Name::new).collect());
 
@@ -64,7 +64,9 @@ pub(super) fn near(text: &str) -> Option<&'static str> {
         4..=7 => 1,
         _ => 2,
     };
-    let by_distance = ALL.iter().map(|name| (strsim::osa_distance(&name.letters, &wanted), name));
+    let is_as_long = |name: &&Name| name.letters.len().abs_diff(wanted.len()) <= differing_max;
+    let by_distance =
+        ALL.iter().filter(is_as_long).map(|name| (strsim::osa_distance(&name.letters, &wanted), name));
     let nearest = by_distance.min_by_key(|(distance, _)| *distance);
     nearest.filter(|(distance, _)| *distance <= differing_max).map(|(_, name)| name.text.as_str())
 }
@@ -79,7 +81,8 @@ fn words(text: &str) -> Vec<String> {
 }
 
 pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
-    let words = glossary::words().map(|(word, row)| (word.to_owned(), Subject::Word(row)));
+    let rows = glossary::rows_of_words().map(|row| (row, row));
+    let words = glossary::words().chain(rows).map(|(word, row)| (word.to_owned(), Subject::Word(row)));
     let patterns = Pattern::ALL.map(|pattern| (pattern.id().to_owned(), Subject::Pattern(pattern)));
     let events = Event::all().iter().map(|event| (event.name.clone(), Subject::Event(event.code)));
     let objects: Vec<_> =
@@ -90,12 +93,15 @@ pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
         REGISTERS.iter().map(|register| (register.name.to_owned(), Subject::Register(register.offset)));
     let indicators = indicator::names().flat_map(indicator_names);
     let keys = key::names().map(|(name, path)| (name.to_owned(), Subject::Key(path)));
+    let library = library::names().map(|name| (name.to_owned(), Subject::Library(name)));
     let ports = port::names().map(|(name, port)| (name.to_owned(), Subject::Port(port)));
     let status_bits = [OBSERVATION_BIT, MINOR_FAULT_BIT];
     let (index, sub) = object::SYSMAC_ERROR_STATUS;
     let status_bits = status_bits.map(|bit| (bit.port.to_owned(), Subject::Entry(index, sub)));
     let of_model = events.chain(objects).chain(nx_objects).chain(entries()).chain(ports).chain(status_bits);
-    indicators.chain(patterns).chain(words).chain(keys).chain(of_model).chain(registers)
+    let lights = indicator::lights().map(|(words, name)| (words, Subject::Indicator(name)));
+    let of_unit = indicators.chain(lights).chain(patterns).chain(words).chain(keys).chain(of_model);
+    of_unit.chain(registers).chain(library)
 }
 
 /// The entries of all objects. That of a variable is the object, with the same name.

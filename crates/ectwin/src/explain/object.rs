@@ -6,7 +6,7 @@ use nx_ect101::{
     SlaveStatus, StatusBit, object_table,
 };
 use objects::{AccessRights, Entry, Object};
-use wire::{ObjectIndex, SubIndex};
+use wire::{ObjectIndex, SdoAbort, SubIndex};
 
 use super::{Explanation, Fact, Section, Subject, Unexplained};
 use crate::object_words::{access, code, default, pdo, type_name, writable_in};
@@ -39,7 +39,8 @@ impl EntryNumber {
     /// On both sides, if they exist there.
     pub(super) fn explanations(self) -> Result<Vec<Explanation>, Unexplained> {
         let Self { index, sub } = self;
-        let found: Vec<_> = entry(index, sub).into_iter().chain(nx_entry(index, sub)).collect();
+        let found: Vec<_> =
+            entry(index, sub).into_iter().chain(gap(index, sub)).chain(nx_entry(index, sub)).collect();
         if found.is_empty() { Err(self.missing()) } else { Ok(found) }
     }
 
@@ -140,6 +141,27 @@ pub(super) fn entry(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
         facts.extend(bits(&[OBSERVATION_BIT, MINOR_FAULT_BIT]));
     }
     let (subject, name) = (Subject::Entry(index, sub), entry.name.clone());
+    Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
+}
+
+/// A subindex below the highest one that has no entry.
+fn gap(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
+    let table = object_table();
+    let object = table.object(index)?;
+    if !object.is_gap(sub) {
+        return None;
+    }
+    let facts = vec![
+        Fact::new("object", format!("{}, {}", object.name, kind(object))),
+        Fact::new("type", "none, 0 bit"),
+        Fact::new("access", "none"),
+        Fact::new(
+            "SDO",
+            format!("{} for reading and writing", Subject::Abort(SdoAbort::SUBINDEX_DOES_NOT_EXIST)),
+        ),
+        Fact::new("described", "by SDO information, as every subindex up to the highest is"),
+    ];
+    let (subject, name) = (Subject::Entry(index, sub), "a gap without data".to_owned());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 

@@ -35,6 +35,8 @@ pub enum Subject {
     Port(&'static str),
     /// Key of the unit file, by its path.
     Key(&'static str),
+    /// Function or function block of Structured Text.
+    Library(&'static str),
     /// Word of the glossary.
     Word(&'static str),
 }
@@ -57,6 +59,7 @@ impl fmt::Display for Subject {
             Self::Pattern(pattern) => write!(formatter, "pattern {}", pattern.id()),
             Self::Port(name) => write!(formatter, "I/O port {name}"),
             Self::Key(path) => write!(formatter, "key {path}"),
+            Self::Library(name) => write!(formatter, "Structured Text {name}"),
             Self::Word(word) => write!(formatter, "word {word}"),
         }
     }

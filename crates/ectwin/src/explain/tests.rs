@@ -1,5 +1,7 @@
 //! Codes, objects, indicators and words in every usual notation, and their meanings.
 
+use std::collections::BTreeMap;
+
 use coe_kit::indicators::Pattern;
 use nx_ect101::EventCode;
 use objects::ObjectCode;
@@ -176,6 +178,107 @@ fn every_indicator_and_pattern_is_explained_by_its_name() {
     assert_eq!(subjects("L/A").len(), 2, "IN and OUT");
 }
 
+/// With `led` beside the name, before and after it, with the pattern, and without.
+#[test]
+fn every_light_of_every_indicator_is_explained() {
+    for indicator in nx_ect101::Indicator::all() {
+        for (name, status) in
+            indicator.names.iter().flat_map(|name| indicator.status.iter().map(move |row| (name, row)))
+        {
+            let dark = status.pattern == Pattern::NotLit;
+            let colour = if dark { "dark" } else { status.colour.id() };
+            let pattern = if dark { "off".to_owned() } else { status.pattern.id().replace('_', " ") };
+            for text in [
+                format!("{name} {colour}"),
+                format!("{colour} {name}"),
+                format!("{name} {pattern}"),
+                format!("{name} LED {colour}"),
+                format!("{pattern} {name} led"),
+            ] {
+                assert!(subjects(&text).contains(&Subject::Indicator(name)), "{text}");
+            }
+        }
+    }
+    let [ts] = &explain("TS green").unwrap()[..] else { panic!("one meaning") };
+    assert!(ts.to_string().contains("normal, ready for I/O refreshing"), "{ts}");
+    for text in [
+        "TS red",
+        "red TS",
+        "TS flashing",
+        "TS flashing red",
+        "TS red flashing 1s",
+        "L/A green",
+        "RUN LED off",
+    ] {
+        assert!(subjects(text).iter().any(|subject| matches!(subject, Subject::Indicator(_))), "{text}");
+    }
+    assert!(refused("TS blue").contains("is not known"));
+}
+
+#[test]
+fn every_function_and_block_of_structured_text_is_explained() {
+    for entry in st::reference() {
+        for name in [entry.name.to_owned(), entry.name.to_lowercase()] {
+            assert!(subjects(&name).contains(&Subject::Library(entry.name)), "{name}");
+        }
+    }
+    let counter = told("CTU");
+    assert!(counter.starts_with("Structured Text CTU: "), "{counter}");
+    for fragment in ["\n  group       function blocks", "\n  inputs      CU: BOOL", "\n  returns     Q: BOOL"]
+    {
+        assert!(counter.contains(fragment), "{fragment}: {counter}");
+    }
+    assert!(told("ResetNXBError").contains("Execute: BOOL"));
+}
+
+/// Whatever an explanation is headed by can be asked for in the same words.
+#[test]
+fn every_heading_is_explained_by_its_own_words() {
+    let codes = AlStatusCode::TABLE.iter().map(|row| Subject::AlStatus(row.code));
+    let aborts = SdoAbort::TABLE.iter().map(|row| Subject::Abort(row.code));
+    let emergencies = emergency::known().map(Subject::Emergency);
+    let named = names::all().map(|(_, subject)| subject);
+    let all = named.chain(codes).chain(aborts).chain(emergencies);
+    for (heading, subject) in all.map(|subject| (subject.to_string(), subject)).collect::<BTreeMap<_, _>>() {
+        assert!(subjects(&heading).contains(&subject), "{heading}");
+    }
+}
+
+#[test]
+fn a_kind_before_a_number_leaves_out_the_others() {
+    let entry = Subject::NxEntry(ObjectIndex(0x6000), SubIndex(1));
+    for text in ["NX6000:01", "NX 6000:01", "nx object 0x6000:1", "NX  6000:01 "] {
+        assert_eq!(subjects(text), [entry], "{text}");
+    }
+    assert_eq!(subjects("NX6000"), [Subject::NxObject(ObjectIndex(0x6000))]);
+    assert_eq!(subjects("AL status 20"), [Subject::AlStatus(AlStatusCode::NEEDS_COLD_START)]);
+    assert_eq!(subjects("register 0x20"), [Subject::Register(0x20)]);
+    assert!(refused("NX 6000:FF").starts_with("object 0x6000 has no subindex FF"));
+    for text in ["NX 1C32", "event 0x1018", "NX", "NX watchdgo", "nxwatchdog"] {
+        assert!(refused(text).contains("is not known"), "{text}");
+    }
+}
+
+#[test]
+fn a_gap_is_explained_as_sdo_information_describes_it() {
+    let mut gaps = 0;
+    for object in nx_ect101::object_table().iter() {
+        for sub in (0..=object.max_sub().0).map(SubIndex).filter(|sub| object.is_gap(*sub)) {
+            let text = told(&format!("{}:{sub}", object.index));
+            assert!(
+                text.starts_with(&format!("object {}:{sub}: a gap without data\n", object.index)),
+                "{text}"
+            );
+            gaps += 1;
+        }
+    }
+    assert!(gaps >= 3, "10E0:02, 1C32:03, 1C33:03");
+    let text = told("10E0:02");
+    for fragment in ["type        none, 0 bit", "access      none", "SDO abort code 0x0609_0011"] {
+        assert!(text.contains(fragment), "{fragment}: {text}");
+    }
+}
+
 #[test]
 fn every_word_of_the_glossary_is_explained() {
     for (word, row) in glossary::words() {
@@ -188,6 +291,7 @@ fn every_word_of_the_glossary_is_explained() {
     );
     assert_eq!(subjects("sync manager"), subjects("SyncManager"));
     assert!(told("DC").contains("distributed clocks"), "its letters are digits too");
+    assert!(told("process data").starts_with("word process data: the values"));
 }
 
 #[test]
