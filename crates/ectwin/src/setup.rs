@@ -170,7 +170,7 @@ impl Setup {
     }
 
     pub(crate) fn power_on(self, now: Instant) -> Powered {
-        let settings = self.settings();
+        let (settings, variables) = (self.settings(), self.device_variables());
         if let (Some(storage), None) = (&self.file.storage, &self.memory) {
             tracing::warn!("{}: memory only, nobody has said where this file is", storage.value.display());
         }
@@ -179,7 +179,8 @@ impl Setup {
         let cpu =
             CpuSettings { system_time_ns: self.system_time_ns, ..CpuSettings::from_unit_file(&self.file) };
         let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
-        Powered { config, unit, cpu: CpuUnit::power_on(now, cpu, bus, self.program), writer }
+        let cpu = CpuUnit::power_on(now, cpu, variables, bus, self.program);
+        Powered { config, unit, cpu, writer }
     }
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {

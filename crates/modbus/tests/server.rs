@@ -52,7 +52,7 @@ fn the_data_of_the_master_and_the_statuses_are_read() {
     Bench::with(nothing).run(async |bench| {
         bench.send(|header, image| {
             header.io_data_active = true;
-            header.status.m_to_c_valid = true;
+            header.status |= 0b010;
             image[2..4].copy_from_slice(&0x1234_u16.to_le_bytes());
             *image.last_mut().unwrap() = 0xEE;
         });
@@ -73,7 +73,7 @@ fn forced_values_survive_the_user_program_and_others_do_not() {
     Bench::with(Echo).run(async |bench| {
         bench.send(|header, image| {
             header.io_data_active = true;
-            (header.status.m_to_c_valid, header.status.c_to_m_valid) = (true, true);
+            header.status |= 0b110;
             image[..30].fill(1);
         });
         let mut client = bench.client(1).await;

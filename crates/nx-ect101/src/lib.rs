@@ -17,7 +17,6 @@ pub mod layout;
 mod mapping;
 mod memory;
 mod messages;
-pub mod nx_bus;
 mod nx_objects;
 mod nx_server;
 mod pdo_settings;
@@ -53,12 +52,13 @@ pub use memory::{
     SYSTEM_RECORDS_MAX,
 };
 pub use messages::MESSAGE_BYTES;
+pub use nx_bus::SlaveStatus;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};
 pub use pdo_settings::{PdoEntry, PdoSettings};
 pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
 pub use settings::{EventLevels, LevelNotChangeable, NewestAcknowledged, UnitSettings};
 pub use slave_settings::{OutputsRule, SlaveSettings};
-pub use status::{MINOR_FAULT_BIT, NxUnitStatus, OBSERVATION_BIT, SLAVE_STATUS_BITS, SlaveStatus, StatusBit};
+pub use status::{MINOR_FAULT_BIT, NxUnitStatus, OBSERVATION_BIT, SLAVE_STATUS_BITS, StatusBit};
 pub use tables::object_table;
 pub use timing::Timing;
 pub use unit::NxEct101;

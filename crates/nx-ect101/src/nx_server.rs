@@ -1,9 +1,9 @@
 //! The server for NX messages: access rights, the unit's identity, the message buffers (manual, A-7 and A-5).
 
+use nx_bus::{NxMessageError, NxRequest, NxValue};
 use wire::{ObjectIndex, SubIndex};
 
 use crate::messages::{Message, Messages};
-use crate::nx_bus::{NxMessageError, NxRequest, NxValue};
 use crate::nx_objects::{NxAccess, NxEntry, NxObject};
 use crate::unit_information::UnitInformation;
 

@@ -1,6 +1,5 @@
-//! The two status words of the unit: EtherCAT Slave Status for the CPU Unit, NX Unit Status for the master.
-
-use wire::{ObjectIndex, SubIndex};
+//! The two status words of the unit: EtherCAT Slave Status for the CPU Unit, as I/O ports, and NX Unit Status for the
+//! master.
 
 /// A bit of a status that is an I/O port itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,71 +29,6 @@ pub const SLAVE_STATUS_BITS: [StatusBit; 7] = [
 pub const OBSERVATION_BIT: StatusBit = status_bit(4, "Observation");
 /// Bit of a minor fault in it.
 pub const MINOR_FAULT_BIT: StatusBit = status_bit(5, "Minor Fault");
-
-/// EtherCAT Slave Status, NX object 6003:01, one word that is sent to the CPU Unit with the data (manual, 6-3-2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SlaveStatus {
-    /// Bit 0: SDO communications with the master are possible.
-    pub sdo_enabled: bool,
-    /// Bit 1: Data from EtherCAT Master to CPU Unit Valid.
-    pub m_to_c_valid: bool,
-    /// Bit 2: Data from CPU Unit to EtherCAT Master Valid.
-    pub c_to_m_valid: bool,
-    /// Bit 6: the link at port IN is on.
-    pub in_port_link: bool,
-    /// Bit 7: the link at port OUT is on.
-    pub out_port_link: bool,
-    /// Bit 8: New Message Data Available from EtherCAT Master, in NX object 5000.
-    pub new_message: bool,
-    /// Bit 9: Ready to Write Message Data to EtherCAT Master, to NX object 5001.
-    pub ready_to_write_message: bool,
-}
-
-impl SlaveStatus {
-    /// The NX object that contains it.
-    pub const NX_OBJECT: (ObjectIndex, SubIndex) = (ObjectIndex(0x6003), SubIndex(1));
-
-    /// The word. Reserved bits are 0.
-    #[must_use]
-    pub const fn bits(self) -> u16 {
-        self.sdo_enabled as u16
-            | (self.m_to_c_valid as u16) << 1
-            | (self.c_to_m_valid as u16) << 2
-            | (self.in_port_link as u16) << 6
-            | (self.out_port_link as u16) << 7
-            | (self.new_message as u16) << 8
-            | (self.ready_to_write_message as u16) << 9
-    }
-
-    /// The status in the word. Reserved bits are ignored.
-    #[must_use]
-    pub const fn from_bits(bits: u16) -> Self {
-        Self {
-            sdo_enabled: bits & 1 != 0,
-            m_to_c_valid: bits & 1 << 1 != 0,
-            c_to_m_valid: bits & 1 << 2 != 0,
-            in_port_link: bits & 1 << 6 != 0,
-            out_port_link: bits & 1 << 7 != 0,
-            new_message: bits & 1 << 8 != 0,
-            ready_to_write_message: bits & 1 << 9 != 0,
-        }
-    }
-}
-
-impl Default for SlaveStatus {
-    /// The manual's default, 0x0200.
-    fn default() -> Self {
-        Self {
-            sdo_enabled: false,
-            m_to_c_valid: false,
-            c_to_m_valid: false,
-            in_port_link: false,
-            out_port_link: false,
-            new_message: false,
-            ready_to_write_message: true,
-        }
-    }
-}
 
 /// NX Unit Status, CoE object 6003, in TxPDO 1A00 (manual, 7-5-5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -144,24 +78,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_words_start_as_the_manual_says() {
-        assert_eq!(SlaveStatus::default().bits(), 0x0200);
+    fn nx_unit_status_starts_as_the_manual_says() {
         let bits = (1..=5).map(|sub| u16::from(NxUnitStatus::default().bit(sub)) << (sub - 1)).sum::<u16>();
         assert_eq!(bits, 0x0010);
-    }
-
-    #[test]
-    fn every_bit_of_the_slave_status_has_its_place() {
-        let off = SlaveStatus { ready_to_write_message: false, ..SlaveStatus::default() };
-        let words = [
-            SlaveStatus { sdo_enabled: true, ..off },
-            SlaveStatus { m_to_c_valid: true, ..off },
-            SlaveStatus { c_to_m_valid: true, ..off },
-            SlaveStatus { in_port_link: true, ..off },
-            SlaveStatus { out_port_link: true, ..off },
-            SlaveStatus { new_message: true, ..off },
-            SlaveStatus { ready_to_write_message: true, ..off },
-        ];
-        assert_eq!(words.map(SlaveStatus::bits), [0x0001, 0x0002, 0x0004, 0x0040, 0x0080, 0x0100, 0x0200]);
     }
 }

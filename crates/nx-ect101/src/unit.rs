@@ -8,6 +8,7 @@ mod reported;
 mod task_watch;
 
 use device::{Action, Check, Exchange, RefreshCause, SmIndex, Start, Unit};
+use nx_bus::{CpuEnd, CpuHeader, SlaveStatus, UnitEnd};
 use objects::ObjectServer;
 use time::{Duration, Instant};
 use wire::{AlState, AlStatusCode};
@@ -22,12 +23,11 @@ use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
-use crate::nx_bus::{self, CpuEnd, CpuHeader, UnitEnd};
 use crate::nx_objects::NxObject;
 use crate::pdo_settings::PdoSettings;
 use crate::rules;
 use crate::settings::UnitSettings;
-use crate::status::{NxUnitStatus, SlaveStatus};
+use crate::status::NxUnitStatus;
 
 use memory::KeptMemory;
 use reported::Reported;
@@ -88,7 +88,6 @@ impl NxEct101 {
     #[must_use]
     pub fn power_on_with(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, CpuEnd) {
         read_tables();
-        let (bus, cpu_end) = nx_bus::connect(&settings.io_allocation);
         let is_damaged = memory == MemoryAtPowerOn::Damaged;
         let (memory, identification) = KeptMemory::power_on(settings, memory);
         let mut diagnosis = Diagnosis::new(memory.contents().error_log().clone());
@@ -99,6 +98,7 @@ impl NxEct101 {
         let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let c_to_m_layout = settings.io_allocation.layout(Direction::CToM);
+        let (bus, cpu_end) = nx_bus::connect(m_to_c_layout.size_bytes(), c_to_m_layout.size_bytes());
         let mut io_findings = Vec::new();
         rules::check_at_power_on(&settings.io_allocation, &mut io_findings);
         let serial = memory.contents().serial();

@@ -1,8 +1,7 @@
 //! Data that differ between units of one model by their production: versions, lot, type (manual, A-6-4 and A-7-2).
 
+use nx_bus::NxValue;
 use wire::ObjectIndex;
-
-use crate::nx_bus::NxValue;
 
 /// Bytes of the texts of versions, padded with spaces.
 const VERSION_BYTES: usize = 20;

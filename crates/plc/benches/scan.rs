@@ -8,7 +8,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use nx_ect101::IoAllocation;
-use nx_ect101::nx_bus;
 use plc::{CpuSettings, CpuUnit, DeviceVariables, Io, Program as _, StructuredText};
 use time::Instant;
 
@@ -34,8 +33,7 @@ struct Bench {
 impl Bench {
     fn new(source: &str) -> Self {
         let allocation = IoAllocation::factory();
-        let [m_to_c, c_to_m] = nx_ect101::Direction::ALL.map(|direction| allocation.layout(direction));
-        let variables = DeviceVariables::new("N1", 1, &m_to_c, &c_to_m);
+        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
         let mut program = StructuredText::compile(source, &variables).expect("a program");
         let (repeats, spent_ns) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicU64::new(0)));
         let (count, spent) = (repeats.clone(), spent_ns.clone());
@@ -48,8 +46,8 @@ impl Bench {
             spent.store(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
             assert_ne!(program.value("C_to_M_Data_is_Valid").as_deref(), Some("FALSE"), "nothing is copied");
         };
-        let (unit, bus) = nx_bus::connect(&allocation);
-        let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), bus, Box::new(scans));
+        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(scans));
         Self { cpu, repeats, spent_ns, _unit: unit }
     }
 

@@ -6,10 +6,11 @@ use core::fmt;
 use core::sync::atomic::AtomicBool;
 use std::sync::Arc;
 
-use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
+use nx_bus::{CpuEnd, CpuHeader};
 use time::{Duration, Instant};
 
 use crate::cpu_event::{CpuEvent, CpuRecord};
+use crate::device_variables::DeviceVariables;
 use crate::io::Io;
 use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
 use crate::program::{Program, Slot};
@@ -39,8 +40,8 @@ pub struct CpuUnit {
 }
 
 impl CpuUnit {
-    /// Switches a CPU Unit on. Its first task period begins at `now` plus the task's phase. All the memory that
-    /// it ever uses is allocated here.
+    /// Switches a CPU Unit on, whose unit has these variables and the other end of the bus. Its first task period
+    /// begins at `now` plus the task's phase. All the memory that it ever uses is allocated here.
     ///
     /// # Panics
     /// If the task period is zero: the code that reads settings refuses it.
@@ -48,18 +49,14 @@ impl CpuUnit {
     pub fn power_on(
         now: Instant,
         settings: CpuSettings,
+        variables: DeviceVariables,
         bus: CpuEnd,
         program: Box<dyn Program + Send>,
     ) -> Self {
         assert!(!settings.task_period.is_zero(), "the task period is zero");
         let program_period = program.task_period().filter(|period| !period.is_zero());
         Self {
-            io: Io::new(
-                &settings.device_name,
-                settings.unit_number,
-                bus.m_to_c_layout.clone(),
-                bus.c_to_m_layout.clone(),
-            ),
+            io: Io::new(variables),
             bus,
             nx_bus_function: NxBusFunction::new(settings.fail_soft),
             attached: Vec::new(),

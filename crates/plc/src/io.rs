@@ -4,8 +4,8 @@ use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
 
-use nx_ect101::nx_bus::UnitHeader;
-use nx_ect101::{DataSetKind, Direction, ImageLayout, SlaveStatus};
+use nx_bus::{SlaveStatus, UnitHeader};
+use nx_ect101::{DataSetKind, Direction, ImageLayout};
 use time::Instant;
 
 use crate::cpu_event::{CpuEvent, CpuEventLog};
@@ -20,12 +20,8 @@ pub struct Io {
     pub(crate) memory: Memory,
     pub(crate) variables: DeviceVariables,
     pub(crate) nx_objects: NxObjectClient,
-    m_to_c_layout: ImageLayout,
-    c_to_m_layout: ImageLayout,
     /// The positions of the entries that exist in both directions.
     twins: Vec<(Range<usize>, Range<usize>)>,
-    /// Of the unit on the NX bus.
-    unit_number: u8,
     pub(crate) events: CpuEventLog,
     /// Start of the task period, counted from power-on.
     now: Instant,
@@ -38,20 +34,12 @@ pub struct Io {
 }
 
 impl Io {
-    pub(crate) fn new(
-        device_name: &str,
-        unit_number: u8,
-        m_to_c_layout: ImageLayout,
-        c_to_m_layout: ImageLayout,
-    ) -> Self {
+    pub(crate) fn new(variables: DeviceVariables) -> Self {
         let mut io = Self {
-            memory: Memory::new(m_to_c_layout.size_bytes(), c_to_m_layout.size_bytes()),
-            variables: DeviceVariables::new(device_name, unit_number, &m_to_c_layout, &c_to_m_layout),
+            memory: variables.memory(),
             nx_objects: NxObjectClient::default(),
-            twins: twins(&m_to_c_layout, &c_to_m_layout),
-            m_to_c_layout,
-            c_to_m_layout,
-            unit_number,
+            twins: twins(&variables.m_to_c, &variables.c_to_m),
+            variables,
             events: CpuEventLog::new(),
             now: Instant::ZERO,
             system_time_ns: None,
@@ -108,14 +96,14 @@ impl Io {
     /// The raw bytes of entry `number` M to C, little endian; none if it is not allocated.
     #[must_use]
     pub fn entry(&self, kind: DataSetKind, number: u8) -> Option<&[u8]> {
-        let place = self.m_to_c_layout.place(Direction::MToC, kind, number)?;
+        let place = self.variables.m_to_c.place(Direction::MToC, kind, number)?;
         self.memory.m_to_c.bytes.get(place)
     }
 
     /// The raw bytes of entry `number` C to M, little endian; none if it is not allocated.
     #[must_use]
     pub fn entry_mut(&mut self, kind: DataSetKind, number: u8) -> Option<&mut [u8]> {
-        let place = self.c_to_m_layout.place(Direction::CToM, kind, number)?;
+        let place = self.variables.c_to_m.place(Direction::CToM, kind, number)?;
         self.memory.c_to_m.bytes.get_mut(place)
     }
 
@@ -196,13 +184,13 @@ impl Io {
 
     /// Stores the data and statuses of the unit; forced values are kept.
     pub(crate) fn take_inputs(&mut self, header: UnitHeader, refreshing: IoRefreshing, m_to_c: &[u8]) {
-        self.memory.refresh(self.unit_number, header, refreshing, m_to_c);
+        self.memory.refresh(self.variables.unit_number(), header, refreshing, m_to_c);
     }
 
     /// The CPU Unit is powered on again: all values are initialized, nothing is forced, and no NX object call
     /// is pending.
     pub(crate) fn power_on(&mut self) {
-        self.memory = Memory::new(self.m_to_c_layout.size_bytes(), self.c_to_m_layout.size_bytes());
+        self.memory = self.variables.memory();
         self.nx_bus_reset = NxBusReset::None;
         self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
     }
@@ -258,7 +246,7 @@ mod tests {
             allocation.select(direction, DataSetKind::Bytes, 2);
             allocation.select(direction, DataSetKind::Udint, 4);
         }
-        Io::new("N1", 1, allocation.layout(Direction::MToC), allocation.layout(Direction::CToM))
+        Io::new(DeviceVariables::of_allocation("N1", 1, &allocation))
     }
 
     #[test]

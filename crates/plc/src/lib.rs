@@ -28,10 +28,10 @@ pub use device_variables::{
 pub use echo::Echo;
 pub use io::Io;
 pub use message_echo::MessageEcho;
-pub use nx_ect101::nx_bus::{NxMessageError, NxValue};
+pub use nx_bus::{NxMessageError, NxValue};
 pub use nx_ect101::unit_file::{FailSoftOperation, STATEMENT_BUDGET_DEFAULT};
-pub use nx_ect101::{ObjectIndex, SubIndex};
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;
 pub use structured_text::StructuredText;
+pub use wire::{ObjectIndex, SubIndex};

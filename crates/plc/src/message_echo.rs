@@ -2,8 +2,8 @@
 
 use core::task::Poll;
 
-use nx_ect101::nx_bus::NxValue;
-use nx_ect101::{ObjectIndex, SubIndex};
+use nx_bus::NxValue;
+use wire::{ObjectIndex, SubIndex};
 
 use crate::echo::Echo;
 use crate::io::Io;

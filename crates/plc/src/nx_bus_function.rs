@@ -5,7 +5,7 @@
 //! NX bus, and continues when the error has been reset in the NX Bus Function Module. With *Fail-soft*, only
 //! the unit with the error stops, and a reset in the unit is sufficient.
 
-use nx_ect101::nx_bus::{CpuHeader, UnitHeader};
+use nx_bus::{CpuHeader, UnitHeader};
 use nx_ect101::unit_file::FailSoftOperation;
 
 /// Whether I/O is refreshed on the NX bus.

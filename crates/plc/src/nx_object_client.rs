@@ -5,8 +5,8 @@
 
 use core::task::Poll;
 
-use nx_ect101::nx_bus::{CpuMessages, NotSent, NxMessageError, NxRequest, NxValue, REQUESTS_MAX};
-use nx_ect101::{ObjectIndex, SubIndex};
+use nx_bus::{CpuMessages, NotSent, NxMessageError, NxRequest, NxValue, REQUESTS_MAX};
+use wire::{ObjectIndex, SubIndex};
 
 /// Reads and writes NX objects of one unit.
 #[derive(Clone, Debug, Default)]
@@ -172,7 +172,7 @@ impl Call {
 #[cfg(test)]
 mod tests {
     use device::{Exchange, PortLinks, RefreshCause, Unit};
-    use nx_ect101::{IoAllocation, NxEct101, UnitSettings, nx_bus};
+    use nx_ect101::{NxEct101, UnitSettings};
     use time::Instant;
     use wire::AlState;
 
@@ -236,7 +236,7 @@ mod tests {
 
     #[test]
     fn a_unit_without_power_answers_nothing_and_leaves_no_call_pending() {
-        let (unit_end, mut bus) = nx_bus::connect(&IoAllocation::factory());
+        let (unit_end, mut bus) = nx_bus::connect(0, 0);
         let mut client = NxObjectClient::default();
         let sent = client.read(SERIAL.0, SERIAL.1).expect("room");
         client.send(&mut bus.messages);

@@ -3,10 +3,10 @@
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 
 use allocation_counter::measure;
-use nx_ect101::nx_bus::{self, UnitHeader};
+use nx_bus::UnitHeader;
 use nx_ect101::unit_file::FailSoftOperation;
 use nx_ect101::{IoAllocation, SlaveStatus};
-use plc::{CpuSettings, CpuUnit, Io, OperatingMode, ProgramEvent};
+use plc::{CpuSettings, CpuUnit, DeviceVariables, Io, OperatingMode, ProgramEvent};
 use time::Instant;
 
 const CYCLES: u64 = 1_000;
@@ -33,9 +33,10 @@ fn busy_program() -> impl FnMut(&mut Io) + Send {
 
 #[test]
 fn cycles_variables_forces_and_events_allocate_nothing() {
-    let (mut unit, bus) = nx_bus::connect(&IoAllocation::factory());
+    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
+    let (mut unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
     let settings = CpuSettings { fail_soft: FailSoftOperation::Stop, ..CpuSettings::default() };
-    let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, bus, Box::new(busy_program()));
+    let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, variables, bus, Box::new(busy_program()));
     cpu.attach(Box::new(|io: &mut Io| io.c_to_m_mut()[100] ^= 1));
     let mut data = [0; 180];
     let allocated = measure(|| {
@@ -43,7 +44,7 @@ fn cycles_variables_forces_and_events_allocate_nothing() {
             data.fill(cycle as u8);
             let error_resets = unit.c_to_m.newest().header.error_resets;
             let fail_soft_error = cycle % 100 < 10;
-            let status = SlaveStatus { m_to_c_valid: true, ..SlaveStatus::default() };
+            let status = SlaveStatus { m_to_c_valid: true, ..SlaveStatus::default() }.bits();
             unit.m_to_c.publish(
                 UnitHeader { status, fail_soft_error, error_resets, ..UnitHeader::default() },
                 &data,

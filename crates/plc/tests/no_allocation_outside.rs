@@ -2,15 +2,15 @@
 
 use allocation_counter::measure;
 use nx_ect101::IoAllocation;
-use nx_ect101::nx_bus;
 use plc::outside::{self, Change, Operation};
-use plc::{CpuSettings, CpuUnit, Echo, Target};
+use plc::{CpuSettings, CpuUnit, DeviceVariables, Echo, Target};
 use time::Instant;
 
 #[test]
 fn changes_and_snapshots_allocate_nothing() {
-    let (_unit, bus) = nx_bus::connect(&IoAllocation::factory());
-    let mut cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), bus, Box::new(Echo));
+    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
+    let (_unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+    let mut cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(Echo));
     let (program, mut end) = outside::connect(cpu.io().variables());
     cpu.attach(Box::new(program));
     let target: Target = cpu.io().find("N1_UINTs_01_C_to_M").expect("allocated").into();

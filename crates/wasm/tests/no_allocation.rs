@@ -1,8 +1,8 @@
 //! After its start a program allocates nothing, like the whole CPU Unit.
 
+use nx_bus::connect;
 use nx_ect101::IoAllocation;
-use nx_ect101::nx_bus::connect;
-use plc::{CpuSettings, CpuUnit};
+use plc::{CpuSettings, CpuUnit, DeviceVariables};
 use time::Instant;
 use wasm::WasmProgram;
 
@@ -28,8 +28,10 @@ const PROGRAM: &str = r#"(module
 
 #[test]
 fn scans_do_not_allocate() {
-    let (_unit, bus) = connect(&IoAllocation::factory());
-    let mut cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), bus, Box::new(plc::Echo));
+    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
+    let (_unit, bus) = connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+    let mut cpu =
+        CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(plc::Echo));
     let octets = wat::parse_str(PROGRAM).expect("the text of a module");
     let program = WasmProgram::load(&octets, cpu.io().variables()).expect("a right module");
     cpu.set_mode(plc::OperatingMode::Program);

@@ -15,8 +15,7 @@ fn variables(counts: [[u8; 3]; 2]) -> DeviceVariables {
             allocation.select(direction, kind, count);
         }
     }
-    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
-    DeviceVariables::new("N1", 1, &m_to_c, &c_to_m)
+    DeviceVariables::of_allocation("N1", 1, &allocation)
 }
 
 fn most() -> [[u8; 3]; 2] {

@@ -6,9 +6,9 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 
 use modbus::{ModbusMap, Server};
-use nx_ect101::nx_bus::{self, UnitEnd, UnitHeader};
+use nx_bus::{UnitEnd, UnitHeader};
 use nx_ect101::{DataSetKind, Direction, IoAllocation};
-use plc::{CpuSettings, CpuUnit, Program, outside};
+use plc::{CpuSettings, CpuUnit, DeviceVariables, Program, outside};
 use time::Instant;
 use tokio_modbus::Slave;
 use tokio_modbus::client::{Context, tcp};
@@ -36,8 +36,10 @@ impl Bench {
             allocation.select(direction, DataSetKind::Bytes, 1);
             allocation.select(direction, DataSetKind::Udint, 2);
         }
-        let (unit, bus) = nx_bus::connect(&allocation);
-        let mut cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), bus, Box::new(user_program));
+        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
+        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let mut cpu =
+            CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(user_program));
         let (program, end) = outside::connect(cpu.io().variables());
         cpu.attach(Box::new(program));
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();

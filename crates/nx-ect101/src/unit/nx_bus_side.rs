@@ -2,11 +2,11 @@
 //! messages, statuses.
 
 use device::RefreshCause;
+use nx_bus::{CpuHeader, SlaveStatus, UnitHeader};
 
 use crate::fault::Fault;
-use crate::nx_bus::{CpuHeader, UnitHeader};
 use crate::nx_server;
-use crate::status::{NxUnitStatus, SlaveStatus};
+use crate::status::NxUnitStatus;
 use crate::unit::NxEct101;
 
 impl NxEct101 {
@@ -41,14 +41,14 @@ impl NxEct101 {
         self.status = SlaveStatus::default();
         self.nx_unit_status = NxUnitStatus::default();
         let error_resets = self.error_resets;
-        let header = UnitHeader { status: self.status, error, error_resets, ..UnitHeader::default() };
+        let header = UnitHeader { status: self.status.bits(), error, error_resets, ..UnitHeader::default() };
         self.bus.m_to_c.publish(header, &self.m_to_c);
     }
 
     /// The information from the unit to the CPU Unit, sent with its data.
     pub(super) fn header(&self) -> UnitHeader {
         UnitHeader {
-            status: self.slave_status(),
+            status: self.status.bits(),
             io_data_active: self.io_is_refreshed(),
             error: self.has_error(),
             messages_enabled: true,

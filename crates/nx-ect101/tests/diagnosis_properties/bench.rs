@@ -1,7 +1,7 @@
 //! The unit between a master, a CPU Unit and a memory, through its public interfaces.
 
 use device::{Action, Check, Exchange, PortLinks, RefreshCause, SmIndex, Start, Unit};
-use nx_ect101::nx_bus::{CpuEnd, CpuHeader};
+use nx_bus::{CpuEnd, CpuHeader};
 use nx_ect101::{
     EventCode, EventLevel, MemoryAtPowerOn, NewestAcknowledged, NonVolatileMemory, NxEct101, UnitSettings,
 };

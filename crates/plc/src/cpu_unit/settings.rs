@@ -27,10 +27,6 @@ impl fmt::Display for OperatingMode {
 /// The settings of a CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CpuSettings {
-    /// Device name of the unit on the NX bus: the first part of its device variables' names.
-    pub device_name: String,
-    /// NX Unit number of the unit, from 1.
-    pub unit_number: u8,
     /// Task period of the primary periodic task; not zero.
     pub task_period: Duration,
     /// From power-on to the first task period.
@@ -52,8 +48,6 @@ impl CpuSettings {
             CpuMode::Program => OperatingMode::Program,
         };
         Self {
-            device_name: file.name.value.clone(),
-            unit_number: file.unit_number.value,
             task_period: file.cpu.task_period.value,
             task_phase: file.cpu.task_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
             mode,
@@ -64,11 +58,9 @@ impl CpuSettings {
 }
 
 impl Default for CpuSettings {
-    /// A unit N1 with number 1; 1 ms, RUN, no system time, fail-soft.
+    /// 1 ms, RUN, no system time, fail-soft.
     fn default() -> Self {
         Self {
-            device_name: "N1".to_owned(),
-            unit_number: 1,
             task_period: Duration::from_millis(1),
             task_phase: Duration::ZERO,
             mode: OperatingMode::Run,

@@ -25,6 +25,7 @@ struct Bench {
 
 impl Bench {
     fn in_op(io_allocation: IoAllocation, cpu: CpuSettings, program: impl Program + Send + 'static) -> Self {
+        let variables = DeviceVariables::of_allocation("N1", 1, &io_allocation);
         let (mut unit, cpu_end) =
             NxEct101::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
         unit.check_transition(Instant::ZERO, Check::ProcessData, &[]).expect("the factory setting");
@@ -33,7 +34,7 @@ impl Bench {
         let (outputs, inputs) = (bytes(SmIndex::OUTPUTS), bytes(SmIndex::INPUTS));
         Self {
             unit,
-            cpu: CpuUnit::power_on(Instant::ZERO, cpu, cpu_end, Box::new(program)),
+            cpu: CpuUnit::power_on(Instant::ZERO, cpu, variables, cpu_end, Box::new(program)),
             refresh_at: Instant::ZERO,
             outputs: Some(outputs),
             inputs,

@@ -4,7 +4,7 @@ use st::{Class, Elementary};
 
 use super::error::VariableError;
 use super::list::DeviceVariables;
-use super::memory::{Area, Memory, Place};
+use super::memory::{Memory, Place};
 use super::variable::{Target, VariableAccess, VariableId, VariableType, VariableValue};
 use crate::io::Io;
 
@@ -132,11 +132,7 @@ impl DeviceVariables {
 
     /// A memory that is large enough for all of them.
     pub(crate) fn memory(&self) -> Memory {
-        let end = |area| {
-            let places = self.iter().map(|(_, variable)| variable.place).filter(|place| place.area == area);
-            places.map(|place| place.start + place.length_bytes).max().unwrap_or(0)
-        };
-        Memory::new(end(Area::MToC), end(Area::CToM))
+        Memory::new(self.m_to_c_bytes(), self.c_to_m_bytes())
     }
 
     /// The position at which a value is written.

@@ -1,7 +1,7 @@
 //! The list of the variables of one CPU Unit, and the search in it.
 
 use nx_ect101::unit_file::UnitFile;
-use nx_ect101::{Direction, ImageLayout};
+use nx_ect101::{Direction, ImageLayout, IoAllocation};
 
 use super::error::VariableError;
 use super::memory::Place;
@@ -15,19 +15,34 @@ use super::variable::{Target, Variable, VariableId};
 pub struct DeviceVariables {
     device_name: String,
     unit_number: u8,
+    pub(crate) m_to_c: ImageLayout,
+    pub(crate) c_to_m: ImageLayout,
     list: Vec<Variable>,
 }
 
 impl DeviceVariables {
-    /// The variables for a unit with this device name and NX Unit number, whose entries have these positions.
+    /// The variables for a unit with this device name, NX Unit number and I/O allocation.
     #[must_use]
-    pub fn new(device_name: &str, unit_number: u8, m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Self {
+    pub fn of_allocation(device_name: &str, unit_number: u8, allocation: &IoAllocation) -> Self {
+        let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
         let ports = Ports { device_name, unit_number };
-        let mut list = ports.entries(Direction::MToC, m_to_c);
-        list.extend(ports.entries(Direction::CToM, c_to_m));
+        let mut list = ports.entries(Direction::MToC, &m_to_c);
+        list.extend(ports.entries(Direction::CToM, &c_to_m));
         list.extend(ports.statuses());
         list.extend(ports::system_defined());
-        Self { device_name: device_name.to_owned(), unit_number, list }
+        Self { device_name: device_name.to_owned(), unit_number, m_to_c, c_to_m, list }
+    }
+
+    /// Length of the image M to C in bytes.
+    #[must_use]
+    pub const fn m_to_c_bytes(&self) -> usize {
+        self.m_to_c.size_bytes()
+    }
+
+    /// Length of the image C to M in bytes.
+    #[must_use]
+    pub const fn c_to_m_bytes(&self) -> usize {
+        self.c_to_m.size_bytes()
     }
 
     /// Device name of the unit on the NX bus.
@@ -51,9 +66,7 @@ impl DeviceVariables {
     /// The variables for the unit of a unit file.
     #[must_use]
     pub fn of_unit_file(file: &UnitFile) -> Self {
-        let allocation = file.io_allocation();
-        let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
-        Self::new(&file.name.value, file.unit_number.value, &m_to_c, &c_to_m)
+        Self::of_allocation(&file.name.value, file.unit_number.value, &file.io_allocation())
     }
 
     /// All of them with their ids, in the order of the I/O map.

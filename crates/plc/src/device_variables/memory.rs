@@ -1,7 +1,6 @@
 //! The memory of the variables, and its forced bits.
 
-use nx_ect101::SlaveStatus;
-use nx_ect101::nx_bus::UnitHeader;
+use nx_bus::{SlaveStatus, UnitHeader};
 
 use super::ports::{
     ERROR_TABLE, IO_DATA_ACTIVE, MESSAGE_TABLE, SLAVE_STATUS, STATUS_BYTES, SYSTEM_TABLE_ELEMENTS, UNIT_ERROR,
@@ -66,7 +65,7 @@ impl Memory {
             c_to_m: Image::new(c_to_m_bytes),
             status: Image::new(STATUS_BYTES),
         };
-        memory.take_io_data(SlaveStatus::default(), &[]);
+        memory.take_io_data(SlaveStatus::default().bits(), &[]);
         memory
     }
 
@@ -100,10 +99,10 @@ impl Memory {
         self.apply_forced();
     }
 
-    fn take_io_data(&mut self, slave_status: SlaveStatus, m_to_c: &[u8]) {
+    fn take_io_data(&mut self, slave_status: u16, m_to_c: &[u8]) {
         let length_bytes = self.m_to_c.bytes.len().min(m_to_c.len());
         self.m_to_c.bytes[..length_bytes].copy_from_slice(&m_to_c[..length_bytes]);
-        self.status.bytes[SLAVE_STATUS..][..2].copy_from_slice(&slave_status.bits().to_le_bytes());
+        self.status.bytes[SLAVE_STATUS..][..2].copy_from_slice(&slave_status.to_le_bytes());
     }
 
     pub(crate) fn slave_status(&self) -> u16 {

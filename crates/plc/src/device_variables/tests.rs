@@ -5,6 +5,7 @@ mod text;
 
 use nx_ect101::{DataSetKind, Direction, IoAllocation};
 
+use crate::device_variables::DeviceVariables;
 use crate::io::Io;
 
 /// An allocation of this number of 15 UINT, 10 BYTE and UDINT entries in each direction.
@@ -19,6 +20,5 @@ fn allocation(m_to_c: [u8; 3], c_to_m: [u8; 3]) -> IoAllocation {
 }
 
 fn io_of(allocation: &IoAllocation) -> Io {
-    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
-    Io::new("N1", 1, m_to_c, c_to_m)
+    Io::new(DeviceVariables::of_allocation("N1", 1, allocation))
 }

@@ -1,6 +1,7 @@
 //! Whether a value can be used for control.
 
-use nx_ect101::{Direction, SlaveStatus};
+use nx_bus::SlaveStatus;
+use nx_ect101::Direction;
 
 use super::error::VariableError;
 use super::list::DeviceVariables;

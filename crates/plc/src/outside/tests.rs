@@ -12,15 +12,16 @@ const PERIOD: Duration = Duration::from_millis(1);
 /// A CPU Unit with an outside end, its bus, and the time.
 struct Bench {
     cpu: CpuUnit,
-    unit: nx_ect101::nx_bus::UnitEnd,
+    unit: nx_bus::UnitEnd,
     end: OutsideEnd,
 }
 
 impl Bench {
     fn with(user_program: impl Program + Send + 'static) -> Self {
-        let (unit, bus) = nx_ect101::nx_bus::connect(&IoAllocation::factory());
+        let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
+        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
         let settings = CpuSettings { task_period: PERIOD, ..CpuSettings::default() };
-        let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, bus, Box::new(user_program));
+        let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, variables, bus, Box::new(user_program));
         let (program, end) = connect(cpu.io().variables());
         cpu.attach(Box::new(program));
         Self { cpu, unit, end }

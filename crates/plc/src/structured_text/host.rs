@@ -3,9 +3,9 @@
 use core::task::Poll;
 
 use arrayvec::ArrayVec;
-use nx_ect101::nx_bus::REQUESTS_MAX;
-use nx_ect101::{ObjectIndex, SubIndex};
+use nx_bus::REQUESTS_MAX;
 use st::{Alarm, Host, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault};
+use wire::{ObjectIndex, SubIndex};
 
 use crate::NxMessageError;
 use crate::io::Io;

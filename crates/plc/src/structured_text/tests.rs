@@ -11,9 +11,7 @@ fn allocation() -> IoAllocation {
 }
 
 fn variables() -> DeviceVariables {
-    let allocation = allocation();
-    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
-    DeviceVariables::new("N1", 1, &m_to_c, &c_to_m)
+    DeviceVariables::of_allocation("N1", 1, &allocation())
 }
 
 fn compile(source: &str) -> Result<StructuredText, Problems> {

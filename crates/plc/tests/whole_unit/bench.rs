@@ -2,7 +2,7 @@
 
 use device::{Network, Unit};
 use nx_ect101::{IoAllocation, NxEct101, UnitSettings, device_config, layout};
-use plc::{CpuSettings, CpuUnit, Echo, Program};
+use plc::{CpuSettings, CpuUnit, DeviceVariables, Echo, Program};
 use time::{Duration, Instant};
 use wire::{Command, FrameBuilder, Returned, returned_datagrams};
 
@@ -28,12 +28,13 @@ impl Bench {
         cpu: CpuSettings,
         program: impl Program + Send + 'static,
     ) -> Self {
+        let variables = DeviceVariables::of_allocation("N1", 1, &io_allocation);
         let settings = UnitSettings { io_allocation, ..UnitSettings::default() };
         let (unit, cpu_end) = NxEct101::power_on(&settings);
         let now = Instant::ZERO;
         Self {
             network: Network::power_on([(device_config(&settings), unit)], now),
-            cpu: CpuUnit::power_on(now, cpu, cpu_end, Box::new(program)),
+            cpu: CpuUnit::power_on(now, cpu, variables, cpu_end, Box::new(program)),
             now,
             counter: 0,
         }

@@ -1,7 +1,7 @@
 //! From power-on to returned data.
 
 use device::Network;
-use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings, device_config};
+use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, SlaveStatus, UnitSettings, device_config};
 use time::{Duration, Instant};
 
 use crate::bench::{Bench, PRE_OP, SAFE_OP};
@@ -80,7 +80,7 @@ fn the_cpu_units_see_the_cables() {
         now += settings.timing.slave_period(0);
         network.poll(now);
         [&mut first_bus, &mut second_bus].map(|bus| {
-            let status = bus.m_to_c.newest().header.status;
+            let status = SlaveStatus::from_bits(bus.m_to_c.newest().header.status);
             (status.in_port_link, status.out_port_link)
         })
     };

@@ -7,7 +7,7 @@ mod variables;
 
 use device::Network;
 use nx_ect101::{EventCode, NxEct101, UnitSettings, device_config_with};
-use plc::{CpuSettings, CpuUnit};
+use plc::{CpuSettings, CpuUnit, DeviceVariables};
 use time::{Duration, Instant};
 use wire::{AlStatus, AlStatusCode};
 
@@ -189,8 +189,8 @@ fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::Device
         task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
         ..CpuSettings::from_unit_file(&source.file)
     };
-    let program = source.program.start();
-    (config, unit, CpuUnit::power_on(now, cpu, bus, program))
+    let (variables, program) = (DeviceVariables::of_unit_file(&source.file), source.program.start());
+    (config, unit, CpuUnit::power_on(now, cpu, variables, bus, program))
 }
 
 pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {

@@ -1,6 +1,6 @@
 //! A CPU Unit with a program, and the unit's end of its bus.
 
-use nx_ect101::nx_bus::{UnitEnd, UnitHeader, connect};
+use nx_bus::{UnitEnd, UnitHeader, connect};
 use nx_ect101::{IoAllocation, SlaveStatus};
 use plc::{CpuEvent, CpuSettings, CpuUnit, DeviceVariables, OperatingMode, ProgramEvent};
 use time::Instant;
@@ -31,7 +31,7 @@ pub(crate) struct Bench {
 
 /// The variables of the factory setting.
 pub(crate) fn variables() -> DeviceVariables {
-    Bench::new(Box::new(|_: &mut plc::Io| {})).cpu.io().variables().clone()
+    DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory())
 }
 
 /// Loads the text of a module.
@@ -47,9 +47,10 @@ pub(crate) fn scanning(scan: &str) -> String {
 
 impl Bench {
     fn new(program: Box<dyn plc::Program + Send>) -> Self {
-        let (unit, bus) = connect(&IoAllocation::factory());
+        let variables = variables();
+        let (unit, bus) = connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
         let settings = CpuSettings { mode: OperatingMode::Run, ..CpuSettings::default() };
-        Self { cpu: CpuUnit::power_on(Instant::ZERO, settings, bus, program), unit }
+        Self { cpu: CpuUnit::power_on(Instant::ZERO, settings, variables, bus, program), unit }
     }
 
     pub(crate) fn with(text: &str) -> Self {
@@ -66,7 +67,7 @@ impl Bench {
         for (octets, element) in image.chunks_exact_mut(2).zip(elements) {
             octets.copy_from_slice(&element.to_le_bytes());
         }
-        let status = SlaveStatus::from_bits(if valid { 0b110 } else { 0 });
+        let status = SlaveStatus::from_bits(if valid { 0b110 } else { 0 }).bits();
         let header = UnitHeader { status, io_data_active: true, ..UnitHeader::default() };
         self.unit.m_to_c.publish(header, &image);
     }

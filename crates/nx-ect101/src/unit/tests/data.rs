@@ -4,7 +4,7 @@ use wire::SdoAbort;
 
 use super::*;
 use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
-use crate::nx_bus::{NxMessageError, NxRequest, NxValue};
+use nx_bus::{NxMessageError, NxRequest, NxValue};
 
 impl Bench {
     fn sdo_read(&mut self, index: u16, sub: u8) -> Vec<u8> {
@@ -49,7 +49,7 @@ impl Bench {
     /// The message flags: NX 6003:01 bits 8 and 9, CoE 6003:04 and :05.
     fn message_flags(&mut self) -> [bool; 4] {
         self.refresh(AlState::SafeOp, None);
-        let status = self.cpu.m_to_c.newest().header.status.bits();
+        let status = self.cpu.m_to_c.newest().header.status;
         let inputs = self.inputs[0];
         [status & 0x0100 != 0, status & 0x0200 != 0, inputs & 0x08 != 0, inputs & 0x10 != 0]
     }
@@ -63,7 +63,7 @@ fn the_links_are_told_to_the_cpu_unit() {
     let mut status = |in_port, out_port| {
         bench.links = PortLinks { in_port, out_port };
         bench.refresh(AlState::Init, None);
-        bench.cpu.m_to_c.newest().header.status.bits()
+        bench.cpu.m_to_c.newest().header.status
     };
     assert_eq!(status(true, false), 0x0240);
     assert_eq!(status(false, true), 0x0280);
@@ -132,7 +132,7 @@ fn no_flag_is_older_than_the_response_that_goes_with_it() {
     bench.sdo_write(0x3001, 1, &[1; 200]).expect("ready");
     bench.nx(0x5000, None).expect("a message");
     let status = bench.cpu.m_to_c.newest().header.status;
-    assert!(!status.new_message, "in the refresh that has answered");
+    assert_eq!(status & 0x0100, 0, "in the refresh that has answered");
     assert_eq!(bench.inputs[0] & 0x10, 0x10, "and so for the master");
 }
 

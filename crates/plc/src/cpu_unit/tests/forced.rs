@@ -4,8 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU16, Ordering};
 use std::sync::mpsc::{Receiver, channel};
 
-use nx_ect101::SlaveStatus;
-use nx_ect101::nx_bus::{self, UnitEnd, UnitHeader};
+use nx_bus::{SlaveStatus, UnitEnd, UnitHeader};
 
 use super::*;
 use crate::{Target, VariableAccess, VariableError};
@@ -144,10 +143,11 @@ impl Run {
         for direction in Direction::ALL {
             DataSetKind::ALL.into_iter().for_each(|kind| allocation.select(direction, kind, 1));
         }
-        let (unit, bus) = nx_bus::connect(&allocation);
+        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
+        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
         let (fill, (seen_to, seen)) = (Arc::new(AtomicU16::new(NO_FILL)), channel());
         let program = program(&fill, &seen_to);
-        let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), bus, program);
+        let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, program);
         let status = SlaveStatus::default().bits();
         let mut model = [Bits::zeros(IMAGE_BYTES), Bits::zeros(IMAGE_BYTES), Bits::zeros(2)];
         model[2].write(0..16, &status.to_le_bytes());
@@ -167,10 +167,10 @@ impl Run {
     fn step(&mut self, step: Step) {
         match step {
             Step::Publish(fill, bits, io_data_active) => {
-                let status = SlaveStatus::from_bits(bits);
+                let status = SlaveStatus::from_bits(bits).bits();
                 let header = UnitHeader { status, io_data_active, ..UnitHeader::default() };
                 self.unit.m_to_c.publish(header, &[fill; IMAGE_BYTES]);
-                self.published = io_data_active.then(|| (vec![fill; IMAGE_BYTES], status.bits()));
+                self.published = io_data_active.then(|| (vec![fill; IMAGE_BYTES], status));
             }
             Step::ProgramFills(fill) => {
                 self.program_fills = fill;

@@ -3,7 +3,7 @@
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 use super::*;
-use crate::{CpuEvent, DeviceVariables, ProgramEvent, ProgramTrouble, StructuredText};
+use crate::{CpuEvent, ProgramEvent, ProgramTrouble, StructuredText};
 
 /// Reports every call, with its time.
 struct Told {
@@ -31,8 +31,10 @@ fn told(name: &'static str) -> (Box<Told>, Receiver<String>) {
 }
 
 fn cpu_unit(settings: CpuSettings, program: Box<dyn Program + Send>) -> (NxEct101, CpuUnit) {
-    let (unit, bus) = NxEct101::power_on(&UnitSettings::default());
-    (unit, CpuUnit::power_on(at_ms(100), settings, bus, program))
+    let unit_settings = UnitSettings::default();
+    let variables = DeviceVariables::of_allocation("N1", 1, &unit_settings.io_allocation);
+    let (unit, bus) = NxEct101::power_on(&unit_settings);
+    (unit, CpuUnit::power_on(at_ms(100), settings, variables, bus, program))
 }
 
 /// The CPU Unit is powered on at 100 ms: its own time begins there.
@@ -231,9 +233,7 @@ const PLANT: &str = "PROGRAM Lamp VAR Runs : INT; END_VAR Runs := Runs + 1; END_
     END_CONFIGURATION";
 
 fn structured_text(source: &str) -> Box<StructuredText> {
-    let allocation = IoAllocation::factory();
-    let [m_to_c, c_to_m] = Direction::ALL.map(|direction| allocation.layout(direction));
-    let variables = DeviceVariables::new("N1", 1, &m_to_c, &c_to_m);
+    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
     Box::new(StructuredText::compile(source, &variables).expect("a program"))
 }
 

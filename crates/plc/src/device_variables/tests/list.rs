@@ -2,8 +2,8 @@
 
 use core::fmt::Write as _;
 
-use nx_ect101::nx_bus::UnitHeader;
-use nx_ect101::{IoEntry, ObjectIndex, SlaveStatus, SubIndex};
+use nx_bus::{SlaveStatus, UnitHeader};
+use nx_ect101::{IoEntry, ObjectIndex, SubIndex};
 use proptest::prelude::*;
 
 use super::*;
@@ -115,7 +115,7 @@ fn a_value_is_valid_under_the_conditions_of_the_manuals_program() {
     let names =
         ["N1_UINTs_01_M_to_C", "N1_UINTs_01_C_to_M", "N1_EtherCAT_Slave_Status", "_NXB_UnitErrFlagTbl"];
     let mut seen = |m_to_c_valid, io_data_active, error| {
-        let status = SlaveStatus { m_to_c_valid, ..SlaveStatus::default() };
+        let status = SlaveStatus { m_to_c_valid, ..SlaveStatus::default() }.bits();
         io.take_inputs(
             UnitHeader { status, io_data_active, error, messages_enabled: true, ..UnitHeader::default() },
             IoRefreshing::GoesOn,
@@ -161,8 +161,7 @@ fn the_system_tables_have_the_elements_of_the_unit() {
     );
     assert_eq!(table(&io, active), [&[1, 1][..], &[0; 31]].concat());
     assert_eq!(table(&io, errors), [&[0, 1][..], &[0; 31]].concat());
-    let layout = IoAllocation::empty().layout(Direction::MToC);
-    let mut beyond = Io::new("N1", 63, layout.clone(), layout);
+    let mut beyond = Io::new(DeviceVariables::of_allocation("N1", 63, &IoAllocation::empty()));
     beyond.take_inputs(
         UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() },
         IoRefreshing::GoesOn,

@@ -12,13 +12,14 @@ use std::sync::mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_cha
 use arrayvec::ArrayVec;
 use wire::{ObjectIndex, SdoAbort, SubIndex};
 
-use crate::messages::MESSAGE_BYTES;
-
 /// Maximum number of requests that wait for their responses.
 pub const REQUESTS_MAX: usize = 8;
 
-/// The value of an NX object, little endian, at most 200 bytes.
-pub type NxValue = ArrayVec<u8, MESSAGE_BYTES>;
+/// Length of the longest NX object in bytes.
+pub const VALUE_BYTES_MAX: usize = 200;
+
+/// The value of an NX object, little endian.
+pub type NxValue = ArrayVec<u8, VALUE_BYTES_MAX>;
 
 /// A request of the CPU Unit for an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -156,15 +157,13 @@ pub struct UnitMessages {
 
 impl UnitMessages {
     /// Whether a request was discarded since the last call.
-    pub(crate) fn take_discarded(&self) -> bool {
+    #[must_use]
+    pub fn take_discarded(&self) -> bool {
         self.discarded.load(Ordering::Relaxed) && self.discarded.swap(false, Ordering::Relaxed)
     }
 
     /// Answers the received requests, the oldest first, and holds the responses back. Returns whether there were any.
-    pub(crate) fn answer(
-        &mut self,
-        mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>,
-    ) -> bool {
+    pub fn answer(&mut self, mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>) -> bool {
         while !self.held.is_full() {
             let Ok(request) = self.requests.try_recv() else { break };
             self.held.push(NxResponse { number: request.number, result: answer(&request) });
@@ -173,7 +172,7 @@ impl UnitMessages {
     }
 
     /// Sends the responses. Those for which the CPU Unit has no room yet wait in their order.
-    pub(crate) fn send(&mut self) {
+    pub fn send(&mut self) {
         while !self.held.is_empty() {
             match self.responses.try_send(self.held.remove(0)) {
                 Ok(()) => {}
@@ -185,7 +184,7 @@ impl UnitMessages {
 }
 
 /// Both ends. All the memory that they ever use is allocated here.
-pub(super) fn connect() -> (UnitMessages, CpuMessages) {
+pub(crate) fn connect() -> (UnitMessages, CpuMessages) {
     let (ask, requests) = sync_channel(REQUESTS_MAX);
     let (responses, hear) = sync_channel(REQUESTS_MAX);
     let discarded = Arc::new(AtomicBool::new(false));
