@@ -172,3 +172,25 @@ fn pysoem_exchanges_four_entries_where_only_four_match() {
     }
     .run();
 }
+
+/// The script also shows that one search is not enough, and its function `ready_units` is the advice of the page.
+#[test]
+fn pysoem_waits_for_units_that_are_not_ready() {
+    let page = read("docs/user/test-your-master.md");
+    let script = read("tests/masters/start_up.py");
+    let advice = script.split("\n\n\n").find(|part| part.starts_with("def ready_units("));
+    assert!(page.contains(advice.unwrap()), "docs/user/test-your-master.md has another ready_units");
+    Run {
+        test: "pysoem_waits_for_units_that_are_not_ready",
+        units: &["../tests/masters/units/start-up.toml"; 2],
+        script: "start_up.py",
+        arguments: &["2"],
+        // A request for PRE-OP that a unit did not take.
+        visible: &["ecat.reg.alctrl.ctrl == 0x02 && ecat.cnt == 0 && eth.src[0] & 2"],
+    }
+    .run();
+}
+
+fn read(path: &str) -> String {
+    std::fs::read_to_string(run::top_folder().join(path)).unwrap()
+}
