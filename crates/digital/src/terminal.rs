@@ -2,6 +2,7 @@
 
 use device::{Exchange, Start, Unit};
 use time::{Duration, Instant};
+use unit_model::DataValid;
 use wire::AlStatusCode;
 
 use crate::channels::Channels;
@@ -17,13 +18,15 @@ pub struct Terminal<W> {
     inputs: Channels,
     outputs: Channels,
     wiring: W,
+    pub(crate) data_valid: DataValid,
 }
 
 impl<W: Wiring> Terminal<W> {
     /// A terminal with this wiring.
     #[must_use]
     pub const fn power_on(settings: &TerminalSettings, wiring: W) -> Self {
-        Self { inputs: settings.inputs, outputs: settings.outputs, wiring }
+        let data_valid = DataValid { outputs: false, inputs: false };
+        Self { inputs: settings.inputs, outputs: settings.outputs, wiring, data_valid }
     }
 
     /// Its wiring.
@@ -51,16 +54,22 @@ impl<W: Wiring> Unit for Terminal<W> {
     }
 
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {
+        self.data_valid = DataValid {
+            outputs: exchange.outputs.is_some() && !self.outputs.is_none(),
+            inputs: !exchange.inputs.is_empty(),
+        };
         self.switch_outputs(exchange.outputs);
         self.inputs.put(self.wiring.inputs(), exchange.inputs);
     }
 
     fn restart(&mut self, _now: Instant, _start: Start, _sii_image: &mut [u8]) -> Option<AlStatusCode> {
+        self.data_valid = DataValid::default();
         self.switch_outputs(None);
         None
     }
 
     fn power_off(&mut self, _now: Instant) {
+        self.data_valid = DataValid::default();
         self.switch_outputs(None);
     }
 }

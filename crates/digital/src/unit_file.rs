@@ -3,14 +3,14 @@
 use device::OutputsBeforeOp;
 use time::Duration;
 use unit_keys::{CommonKeys, OutputsRule, Shape};
+use unit_model::Model;
 use user_file::{DeValue, FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
 
 use crate::channels::Channels;
 use crate::description::timeouts;
+use crate::model::MODEL;
 use crate::settings::{Ports, TerminalSettings};
 
-/// The name of the model.
-pub const MODEL: &str = "digital";
 /// The keys of this model, in addition to those of every model.
 pub const KEYS: [&str; 4] = ["inputs", "outputs", "ports", "mailbox"];
 
@@ -35,12 +35,13 @@ impl UnitFile {
     /// All mistakes, in the order of the file.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
         read_toml(text, Wanted::UnitFile, |reader, file| {
+            let name = MODEL.name();
             let keys: Vec<&str> = ["model"].into_iter().chain(KEYS).chain(unit_keys::KEYS).collect();
             reader.only(file, &keys);
             if file.get("model").is_none() {
-                reader.refuse(0..0, Problem::new("`model` is missing", format!("`model = \"{MODEL}\"`")));
+                reader.refuse(0..0, Problem::new("`model` is missing", format!("`model = \"{name}\"`")));
             }
-            reader.value(file, "model", |place, value| values::choice(place, value, &[(MODEL, ())]));
+            reader.value(file, "model", |place, value| values::choice(place, value, &[(name, ())]));
             Some(Self::read(reader, file))
         })
     }

@@ -11,6 +11,7 @@ mod occurrence;
 mod standing;
 
 use arrayvec::ArrayVec;
+use unit_model::CurrentError;
 use wire::{Emergency, SdoAbort};
 
 use crate::events::{Event, EventCode, EventLevel, EventLog, Notified};
@@ -18,7 +19,7 @@ use crate::fault::FaultSet;
 use crate::memory::{ErrorLog, LogRecord};
 use crate::settings::{EventLevels, NewestAcknowledged};
 
-pub use current_errors::{CURRENT_ERRORS_MAX, CurrentError};
+pub use current_errors::{CURRENT_ERRORS_MAX, current_error_bytes};
 pub use history::DIAGNOSIS_MESSAGE_BYTES;
 pub(crate) use occurrence::Occurrence;
 
@@ -110,7 +111,8 @@ impl Diagnosis {
     fn list(&mut self, event: &Event, occurrence: &Occurrence) {
         let level = self.levels.of(event);
         if event.reported_as_current_error && level != EventLevel::Information {
-            self.current.add(level, CurrentError::new(event.code, occurrence.details.first().copied()));
+            self.current
+                .add(level, CurrentError { event: event.code, detail: occurrence.details.first().copied() });
         }
     }
 
@@ -158,6 +160,11 @@ impl Diagnosis {
         core::mem::take(&mut self.occurred)
     }
 
+    /// Takes the oldest of them.
+    pub(crate) fn take_event(&mut self) -> Option<EventCode> {
+        self.occurred.pop_at(0)
+    }
+
     /// Takes the oldest emergency message.
     pub(crate) fn take_emergency(&mut self) -> Option<Emergency> {
         self.emergencies.pop_at(0)
@@ -190,7 +197,7 @@ impl Diagnosis {
             }
             EventLog::None => return,
         };
-        self.raise(Occurrence::new(EventCode::EVENT_LOG_CLEARED, [number]));
+        self.raise(Occurrence::new(Event::EVENT_LOG_CLEARED, [number]));
     }
 }
 

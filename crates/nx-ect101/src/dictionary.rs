@@ -7,7 +7,7 @@ use time::Duration;
 use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
 
 use crate::allocation::ImageLayout;
-use crate::diagnosis::{CurrentError, DIAGNOSIS_MESSAGE_BYTES, Diagnosis};
+use crate::diagnosis::{DIAGNOSIS_MESSAGE_BYTES, Diagnosis, current_error_bytes};
 use crate::events::EventLevel;
 use crate::identification::Identification;
 use crate::mapping::Mapping;
@@ -121,7 +121,7 @@ impl UnitObjects {
     fn read_record(&self, index: ObjectIndex, sub: SubIndex, value: &mut [u8]) {
         value.fill(0);
         let at = usize::from(sub.0.saturating_sub(1));
-        let error = |level| self.diagnosis.current(level).get(at).map(CurrentError::bytes);
+        let error = |level| self.diagnosis.current(level).get(at).map(current_error_bytes);
         match index.0 {
             OBSERVATIONS => copy(error(EventLevel::Observation), value),
             MINOR_FAULTS => copy(error(EventLevel::MinorFault), value),

@@ -4,7 +4,6 @@
 
 mod attributes;
 
-use core::fmt;
 use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
@@ -13,51 +12,42 @@ use wire::AlStatusCode;
 use crate::tables;
 
 pub use attributes::{
-    AttachedInformation, Cause, DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus,
-    IoRefreshEffect, Notified, Recovery,
+    AttachedInformation, Cause, DetectionTiming, EcatEffect, IndicatorStatus, IoRefreshEffect, Notified,
+    Recovery,
 };
+pub use unit_model::{EventCode, EventLevel, EventLog};
 
 static EVENTS: LazyLock<EventsFile> =
     LazyLock::new(|| tables::parse("events.toml", include_str!("../tables/events.toml")));
 
-/// Code of an event, as support software shows it: eight hexadecimal digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct EventCode(pub u32);
-
-impl fmt::Display for EventCode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{:08X}", self.0)
-    }
-}
-
 /// The events that the unit itself raises by name; those of the setting rules are in the rule table.
-impl EventCode {
+impl Event {
     /// Non-volatile Memory Hardware Error.
-    pub const NON_VOLATILE_MEMORY_HARDWARE_ERROR: Self = Self(0x0020_0000);
+    pub const NON_VOLATILE_MEMORY_HARDWARE_ERROR: EventCode = EventCode(0x0020_0000);
     /// ESC Error.
-    pub const ESC_ERROR: Self = Self(0x0945_0000);
+    pub const ESC_ERROR: EventCode = EventCode(0x0945_0000);
     /// SII Verification Error.
-    pub const SII_VERIFICATION_ERROR: Self = Self(0x0946_0000);
+    pub const SII_VERIFICATION_ERROR: EventCode = EventCode(0x0946_0000);
     /// Control Parameter Error in Master.
-    pub const CONTROL_PARAMETER_ERROR: Self = Self(0x1041_0000);
+    pub const CONTROL_PARAMETER_ERROR: EventCode = EventCode(0x1041_0000);
     /// Data Size Mismatched between PDO Entry and I/O Entry C to M.
-    pub const MISMATCH_C_TO_M: Self = Self(0x3916_0000);
+    pub const MISMATCH_C_TO_M: EventCode = EventCode(0x3916_0000);
     /// Data Size Mismatched between PDO Entry and I/O Entry M to C.
-    pub const MISMATCH_M_TO_C: Self = Self(0x3917_0000);
+    pub const MISMATCH_M_TO_C: EventCode = EventCode(0x3917_0000);
     /// SM Event Mode Setting Error.
-    pub const SM_EVENT_MODE_SETTING_ERROR: Self = Self(0x3932_0000);
+    pub const SM_EVENT_MODE_SETTING_ERROR: EventCode = EventCode(0x3932_0000);
     /// NX Unit Processing Error.
-    pub const PROCESSING_ERROR: Self = Self(0x4020_0000);
+    pub const PROCESSING_ERROR: EventCode = EventCode(0x4020_0000);
     /// NX Unit I/O Communications Error.
-    pub const IO_COMMUNICATIONS_ERROR: Self = Self(0x8020_0000);
+    pub const IO_COMMUNICATIONS_ERROR: EventCode = EventCode(0x8020_0000);
     /// NX Message Communications Error.
-    pub const MESSAGE_COMMUNICATIONS_ERROR: Self = Self(0x8022_0000);
+    pub const MESSAGE_COMMUNICATIONS_ERROR: EventCode = EventCode(0x8022_0000);
     /// NX Unit Clock Not Synchronized Error.
-    pub const CLOCK_NOT_SYNCHRONIZED_ERROR: Self = Self(0x8024_0000);
+    pub const CLOCK_NOT_SYNCHRONIZED_ERROR: EventCode = EventCode(0x8024_0000);
     /// Event Log Cleared.
-    pub const EVENT_LOG_CLEARED: Self = Self(0x9040_0000);
+    pub const EVENT_LOG_CLEARED: EventCode = EventCode(0x9040_0000);
     /// NX Unit Restart.
-    pub const UNIT_RESTART: Self = Self(0x94B8_0000);
+    pub const UNIT_RESTART: EventCode = EventCode(0x94B8_0000);
 }
 
 /// One event of the manual, with the field names and the words of the table.
@@ -179,19 +169,19 @@ mod tests {
     #[test]
     fn every_named_code_is_an_event_of_that_name() {
         let named = [
-            (EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR, "Non-volatile Memory Hardware Error"),
-            (EventCode::ESC_ERROR, "ESC Error"),
-            (EventCode::SII_VERIFICATION_ERROR, "SII Verification Error"),
-            (EventCode::CONTROL_PARAMETER_ERROR, "Control Parameter Error in Master"),
-            (EventCode::MISMATCH_C_TO_M, "Data Size Mismatched between PDO Entry and I/O Entry C to M"),
-            (EventCode::MISMATCH_M_TO_C, "Data Size Mismatched between PDO Entry and I/O Entry M to C"),
-            (EventCode::SM_EVENT_MODE_SETTING_ERROR, "SM Event Mode Setting Error"),
-            (EventCode::PROCESSING_ERROR, "NX Unit Processing Error"),
-            (EventCode::IO_COMMUNICATIONS_ERROR, "NX Unit I/O Communications Error"),
-            (EventCode::MESSAGE_COMMUNICATIONS_ERROR, "NX Message Communications Error"),
-            (EventCode::CLOCK_NOT_SYNCHRONIZED_ERROR, "NX Unit Clock Not Synchronized Error"),
-            (EventCode::EVENT_LOG_CLEARED, "Event Log Cleared"),
-            (EventCode::UNIT_RESTART, "NX Unit Restart"),
+            (Event::NON_VOLATILE_MEMORY_HARDWARE_ERROR, "Non-volatile Memory Hardware Error"),
+            (Event::ESC_ERROR, "ESC Error"),
+            (Event::SII_VERIFICATION_ERROR, "SII Verification Error"),
+            (Event::CONTROL_PARAMETER_ERROR, "Control Parameter Error in Master"),
+            (Event::MISMATCH_C_TO_M, "Data Size Mismatched between PDO Entry and I/O Entry C to M"),
+            (Event::MISMATCH_M_TO_C, "Data Size Mismatched between PDO Entry and I/O Entry M to C"),
+            (Event::SM_EVENT_MODE_SETTING_ERROR, "SM Event Mode Setting Error"),
+            (Event::PROCESSING_ERROR, "NX Unit Processing Error"),
+            (Event::IO_COMMUNICATIONS_ERROR, "NX Unit I/O Communications Error"),
+            (Event::MESSAGE_COMMUNICATIONS_ERROR, "NX Message Communications Error"),
+            (Event::CLOCK_NOT_SYNCHRONIZED_ERROR, "NX Unit Clock Not Synchronized Error"),
+            (Event::EVENT_LOG_CLEARED, "Event Log Cleared"),
+            (Event::UNIT_RESTART, "NX Unit Restart"),
         ];
         for (code, name) in named {
             assert_eq!(Event::find(code).map(|event| event.name.as_str()), Some(name));

@@ -44,22 +44,38 @@ impl Fault {
     /// The fault with this name, such as `Processing`.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|fault| format!("{fault:?}") == name)
+        Self::ALL.into_iter().find(|fault| fault.name() == name)
+    }
+
+    /// Its name.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NonVolatileMemory => "NonVolatileMemory",
+            Self::Esc => "Esc",
+            Self::SiiVerification => "SiiVerification",
+            Self::ControlParameters => "ControlParameters",
+            Self::SmEventMode => "SmEventMode",
+            Self::Processing => "Processing",
+            Self::IoCommunications => "IoCommunications",
+            Self::ClockNotSynchronized => "ClockNotSynchronized",
+            Self::MessageCommunications => "MessageCommunications",
+        }
     }
 
     /// The event that it raises.
     #[must_use]
     pub const fn event(self) -> EventCode {
         match self {
-            Self::NonVolatileMemory => EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR,
-            Self::Esc => EventCode::ESC_ERROR,
-            Self::SiiVerification => EventCode::SII_VERIFICATION_ERROR,
-            Self::ControlParameters => EventCode::CONTROL_PARAMETER_ERROR,
-            Self::SmEventMode => EventCode::SM_EVENT_MODE_SETTING_ERROR,
-            Self::Processing => EventCode::PROCESSING_ERROR,
-            Self::IoCommunications => EventCode::IO_COMMUNICATIONS_ERROR,
-            Self::ClockNotSynchronized => EventCode::CLOCK_NOT_SYNCHRONIZED_ERROR,
-            Self::MessageCommunications => EventCode::MESSAGE_COMMUNICATIONS_ERROR,
+            Self::NonVolatileMemory => Event::NON_VOLATILE_MEMORY_HARDWARE_ERROR,
+            Self::Esc => Event::ESC_ERROR,
+            Self::SiiVerification => Event::SII_VERIFICATION_ERROR,
+            Self::ControlParameters => Event::CONTROL_PARAMETER_ERROR,
+            Self::SmEventMode => Event::SM_EVENT_MODE_SETTING_ERROR,
+            Self::Processing => Event::PROCESSING_ERROR,
+            Self::IoCommunications => Event::IO_COMMUNICATIONS_ERROR,
+            Self::ClockNotSynchronized => Event::CLOCK_NOT_SYNCHRONIZED_ERROR,
+            Self::MessageCommunications => Event::MESSAGE_COMMUNICATIONS_ERROR,
         }
     }
 

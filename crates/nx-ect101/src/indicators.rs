@@ -209,7 +209,7 @@ impl Indicators {
 /// ERR for the event with the AL status code that the master reads: events with the same code have the same
 /// pattern. A code without an event is one of the standard.
 fn err(esc_error: bool, al_error: Option<AlStatusCode>) -> Pattern {
-    let esc_error = esc_error.then(|| Event::find(EventCode::ESC_ERROR)).flatten();
+    let esc_error = esc_error.then(|| Event::find(Event::ESC_ERROR)).flatten();
     let of_code = |code| Event::all().iter().find(|event| event.al_status_code == Some(code));
     let event = esc_error.or_else(|| al_error.and_then(of_code));
     event.and_then(|event| event.err.pattern()).unwrap_or_else(|| indicators::err(al_error))

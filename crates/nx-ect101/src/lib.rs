@@ -17,6 +17,7 @@ pub mod layout;
 mod mapping;
 mod memory;
 mod messages;
+mod model;
 mod nx_objects;
 mod nx_server;
 mod pdo_settings;
@@ -36,7 +37,7 @@ pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
 pub use config::{device_config, device_config_with};
 pub use data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits, StatusPdo};
 pub use description::description;
-pub use diagnosis::{CURRENT_ERRORS_MAX, CurrentError, DIAGNOSIS_MESSAGE_BYTES, OCCURRED_MAX};
+pub use diagnosis::{CURRENT_ERRORS_MAX, DIAGNOSIS_MESSAGE_BYTES, OCCURRED_MAX, current_error_bytes};
 pub use events::{
     AttachedInformation, Cause, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
     IndicatorStatus, IoRefreshEffect, Notified, Recovery,
@@ -52,6 +53,7 @@ pub use memory::{
     SYSTEM_RECORDS_MAX,
 };
 pub use messages::MESSAGE_BYTES;
+pub use model::MODEL;
 pub use nx_bus::SlaveStatus;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};
 pub use pdo_settings::{PdoEntry, PdoSettings};
@@ -63,5 +65,6 @@ pub use tables::object_table;
 pub use timing::Timing;
 pub use unit::NxEct101;
 pub use unit_information::{UnitInformation, UnitVersion, VersionText};
+pub use unit_model::CurrentError;
 pub use verdict::{Configuration, ExchangedDataSet, Verdict};
 pub use wire::{ObjectIndex, SubIndex};

@@ -72,8 +72,8 @@ impl EventLevels {
             return Err(LevelNotChangeable);
         }
         let place = match code {
-            EventCode::MISMATCH_C_TO_M => &mut self.mismatch_c_to_m,
-            EventCode::MISMATCH_M_TO_C => &mut self.mismatch_m_to_c,
+            Event::MISMATCH_C_TO_M => &mut self.mismatch_c_to_m,
+            Event::MISMATCH_M_TO_C => &mut self.mismatch_m_to_c,
             _ => return Err(LevelNotChangeable),
         };
         *place = Some(level);
@@ -84,8 +84,8 @@ impl EventLevels {
     #[must_use]
     pub fn of(self, event: &Event) -> EventLevel {
         let changed = match event.code {
-            EventCode::MISMATCH_C_TO_M => self.mismatch_c_to_m,
-            EventCode::MISMATCH_M_TO_C => self.mismatch_m_to_c,
+            Event::MISMATCH_C_TO_M => self.mismatch_c_to_m,
+            Event::MISMATCH_M_TO_C => self.mismatch_m_to_c,
             _ => None,
         };
         changed.unwrap_or(event.level)

@@ -100,7 +100,7 @@ fn event_causes(code: &str, causes: IndicatorCauses) -> IndicatorCauses {
     let code = u32::from_str_radix(code, 16).map(EventCode);
     let Some(event) = code.ok().and_then(Event::find) else { panic!("no such event") };
     let nx = NxCondition::Error(event.code);
-    let esc_error = event.code == EventCode::ESC_ERROR;
+    let esc_error = event.code == Event::ESC_ERROR;
     IndicatorCauses { nx, al_error: event.al_status_code, esc_error, ..causes }
 }
 
@@ -149,7 +149,7 @@ fn every_event_has_a_row_or_shows_nothing() {
             assert_eq!(Indicators::of(&causes), Indicators::of(&NORMAL), "{code}");
         })
         .collect();
-    assert_eq!(without, [EventCode::MESSAGE_COMMUNICATIONS_ERROR, EventCode::EVENT_LOG_CLEARED]);
+    assert_eq!(without, [Event::MESSAGE_COMMUNICATIONS_ERROR, Event::EVENT_LOG_CLEARED]);
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn events_that_share_an_al_status_code_share_the_pattern_of_err() {
 fn an_event_that_lights_err_has_an_al_status_code_or_is_esc_error() {
     for event in Event::all() {
         let lights = event.err.pattern().is_some_and(|pattern| pattern != Pattern::NotLit);
-        let told = event.al_status_code.is_some() || event.code == EventCode::ESC_ERROR;
+        let told = event.al_status_code.is_some() || event.code == Event::ESC_ERROR;
         assert!(!lights || told, "{}", event.code);
     }
 }

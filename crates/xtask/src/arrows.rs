@@ -44,24 +44,30 @@ const FLOORS: &[Row] = &[
     row("esi", 3, Only(&["wire", "objects"])),
     row("device", 4, AnyFloorBelow),
     row("coe-kit", 4, Only(&["time", "wire"])),
-    row(
-        "nx-ect101",
-        5,
-        Only(&["time", "wire", "objects", "nx-bus", "user-file", "esi", "coe-kit", "device"]),
-    ),
+    row("unit-model", 5, Only(&["time", "wire", "coe-kit", "device"])),
     row("unit-keys", 5, Only(&["time", "wire", "user-file", "device"])),
-    row("digital", 6, Only(&["time", "wire", "user-file", "esi", "device", "unit-keys"])),
     row(MASTER, 5, Only(&["time", "wire", "objects", "esi"])),
     row("st", 5, Only(&["iec-types"])),
-    row("plc", 6, Only(&["time", "wire", "st", "nx-bus", "nx-ect101"])),
-    row("scenario", 7, AnyFloorBelow),
-    row("wasm", 7, Only(&["time", "plc"])),
-    row("modbus", 8, Only(&["nx-ect101", "plc"])),
-    row("opcua", 8, Only(&["plc"])),
-    row("link", 8, Only(&["time", "capture", "segment"])),
-    row("storage", 8, Only(&[])),
-    row("ectwin", 9, AnyFloorBelow),
-    row("ectwin-cli", 10, AnyFloorBelow),
+    row(
+        "nx-ect101",
+        6,
+        Only(&["time", "wire", "objects", "nx-bus", "user-file", "esi", "coe-kit", "device", "unit-model"]),
+    ),
+    row(
+        "digital",
+        6,
+        Only(&["time", "wire", "user-file", "esi", "coe-kit", "device", "unit-keys", "unit-model"]),
+    ),
+    row("plc", 7, Only(&["time", "wire", "st", "nx-bus", "nx-ect101"])),
+    row("plant", 8, AnyFloorBelow),
+    row("scenario", 9, AnyFloorBelow),
+    row("wasm", 9, Only(&["time", "plc"])),
+    row("modbus", 10, Only(&["nx-ect101", "plc"])),
+    row("opcua", 10, Only(&["plc"])),
+    row("link", 10, Only(&["time", "capture", "segment"])),
+    row("storage", 10, Only(&[])),
+    row("ectwin", 11, AnyFloorBelow),
+    row("ectwin-cli", 12, AnyFloorBelow),
     row("fuzz", CHECKS_FLOOR, AnyFloorBelow),
     row("xtask", CHECKS_FLOOR, AnyFloorBelow),
     row(TESTBED, 0, Only(&[])),
@@ -75,9 +81,9 @@ const MASTER: &str = "master";
 const FOR_TESTS: &[&str] = &[TESTBED, MASTER];
 
 /// The layer of this project's checks.
-const CHECKS_FLOOR: u8 = 11;
+const CHECKS_FLOOR: u8 = 13;
 /// The first layer that may do input and output.
-const SHELL_FLOOR: u8 = 8;
+const SHELL_FLOOR: u8 = 10;
 
 /// External crates that do input and output, read the clock or start threads.
 const SHELL_CRATES: &[&str] =

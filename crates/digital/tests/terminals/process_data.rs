@@ -1,7 +1,9 @@
 //! Levels between frames and the wiring.
 
+use digital::{BitImages, Terminal};
 use proptest::prelude::*;
 use time::Duration;
+use unit_model::{DataValid, ModelUnit};
 
 use crate::bench::{Bench, terminal};
 
@@ -59,6 +61,20 @@ fn a_terminal_without_inputs_sleeps_until_its_watchdog() {
     assert_eq!(bench.network.deadline(), time::Instant::NEVER);
     bench.cycle(&[1]);
     assert_eq!(bench.network.deadline(), bench.now + Duration::from_millis(100));
+}
+
+#[test]
+fn process_data_are_valid_where_the_state_has_them_and_outputs_have_come() {
+    let mut bench = Bench::in_op(&terminal(8, 8));
+    let valid =
+        |bench: &Bench<Terminal<BitImages>>| bench.network.device(0).expect("a terminal").unit().data_valid();
+    assert_eq!(valid(&bench), DataValid { outputs: false, inputs: true });
+    bench.cycle(&[1, 0]);
+    assert_eq!(valid(&bench), DataValid { outputs: true, inputs: true });
+    bench.request(0, 4);
+    assert_eq!(valid(&bench), DataValid { outputs: false, inputs: true });
+    bench.request(0, 2);
+    assert_eq!(valid(&bench), DataValid::default());
 }
 
 proptest! {

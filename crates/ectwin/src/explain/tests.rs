@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use coe_kit::indicators::Pattern;
-use nx_ect101::EventCode;
+use nx_ect101::{Event, EventCode};
 use objects::ObjectCode;
 use wire::{AlState, AlStatusCode, Command, ObjectIndex, SubIndex};
 
@@ -43,13 +43,13 @@ fn a_code_may_be_written_in_every_usual_way() {
     for text in ["391E0000", "391e0000", "0x391E0000", "0x391E_0000", "391E0000 hex", "391E0000hex"] {
         assert_eq!(subjects(text), [Subject::Event(EventCode(0x391E_0000))], "{text}");
     }
-    assert_eq!(subjects("9450000"), [Subject::Event(EventCode::ESC_ERROR)], "without its leading zero");
+    assert_eq!(subjects("9450000"), [Subject::Event(Event::ESC_ERROR)], "without its leading zero");
     assert_eq!(explain("8004").unwrap()[0].name, "CPU Unit error (NX-ECT101)");
 }
 
 #[test]
 fn a_code_that_is_several_things_is_told_as_all_of_them() {
-    let memory = Subject::Event(EventCode::NON_VOLATILE_MEMORY_HARDWARE_ERROR);
+    let memory = Subject::Event(Event::NON_VOLATILE_MEMORY_HARDWARE_ERROR);
     assert_eq!(
         subjects("0x0020"),
         [Subject::AlStatus(AlStatusCode::NEEDS_COLD_START), memory, Subject::Register(0x20)]
@@ -296,7 +296,7 @@ fn every_word_of_the_glossary_is_explained() {
 
 #[test]
 fn names_of_events_objects_and_registers_are_explained() {
-    assert_eq!(subjects("esc error"), [Subject::Event(EventCode::ESC_ERROR)]);
+    assert_eq!(subjects("esc error"), [Subject::Event(Event::ESC_ERROR)]);
     assert_eq!(subjects("Identity Object"), [Subject::Object(ObjectIndex(0x1018))]);
     assert_eq!(subjects("Production Info"), [Subject::NxObject(ObjectIndex(0x1001))]);
     assert_eq!(subjects("0x10F3:04"), [Subject::Entry(ObjectIndex(0x10F3), SubIndex(4))]);

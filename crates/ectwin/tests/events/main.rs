@@ -120,8 +120,9 @@ fn each_event_is_a_current_error_where_its_row_says() {
         }
         let side = stage.twin.unit(0);
         assert_eq!(side.error_status(), expected.error_status, "{}", case.code);
-        let listed = [EventLevel::Observation, EventLevel::MinorFault]
-            .map(|level| side.current_errors(level).iter().map(|error| error.bytes()).collect::<Vec<_>>());
+        let listed = [EventLevel::Observation, EventLevel::MinorFault].map(|level| {
+            side.current_errors(level).iter().map(nx_ect101::current_error_bytes).collect::<Vec<_>>()
+        });
         assert_eq!(listed, expected.current_errors, "{}", case.code);
         assert_eq!(side.io().unit_error(), expected.unit_error, "{}", case.code);
         assert_eq!(side.io().io_data_active(), expected.io_data_active, "{}", case.code);

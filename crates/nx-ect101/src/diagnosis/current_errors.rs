@@ -2,8 +2,9 @@
 //! 8-3-2 and A-6-7).
 
 use arrayvec::ArrayVec;
+use unit_model::CurrentError;
 
-use crate::events::{EventCode, EventLevel};
+use crate::events::EventLevel;
 use crate::status::{MINOR_FAULT_BIT, OBSERVATION_BIT};
 
 /// Maximum number of observations and minor faults together.
@@ -17,31 +18,16 @@ const MINOR_FAULT: u8 = 1 << MINOR_FAULT_BIT.bit;
 const WITHOUT_DETAIL: u32 = 0x0007_0000;
 const WITH_DETAIL: u32 = 0x0007_0401;
 
-/// A current error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CurrentError {
-    /// Its event.
-    pub event: EventCode,
-    /// Attached information 1.
-    pub detail: Option<u32>,
-}
-
-impl CurrentError {
-    pub(crate) const fn new(event: EventCode, detail: Option<u32>) -> Self {
-        Self { event, detail }
+/// The bytes of an error in objects 2003 and 2004.
+#[must_use]
+pub fn current_error_bytes(error: &CurrentError) -> [u8; CURRENT_ERROR_BYTES] {
+    let kind = if error.detail.is_some() { WITH_DETAIL } else { WITHOUT_DETAIL };
+    let mut bytes = [0; CURRENT_ERROR_BYTES];
+    let words = [error.event.0, kind, error.detail.unwrap_or(0)];
+    for (to, word) in bytes.chunks_exact_mut(4).zip(words) {
+        to.copy_from_slice(&word.to_le_bytes());
     }
-
-    /// The bytes in objects 2003 and 2004.
-    #[must_use]
-    pub fn bytes(&self) -> [u8; CURRENT_ERROR_BYTES] {
-        let kind = if self.detail.is_some() { WITH_DETAIL } else { WITHOUT_DETAIL };
-        let mut bytes = [0; CURRENT_ERROR_BYTES];
-        let words = [self.event.0, kind, self.detail.unwrap_or(0)];
-        for (to, word) in bytes.chunks_exact_mut(4).zip(words) {
-            to.copy_from_slice(&word.to_le_bytes());
-        }
-        bytes
-    }
+    bytes
 }
 
 /// Both lists, each in the order in which its errors occurred.

@@ -69,7 +69,7 @@ fn a_minor_fault_takes_the_place_of_the_newest_observation() {
     diagnosis.inject(Fault::MessageCommunications);
     diagnosis.raise(Occurrence::bare(MISMATCH));
     (0..8).for_each(|mapping| diagnosis.raise(order_of(mapping)));
-    let discarded = EventCode::MESSAGE_COMMUNICATIONS_ERROR;
+    let discarded = Event::MESSAGE_COMMUNICATIONS_ERROR;
     assert_eq!(observations(&diagnosis), [discarded, MISMATCH]);
     diagnosis.raise(order_of(8));
     assert_eq!(observations(&diagnosis), [discarded]);
@@ -169,7 +169,7 @@ fn one_piece_of_attached_information_is_32_bits_wide() {
 #[test]
 fn two_pieces_of_attached_information_are_16_bits_wide() {
     let mut diagnosis = Diagnosis::default();
-    diagnosis.raise(Occurrence::new(EventCode::MESSAGE_COMMUNICATIONS_ERROR, [0x1234, 0xFFFF]));
+    diagnosis.raise(Occurrence::new(Event::MESSAGE_COMMUNICATIONS_ERROR, [0x1234, 0xFFFF]));
     let expected = [
         [0x00, 0xE8, 0x22, 0xFF, 0x11, 0x02, 0x22, 0x80],
         [0; 8],
@@ -181,7 +181,7 @@ fn two_pieces_of_attached_information_are_16_bits_wide() {
 #[test]
 fn of_four_pieces_of_attached_information_two_fit() {
     let mut diagnosis = Diagnosis::default();
-    diagnosis.raise(Occurrence::new(EventCode::PROCESSING_ERROR, [1, 2, 3, 4]));
+    diagnosis.raise(Occurrence::new(Event::PROCESSING_ERROR, [1, 2, 3, 4]));
     let expected = [
         [0x00, 0xE8, 0x50, 0x61, 0x12, 0x02, 0x20, 0x40],
         [0; 8],
@@ -205,22 +205,22 @@ fn an_information_has_level_0_and_is_no_error() {
 
 #[test]
 fn a_current_error_has_twelve_bytes_with_attached_information_1_alone() {
-    let bytes = |detail| CurrentError::new(EventCode(0x3914_0000), detail).bytes();
+    let bytes = |detail| current_error_bytes(&CurrentError { event: EventCode(0x3914_0000), detail });
     assert_eq!(bytes(None), [0, 0, 0x14, 0x39, 0, 0, 7, 0, 0, 0, 0, 0]);
     assert_eq!(bytes(Some(0x1601)), [0, 0, 0x14, 0x39, 1, 4, 7, 0, 0x01, 0x16, 0, 0]);
     let mut diagnosis = Diagnosis::default();
-    diagnosis.raise(Occurrence::new(EventCode::PROCESSING_ERROR, [9, 8, 7, 6]));
-    let current = diagnosis.current(EventLevel::MinorFault)[0].bytes();
+    diagnosis.raise(Occurrence::new(Event::PROCESSING_ERROR, [9, 8, 7, 6]));
+    let current = current_error_bytes(&diagnosis.current(EventLevel::MinorFault)[0]);
     assert_eq!(current, [0, 0, 0x20, 0x40, 1, 4, 7, 0, 9, 0, 0, 0]);
 }
 
 #[test]
 fn the_sixth_access_event_pushes_the_oldest_out() {
     let mut diagnosis = Diagnosis::default();
-    diagnosis.raise(Occurrence::bare(EventCode::UNIT_RESTART));
+    diagnosis.raise(Occurrence::bare(Event::UNIT_RESTART));
     (0..5).for_each(|_| diagnosis.clear_log(EventLog::System));
     let events: Vec<EventCode> = diagnosis.log().access.iter().map(|record| record.event).collect();
-    assert_eq!(events, [EventCode::EVENT_LOG_CLEARED; 5]);
+    assert_eq!(events, [Event::EVENT_LOG_CLEARED; 5]);
 }
 
 #[test]
@@ -248,9 +248,9 @@ fn a_fault_between_start_and_first_refresh_is_told_once() {
     diagnosis.reset_errors();
     diagnosis.tell_start();
     let events: Vec<EventCode> = diagnosis.log().history().map(|record| record.event).collect();
-    let processing = EventCode::PROCESSING_ERROR;
+    let processing = Event::PROCESSING_ERROR;
     // The cause persists at the reset; the other fault was not reported before.
-    assert_eq!(events, [processing, processing, EventCode::CONTROL_PARAMETER_ERROR]);
+    assert_eq!(events, [processing, processing, Event::CONTROL_PARAMETER_ERROR]);
 }
 
 #[test]

@@ -4,30 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Level of an event, the most severe first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EventLevel {
-    /// Minor fault.
-    MinorFault,
-    /// Observation.
-    Observation,
-    /// Information.
-    Information,
-}
-
-/// A log for support software (manual, 8-3-2).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum EventLog {
-    /// System event log, 32 records.
-    System,
-    /// Access event log, 5 records.
-    Access,
-    /// No log.
-    None,
-}
-
 /// The recovery from an error (manual, 8-3-4, for the NX bus of CPU Units).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]

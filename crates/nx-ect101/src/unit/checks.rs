@@ -4,7 +4,7 @@
 use wire::AlStatusCode;
 
 use crate::diagnosis::Occurrence;
-use crate::events::{Event, EventCode};
+use crate::events::Event;
 use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::rules;
@@ -99,7 +99,7 @@ impl NxEct101 {
 
     /// No data are exchanged any more, so that there is no mismatch.
     pub(super) fn settle_mismatches(&mut self) {
-        let is_mismatch = |code| matches!(code, EventCode::MISMATCH_C_TO_M | EventCode::MISMATCH_M_TO_C);
+        let is_mismatch = |code| matches!(code, Event::MISMATCH_C_TO_M | Event::MISMATCH_M_TO_C);
         self.objects.diagnosis.settle(is_mismatch);
     }
 

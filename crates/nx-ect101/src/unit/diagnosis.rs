@@ -2,9 +2,10 @@
 
 use arrayvec::ArrayVec;
 use device::Start;
+use unit_model::CurrentError;
 use wire::{AlStatus, AlStatusCode};
 
-use crate::diagnosis::{CurrentError, OCCURRED_MAX, Occurrence};
+use crate::diagnosis::{OCCURRED_MAX, Occurrence};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
 use crate::indicators::{IndicatorCauses, Indicators, NxCondition};
@@ -34,6 +35,11 @@ impl NxEct101 {
     /// At most [`OCCURRED_MAX`] are kept; later ones are dropped until the next call.
     pub fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
         self.objects.diagnosis.take_occurred()
+    }
+
+    /// Takes the oldest of them.
+    pub(crate) fn take_occurred_event(&mut self) -> Option<EventCode> {
+        self.objects.diagnosis.take_event()
     }
 
     /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause persists
@@ -138,8 +144,8 @@ impl NxEct101 {
         if start == Start::PowerOn {
             return None;
         }
-        diagnosis.raise(Occurrence::bare(EventCode::UNIT_RESTART));
-        Event::find(EventCode::UNIT_RESTART).and_then(|event| event.al_status_code)
+        diagnosis.raise(Occurrence::bare(Event::UNIT_RESTART));
+        Event::find(Event::UNIT_RESTART).and_then(|event| event.al_status_code)
     }
 
     /// Reports the findings of the start, once. It waits for the first refresh, in which the time is known.

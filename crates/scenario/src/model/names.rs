@@ -57,21 +57,25 @@ pub enum IndicatorName {
 }
 
 impl IndicatorName {
-    /// All of them with their spelling.
-    pub(crate) const ALL: [(&str, Self); 6] = [
-        ("RUN", Self::Run),
-        ("ERR", Self::Err),
-        ("L/A IN", Self::LinkIn),
-        ("L/A OUT", Self::LinkOut),
-        ("TS green", Self::TsGreen),
-        ("TS red", Self::TsRed),
-    ];
+    /// All of them.
+    const ALL: [Self; 6] = [Self::Run, Self::Err, Self::LinkIn, Self::LinkOut, Self::TsGreen, Self::TsRed];
+
+    /// Its spelling, which is the name that models give it.
+    pub(crate) const fn as_str(self) -> &'static str {
+        match self {
+            Self::Run => "RUN",
+            Self::Err => "ERR",
+            Self::LinkIn => "L/A IN",
+            Self::LinkOut => "L/A OUT",
+            Self::TsGreen => "TS green",
+            Self::TsRed => "TS red",
+        }
+    }
 }
 
 impl fmt::Display for IndicatorName {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let named = Self::ALL.into_iter().find(|(_, indicator)| indicator == self);
-        named.map_or(Ok(()), |(name, _)| formatter.write_str(name))
+        formatter.write_str(self.as_str())
     }
 }
 
@@ -79,10 +83,8 @@ impl FromStr for IndicatorName {
     type Err = NotAValue;
 
     fn from_str(text: &str) -> Result<Self, NotAValue> {
-        let named = Self::ALL.into_iter().find(|(name, _)| *name == text);
-        named
-            .map(|(_, indicator)| indicator)
-            .ok_or(NotAValue("RUN, ERR, L/A IN, L/A OUT, TS green or TS red"))
+        let named = Self::ALL.into_iter().find(|indicator| indicator.as_str() == text);
+        named.ok_or(NotAValue("RUN, ERR, L/A IN, L/A OUT, TS green or TS red"))
     }
 }
 

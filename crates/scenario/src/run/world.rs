@@ -6,9 +6,10 @@ mod orders;
 mod variables;
 
 use device::Network;
-use nx_ect101::{EventCode, NxEct101, UnitSettings, device_config_with};
+use nx_ect101::{NxEct101, UnitSettings, device_config_with};
 use plc::{CpuSettings, CpuUnit, DeviceVariables};
 use time::{Duration, Instant};
+use unit_model::{EventCode, ModelUnit};
 use wire::{AlStatus, AlStatusCode};
 
 use super::calendar::SYSTEM_TIME_NS;
@@ -24,7 +25,7 @@ use crate::model::{FrameKind, StateName};
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
-    network: Network<NxEct101>,
+    network: Network<Box<dyn ModelUnit>>,
     cpus: Vec<Cpu>,
     line: Line,
     master: Master,
@@ -58,7 +59,7 @@ impl World {
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
             let (config, unit, cpu) = powered(source, dice_of_phases(seed, participant), now);
             cpus.push(Cpu { unit: cpu, is_running: true, told: Story::default() });
-            (config, unit)
+            (config, Box::new(unit) as Box<dyn ModelUnit>)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
@@ -153,17 +154,17 @@ impl World {
         for at in 0..self.network.len() {
             let Some(device) = self.network.device_mut(at) else { continue };
             let (status, code) = (device.al_status(), device.al_status_code());
-            let occurred = device.unit_mut().take_occurred();
+            let unit = device.unit_mut();
             let watched = &mut self.watched[at];
-            for &event in &occurred {
-                let name = nx_ect101::Event::find(event).map_or("", |event| event.name.as_str());
+            while let Some(event) = unit.take_event() {
+                let name = unit.model().event(event).map_or("", |event| event.name);
                 self.recording.tell(
                     self.now,
                     &format!("unit {}", at + 1),
                     &format!("records {event} {name}"),
                 );
+                watched.recorded.push(event);
             }
-            watched.recorded.extend(occurred);
             if (status, code) != (watched.status, watched.code) {
                 (watched.status, watched.code) = (status, code);
                 let words = state_words(status, code);

@@ -2,6 +2,7 @@
 
 use nx_ect101::{
     CurrentError, DIAGNOSIS_MESSAGE_BYTES, EcatEffect, Event, EventLevel, Fault, LogRecord, Notified,
+    current_error_bytes,
 };
 
 use super::words;
@@ -133,7 +134,7 @@ fn current_error(event: &Event) -> String {
         _ => "2004",
     };
     let has_detail = !event.attached_information.is_empty();
-    let bytes = CurrentError { event: event.code, detail: has_detail.then_some(0) }.bytes();
+    let bytes = current_error_bytes(&CurrentError { event: event.code, detail: has_detail.then_some(0) });
     if has_detail {
         let before = bytes.get(..8).unwrap_or_default();
         return format!("{object}: {}, then attached information 1 in four bytes", hex(before));

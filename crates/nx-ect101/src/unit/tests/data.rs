@@ -281,7 +281,7 @@ fn a_message_that_finds_no_room_is_an_event() {
     assert_eq!(refused, 2);
     let records: Vec<_> = bench.unit.error_log().history().collect();
     assert_eq!(records.len(), 1, "they came between two refreshes");
-    assert_eq!(records[0].event, EventCode::MESSAGE_COMMUNICATIONS_ERROR);
+    assert_eq!(records[0].event, Event::MESSAGE_COMMUNICATIONS_ERROR);
     assert_eq!(records[0].details.as_slice(), [0, 0], "system information, NX bus");
 }
 

@@ -1,5 +1,6 @@
 //! Conditions of one unit, at a position of the line.
 
+use coe_kit::indicators::Pattern;
 use wire::{AlState, ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds, is_often_enough, lie_at, truth};
@@ -71,8 +72,8 @@ pub(super) fn inputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) ->
 }
 
 pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
-    let status = world.unit(at).slave_status();
-    let seen = [status.m_to_c_valid, status.c_to_m_valid];
+    let status = world.unit(at).data_valid();
+    let seen = [status.outputs, status.inputs];
     holds(seen == [valid; 2], || {
         let [m_to_c, c_to_m] = seen.map(truth);
         format!("{}: M to C valid is {m_to_c}, C to M valid is {c_to_m}", name(at))
@@ -80,10 +81,10 @@ pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
 }
 
 pub(super) fn direction_valid(world: &mut World, at: usize, direction: DataDirection, valid: bool) -> Check {
-    let status = world.unit(at).slave_status();
+    let status = world.unit(at).data_valid();
     let seen = match direction {
-        DataDirection::MToC => status.m_to_c_valid,
-        DataDirection::CToM => status.c_to_m_valid,
+        DataDirection::MToC => status.outputs,
+        DataDirection::CToM => status.inputs,
     };
     holds(seen == valid, || format!("{}: it is {}", name(at), truth(seen)))
 }
@@ -99,8 +100,11 @@ pub(super) fn error(world: &mut World, at: usize, error: bool) -> Check {
 }
 
 pub(super) fn indicator(world: &mut World, at: usize, indicator: IndicatorName, pattern: &str) -> Check {
-    let seen = world.indicator(at, indicator).id();
-    holds(seen == pattern, || format!("{}: it is {seen}", name(at)))
+    let seen = world.indicator(at, indicator).map(Pattern::id);
+    holds(seen == Some(pattern), || match seen {
+        Some(seen) => format!("{}: it is {seen}", name(at)),
+        None => format!("{} has no indicator {indicator}", name(at)),
+    })
 }
 
 pub(super) fn working_counter(world: &mut World, at: usize, value: u16) -> Check {

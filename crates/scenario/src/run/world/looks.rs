@@ -3,8 +3,8 @@
 use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Unit};
 use esc::Port;
-use nx_ect101::{EventCode, EventLevel, Indicators, NxEct101};
 use plc::Io;
+use unit_model::{EventCode, EventLevel, ModelUnit, SlaveView};
 use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
 use super::{World, state_words};
@@ -15,11 +15,11 @@ const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observatio
 
 impl World {
     /// The unit at a position that was checked when the scenario was read.
-    pub(crate) fn unit(&self, at: usize) -> &NxEct101 {
-        self.device(at).unit()
+    pub(crate) fn unit(&self, at: usize) -> &dyn ModelUnit {
+        &**self.device(at).unit()
     }
 
-    fn device(&self, at: usize) -> &Device<NxEct101> {
+    fn device(&self, at: usize) -> &Device<Box<dyn ModelUnit>> {
         match self.network.device(at) {
             Some(device) => device,
             None => panic!("the scenario names unit {}, and was checked", at + 1),
@@ -96,24 +96,15 @@ impl World {
         self.master.working_counter(at)
     }
 
-    pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Pattern {
-        let indicators = self.indicators(at);
-        match name {
-            IndicatorName::Run => indicators.run,
-            IndicatorName::Err => indicators.err,
-            IndicatorName::LinkIn => indicators.la_in,
-            IndicatorName::LinkOut => indicators.la_out,
-            IndicatorName::TsGreen => indicators.ts_green,
-            IndicatorName::TsRed => indicators.ts_red,
+    /// What an indicator does; none if the unit has no indicator of this name.
+    pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Option<Pattern> {
+        let name = name.as_str();
+        if self.is_off(at) {
+            return self.unit(at).model().indicators().contains(&name).then_some(Pattern::NotLit);
         }
-    }
-
-    fn indicators(&self, at: usize) -> Indicators {
-        if self.device(at).is_off() {
-            return Indicators::DARK;
-        }
-        let (status, code) = self.al_status(at);
-        self.unit(at).indicators(status, code, [Port::In, Port::Out].map(|port| self.port(at, port)))
+        let (al_status, al_status_code) = self.al_status(at);
+        let [in_port, out_port] = [Port::In, Port::Out].map(|port| self.port(at, port));
+        self.unit(at).indicator(name, &SlaveView { al_status, al_status_code, in_port, out_port })
     }
 
     fn port(&self, at: usize, port: Port) -> PortCondition {

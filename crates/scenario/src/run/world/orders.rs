@@ -4,9 +4,9 @@
 
 use device::{Device, SiiTiming, Start, TransitionTimes};
 use esc::Esc;
-use nx_ect101::{Fault, NxEct101};
 use plc::{Io, OperatingMode};
 use time::Instant;
+use unit_model::{ModelUnit, NotThere};
 use wire::AlStatusCode;
 
 use super::{Cpu, World};
@@ -15,6 +15,8 @@ use crate::run::master::Master;
 
 /// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
+/// The switch that gives a unit its ID.
+const ID_SWITCH: &str = "ID";
 
 impl World {
     pub(crate) fn master_mut(&mut self) -> &mut Master {
@@ -27,12 +29,14 @@ impl World {
             UnitOrder::CyclePower { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
             UnitOrder::PowerOff { units } => self.each(*units, Self::power_off),
             UnitOrder::PowerOn { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
-            UnitOrder::ResetErrors { units } => self.each_unit(*units, NxEct101::reset_errors),
+            UnitOrder::ResetErrors { units } => self.each_unit(*units, |unit| unit.reset_errors()),
             UnitOrder::ClearEventLog { units, log } => {
                 self.each_unit(*units, |unit| unit.clear_event_log(event_log(*log)));
             }
             UnitOrder::SetIdSwitch { unit, id } => {
-                self.each_unit(UnitSet::One(*unit), |unit| unit.set_id_switch(id.0));
+                self.each_unit(UnitSet::One(*unit), |unit| {
+                    let _ = unit.set_switch(ID_SWITCH, id.0.into());
+                });
             }
             UnitOrder::InvertSiiWord { unit, word } => self.invert_sii_word(unit.position(), *word),
             UnitOrder::EraseSii { units } => {
@@ -42,8 +46,8 @@ impl World {
                 let now = self.now;
                 self.each_slave(*units, |device, esc| conduct(device, esc, order, now));
             }
-            UnitOrder::InjectFault { units, fault } => self.each_fault(*units, fault, NxEct101::inject),
-            UnitOrder::RemoveFault { units, fault } => self.each_fault(*units, fault, NxEct101::remove),
+            UnitOrder::InjectFault { units, fault } => self.each_fault(*units, |unit| unit.inject(fault)),
+            UnitOrder::RemoveFault { units, fault } => self.each_fault(*units, |unit| unit.remove(fault)),
         }
         self.happen();
     }
@@ -115,22 +119,22 @@ impl World {
         units.positions(self.count()).for_each(|at| order(self, at));
     }
 
-    fn each_unit(&mut self, units: UnitSet, mut order: impl FnMut(&mut NxEct101)) {
+    fn each_unit(&mut self, units: UnitSet, mut order: impl FnMut(&mut dyn ModelUnit)) {
         for at in units.positions(self.count()) {
             if let Some(device) = self.network.device_mut(at) {
-                order(device.unit_mut());
+                order(&mut **device.unit_mut());
             }
         }
     }
 
     /// An action on a fault of each unit. The name was checked when the scenario was read.
-    fn each_fault(&mut self, units: UnitSet, name: &str, order: impl Fn(&mut NxEct101, Fault)) {
-        if let Some(fault) = Fault::named(name) {
-            self.each_unit(units, |unit| order(unit, fault));
-        }
+    fn each_fault(&mut self, units: UnitSet, order: impl Fn(&mut dyn ModelUnit) -> Result<(), NotThere>) {
+        self.each_unit(units, |unit| {
+            let _ = order(unit);
+        });
     }
 
-    fn each_slave(&mut self, units: UnitSet, order: impl Fn(&mut Device<NxEct101>, &mut Esc)) {
+    fn each_slave(&mut self, units: UnitSet, order: impl Fn(&mut Device<Box<dyn ModelUnit>>, &mut Esc)) {
         for at in units.positions(self.count()) {
             if let Some((device, esc)) = self.network.slave_mut(at) {
                 order(device, esc);
@@ -169,7 +173,7 @@ impl World {
     }
 }
 
-fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: &ConductOrder, now: Instant) {
+fn conduct(device: &mut Device<Box<dyn ModelUnit>>, esc: &mut Esc, order: &ConductOrder, now: Instant) {
     match order {
         ConductOrder::EveryTransition { time } => {
             device.conduct_mut().transition_times = TransitionTimes::every(*time);
@@ -189,10 +193,10 @@ fn conduct(device: &mut Device<NxEct101>, esc: &mut Esc, order: &ConductOrder, n
     }
 }
 
-const fn event_log(log: EventLog) -> nx_ect101::EventLog {
+const fn event_log(log: EventLog) -> unit_model::EventLog {
     match log {
-        EventLog::System => nx_ect101::EventLog::System,
-        EventLog::Access => nx_ect101::EventLog::Access,
+        EventLog::System => unit_model::EventLog::System,
+        EventLog::Access => unit_model::EventLog::Access,
     }
 }
 

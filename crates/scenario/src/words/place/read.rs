@@ -89,14 +89,14 @@ pub(super) fn entries(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Entries(lists.concat()), words.len()))
 }
 
-/// An event of the table.
+/// An event of a model.
 pub(super) fn event(word: &str) -> Option<Value> {
     let code: EventCode = word.parse().ok()?;
-    nx_ect101::Event::find(nx_ect101::EventCode(code.0)).map(|_| Value::Event(code))
+    plant::event(unit_model::EventCode(code.0)).map(|_| Value::Event(code))
 }
 
 pub(super) fn fault(word: &str) -> Option<Value> {
-    nx_ect101::Fault::named(word).map(|_| Value::Text(word.to_owned()))
+    plant::has_fault(word).then(|| Value::Text(word.to_owned()))
 }
 
 pub(super) fn pattern(word: &str) -> Option<Value> {

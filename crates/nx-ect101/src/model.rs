@@ -1,0 +1,165 @@
+//! The unit as the house sees it: the words of the model, and the view that knows no model.
+
+use coe_kit::indicators::Pattern;
+use unit_model::{
+    CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, Model, ModelUnit, NotThere,
+    SlaveView,
+};
+
+use crate::events::Event;
+use crate::fault::Fault;
+use crate::indicators::Indicators;
+use crate::unit::NxEct101;
+
+/// The model.
+pub static MODEL: NxEct101Model = NxEct101Model;
+
+/// What of the model is the same for all units.
+#[derive(Clone, Copy, Debug)]
+pub struct NxEct101Model;
+
+/// The names of the faults, in the order of [`Fault::ALL`].
+const FAULTS: [&str; Fault::ALL.len()] = {
+    let mut names = [""; Fault::ALL.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = Fault::ALL[at].name();
+        at += 1;
+    }
+    names
+};
+/// An indicator by its name.
+type IndicatorRow = (&'static str, fn(&Indicators) -> Pattern);
+/// TS has two colours.
+const INDICATORS: [IndicatorRow; 6] = [
+    ("RUN", |indicators| indicators.run),
+    ("ERR", |indicators| indicators.err),
+    ("L/A IN", |indicators| indicators.la_in),
+    ("L/A OUT", |indicators| indicators.la_out),
+    ("TS green", |indicators| indicators.ts_green),
+    ("TS red", |indicators| indicators.ts_red),
+];
+const INDICATOR_NAMES: [&str; INDICATORS.len()] = {
+    let mut names = [""; INDICATORS.len()];
+    let mut at = 0;
+    while at < names.len() {
+        names[at] = INDICATORS[at].0;
+        at += 1;
+    }
+    names
+};
+const ID_SWITCH: &str = "ID";
+
+impl Model for NxEct101Model {
+    fn name(&self) -> &'static str {
+        "nx-ect101"
+    }
+
+    fn event(&self, code: EventCode) -> Option<EventInfo> {
+        Event::find(code).map(|event| EventInfo { code, name: &event.name, level: event.level })
+    }
+
+    fn faults(&self) -> &'static [&'static str] {
+        &FAULTS
+    }
+
+    fn indicators(&self) -> &'static [&'static str] {
+        &INDICATOR_NAMES
+    }
+
+    fn switches(&self) -> &'static [&'static str] {
+        &[ID_SWITCH]
+    }
+}
+
+impl ModelUnit for NxEct101 {
+    fn model(&self) -> &'static dyn Model {
+        &MODEL
+    }
+
+    fn data_valid(&self) -> DataValid {
+        let status = self.slave_status();
+        DataValid { outputs: status.m_to_c_valid, inputs: status.c_to_m_valid }
+    }
+
+    fn take_event(&mut self) -> Option<EventCode> {
+        self.take_occurred_event()
+    }
+
+    fn current_errors(&self, level: EventLevel) -> &[CurrentError] {
+        self.current_errors(level)
+    }
+
+    fn error_status(&self) -> u8 {
+        self.error_status()
+    }
+
+    fn has_new_messages(&self) -> bool {
+        self.has_new_messages()
+    }
+
+    fn reset_errors(&mut self) {
+        self.reset_errors();
+    }
+
+    fn clear_event_log(&mut self, log: EventLog) {
+        self.clear_event_log(log);
+    }
+
+    fn inject(&mut self, fault: &str) -> Result<(), NotThere> {
+        self.inject(Fault::named(fault).ok_or(NotThere)?);
+        Ok(())
+    }
+
+    fn remove(&mut self, fault: &str) -> Result<(), NotThere> {
+        self.remove(Fault::named(fault).ok_or(NotThere)?);
+        Ok(())
+    }
+
+    fn set_switch(&mut self, switch: &str, position: u16) -> Result<(), NotThere> {
+        let position = u8::try_from(position).map_err(|_| NotThere)?;
+        (switch == ID_SWITCH).then(|| self.set_id_switch(position)).ok_or(NotThere)
+    }
+
+    fn indicator(&self, name: &str, slave: &SlaveView) -> Option<Pattern> {
+        let (_, pattern) = INDICATORS.iter().find(|(known, _)| *known == name)?;
+        let SlaveView { al_status, al_status_code, in_port, out_port } = *slave;
+        Some(pattern(&self.indicators(al_status, al_status_code, [in_port, out_port])))
+    }
+
+    fn take_memory_change(&mut self, sii_image: &[u8], sii_words_written: u32) -> bool {
+        self.take_memory_change(sii_image, sii_words_written)
+    }
+
+    fn encode_memory(&self, bytes: &mut Vec<u8>) {
+        self.memory().encode_into(bytes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::UnitSettings;
+
+    #[test]
+    fn each_word_of_the_model_means_something_to_a_unit_and_no_other_does() {
+        let (mut unit, _cpu) = NxEct101::power_on(&UnitSettings::default());
+        let unit: &mut dyn ModelUnit = &mut unit;
+        let model = unit.model();
+        for fault in model.faults() {
+            assert_eq!((unit.inject(fault), unit.remove(fault)), (Ok(()), Ok(())), "{fault}");
+            assert_eq!(Fault::named(fault).map(|fault| format!("{fault:?}")).as_deref(), Some(*fault));
+        }
+        for indicator in model.indicators() {
+            assert!(unit.indicator(indicator, &SlaveView::default()).is_some(), "{indicator}");
+        }
+        for switch in model.switches() {
+            assert_eq!(unit.set_switch(switch, 0xFF), Ok(()), "{switch}");
+            assert_eq!(unit.set_switch(switch, 0x100), Err(NotThere), "{switch}");
+        }
+        assert_eq!(unit.inject("processing"), Err(NotThere));
+        assert_eq!(unit.indicator("TS", &SlaveView::default()), None);
+        assert_eq!(unit.set_switch("", 1), Err(NotThere));
+        assert!(unit.as_model::<NxEct101>().is_some());
+    }
+}

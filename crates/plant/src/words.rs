@@ -1,0 +1,36 @@
+//! Words that mean something to at least one model.
+
+use unit_model::{EventCode, EventInfo};
+
+use crate::registry::models;
+
+/// The event with this code, of the first model that has it.
+#[must_use]
+pub fn event(code: EventCode) -> Option<EventInfo> {
+    models().iter().find_map(|model| model.event(code))
+}
+
+/// Whether a model has a fault of this name.
+#[must_use]
+pub fn has_fault(name: &str) -> bool {
+    models().iter().any(|model| model.faults().contains(&name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_models_are_different() {
+        let names: std::collections::BTreeSet<_> = models().iter().map(|model| model.name()).collect();
+        assert_eq!(names.len(), models().len());
+    }
+
+    #[test]
+    fn words_of_a_model_are_known_and_others_are_not() {
+        let event = event(EventCode(0x8500_0000)).map(|event| event.name);
+        assert_eq!(event, Some("Process Data WDT Error"));
+        assert_eq!(super::event(EventCode(1)), None);
+        assert!(has_fault("Processing") && !has_fault("processing"));
+    }
+}

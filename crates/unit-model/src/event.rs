@@ -1,0 +1,59 @@
+//! Events of units: code, level, log, and errors that exist.
+
+use core::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// Code of an event, as support software shows it: eight hexadecimal digits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct EventCode(pub u32);
+
+impl fmt::Display for EventCode {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{:08X}", self.0)
+    }
+}
+
+/// Level of an event, the most severe first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventLevel {
+    /// Minor fault.
+    MinorFault,
+    /// Observation.
+    Observation,
+    /// Information.
+    Information,
+}
+
+/// A log for support software.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EventLog {
+    /// System event log.
+    System,
+    /// Access event log.
+    Access,
+    /// No log.
+    None,
+}
+
+/// An event of a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct EventInfo {
+    /// Its code.
+    pub code: EventCode,
+    /// Its name.
+    pub name: &'static str,
+    /// Its level, unless a user has changed it.
+    pub level: EventLevel,
+}
+
+/// An error that exists.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CurrentError {
+    /// Its event.
+    pub event: EventCode,
+    /// Attached information 1.
+    pub detail: Option<u32>,
+}

@@ -1,0 +1,25 @@
+//! What the slave stack and the line around a unit show, for its indicators.
+
+use coe_kit::indicators::PortCondition;
+use wire::{AlStatus, AlStatusCode};
+
+/// What a slave shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SlaveView {
+    /// State and error indication, as the master reads them.
+    pub al_status: AlStatus,
+    /// AL status code, as the master reads it.
+    pub al_status_code: AlStatusCode,
+    /// Port IN.
+    pub in_port: PortCondition,
+    /// Port OUT.
+    pub out_port: PortCondition,
+}
+
+impl SlaveView {
+    /// The AL status code, while AL status indicates an error.
+    #[must_use]
+    pub fn al_error(&self) -> Option<AlStatusCode> {
+        self.al_status.error.then_some(self.al_status_code)
+    }
+}

@@ -1,0 +1,120 @@
+//! A unit as the house sees it, whatever its model.
+
+use core::any::Any;
+use core::fmt::{self, Debug};
+
+use coe_kit::indicators::Pattern;
+use device::Unit;
+
+use crate::event::{CurrentError, EventCode, EventLevel, EventLog};
+use crate::model::Model;
+use crate::slave_view::SlaveView;
+
+/// A unit under power. The slave stack works with [`Unit`]; this is the other side, which no master sees.
+pub trait ModelUnit: Unit + Any + Debug + Send {
+    /// The model, with its words.
+    fn model(&self) -> &'static dyn Model;
+
+    /// Whether the process data of each direction can be used.
+    fn data_valid(&self) -> DataValid;
+
+    /// Takes the oldest event that has occurred and was not taken yet. A unit keeps a bounded number of them.
+    fn take_event(&mut self) -> Option<EventCode> {
+        None
+    }
+
+    /// The current errors of a level, the oldest first.
+    fn current_errors(&self, _level: EventLevel) -> &[CurrentError] {
+        &[]
+    }
+
+    /// The error status that the unit shows to masters; 0: no error.
+    fn error_status(&self) -> u8 {
+        0
+    }
+
+    /// Whether the diagnosis history has messages that no master has acknowledged.
+    fn has_new_messages(&self) -> bool {
+        false
+    }
+
+    /// A user resets the errors. An error whose cause still exists occurs again.
+    fn reset_errors(&mut self) {}
+
+    /// A user clears a log.
+    fn clear_event_log(&mut self, _log: EventLog) {}
+
+    /// The cause of a fault appears.
+    ///
+    /// # Errors
+    /// The model has no fault of this name.
+    fn inject(&mut self, _fault: &str) -> Result<(), NotThere> {
+        Err(NotThere)
+    }
+
+    /// The cause of a fault disappears.
+    ///
+    /// # Errors
+    /// The model has no fault of this name.
+    fn remove(&mut self, _fault: &str) -> Result<(), NotThere> {
+        Err(NotThere)
+    }
+
+    /// A hand sets a switch.
+    ///
+    /// # Errors
+    /// The model has no switch of this name, or the switch has no such position.
+    fn set_switch(&mut self, _switch: &str, _position: u16) -> Result<(), NotThere> {
+        Err(NotThere)
+    }
+
+    /// What an indicator does while the unit has power; none if the model has no indicator of this name.
+    fn indicator(&self, _name: &str, _slave: &SlaveView) -> Option<Pattern> {
+        None
+    }
+
+    /// Takes over what has changed in the EEPROM, of which the wire has written `sii_words_written` words since
+    /// power-on. Whether the non-volatile memory has to be stored now.
+    fn take_memory_change(&mut self, _sii_image: &[u8], _sii_words_written: u32) -> bool {
+        false
+    }
+
+    /// Writes the non-volatile memory in place of what `bytes` holds.
+    fn encode_memory(&self, bytes: &mut Vec<u8>) {
+        bytes.clear();
+    }
+}
+
+impl dyn ModelUnit {
+    /// The unit as one of this model, for whoever knows the model.
+    #[must_use]
+    pub fn as_model<M: ModelUnit>(&self) -> Option<&M> {
+        (self as &dyn Any).downcast_ref()
+    }
+
+    /// The same, to be changed.
+    pub fn as_model_mut<M: ModelUnit>(&mut self) -> Option<&mut M> {
+        (self as &mut dyn Any).downcast_mut()
+    }
+}
+
+/// Whether the process data of each direction can be used.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DataValid {
+    /// From the master.
+    pub outputs: bool,
+    /// To the master.
+    pub inputs: bool,
+}
+
+/// The model has nothing of this name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NotThere;
+
+impl fmt::Display for NotThere {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("the model of the unit has nothing of this name")
+    }
+}
+
+impl core::error::Error for NotThere {}
