@@ -1,21 +1,30 @@
-//! The most likely character set of a text that is not UTF-8.
+//! Which character sets a text that is not UTF-8 may be in.
 
-/// The name of the character set, as `iconv` accepts it.
 #[cfg(feature = "encodings")]
-pub(crate) fn guessed(bytes: &[u8]) -> Option<&'static str> {
-    use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
+mod by_letters;
 
-    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
-    detector.feed(bytes, true);
-    Some(match detector.guess(None, Utf8Detection::Deny).name() {
-        // Latin-1 with letters in place of control characters: files do not distinguish the two.
-        "windows-1252" => "Latin-1",
-        other => other,
-    })
+/// The names of the likely character sets, as `iconv` takes them, the likeliest first; none if it is not known.
+#[cfg(feature = "encodings")]
+pub(crate) fn guessed(bytes: &[u8]) -> Vec<&'static str> {
+    by_letters::guessed(bytes).map_or_else(|| vec![by_statistics(bytes)], <[_]>::to_vec)
 }
 
 /// Not known: this build does not detect it.
 #[cfg(not(feature = "encodings"))]
-pub(crate) const fn guessed(_bytes: &[u8]) -> Option<&'static str> {
-    None
+pub(crate) const fn guessed(_bytes: &[u8]) -> Vec<&'static str> {
+    Vec::new()
+}
+
+/// What the frequencies of letters say. They need a text of some length.
+#[cfg(feature = "encodings")]
+fn by_statistics(bytes: &[u8]) -> &'static str {
+    use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
+
+    let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
+    detector.feed(bytes, true);
+    match detector.guess(None, Utf8Detection::Deny).name() {
+        // Latin-1 with letters in place of control characters: no file says which of the two it is.
+        "windows-1252" => by_letters::LATIN,
+        other => other,
+    }
 }

@@ -24,7 +24,7 @@ pub fn text(bytes: Vec<u8>, name: &str, wanted: Wanted) -> Result<String, Refusa
 
 fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
     if matches!(bytes, [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..]) {
-        return not_utf8_but(Some("UTF-16"), "");
+        return not_utf8_but(&["UTF-16"], "");
     }
     if bytes.contains(&0) {
         return with_zeros(bytes, wanted);
@@ -32,24 +32,26 @@ fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
     let before = String::from_utf8_lossy(bytes.get(..wrong).unwrap_or_default());
     let (line, _) = line_and_column(&before, before.len());
     let byte = bytes.get(wrong).copied().unwrap_or_default();
-    not_utf8_but(encoding::guessed(bytes), &format!(": byte 0x{byte:02X} in line {line}"))
+    not_utf8_but(&encoding::guessed(bytes), &format!(": byte 0x{byte:02X} in line {line}"))
 }
 
-/// Refuses a text in another character set, and names the set if it is known.
-fn not_utf8_but(encoding: Option<&str>, place: &str) -> Refusal {
-    match encoding {
-        Some(encoding) => Refusal::new(
-            format!("this text is not UTF-8; it looks like {encoding}{place}"),
-            format!("save it as UTF-8, or convert it: iconv -f {encoding} -t UTF-8 FILE > NEW"),
-        ),
-        None => Refusal::new(format!("this text is not UTF-8{place}"), "save it as UTF-8"),
-    }
+/// Refuses a text in another character set: perhaps one of these, the likeliest first.
+fn not_utf8_but(encodings: &[&str], place: &str) -> Refusal {
+    let Some(likeliest) = encodings.first() else {
+        return Refusal::new(format!("this text is not UTF-8{place}"), "save it as UTF-8");
+    };
+    let convert = |encoding| format!("iconv -f {encoding} -t UTF-8 FILE > NEW");
+    let others: String = encodings.iter().skip(1).map(|other| format!(", or: {}", convert(other))).collect();
+    Refusal::new(
+        format!("this text is not UTF-8; it looks like {}{place}", encodings.join(" or ")),
+        format!("save it as UTF-8, or convert it: {}{others}", convert(likeliest)),
+    )
 }
 
 /// A text in UTF-8 has no byte 0.
 fn with_zeros(bytes: &[u8], wanted: Wanted) -> Refusal {
     match utf_16_without_mark(bytes) {
-        Some(encoding) => not_utf8_but(Some(encoding), ""),
+        Some(encoding) => not_utf8_but(&[encoding], ""),
         None => Refusal::new("this is a binary file", wanted.help()),
     }
 }
@@ -104,6 +106,14 @@ mod tests {
         for utf_16 in [&b"\xFF\xFEx\0:\0=\0"[..], b"\xFE\xFF\0x\0:"] {
             assert!(refused(utf_16).contains("looks like UTF-16"), "{}", refused(utf_16));
         }
+    }
+
+    #[cfg(feature = "encodings")]
+    #[test]
+    fn two_character_sets_are_named_where_either_can_be_meant() {
+        let words = refused(b"(* don\x92t *)\n");
+        assert!(words.contains("it looks like Latin-1 or Shift_JIS: byte 0x92 in line 1"), "{words}");
+        assert!(words.contains("NEW, or: iconv -f Shift_JIS -t UTF-8"), "{words}");
     }
 
     #[test]

@@ -1,0 +1,226 @@
+//! The character set of a text with few letters beside ASCII: comments with a unit, a name, a word or two.
+//!
+//! Statistics of letters fail there, so each word is looked at: kana and kanji of Shift-JIS, or single letters and signs
+//! of Latin-1 between ASCII.
+
+use core::ops::RangeInclusive;
+
+use encoding_rs::SHIFT_JIS as DECODER;
+
+pub(super) const LATIN: &str = "Latin-1";
+const SHIFT_JIS: &str = "Shift_JIS";
+
+/// Most bytes beside ASCII of a text that can be Latin-1 by its letters.
+const FEW_BYTES: usize = 24;
+
+/// The likely character sets, the likeliest first; none if the letters do not say.
+pub(super) fn guessed(bytes: &[u8]) -> Option<&'static [&'static str]> {
+    match (japanese(bytes), is_latin(bytes)) {
+        (Japanese::Surely, _) | (Japanese::Kanji, false) => Some(&[SHIFT_JIS]),
+        (Japanese::Kanji | Japanese::HalfWidth, true) => Some(&[LATIN, SHIFT_JIS]),
+        (Japanese::Hardly, true) => Some(&[LATIN]),
+        (Japanese::Hardly | Japanese::HalfWidth, false) => None,
+    }
+}
+
+/// How much of a text in Shift-JIS looks Japanese.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Japanese {
+    /// It is none, or all of it can be letters of other character sets.
+    Hardly,
+    /// Half-width kana, which are letters and signs in many other character sets.
+    HalfWidth,
+    /// A single kanji, which can be a quotation mark and a letter.
+    Kanji,
+    /// Kana, or words of kanji.
+    Surely,
+}
+
+fn japanese(bytes: &[u8]) -> Japanese {
+    let Some(text) = DECODER.decode_without_bom_handling_and_without_replacement(bytes) else {
+        return Japanese::Hardly;
+    };
+    if !text.chars().all(|character| character.is_ascii() || is_japanese(character)) {
+        return Japanese::Hardly;
+    }
+    if text.chars().any(|character| matches!(character, '\u{3041}'..='\u{30FE}')) {
+        return Japanese::Surely;
+    }
+    words(bytes).map(|word| word.japanese()).max().unwrap_or(Japanese::Hardly)
+}
+
+/// Kana, kanji, punctuation, and letters of full or half width.
+const fn is_japanese(character: char) -> bool {
+    matches!(character, '\u{3000}'..='\u{30FF}' | '\u{4E00}'..='\u{9FFF}' | '\u{FF01}'..='\u{FF9F}')
+        || matches!(character, '\u{2010}'..='\u{2312}' | '\u{2460}'..='\u{266F}' | '\u{D7}' | '\u{B0}' | '\u{B1}')
+}
+
+/// Characters of Shift-JIS beside ASCII, one behind the other.
+struct Word {
+    characters: usize,
+    /// The first byte and, of a character of two bytes, the second one.
+    first: (u8, Option<u8>),
+    /// One of them begins with a byte that is a control character in Latin-1.
+    has_low_lead: bool,
+    follows_letter: bool,
+}
+
+/// Bytes that begin a character of two bytes, and are control characters in Latin-1.
+const LOW_LEADS: RangeInclusive<u8> = 0x81..=0x9F;
+/// Quotation marks and dashes in windows-1252.
+const QUOTES: RangeInclusive<u8> = 0x91..=0x97;
+
+impl Word {
+    fn japanese(&self) -> Japanese {
+        let (lead, trail) = self.first;
+        match (self.has_low_lead, self.characters) {
+            (true, 2..) => Japanese::Surely,
+            (true, _) if !self.follows_letter && !QUOTES.contains(&lead) => Japanese::Surely,
+            (true, _) => Japanese::Kanji,
+            // Letters such as `é` begin a kanji whose second byte is the next letter.
+            (false, _) if trail.is_some_and(|trail| trail.is_ascii()) => Japanese::Hardly,
+            (false, 2..) => Japanese::HalfWidth,
+            (false, _) => Japanese::Hardly,
+        }
+    }
+}
+
+/// The words of a valid text in Shift-JIS.
+fn words(bytes: &[u8]) -> impl Iterator<Item = Word> {
+    let mut at = 0;
+    core::iter::from_fn(move || {
+        at += bytes.get(at..)?.iter().position(|byte| !byte.is_ascii())?;
+        let follows_letter = at.checked_sub(1).and_then(|before| bytes.get(before));
+        let follows_letter = follows_letter.is_some_and(u8::is_ascii_alphabetic);
+        let first = (*bytes.get(at)?, None);
+        let mut word = Word { characters: 0, first, has_low_lead: false, follows_letter };
+        while let Some(lead) = bytes.get(at).copied().filter(|byte| !byte.is_ascii()) {
+            let is_single = matches!(lead, 0xA1..=0xDF);
+            if word.characters == 0 && !is_single {
+                word.first.1 = bytes.get(at + 1).copied();
+            }
+            word.characters += 1;
+            word.has_low_lead |= LOW_LEADS.contains(&lead);
+            at += if is_single { 1 } else { 2 };
+        }
+        Some(word)
+    })
+}
+
+/// Whether all that is not ASCII can be a few letters of Western languages and signs of units.
+fn is_latin(bytes: &[u8]) -> bool {
+    let letter_at = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_alphabetic);
+    let mut beyond_ascii = 0;
+    let mut at = 0_usize;
+    for run in bytes.chunk_by(|one, next| one.is_ascii() == next.is_ascii()) {
+        let letters = (letter_at(at.checked_sub(1)), letter_at(Some(at + run.len())));
+        at += run.len();
+        if run.iter().all(u8::is_ascii) {
+            continue;
+        }
+        beyond_ascii += run.len();
+        let fits = match run {
+            [one] => is_letter(*one) || is_sign(*one, letters),
+            // Two letters are in a word with others.
+            [one, two] if is_letter(*one) && is_letter(*two) => letters.0 || letters.1,
+            [one, two] => [one, two].iter().all(|byte| is_letter(**byte) || is_sign(**byte, (false, false))),
+            _ => false,
+        };
+        if !fits {
+            return false;
+        }
+    }
+    beyond_ascii <= FEW_BYTES
+}
+
+const fn is_letter(byte: u8) -> bool {
+    byte >= 0xC0 && byte != 0xD7 && byte != 0xF7
+}
+
+/// A sign is not inside a word, except for the apostrophe; `letters`: before it and behind it.
+const fn is_sign(byte: u8, letters: (bool, bool)) -> bool {
+    const APOSTROPHE: u8 = 0x92;
+    match byte {
+        APOSTROPHE => true,
+        // € … ‘ “ ” – — ™ and £ § © « ® ° ± ² ³ µ · ¹ » ¼ ½ ¾ × ÷
+        0x80 | 0x85 | 0x91 | 0x93 | 0x94 | 0x96 | 0x97 | 0x99 => !(letters.0 && letters.1),
+        0xA3 | 0xA7 | 0xA9 | 0xAB | 0xAE | 0xB0..=0xB3 | 0xB5 | 0xB7 | 0xB9 | 0xBB..=0xBE | 0xD7 | 0xF7 => {
+            !(letters.0 && letters.1)
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use encoding_rs::{EUC_JP, Encoding, GBK, WINDOWS_1251, WINDOWS_1252};
+
+    use super::super::guessed;
+    use super::*;
+
+    const BOTH: &[&str] = &[LATIN, SHIFT_JIS];
+
+    #[test]
+    fn short_lines_of_real_programs() {
+        let latin: [(&str, &[&str]); 20] = [
+            ("x := 1; // 20 µs", &[LATIN]),
+            ("(* µ *)", &[LATIN]),
+            ("(* Pause: 250µs *)", &[LATIN]),
+            ("(* 20 °C *)", &[LATIN]),
+            ("(* ±5 ° *)", &[LATIN]),
+            ("(* 3 m², 4 m³/h *)", &[LATIN]),
+            ("// §5, ©2024 µ-Tech", &[LATIN]),
+            ("(* Zähler *)", &[LATIN]),
+            ("(* während *)", &[LATIN]),
+            ("(* Größe *)", &[LATIN]),
+            ("// Öl", &[LATIN]),
+            ("(* éléments répétés *)", &[LATIN]),
+            ("// été", &[LATIN]),
+            ("// café\n", &[LATIN]),
+            ("(* ação *)", &[LATIN]),
+            ("(* señal *)", &[LATIN]),
+            ("name = \"Förderband\"", &[LATIN]),
+            ("(* don’t *)", BOTH),
+            ("(* “stop” *)", &[LATIN]),
+            ("(* Länge in ½ µm *)", &[LATIN]),
+        ];
+        let japanese: [(&str, &[&str]); 13] = [
+            ("(* 秒 *)", &[SHIFT_JIS]),
+            ("T := 10; // 10秒", &[SHIFT_JIS]),
+            ("(* 温度 *)", &[SHIFT_JIS]),
+            ("// 停止", &[SHIFT_JIS]),
+            ("(* カウンタ *)", &[SHIFT_JIS]),
+            ("(* ポンプ1 *)", &[SHIFT_JIS]),
+            ("x := 1; (* の *)", &[SHIFT_JIS]),
+            ("(* 20℃ *)", &[SHIFT_JIS]),
+            ("(* 速度:10m/s *)", &[SHIFT_JIS]),
+            ("(* プログラム、日本語のコメント *)", &[SHIFT_JIS]),
+            ("name = \"装置A\"", &[SHIFT_JIS]),
+            ("// エラー", &[SHIFT_JIS]),
+            ("(* ｵﾝ *)", BOTH),
+        ];
+        let lines = latin.map(|(line, names)| (WINDOWS_1252, line, names)).into_iter();
+        let lines = lines.chain(japanese.map(|(line, names)| (DECODER, line, names)));
+        for (encoding, line, names) in lines {
+            assert_eq!(guessed(&written(encoding, line)), names, "{line} in {}", encoding.name());
+        }
+    }
+
+    #[test]
+    fn other_character_sets_are_left_to_statistics() {
+        for (encoding, line) in [
+            (WINDOWS_1251, "(* Счётчик импульсов *)"),
+            (EUC_JP, "(* プログラム *)"),
+            (GBK, "(* 计数器 *)"),
+            (GBK, "(* 温度 *)"),
+        ] {
+            assert_eq!(super::guessed(&written(encoding, line)), None, "{line} in {}", encoding.name());
+        }
+    }
+
+    fn written(encoding: &'static Encoding, text: &str) -> Vec<u8> {
+        let (bytes, _, has_unmappable) = encoding.encode(text);
+        assert!(!has_unmappable, "{text}");
+        bytes.into_owned()
+    }
+}
