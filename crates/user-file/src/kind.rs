@@ -183,9 +183,18 @@ fn is_sii(bytes: &[u8]) -> bool {
         && rest.starts_with(&[sii_checksum(configuration), 0])
 }
 
-/// The first word of a program with declarations; statements alone could be anything.
+/// A program begins with a declaration, behind comments and pragmas. Statements alone could be anything, unless they
+/// follow a comment that no other file of ours begins with.
 fn is_structured_text(file: &Sample<'_>) -> bool {
-    const WORDS: [&str; 8] = [
+    let start = file.start();
+    let rest = without_comments(start);
+    begins_with_declaration(rest)
+        || start.starts_with("(*")
+        || (["//", "/*"].iter().any(|mark| start.starts_with(mark)) && rest.contains(":="))
+}
+
+fn begins_with_declaration(text: &str) -> bool {
+    const WORDS: [&str; 13] = [
         "PROGRAM",
         "FUNCTION_BLOCK",
         "FUNCTION",
@@ -193,12 +202,29 @@ fn is_structured_text(file: &Sample<'_>) -> bool {
         "VAR",
         "VAR_GLOBAL",
         "VAR_EXTERNAL",
+        "VAR_INPUT",
+        "VAR_OUTPUT",
+        "VAR_IN_OUT",
+        "VAR_TEMP",
         "CONFIGURATION",
+        "INTERFACE",
     ];
-    let word =
-        file.start().split(|character: char| !character.is_ascii_alphabetic() && character != '_').next();
-    word.is_some_and(|word| WORDS.iter().any(|known| known.eq_ignore_ascii_case(word)))
-        && !file.start().lines().next().unwrap_or_default().contains('=')
+    let is_letter = |character: char| character.is_ascii_alphanumeric() || character == '_';
+    let (word, rest) = text.split_at(text.find(|character| !is_letter(character)).unwrap_or(text.len()));
+    // `type = 3` and `type.x = 3` are TOML.
+    let is_key = rest.trim_start().starts_with(['=', '.']);
+    !is_key && WORDS.iter().any(|known| known.eq_ignore_ascii_case(word))
+}
+
+/// The text behind the comments and pragmas of Structured Text that it begins with.
+fn without_comments(text: &str) -> &str {
+    const COMMENTS: [(&str, &str); 4] = [("(*", "*)"), ("/*", "*/"), ("//", "\n"), ("{", "}")];
+    let mut rest = text.trim_start();
+    while let Some((begin, end)) = COMMENTS.iter().find(|(begin, _)| rest.starts_with(begin)) {
+        let inside = rest.get(begin.len()..).unwrap_or_default();
+        rest = inside.split_once(end).map_or("", |(_, behind)| behind.trim_start());
+    }
+    rest
 }
 
 #[cfg(test)]
@@ -272,6 +298,29 @@ mod tests {
     }
 
     #[test]
+    fn structured_text_is_known_by_its_first_declaration_or_comment() {
+        for text in [
+            "VAR R : NX_ReadObj; END_VAR R(Execute := TRUE);",
+            "VAR s : STRING := 'a'; END_VAR",
+            "(* counts\n   pulses *)\nVAR x : INT; END_VAR",
+            "// counts pulses\n// since 2024\nPROGRAM Main",
+            "\u{feff}/* counts */ (* twice *)\r\n{attribute 'x := 1'}\nfunction_block B",
+            "(* statements *) x = y",
+            "// statements\nx := 1;",
+            "(* without an end",
+            "TYPE\n",
+            "VAR_INPUT a : INT := 1; END_VAR",
+        ] {
+            for wanted in [Wanted::UnitFile, Wanted::Scenario] {
+                let refusal = of_another_kind(text.as_bytes(), "a", wanted);
+                let message = refusal.map(|refusal| refusal.message);
+                assert_eq!(message.as_deref(), Some("this is a program in Structured Text"), "{text}");
+            }
+            assert_eq!(of_another_kind(text.as_bytes(), "a", Wanted::Program), None, "{text}");
+        }
+    }
+
+    #[test]
     fn an_ordinary_file_is_left_to_its_reader() {
         for (text, wanted) in [
             ("", Wanted::UnitFile),
@@ -281,6 +330,10 @@ mod tests {
             ("x < 3", Wanted::Program),
             ("model := 1;", Wanted::Program),
             ("type = 3", Wanted::UnitFile),
+            ("VAR.x = 3", Wanted::UnitFile),
+            ("// a sketch\nint main() {}", Wanted::UnitFile),
+            ("{ a = 1 } x := 1;", Wanted::UnitFile),
+            ("variable = 1", Wanted::Scenario),
         ] {
             assert_eq!(of_another_kind(text.as_bytes(), "a", wanted), None, "{text}");
         }
