@@ -16,7 +16,7 @@ mod times;
 use std::path::PathBuf;
 
 use time::Duration;
-use user_file::{Wanted, read_toml};
+use user_file::{Reader, Section, Wanted, read_toml};
 
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
@@ -135,7 +135,12 @@ impl UnitFile {
         read_toml(text, Wanted::UnitFile, sections::unit)
     }
 
-    /// The I/O allocation in the file, correct or not.
+    /// Reads a unit that is a table of another file. What is wrong is refused by `reader`.
+    pub fn read(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> Option<Self> {
+        sections::unit(reader, table)
+    }
+
+    /// The I/O allocation that the file asks for, right or wrong.
     #[must_use]
     pub fn io_allocation(&self) -> IoAllocation {
         match &self.io_allocation {

@@ -20,6 +20,7 @@ pub(crate) use files::Texts;
 use maker::Maker;
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
+pub(crate) use units::is_unit;
 pub(crate) use written::Written;
 
 /// A script, with the words of its steps.

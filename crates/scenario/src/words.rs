@@ -8,7 +8,7 @@ mod tables;
 mod value;
 
 pub use place::Place;
-pub(crate) use sentence::{Misfit, try_read};
+pub(crate) use sentence::try_read;
 pub use sentence::{NoSentence, Sentence, read, row_of};
 pub use spoken::{Say, Spoken};
 pub use tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};

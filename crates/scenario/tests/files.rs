@@ -99,9 +99,13 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ random = 3 }", "needs the time", "within = \"1s\""),
         ("{ expect = \"the capture is replayed\" }", "the scenario has no capture", "capture = "),
         ("{ never = \"at most 3 answers differ\" }", "the scenario has no capture", "capture = "),
-        ("{ unit = { restrat = { units = 1 } } }", "unknown variant `restrat`", "did you mean `restart`?"),
-        ("{ unit = { restart = { unit = 1 } } }", "unknown field `unit`", "did you mean `units`?"),
-        ("{ unit = { restart = { units = 1 }, cycle_power = { units = 1 } } }", "has one key", ""),
+        ("{ unit = { restrat = { units = 1 } } }", "unknown key `unit.restrat`", "did you mean `restart`?"),
+        ("{ unit = { restart = { unit = 1 } } }", "unknown key `unit.restart.unit`", "did you mean `units`?"),
+        (
+            "{ unit = { restart = { units = 1 }, cycle_power = { units = 1 } } }",
+            "is a table with 2 keys",
+            "one key",
+        ),
         ("{ unit = { restart = { units = 2 } } }", "not there", "1 unit"),
         ("{ line = { unplug = { cable = 0 } } }", "nonzero", ""),
         ("{ unit = 5 }", "a sentence, or a table with one key", ""),
@@ -112,7 +116,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
         ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
-        ("{ lines = \"be quiet\" }", "unknown field `lines`", "did you mean `line`?"),
+        ("{ lines = \"be quiet\" }", "unknown key `lines`", "did you mean `line`?"),
     ];
     for (text, message, help) in cases {
         let errors = step(text);
@@ -138,6 +142,86 @@ fn everything_that_is_wrong_is_told_at_once() {
     ] {
         assert!(errors.contains(part), "{part}:\n{errors}");
     }
+}
+
+#[test]
+fn every_part_of_a_file_tells_all_its_mistakes_in_the_order_of_the_file() {
+    let text = r#"foo = 1
+bar = 2
+title = 3
+seeed = 3
+limit = "soon"
+steps = [
+  { expct = "x", at = 5 },
+  { unit = "restrat unit 1" },
+  { unit = { restrat = { units = 1 } }, whn = "x" },
+  { expect = { object = { unit = 0, entry = "1018", valu = "01" } }, within = "5" },
+  7,
+  { line = "be quiet", repeat = 2 },
+]
+[master]
+programm = "m.st"
+[[units]]
+model = "nx-ect101"
+seriel = 5
+cpu = { mod = "run", task_period = "1.1ms" }
+[[units]]
+name = "N2"
+[[units]]
+file = "a.toml"
+serial = 5
+"#;
+    let expected = "\
+line 1, column 1: unknown key `foo`
+  expected `title`, `seed`, `limit`, `cycle`, `cycle_phase`, `capture`, `master`, `units` or `steps`
+line 2, column 1: unknown key `bar`
+line 3, column 9: `title` is an integer
+  expected a text
+line 4, column 1: unknown key `seeed`
+  did you mean `seed`?
+line 5, column 9: `soon`: not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"
+line 7, column 5: unknown key `expct`
+  expected `at`, `after`, `when`, `master`, `unit`, `cpu`, `line`, `expect`, `never`, `within`, `for`, `until`, `repeat`, `every`, \
+`jitter` or `random`; did you mean `expect`?
+line 7, column 23: `at` is an integer
+  expected a duration such as \"1.5ms\"
+line 8, column 12: `restrat unit 1` is no sentence that can stand here
+  did you mean `restart unit 1`?
+line 9, column 14: unknown key `unit.restrat`
+  expected `restart`, `cycle_power`, `power_off`, `power_on`, `reset_errors`, `clear_event_log`, `set_id_switch`, \
+`invert_sii_word`, `erase_sii`, `conduct`, `inject_fault` or `remove_fault`; did you mean `restart`?
+line 9, column 41: unknown key `whn`
+  did you mean `when`?
+line 10, column 34: `expect.object.unit` is integer `0`
+  expected a nonzero usize
+line 10, column 45: `1018`: expected an entry of an object such as 10F3:05
+line 10, column 53: unknown key `expect.object.valu`
+  expected `unit`, `entry` or `value`; did you mean `value`?
+line 10, column 79: `5`: not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"
+line 11, column 3: `steps[4]` is an integer
+  expected a table
+line 12, column 3: `repeat` and `every` belong together, and `jitter` to both
+line 14, column 1: `master.program` is missing
+  expected the user program of the master
+line 15, column 1: unknown key `master.programm`
+  expected `program`, `device_names` or `task_period`; did you mean `program`?
+line 18, column 1: unknown key `seriel`
+  expected `model`, ";
+    let told = errors(text);
+    let first = told.get(..expected.len()).unwrap_or_default();
+    assert_eq!(first, expected, "{told}");
+    for rest in ["did you mean `serial`?", "line 19, column 9: unknown key `cpu.mod`", "\nand 4 more"] {
+        assert!(told.contains(rest), "{rest}\n{told}");
+    }
+}
+
+#[test]
+fn of_many_mistakes_the_first_twenty_are_told_and_the_number_of_the_others() {
+    let keys: String = (0..20_000).map(|at| format!("key_{at} = 1\n")).collect();
+    let steps = "{ expct = \"x\" },".repeat(20_000);
+    let errors = errors(&format!("{keys}title = \"t\"\nsteps = [{steps}]"));
+    assert_eq!(errors.matches("unknown key `key_").count(), 20);
+    assert!(errors.ends_with("\nand 39980 more"), "{errors}");
 }
 
 #[test]

@@ -80,8 +80,8 @@ fn what_is_wrong_with_the_master_is_told() {
         ("program = \"m.st\", task_period = \"0ms\"", "no CPU Unit has a task period of 0s"),
         ("program = \"m.st\", task_period = \"1.3ms\"", "no CPU Unit has a task period of 1.3ms"),
         ("program = \"m.st\", task_period = \"33ms\"", "no CPU Unit has a task period of 33ms"),
-        ("device_names = []", "missing field `program`"),
-        ("program = \"m.st\", period = \"1ms\"", "unknown field `period`"),
+        ("device_names = []", "`master.program` is missing"),
+        ("program = \"m.st\", period = \"1ms\"", "unknown key `master.period`"),
     ] {
         let errors = errors(&format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = []"), &[("m.st", ";")]);
         assert!(errors.len() == 1 && errors[0].contains(message), "{message}: {errors:?}");

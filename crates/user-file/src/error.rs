@@ -22,7 +22,9 @@ pub struct FileError {
     pub expected: String,
     /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// The number of expected names.
+    /// The way out; empty if the message says it.
+    pub help: String,
+    /// How many names are expected.
     pub(crate) names: usize,
 }
 
@@ -44,8 +46,17 @@ pub(crate) fn say_long_lists_once(errors: &mut [FileError]) {
 impl FileError {
     pub(crate) fn new(text: &str, span: Range<usize>, problem: Problem) -> Self {
         let (line, column) = line_and_column(text, span.start);
-        let Problem { message, expected, nearest, names } = problem;
-        Self { span, line, column, message: shortened(message), expected, nearest, names }
+        let Problem { message, expected, nearest, help, names } = problem;
+        Self {
+            span,
+            line,
+            column,
+            message: shortened(message),
+            expected,
+            nearest,
+            help: shortened(help),
+            names,
+        }
     }
 
     /// The text without the place, for a file whose text is part of another file.
@@ -53,7 +64,14 @@ impl FileError {
     pub fn words(&self) -> String {
         let expected = if self.expected.is_empty() { "" } else { ", expected " };
         let nearest = self.nearest.as_ref().map(|name| format!("; did you mean `{name}`?"));
-        format!("{}{expected}{}{}", self.message, self.expected, nearest.unwrap_or_default())
+        let help = if self.help.is_empty() { "" } else { "; " };
+        format!(
+            "{}{expected}{}{}{help}{}",
+            self.message,
+            self.expected,
+            nearest.unwrap_or_default(),
+            self.help
+        )
     }
 }
 
@@ -92,6 +110,15 @@ impl FileErrors {
     }
 }
 
+impl IntoIterator for FileErrors {
+    type Item = FileError;
+    type IntoIter = std::vec::IntoIter<FileError>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.into_iter()
+    }
+}
+
 impl fmt::Display for FileErrors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let errors = self.list.iter().map(ToString::to_string);
@@ -110,7 +137,9 @@ pub struct Problem {
     pub expected: String,
     /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// The number of expected names.
+    /// The way out; empty if the message says it.
+    pub help: String,
+    /// How many names are expected.
     pub(crate) names: usize,
 }
 
@@ -118,7 +147,19 @@ impl Problem {
     /// A problem without a nearest name.
     #[must_use]
     pub fn new(message: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self { message: message.into(), expected: expected.into(), nearest: None, names: 0 }
+        Self {
+            message: message.into(),
+            expected: expected.into(),
+            nearest: None,
+            help: String::new(),
+            names: 0,
+        }
+    }
+
+    /// A problem with a way out.
+    #[must_use]
+    pub fn with_help(self, help: impl Into<String>) -> Self {
+        Self { help: help.into(), ..self }
     }
 
     /// `word` is not in `names`: lists the names, and the nearest one.

@@ -9,16 +9,19 @@
 
 mod encoding;
 mod error;
+mod field_names;
 mod kind;
 mod located;
 mod mistakes;
 mod reader;
 mod sample;
 mod text;
+mod typed;
 pub mod values;
 mod words;
 
 pub use error::{FileError, FileErrors, Problem};
+pub use field_names::field_names;
 pub use kind::{Refusal, Wanted, of_another_kind};
 pub use located::Located;
 pub use mistakes::{MISTAKES_MAX, Mistakes, and_more};

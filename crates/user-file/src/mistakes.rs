@@ -38,7 +38,13 @@ impl<T> Mistakes<T> {
         self.kept.is_empty()
     }
 
-    /// The first ones, and the number of others.
+    /// How many there are.
+    #[must_use]
+    pub const fn count(&self) -> usize {
+        self.kept.len() + self.more
+    }
+
+    /// The first ones, and how many more there are.
     #[must_use]
     pub fn into_parts(self) -> (Vec<T>, usize) {
         (self.kept.into_iter().map(|(_, mistake)| mistake).collect(), self.more)

@@ -59,13 +59,25 @@ impl Reader<'_> {
         self.errors.note(span.start, || FileError::new(text, span, problem()));
     }
 
-    /// Refuses every key of `section` that is not in `keys`.
+    /// How many things are refused so far.
+    #[must_use]
+    pub const fn refused(&self) -> usize {
+        self.errors.count()
+    }
+
+    /// Refuses every key of `section` that is none of `keys`.
     pub fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
         for (key, _) in section.entries().into_iter().filter(|(key, _)| !keys.contains(&key.value)) {
-            self.refuse_by(key.span.unwrap_or_default(), || {
-                let message = format!("unknown key `{}`", section.place_of(&shown(key.value)));
-                Problem::unknown(message, key.value, keys)
-            });
+            self.refuse_by(key.span.unwrap_or_default(), || section.unknown_key(key.value, keys));
+        }
+    }
+
+    /// Refuses `section` if it lacks `key`; `expected` shows how to write it.
+    pub fn require(&mut self, section: &Section<'_, '_>, key: &str, expected: &str) {
+        if section.get(key).is_none() {
+            let start = section.span.start;
+            let message = format!("`{}` is missing", section.place_of(key));
+            self.refuse(start..start, Problem::new(message, expected));
         }
     }
 
@@ -99,13 +111,11 @@ impl Reader<'_> {
     pub fn section<'d, 'i>(&mut self, parent: &Section<'d, 'i>, key: &str) -> Option<Section<'d, 'i>> {
         let value = parent.get(key)?;
         let place = parent.place_of(key);
-        match value.get_ref() {
-            DeValue::Table(table) => Some(Section { place, span: value.span(), table }),
-            other => {
-                self.refuse(value.span(), wrong_type(&place, other, "a table"));
-                None
-            }
+        let section = Section::of(&place, value);
+        if section.is_none() {
+            self.refuse_by(value.span(), || wrong_type(&place, value.get_ref(), "a table"));
         }
+        section
     }
 
     /// Every element of the array `value`, read with `read`; refused elements are left out.
@@ -147,6 +157,17 @@ pub struct Section<'d, 'i> {
 }
 
 impl<'d, 'i> Section<'d, 'i> {
+    /// `value` as a table whose keys are named behind `place`; none when it is no table.
+    #[must_use]
+    pub fn of(place: &str, value: &'d Value<'i>) -> Option<Self> {
+        let table = value.get_ref().as_table()?;
+        Some(Self { place: place.to_owned(), span: value.span(), table })
+    }
+
+    pub(crate) fn unknown_key(&self, key: &str, keys: &[&str]) -> Problem {
+        Problem::unknown(format!("unknown key `{}`", self.place_of(&shown(key))), key, keys)
+    }
+
     /// The value of `key`.
     pub fn get(&self, key: &str) -> Option<&'d Value<'i>> {
         self.table.iter().find(|(known, _)| known.get_ref() == key).map(|(_, value)| value)

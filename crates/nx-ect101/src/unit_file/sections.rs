@@ -19,9 +19,7 @@ const UNIT_NUMBER_MAX: u64 = 32;
 /// The whole file; none if it does not contain its model.
 pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
     reader.only(file, &keys::UNIT);
-    if file.get("model").is_none() {
-        reader.refuse(0..0, Problem::new("`model` is missing", "`model = \"nx-ect101\"`"));
-    }
+    reader.require(file, "model", "`model = \"nx-ect101\"`");
     let model = reader
         .value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
     let unit_number = reader.value(file, "unit_number", |place, value| {

@@ -1,58 +1,111 @@
-//! A script from the parts of a file, with their places.
+//! A script of a file. The places of its parts are noted beside.
 
-use toml::Spanned;
+use time::Duration;
+use user_file::{Section, Value, field_names, wrong_type};
 
-use super::entries::{File, MasterEntry};
 use super::places::MasterPlaces;
-use super::reader::Reader;
+use super::reader::{FileReader, span_of};
 use super::steps::{StepReading, read_step};
-use crate::model::{Script, ScriptMaster};
-use crate::ready::Draft;
+use super::values;
+use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
+use crate::ready::{Draft, is_unit};
 
-impl Reader<'_> {
-    /// The script with the words of its steps; wrong parts are left out.
-    pub(super) fn draft(&mut self, file: File) -> Draft {
-        let has_master = file.master.is_some();
-        let script = self.script(file);
-        let is_whole = script.master.is_some() == has_master;
+impl FileReader<'_, '_> {
+    /// The script with the words of its steps; what is wrong is left out of it.
+    pub(super) fn draft(&mut self, file: &Section<'_, '_>) -> Draft {
+        let mut script = self.whole(file);
+        // Without `units`, an unknown key may be what they were meant to be.
+        let are_units_known = file.get("units").is_some() || self.reader.refused() == 0;
+        let refused = self.reader.refused();
+        script.master = self.reader.section(file, "master").and_then(|master| self.master(&master));
+        self.units(file, &mut script);
+        let is_whole = are_units_known && self.reader.refused() == refused;
+        self.steps(file, &mut script);
         Draft { script, written: core::mem::take(&mut self.written), is_whole }
     }
 
-    fn script(&mut self, file: File) -> Script {
-        let mut script = Script::new(file.title.get_ref());
-        script.seed = file.seed.unwrap_or(script.seed);
-        script.limit = self.duration(file.limit.as_ref()).unwrap_or(script.limit);
-        self.places.cycle = file.cycle.as_ref().map(Spanned::span).unwrap_or_default();
-        script.cycle = self.duration(file.cycle.as_ref()).unwrap_or(script.cycle);
-        script.cycle_phase = self.duration(file.cycle_phase.as_ref());
-        script.capture = file.capture;
-        script.master = file.master.and_then(|entry| self.master(entry.into_inner()));
-        for unit in file.units {
-            self.places.units.push(unit.span());
-            script.units.push(unit.into_inner());
+    /// What the file says of the whole.
+    fn whole(&mut self, file: &Section<'_, '_>) -> Script {
+        self.reader.only(file, field_names::<Script>());
+        self.reader.require(file, "title", "`title = \"…\"`, what the scenario shows");
+        self.reader.require(file, "steps", "`steps = […]`, what happens");
+        let mut script = Script::new(&self.value(file, "title", values::text).unwrap_or_default());
+        script.seed = self.value(file, "seed", values::number).unwrap_or(script.seed);
+        script.limit = self.limit(file, script.limit);
+        self.places.cycle = span_of(file, "cycle");
+        script.cycle = self.value(file, "cycle", values::duration).unwrap_or(script.cycle);
+        script.cycle_phase = self.value(file, "cycle_phase", values::duration);
+        script.capture = self.value(file, "capture", values::text);
+        script
+    }
+
+    /// A limit that cannot be read limits nothing.
+    fn limit(&mut self, file: &Section<'_, '_>, default: Duration) -> Duration {
+        let absent = if file.get("limit").is_none() { default } else { Duration::from_nanos(u64::MAX) };
+        self.value(file, "limit", values::duration).unwrap_or(absent)
+    }
+
+    fn master(&mut self, section: &Section<'_, '_>) -> Option<ScriptMaster> {
+        self.reader.only(section, field_names::<ScriptMaster>());
+        self.reader.require(section, "program", "the user program of the master");
+        self.places.master = MasterPlaces {
+            program: span_of(section, "program"),
+            device_names: span_of(section, "device_names"),
+            task_period: span_of(section, "task_period"),
+        };
+        let program = self.value(section, "program", values::paths);
+        let names = section.get("device_names");
+        let device_names =
+            names.and_then(|names| self.reader.typed(&section.place_of("device_names"), names));
+        let task_period = self.value(section, "task_period", values::duration);
+        Some(ScriptMaster { program: program?, device_names: device_names.unwrap_or_default(), task_period })
+    }
+
+    fn units(&mut self, file: &Section<'_, '_>, script: &mut Script) {
+        for (at, unit) in self.list(file, "units").iter().enumerate() {
+            if let Some(read) = self.unit(at, unit) {
+                self.places.units.push(unit.span());
+                script.units.push(read);
+            }
         }
-        for entry in file.steps {
-            if let Some(StepReading { step, places, written }) = read_step(self, entry) {
+    }
+
+    fn unit(&mut self, at: usize, value: &Value<'_>) -> Option<ScriptUnit> {
+        if let Some(path) = value.get_ref().as_str() {
+            return Some(ScriptUnit::File(path.to_owned()));
+        }
+        let Some(section) = Section::of("", value) else {
+            let expected = "the path of a unit file, or a table";
+            let place = format!("units[{at}]");
+            self.reader.refuse_by(value.span(), || wrong_type(&place, value.get_ref(), expected));
+            return None;
+        };
+        if section.get("file").is_some() {
+            self.reader.only(&section, field_names::<FileWithProgram>());
+            let file = self.value(&section, "file", values::text);
+            let program = self.value(&section, "program", values::paths);
+            return Some(ScriptUnit::FileWithProgram(FileWithProgram { file: file?, program }));
+        }
+        if is_unit(self.reader, &section) { self.reader.typed("", value).map(ScriptUnit::Keys) } else { None }
+    }
+
+    fn steps(&mut self, file: &Section<'_, '_>, script: &mut Script) {
+        for (at, step) in self.list(file, "steps").iter().enumerate() {
+            if let Some(StepReading { step, places, written }) = read_step(self, at, step) {
                 script.steps.push(step);
                 self.places.steps.push(places);
                 self.written.push(written);
             }
         }
-        script
     }
 
-    fn master(&mut self, entry: MasterEntry) -> Option<ScriptMaster> {
-        let MasterEntry { program, device_names, task_period } = entry;
-        self.places.master = MasterPlaces {
-            program: program.span(),
-            device_names: device_names.as_ref().map(Spanned::span).unwrap_or_default(),
-            task_period: task_period.as_ref().map(Spanned::span).unwrap_or_default(),
-        };
-        let period = self.duration(task_period.as_ref());
-        if task_period.is_some() && period.is_none() {
-            return None;
+    /// The elements of a list.
+    fn list<'d, 'i>(&mut self, file: &Section<'d, 'i>, key: &str) -> &'d [Value<'i>] {
+        let Some(value) = file.get(key) else { return &[] };
+        if let Some(elements) = value.get_ref().as_array() {
+            return elements;
         }
-        let device_names = device_names.map(Spanned::into_inner).unwrap_or_default();
-        Some(ScriptMaster { program: program.into_inner(), device_names, task_period: period })
+        self.reader.refuse_by(value.span(), || wrong_type(key, value.get_ref(), "a list"));
+        &[]
     }
 }

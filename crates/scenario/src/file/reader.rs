@@ -1,52 +1,36 @@
-//! The parts of a scenario file read so far, and their mistakes.
+//! What is read of a scenario file so far; what is wrong with it is in the reader of all files.
 
-use time::Duration;
-use toml::Spanned;
-use user_file::{LineNumbers, Mistakes};
+use user_file::{DeValue, LineNumbers, Located, Problem, Reader, Section, Value};
 
 use super::places::{Places, Span};
-use crate::ready::{ScenarioError, ScenarioErrors, Written};
+use crate::ready::Written;
 
 /// Reads one file.
-pub(super) struct Reader<'a> {
-    pub(super) text: &'a str,
+pub(super) struct FileReader<'r, 't> {
+    pub(super) reader: &'r mut Reader<'t>,
     pub(super) lines: LineNumbers,
     pub(super) places: Places,
     /// The words of each step, with their place.
     pub(super) written: Vec<Written>,
-    pub(super) mistakes: Mistakes<ScenarioError>,
 }
 
-impl<'a> Reader<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
-        Self {
-            text,
-            lines: LineNumbers::of(text),
-            places: Places::default(),
-            written: Vec::new(),
-            mistakes: Mistakes::default(),
-        }
+impl<'r, 't> FileReader<'r, 't> {
+    pub(super) fn new(text: &str, reader: &'r mut Reader<'t>) -> Self {
+        Self { reader, lines: LineNumbers::of(text), places: Places::default(), written: Vec::new() }
     }
 
-    pub(super) fn refuse(&mut self, span: Span, message: impl Into<String>, help: impl Into<String>) {
-        let text = self.text;
-        self.mistakes.note(span.start, || ScenarioError::in_text(text, span, message.into(), help.into()));
+    /// The value of `key` by `read`; none when it is left out or refused.
+    pub(super) fn value<T>(
+        &mut self,
+        section: &Section<'_, '_>,
+        key: &str,
+        read: impl FnOnce(&str, &DeValue<'_>) -> Result<T, Problem>,
+    ) -> Option<T> {
+        self.reader.value(section, key, read).map(|Located { value, .. }| value)
     }
+}
 
-    /// The mistakes in the file, if there are any.
-    pub(super) fn errors(self) -> Option<ScenarioErrors> {
-        let is_right = self.mistakes.is_empty();
-        let (list, more) = self.mistakes.into_parts();
-        (!is_right).then_some(ScenarioErrors { list, more })
-    }
-
-    /// None if it is left out, or not a duration.
-    pub(super) fn duration(&mut self, text: Option<&Spanned<String>>) -> Option<Duration> {
-        let text = text?;
-        let duration = text.get_ref().parse();
-        if let Err(error) = &duration {
-            self.refuse(text.span(), format!("`{}`: {error}", text.get_ref()), "");
-        }
-        duration.ok()
-    }
+/// The place of a value; empty when it is left out.
+pub(super) fn span_of(section: &Section<'_, '_>, key: &str) -> Span {
+    section.get(key).map(Value::span).unwrap_or_default()
 }

@@ -1,14 +1,14 @@
 //! Steps of a file: each becomes a typed one; its words and places are kept separately.
 
-use toml::Spanned;
+use serde::de::DeserializeOwned;
+use user_file::{DeValue, Problem, Section, Value, field_names, wrong_type};
 
-use super::entries::StepEntry;
 use super::places::{Span, StepPlaces};
-use super::reader::Reader;
-use super::said::SaidEntry;
+use super::reader::{FileReader, span_of};
+use super::values;
 use crate::model::{ScriptStep, StepForm};
-use crate::ready::{ScenarioError, Written};
-use crate::words::{Misfit, NoSentence, Spoken, try_read};
+use crate::ready::Written;
+use crate::words::{NoSentence, Spoken, try_read};
 
 /// A step of a file.
 pub(super) struct StepReading {
@@ -17,98 +17,104 @@ pub(super) struct StepReading {
     pub(super) written: Written,
 }
 
-/// A step; none if it has a mistake.
-pub(super) fn read_step(reader: &mut Reader<'_>, entry: Spanned<StepEntry>) -> Option<StepReading> {
-    let span = entry.span();
-    let entry = entry.into_inner();
-    let mut part = PartReader { reader, is_wrong: false, order: None };
+/// A step; none if something is wrong with it.
+pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<'_>) -> Option<StepReading> {
+    let refused = file.reader.refused();
+    let Some(step) = Section::of("", value) else {
+        file.reader
+            .refuse_by(value.span(), || wrong_type(&format!("steps[{at}]"), value.get_ref(), "a table"));
+        return None;
+    };
+    file.reader.only(&step, field_names::<StepForm>());
+    let mut part = PartReader { file, step: &step, order: None };
     let form = StepForm {
-        at: part.duration(entry.at.as_ref()),
-        after: part.duration(entry.after.as_ref()),
-        when: part.said(entry.when.as_ref()),
-        master: part.order(entry.master.as_ref()),
-        unit: part.order(entry.unit.as_ref()),
-        cpu: part.order(entry.cpu.as_ref()),
-        line: part.order(entry.line.as_ref()),
-        expect: part.order(entry.expect.as_ref()),
-        never: part.order(entry.never.as_ref()),
-        within: part.duration(entry.within.as_ref()),
-        r#for: part.duration(entry.r#for.as_ref()),
-        until: part.said(entry.until.as_ref()),
-        repeat: entry.repeat.as_ref().map(|times| *times.get_ref()),
-        every: part.duration(entry.every.as_ref()),
-        jitter: part.duration(entry.jitter.as_ref()),
-        random: entry.random.as_ref().map(|count| *count.get_ref()),
+        at: part.duration("at"),
+        after: part.duration("after"),
+        when: part.said("when"),
+        master: part.order("master"),
+        unit: part.order("unit"),
+        cpu: part.order("cpu"),
+        line: part.order("line"),
+        expect: part.order("expect"),
+        never: part.order("never"),
+        within: part.duration("within"),
+        r#for: part.duration("for"),
+        until: part.said("until"),
+        repeat: part.number("repeat"),
+        every: part.duration("every"),
+        jitter: part.duration("jitter"),
+        random: part.number("random"),
     };
-    let (order, text) = match (part.is_wrong, part.order) {
-        (true, _) => return None,
-        (false, order) => order.unwrap_or_default(),
-    };
+    let (order, text) = part.order.unwrap_or_default();
+    if file.reader.refused() > refused {
+        return None;
+    }
+    let span = value.span();
+    let count = if form.repeat.is_some() { "repeat" } else { "random" };
     let places = StepPlaces {
         whole: span.clone(),
         order,
-        when: span_of(entry.when.as_ref()),
-        until: span_of(entry.until.as_ref()),
-        count: entry.repeat.or(entry.random).map(|count| count.span()).unwrap_or_default(),
+        when: span_of(&step, "when"),
+        until: span_of(&step, "until"),
+        count: span_of(&step, count),
     };
-    let written = Written { line: reader.lines.line(span.start), bytes: span.clone(), text };
+    let written = Written { line: file.lines.line(span.start), bytes: span.clone(), text };
     match form.read() {
         Ok(step) => Some(StepReading { step, places, written }),
         Err(wrong) => {
-            reader.refuse(span, wrong.message, wrong.help);
+            file.reader.refuse(span, Problem::new(wrong.message, "").with_help(wrong.help));
             None
         }
     }
 }
 
-fn span_of<T>(part: Option<&Spanned<T>>) -> Span {
-    part.map(Spanned::span).unwrap_or_default()
-}
-
 /// Reads the parts of one step.
-struct PartReader<'r, 'a> {
-    reader: &'r mut Reader<'a>,
-    is_wrong: bool,
-    /// The place of the order, and its words.
+struct PartReader<'p, 'r, 't, 'd, 'i> {
+    file: &'p mut FileReader<'r, 't>,
+    step: &'p Section<'d, 'i>,
+    /// Where the order stands, and its words.
     order: Option<(Span, String)>,
 }
 
-impl PartReader<'_, '_> {
-    fn duration(&mut self, text: Option<&Spanned<String>>) -> Option<time::Duration> {
-        let duration = self.reader.duration(text);
-        self.is_wrong |= text.is_some() && duration.is_none();
-        duration
+impl PartReader<'_, '_, '_, '_, '_> {
+    fn duration(&mut self, key: &str) -> Option<time::Duration> {
+        self.file.value(self.step, key, values::duration)
     }
 
-    /// The order of the step, or its expectation. A typed value gets the words of its sentence.
-    fn order<T: Spoken>(&mut self, entry: Option<&Spanned<SaidEntry<T>>>) -> Option<T> {
-        let value = self.said(entry)?;
-        let text = entry.map(|entry| match entry.get_ref() {
-            SaidEntry::Sentence(text) => text.clone(),
-            SaidEntry::Typed(value) => value.sentence(),
-        });
-        self.order = Some((span_of(entry), text.unwrap_or_default()));
+    fn number(&mut self, key: &str) -> Option<u64> {
+        self.file.value(self.step, key, values::number)
+    }
+
+    /// The order of the step, or what it expects. A typed value has the words of its sentence.
+    fn order<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
+        let value: T = self.said(key)?;
+        let written = self.step.get(key)?;
+        let text = written.get_ref().as_str().map_or_else(|| value.sentence(), str::to_owned);
+        self.order = Some((written.span(), text));
         Some(value)
     }
 
-    fn said<T: Spoken>(&mut self, entry: Option<&Spanned<SaidEntry<T>>>) -> Option<T> {
-        let entry = entry?;
-        match entry.get_ref() {
-            SaidEntry::Typed(value) => Some(value.clone()),
-            SaidEntry::Sentence(text) => {
-                let read = try_read(T::SENTENCES, text);
-                let refuse = |misfit: Misfit<'_, T>| self.refuse(entry.span(), || misfit.words());
-                read.map_err(refuse).ok()
+    /// A text is a sentence, a table is the typed value.
+    fn said<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
+        let value = self.step.get(key)?;
+        let reader = &mut *self.file.reader;
+        match value.get_ref() {
+            DeValue::String(text) => match try_read(T::SENTENCES, text) {
+                Ok(value) => Some(value),
+                Err(misfit) => {
+                    reader.refuse_by(value.span(), || {
+                        let NoSentence { message, help } = misfit.words();
+                        Problem::new(message, "").with_help(help)
+                    });
+                    None
+                }
+            },
+            DeValue::Table(_) => reader.typed(key, value),
+            other => {
+                let expected = "a sentence, or a table with one key, its typed form";
+                reader.refuse_by(value.span(), || wrong_type(key, other, expected));
+                None
             }
         }
-    }
-
-    fn refuse(&mut self, span: Span, words: impl FnOnce() -> NoSentence) {
-        let text = self.reader.text;
-        self.is_wrong = true;
-        self.reader.mistakes.note(span.start, || {
-            let NoSentence { message, help } = words();
-            ScenarioError::in_text(text, span, message, help)
-        });
     }
 }

@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
-use user_file::{Mistakes, shortened};
+use user_file::{FileError, FileErrors, Mistakes};
 
 use super::problem::{Part, Problem};
 
@@ -39,10 +39,13 @@ pub enum ErrorPlace {
 }
 
 impl ScenarioError {
-    pub(crate) fn in_text(text: &str, span: Range<usize>, message: String, help: String) -> Self {
-        let (line, column) = user_file::line_and_column(text, span.start);
-        let place = ErrorPlace::Text { line, column, span };
-        Self { place, message: shortened(message), help: shortened(help) }
+    fn in_file(error: FileError) -> Self {
+        let FileError { span, line, column, message, expected, nearest, help, .. } = error;
+        let expected = (!expected.is_empty()).then(|| format!("expected {expected}"));
+        let nearest = nearest.map(|name| format!("did you mean `{name}`?"));
+        let help = Some(help).filter(|help| !help.is_empty());
+        let help = [expected, nearest, help].into_iter().flatten().collect::<Vec<_>>().join("; ");
+        Self { place: ErrorPlace::Text { line, column, span }, message, help }
     }
 
     /// Its line in the file, from 1; none for a script that is not a file.
@@ -90,7 +93,13 @@ pub struct ScenarioErrors {
 }
 
 impl ScenarioErrors {
-    /// Those of a script that is not a file, in the order of its parts.
+    /// Of a file.
+    pub(crate) fn of_file(errors: FileErrors) -> Self {
+        let more = errors.more();
+        Self { list: errors.into_iter().map(ScenarioError::in_file).collect(), more }
+    }
+
+    /// Of a script that is no file, in the order of its parts.
     pub(super) fn of_script(problems: Vec<Problem>) -> Self {
         let mut mistakes = Mistakes::default();
         for Problem { part, message, help } in problems {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use nx_ect101::unit_file::UnitFile;
 use plc::{Builtin, DeviceVariables, StructuredText};
 use st::Sources;
-use user_file::Wanted;
+use user_file::{Reader, Section, Wanted};
 
 use super::maker::Maker;
 use super::problem::Part;
@@ -21,6 +21,12 @@ struct Origin<'a> {
     path: Option<&'a str>,
     /// The program that replaces that of its file, relative to the scenario.
     program: Option<Vec<String>>,
+}
+
+/// Whether a table of a scenario file is a unit. What is wrong is refused by `reader`.
+pub(crate) fn is_unit(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> bool {
+    let refused = reader.refused();
+    UnitFile::read(reader, table).is_some() && reader.refused() == refused
 }
 
 impl Maker<'_> {

@@ -1,0 +1,27 @@
+//! Single values of a scenario file.
+
+use time::Duration;
+use user_file::{DeValue, Problem, shown, values};
+
+use crate::model::Paths;
+
+pub(super) fn text(place: &str, value: &DeValue<'_>) -> Result<String, Problem> {
+    values::text(place, value, "a text").map(str::to_owned)
+}
+
+pub(super) fn number(place: &str, value: &DeValue<'_>) -> Result<u64, Problem> {
+    values::integer(place, value, 0..=u64::MAX, "0 to 18446744073709551615")
+}
+
+pub(super) fn duration(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
+    let text = values::text(place, value, "a duration such as \"1.5ms\"")?;
+    text.parse().map_err(|error| Problem::new(format!("`{}`: {error}", shown(text)), ""))
+}
+
+pub(super) fn paths(place: &str, value: &DeValue<'_>) -> Result<Paths, Problem> {
+    let paths = values::paths(place, value)?.into_iter().map(|path| path.display().to_string());
+    Ok(match value.as_str() {
+        Some(path) => Paths::One(path.to_owned()),
+        None => Paths::Several(paths.collect()),
+    })
+}
