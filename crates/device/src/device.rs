@@ -147,9 +147,10 @@ impl<U: Unit> Device<U> {
         next_refresh.min(mailbox).min(outputs).min(request)
     }
 
-    /// Whether the next outputs take the slave to OP.
-    pub(crate) const fn awaits_outputs(&self) -> bool {
-        self.machine.state.op_request().is_some()
+    /// Whether it has to be polled, whatever the time is: its ESC interrupts, the next outputs take it to OP, or
+    /// outputs that go out at the end of a frame have come.
+    pub(crate) fn is_called(&self, esc: &Esc) -> bool {
+        esc.interrupts_pdi() || self.machine.state.op_request().is_some() || self.follows_frame(esc)
     }
 
     /// Does what is due at `now`: requests of the master, expired times, the refresh.

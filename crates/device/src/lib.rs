@@ -4,6 +4,7 @@
 //! [`DeviceConfig`] the layout; a [`Network`] is a line of such slaves that frames pass.
 
 mod action;
+mod agenda;
 mod conditions;
 mod conduct;
 mod config;

@@ -4,6 +4,7 @@ use esc::Esc;
 use segment::{FrameFate, Segment};
 use time::Instant;
 
+use crate::agenda::Agenda;
 use crate::config::DeviceConfig;
 use crate::device::Device;
 use crate::unit::{Start, Unit};
@@ -16,6 +17,7 @@ use crate::unit::{Start, Unit};
 pub struct Network<U> {
     segment: Segment,
     devices: Vec<Device<U>>,
+    agenda: Agenda,
     /// Whether a cable is plugged in: the one before the device with its number; the last one is at the far end.
     cables: Vec<bool>,
     /// Whether the medium to the master has a carrier: cable 0, at the master's end.
@@ -30,7 +32,8 @@ impl<U: Unit> Network<U> {
         let (devices, escs): (Vec<_>, Vec<_>) = powered.unzip();
         let mut cables = vec![true; devices.len()];
         cables.push(false);
-        Self { segment: Segment::new(escs), devices, cables, carrier: true }
+        let agenda = Agenda::all(devices.len());
+        Self { segment: Segment::new(escs), devices, agenda, cables, carrier: true }
     }
 
     /// A frame arrives from the master; it is answered in place.
@@ -39,16 +42,32 @@ impl<U: Unit> Network<U> {
         self.segment.frame(now, frame)
     }
 
-    /// Lets every slave react that has pending work.
+    /// A frame arrives from the master and gets a bit error on the cable of this number.
+    pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], cable: usize) -> FrameFate {
+        self.segment.corrupted_frame(now, frame, cable)
+    }
+
+    /// A frame arrives from the master's second port, at the far end.
+    pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.segment.frame_at_far_end(now, frame)
+    }
+
+    /// Lets every slave react that has pending work. The other slaves are not looked at and cost nothing.
     pub fn poll(&mut self, now: Instant) {
         let mut reset = false;
-        for (position, device) in self.devices.iter_mut().enumerate() {
-            let Some(esc) = self.segment.esc_mut(position) else { continue };
-            let due = device.deadline().min(esc.deadline()) <= now;
-            if esc.interrupts_pdi() || due || device.awaits_outputs() || device.follows_frame(esc) {
+        self.agenda.gather(&mut self.segment, now);
+        let mut from = 0;
+        while let Some(position) = self.agenda.next_to_look_at(from) {
+            from = position + 1;
+            let device = self.devices.get_mut(position);
+            let (Some(device), Some(esc)) = (device, self.segment.esc_mut(position)) else { continue };
+            let is_due = device.deadline().min(esc.deadline()) <= now;
+            if is_due || device.is_called(esc) {
                 reset |= esc.asks_for_reset();
                 device.poll(esc, now);
+                self.agenda.has_changed(position);
             }
+            self.agenda.looked_at(position, device.deadline().min(esc.deadline()), device.is_called(esc));
         }
         if reset {
             self.segment.follow_changed_ports();
@@ -58,8 +77,22 @@ impl<U: Unit> Network<U> {
     /// The latest time at which [`Network::poll`] must be called.
     #[must_use]
     pub fn deadline(&self) -> Instant {
-        let devices = self.devices.iter().map(Device::deadline).min().unwrap_or(Instant::NEVER);
-        devices.min(self.segment.deadline())
+        let to_look_at = self.agenda.to_look_at().chain(self.segment.touched().iter());
+        to_look_at.map(|position| self.deadline_of(position)).fold(self.agenda.first(), Instant::min)
+    }
+
+    fn deadline_of(&self, position: usize) -> Instant {
+        match (self.devices.get(position), self.segment.esc(position)) {
+            (Some(device), Some(esc)) => device.deadline().min(esc.deadline()),
+            _ => Instant::NEVER,
+        }
+    }
+
+    /// Takes the next slave that may be another than when it was taken last: it has reacted, was started or switched
+    /// off, or was lent. At first that is every slave.
+    pub fn take_changed(&mut self) -> Option<(usize, &mut Device<U>)> {
+        let position = self.agenda.take_changed()?;
+        Some((position, self.devices.get_mut(position)?))
     }
 
     /// Number of slaves.
@@ -83,12 +116,14 @@ impl<U: Unit> Network<U> {
     /// The slave at a position, for its application.
     #[must_use]
     pub fn device_mut(&mut self, position: usize) -> Option<&mut Device<U>> {
+        self.agenda.is_lent(position);
         self.devices.get_mut(position)
     }
 
     /// Mutable access to a slave and its ESC together.
     #[must_use]
     pub fn slave_mut(&mut self, position: usize) -> Option<(&mut Device<U>, &mut Esc)> {
+        self.agenda.is_lent(position);
         Some((self.devices.get_mut(position)?, self.segment.esc_mut(position)?))
     }
 
@@ -102,11 +137,6 @@ impl<U: Unit> Network<U> {
     #[must_use]
     pub const fn segment(&self) -> &Segment {
         &self.segment
-    }
-
-    /// The line, for changes. Plug and pull cables with [`Network::set_cable`].
-    pub const fn segment_mut(&mut self) -> &mut Segment {
-        &mut self.segment
     }
 
     /// Plugs or pulls a cable: the one before the slave at `number`, or the one at the far end. It carries
@@ -128,6 +158,7 @@ impl<U: Unit> Network<U> {
     /// Switches one slave's power off: no frame passes it until [`Network::restart`]. A position without a
     /// slave has no effect.
     pub fn power_off(&mut self, position: usize, now: Instant) {
+        self.agenda.is_lent(position);
         if let Some(device) = self.devices.get_mut(position) {
             device.power_off(now);
             self.connect(position);
@@ -148,6 +179,7 @@ impl<U: Unit> Network<U> {
 
     /// Restarts one slave; a position without a slave has no effect.
     pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
+        self.agenda.is_lent(position);
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
             let was_off = device.is_off();
             device.restart(esc, now, start);

@@ -5,8 +5,10 @@
 
 mod activity;
 mod datagram;
+mod positions;
 mod segment;
 
 pub use activity::PortActivity;
+pub use positions::Positions;
 pub use segment::{FrameFate, Segment};
 pub use wire::{Defect, FrameKind};

@@ -6,6 +6,7 @@ use wire::{Defect, FrameKind, Layout, mark_source_address};
 
 use crate::activity::{Activity, PortActivity};
 use crate::datagram::pass;
+use crate::positions::Positions;
 
 /// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of magnitude of a real ESC.
 const HOP: Duration = Duration::from_nanos(500);
@@ -29,6 +30,8 @@ pub struct Segment {
     escs: Vec<Esc>,
     way: Way,
     activity: Activity,
+    /// ESCs at which something took effect at the end of a frame, since [`Segment::take_touched`].
+    touched: Positions,
     overlong_frames: u64,
 }
 
@@ -61,9 +64,9 @@ impl Segment {
             esc.set_link(Port::In, true);
             esc.set_link(Port::Out, position < last);
         }
-        let activity = Activity::new(escs.len());
+        let (activity, touched) = (Activity::new(escs.len()), Positions::new(escs.len()));
         let way = Way { reach: 0, cables: 0, end: WayEnd::Lost };
-        let mut segment = Self { escs, way, activity, overlong_frames: 0 };
+        let mut segment = Self { escs, way, activity, touched, overlong_frames: 0 };
         segment.follow_ports();
         segment
     }
@@ -90,6 +93,18 @@ impl Segment {
     #[must_use]
     pub fn esc_mut(&mut self, position: usize) -> Option<&mut Esc> {
         self.escs.get_mut(position)
+    }
+
+    /// The ESCs at which frames have handed over data or written registers since [`Segment::take_touched`]: those
+    /// whose slave may have something to do. The others are as they were.
+    #[must_use]
+    pub const fn touched(&self) -> &Positions {
+        &self.touched
+    }
+
+    /// Moves the touched ESCs to `positions`.
+    pub fn take_touched(&mut self, positions: &mut Positions) {
+        positions.take_all(&mut self.touched);
     }
 
     /// Plugs or pulls the cable in front of the ESC at `position`; 0 is the cable to the master, the
@@ -229,6 +244,7 @@ impl Segment {
         frame: &mut [u8],
         layout: &Layout,
     ) {
+        let first = positions.start;
         let escs = self.escs.get_mut(positions).unwrap_or_default();
         let mut waits = false;
         for mut datagram in layout.datagrams(frame) {
@@ -242,9 +258,12 @@ impl Segment {
         let turn = now + HOP * escs.len().saturating_sub(1) as u64 + TURN;
         let mut back = HOP * escs.len().saturating_sub(1) as u64;
         let mut arrival = now;
-        for esc in escs {
-            esc.end_of_frame(&Passage { arrival, returned_out: turn + back });
-            ports_changed |= esc.take_ports_changed();
+        for (position, esc) in (first..).zip(escs) {
+            if esc.awaits_end_of_frame() {
+                esc.end_of_frame(&Passage { arrival, returned_out: turn + back });
+                ports_changed |= esc.take_ports_changed();
+                self.touched.insert(position);
+            }
             arrival += HOP;
             back = back - HOP;
         }
@@ -280,12 +299,6 @@ impl Segment {
         }
         others.iter_mut().for_each(|esc| esc.count_forwarded_error(Port::In));
         FrameFate::Destroyed
-    }
-
-    /// The time of the next event in an ESC without a frame: the watchdog.
-    #[must_use]
-    pub fn deadline(&self) -> Instant {
-        self.escs.iter().map(Esc::deadline).min().unwrap_or(Instant::NEVER)
     }
 
     /// Recalculates the path of frames after an ESC was reset.

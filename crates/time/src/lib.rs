@@ -1,11 +1,15 @@
-//! Instant and duration in integer nanoseconds, without any access to a clock.
+//! Instant and duration in integer nanoseconds, and deadlines of many, without any access to a clock.
 //!
 //! Everything below the links takes the time as an argument, so that a run in virtual time is always the same.
 //! An [`Instant`] counts from an origin that the caller chose (the start of the run).
 
+mod deadlines;
+
 use core::fmt;
 use core::ops::{Add, AddAssign, Mul, Sub};
 use core::str::FromStr;
+
+pub use deadlines::Deadlines;
 
 /// A point in time, in nanoseconds since the caller's origin. Range: 0 to about 584 years.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

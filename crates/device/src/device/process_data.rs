@@ -34,7 +34,7 @@ impl<U: Unit> Device<U> {
     }
 
     /// Whether a frame has brought outputs that are applied at the end of the frame.
-    pub(crate) fn follows_frame(&self, esc: &Esc) -> bool {
+    pub(super) fn follows_frame(&self, esc: &Esc) -> bool {
         self.frame_events().any(|index| esc.has_sync_manager_event(index))
     }
 

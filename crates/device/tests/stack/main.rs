@@ -9,5 +9,6 @@ mod descriptions;
 mod faults;
 mod one_direction;
 mod outputs_before_op;
+mod polling;
 mod process_data;
 mod states;

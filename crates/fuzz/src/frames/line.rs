@@ -54,12 +54,12 @@ impl Line {
             Step::Frame(datagrams) => self.any_frame(frame(datagrams), End::Master, Network::frame),
             Step::Raw(bytes) => self.any_frame(bytes.clone(), End::Master, Network::frame),
             Step::Far(datagrams) => self.any_frame(frame(datagrams), End::Far, |network, now, frame| {
-                network.segment_mut().frame_at_far_end(now, frame)
+                network.frame_at_far_end(now, frame)
             }),
             Step::Corrupt(unit, datagrams) => {
                 let position = *unit;
                 self.any_frame(frame(datagrams), End::Master, move |network, now, frame| {
-                    network.segment_mut().corrupted_frame(now, frame, position)
+                    network.corrupted_frame(now, frame, position)
                 })
             }
             Step::Wait(micros) => self.wait(Duration::from_micros(*micros)),

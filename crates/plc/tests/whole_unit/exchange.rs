@@ -87,6 +87,6 @@ fn the_cpu_units_see_the_cables() {
     assert_eq!(links(&mut network), [(true, true), (true, false)]);
     network.set_cable(1, false);
     assert_eq!(links(&mut network), [(true, false), (false, false)]);
-    network.segment_mut().set_cable(1, true);
+    network.set_cable(1, true);
     assert_eq!(links(&mut network), [(true, true), (true, false)]);
 }

@@ -1,5 +1,6 @@
 //! The world of a scenario: units, CPU Units, line and master in virtual time, and their observer.
 
+mod cpus;
 mod frames;
 mod looks;
 mod orders;
@@ -20,13 +21,14 @@ use super::programs::LoadedProgram;
 use super::recorded::Recorded;
 use super::recording::Recording;
 use super::scenario::{Scenario, UnitSource};
-use super::story::Story;
 use crate::model::{FrameKind, StateName};
+
+use cpus::Cpus;
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
     network: Network<Box<dyn ModelUnit>>,
-    cpus: Vec<Cpu>,
+    cpus: Cpus,
     line: Line,
     master: Master,
     recorded: Recorded,
@@ -35,12 +37,6 @@ pub(crate) struct World {
     /// The programs that steps load into CPU Units.
     programs: Vec<LoadedProgram>,
     recording: Recording,
-}
-
-struct Cpu {
-    unit: CpuUnit,
-    is_running: bool,
-    told: Story,
 }
 
 /// The state of a unit at the observer's last check.
@@ -58,7 +54,7 @@ impl World {
         let mut cpus = Vec::new();
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
             let (config, unit, cpu) = powered(source, dice_of_phases(seed, participant), now);
-            cpus.push(Cpu { unit: cpu, is_running: true, told: Story::default() });
+            cpus.push(cpu);
             (config, Box::new(unit) as Box<dyn ModelUnit>)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
@@ -72,7 +68,7 @@ impl World {
         };
         let mut world = Self {
             network,
-            cpus,
+            cpus: Cpus::new(cpus),
             line: Line::new(seed),
             master,
             recorded: Recorded::new(scenario.recorded.clone()),
@@ -111,10 +107,8 @@ impl World {
 
     /// The time of the next event.
     pub(crate) fn deadline(&self) -> Instant {
-        let cpus = self.cpus.iter().filter(|cpu| cpu.is_running).map(|cpu| cpu.unit.deadline());
-        let cpus = cpus.min().unwrap_or(Instant::NEVER);
         let masters = self.master.deadline().min(self.recorded.deadline());
-        self.network.deadline().min(cpus).min(self.line.deadline()).min(masters)
+        self.network.deadline().min(self.cpus.deadline()).min(self.line.deadline()).min(masters)
     }
 
     /// Advances the time to `to`, with or without an event there.
@@ -126,15 +120,7 @@ impl World {
     /// Does everything that is due now, in a fixed order: CPU Units, units, late frames, master and its user program.
     fn happen(&mut self) {
         let now = self.now;
-        for (at, cpu) in self.cpus.iter_mut().enumerate() {
-            if cpu.is_running && cpu.unit.deadline() <= now {
-                cpu.unit.cycle(now);
-                let events = cpu.unit.take_events().map(|record| record.event);
-                for words in cpu.told.period(events) {
-                    self.recording.tell(now, &format!("cpu {}", at + 1), &words);
-                }
-            }
-        }
+        self.cpus.cycle(now, |at, words| self.recording.tell(now, &format!("cpu {}", at + 1), words));
         self.network.poll(now);
         while let Some(delayed) = self.line.due(now) {
             self.pass(delayed.ticket, delayed.frame, &delayed.faults);
@@ -151,8 +137,7 @@ impl World {
 
     /// Records the changes.
     fn watch(&mut self) {
-        for at in 0..self.network.len() {
-            let Some(device) = self.network.device_mut(at) else { continue };
+        while let Some((at, device)) = self.network.take_changed() {
             let (status, code) = (device.al_status(), device.al_status_code());
             let unit = device.unit_mut();
             let watched = &mut self.watched[at];

@@ -59,7 +59,7 @@ impl World {
             if let FrameFault::Corrupt { cable } = fault { Some(cable.position()) } else { None }
         });
         let fate = match corrupted {
-            Some(cable) => self.network.segment_mut().corrupted_frame(self.now, &mut frame, cable),
+            Some(cable) => self.network.corrupted_frame(self.now, &mut frame, cable),
             None => self.network.frame(self.now, &mut frame),
         };
         self.network.poll(self.now);

@@ -31,7 +31,10 @@ impl World {
     }
 
     pub(crate) fn io(&self, at: usize) -> &Io {
-        self.cpus[at].unit.io()
+        match self.cpus.get(at) {
+            Some(cpu) => cpu.unit.io(),
+            None => panic!("the scenario names unit {}, and was checked", at + 1),
+        }
     }
 
     pub(crate) fn al_status(&self, at: usize) -> (AlStatus, AlStatusCode) {

@@ -9,7 +9,8 @@ use time::Instant;
 use unit_model::{ModelUnit, NotThere};
 use wire::AlStatusCode;
 
-use super::{Cpu, World};
+use super::World;
+use super::cpus::Cpu;
 use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, LineOrder, UnitOrder, UnitSet};
 use crate::run::master::Master;
 
@@ -89,8 +90,12 @@ impl World {
     /// Loads a program, which its CPU Unit refuses in RUN mode.
     fn load(&mut self, at: usize, file: &str) {
         let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
-        let (Some(program), Some(cpu)) = (program, self.cpus.get_mut(at)) else { return };
-        if let Err(refusal) = cpu.unit.load(Box::new(program.file.program.clone())) {
+        let Some(program) = program else { return };
+        let mut refusal = None;
+        self.cpus.each(at..at + 1, |cpu| {
+            refusal = cpu.unit.load(Box::new(program.file.program.clone())).err();
+        });
+        if let Some(refusal) = refusal {
             self.recording.tell(self.now, &format!("cpu {}", at + 1), &refusal.to_string());
         }
         self.tell_of_cpus();
@@ -98,12 +103,8 @@ impl World {
 
     /// The reports of CPU Units since their last task periods.
     fn tell_of_cpus(&mut self) {
-        for (at, cpu) in self.cpus.iter_mut().enumerate() {
-            let events = cpu.unit.take_events().map(|record| record.event);
-            for words in cpu.told.between(events) {
-                self.recording.tell(self.now, &format!("cpu {}", at + 1), &words);
-            }
-        }
+        let (recording, now) = (&mut self.recording, self.now);
+        self.cpus.report(|at, words| recording.tell(now, &format!("cpu {}", at + 1), words));
     }
 
     pub(crate) fn line_order(&mut self, order: &LineOrder) {
@@ -142,9 +143,8 @@ impl World {
         }
     }
 
-    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
-        let positions = units.positions(self.cpus.len());
-        self.cpus.get_mut(positions).unwrap_or_default().iter_mut().for_each(&mut order);
+    fn each_cpu(&mut self, units: UnitSet, order: impl FnMut(&mut Cpu)) {
+        self.cpus.each(units.positions(self.count()), order);
     }
 
     fn invert_sii_word(&mut self, at: usize, word: u16) {
@@ -162,10 +162,11 @@ impl World {
 
     fn cycle_rack_power(&mut self, at: usize) {
         self.start(at, Start::PowerOn);
-        if let Some(cpu) = self.cpus.get_mut(at) {
-            cpu.unit.cycle_power(self.now);
+        let now = self.now;
+        self.cpus.each(at..at + 1, |cpu| {
+            cpu.unit.cycle_power(now);
             cpu.is_running = true;
-        }
+        });
     }
 
     fn start(&mut self, at: usize, start: Start) {

@@ -44,8 +44,7 @@ impl World {
         text: &str,
         set: impl Fn(&mut Io, Target, &[u8]) -> Result<(), VariableError>,
     ) {
-        for cpu in &mut self.cpus {
-            let io = cpu.unit.io_mut();
+        for io in self.cpus.ios() {
             let Ok(target) = io.variables().find_target(name) else { continue };
             let value = io.type_of(target).map(|variable_type| variable_type.parse(text));
             if let Ok(Ok(value)) = value {
@@ -56,8 +55,7 @@ impl World {
     }
 
     pub(super) fn release(&mut self, name: &str) {
-        for cpu in &mut self.cpus {
-            let io = cpu.unit.io_mut();
+        for io in self.cpus.ios() {
             if let Ok(target) = io.variables().find_target(name) {
                 let _ = io.release(target);
                 return;
