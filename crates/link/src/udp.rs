@@ -158,6 +158,22 @@ mod tests {
         assert_eq!(unit.send(&[0; 60]).unwrap_err().kind(), io::ErrorKind::NotConnected);
     }
 
+    /// The segment sees each of them with its length, so that it can count it; one that is longer than the buffer fills it.
+    #[test]
+    fn a_datagram_of_any_length_is_received_with_that_length() {
+        let (mut unit, address) = loopback();
+        let master = UdpSocket::bind("127.0.0.1:0").unwrap();
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        let room_bytes = FRAME_BUFFER_BYTES - HEADER.len();
+        for length_bytes in [0, 1, 2, 13, 45, 1504, 1505, room_bytes - 1, room_bytes, room_bytes + 1, 65_507]
+        {
+            master.send_to(&vec![0x10; length_bytes], address).unwrap();
+            let received = unit.receive(&mut buffer, SOON).unwrap();
+            assert_eq!(received, Some(HEADER.len() + length_bytes.min(room_bytes)), "{length_bytes}");
+            assert_eq!(buffer[..HEADER.len()], HEADER);
+        }
+    }
+
     #[test]
     fn the_link_names_the_port_that_the_kernel_chose() {
         let (unit, address) = loopback();

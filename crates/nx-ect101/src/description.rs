@@ -216,6 +216,25 @@ mod tests {
     }
 
     #[test]
+    fn the_written_esi_has_the_commands_of_the_start() {
+        let written = esi::xml(&factory(), &crate::object_table());
+        let commands: Vec<String> = written
+            .split("<InitCmd>")
+            .skip(1)
+            .filter_map(|rest| rest.split_once("</InitCmd>"))
+            .map(|(command, _)| command.split_whitespace().collect())
+            .collect();
+        let command = |index: &str, sub: &str, data: &str| {
+            format!(
+                "<Transition>PS</Transition><Index>#x{index}</Index><SubIndex>#x{sub}</SubIndex><Data>{data}</Data>"
+            )
+        };
+        assert_eq!(commands.len(), 2, "{commands:?}");
+        assert!(commands[0].starts_with(&command("10F3", "05", "0000")), "{}", commands[0]);
+        assert!(commands[1].starts_with(&command("2002", "02", "01")), "{}", commands[1]);
+    }
+
+    #[test]
     fn the_eeprom_holds_it_all_and_the_rules_of_the_sii() {
         let image = esi::sii::try_image(&factory()).expect("fits");
         assert_eq!(image.len(), layout::EEPROM_BYTES as usize);

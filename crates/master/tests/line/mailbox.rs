@@ -123,6 +123,24 @@ fn the_whole_dictionary_is_described() {
     assert_eq!(refused, failed(ServiceFailure::Abort(SdoAbort::OBJECT_DOES_NOT_EXIST)));
 }
 
+/// The lists 1 to 5 and their lengths (list 0), in frames; list 5 has the setting parameters of the manual.
+#[test]
+fn each_list_of_objects_comes_over_the_wire() {
+    let mut bench = in_pre_op(connected(1));
+    let mut list = |kind| {
+        let bytes = bench.information(0, SdoInfoRequest::List(kind)).expect("a list");
+        bytes.chunks_exact(2).map(|word| u16::from_le_bytes([word[0], word[1]])).collect::<Vec<_>>()
+    };
+    let lists = SdoInfoList::LISTS.map(&mut list);
+    assert_eq!(list(SdoInfoList::Lengths), lists.each_ref().map(|list| list.len() as u16));
+    for (kind, indexes) in SdoInfoList::LISTS.into_iter().zip(&lists) {
+        let table = object_table();
+        let of_table = table.list(kind).expect("a list of indexes").map(|object| object.index.0);
+        assert_eq!(*indexes, of_table.collect::<Vec<_>>(), "{kind:?}");
+    }
+    assert_eq!(list(SdoInfoList::Settings), [0x10F3], "10F3:05 is the only one");
+}
+
 #[test]
 fn several_slaves_answer_at_the_same_time() {
     let mut bench = in_pre_op(connected(20));
