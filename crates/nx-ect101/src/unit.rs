@@ -62,12 +62,10 @@ pub struct NxEct101 {
     is_starting: bool,
     /// Its processor is running, and it initializes the rest.
     is_initializing: bool,
-    /// Whether the CPU Unit did I/O refreshing at the last check.
-    cpu_refreshing: bool,
     task_watch: TaskWatch,
-    /// It has done so since the unit started.
+    /// The CPU Unit has done I/O refreshing since the unit started.
     is_initialized: bool,
-    /// It has stopped, which is the present cause of NX Unit I/O Communications Error.
+    /// It has stopped, or has not begun in time: a present cause of NX Unit I/O Communications Error.
     io_communications_lost: bool,
     /// The NX Bus Function Module has stopped I/O refreshing because of an error.
     io_stopped: bool,
@@ -121,7 +119,6 @@ impl NxEct101 {
             nx_unit_status: NxUnitStatus::default(),
             is_starting: true,
             is_initializing: false,
-            cpu_refreshing: false,
             task_watch: TaskWatch::default(),
             is_initialized: false,
             io_communications_lost: false,
@@ -164,7 +161,7 @@ impl NxEct101 {
     /// Calculates the status words of both sides (manual, 6-3-2 and 7-5-5).
     fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader) {
         let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
-        let refreshing = self.cpu_refreshing && self.io_is_refreshed();
+        let refreshing = self.is_refreshed_by_cpu() && self.io_is_refreshed();
         let messages = &self.objects.messages;
         self.status = SlaveStatus {
             sdo_enabled: process_data || exchange.state == AlState::PreOp,
@@ -223,7 +220,9 @@ fn read_tables() {
 }
 
 impl Unit for NxEct101 {
+    /// A master can reset the errors by them.
     fn objects(&mut self) -> Option<&mut dyn ObjectServer> {
+        self.look_for_io_communications();
         Some(&mut self.objects)
     }
 

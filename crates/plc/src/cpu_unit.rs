@@ -55,7 +55,7 @@ impl CpuUnit {
     ) -> Self {
         assert!(!settings.task_period.is_zero(), "the task period is zero");
         let program_period = program.task_period().filter(|period| !period.is_zero());
-        Self {
+        let mut cpu = Self {
             io: Io::new(variables),
             bus,
             nx_bus_function: NxBusFunction::new(settings.fail_soft),
@@ -71,7 +71,9 @@ impl CpuUnit {
             io_refreshing: true,
             task_periods: 0,
             deadline: now + settings.task_phase,
-        }
+        };
+        cpu.announce();
+        cpu
     }
 
     /// Ends a scan in progress when this flag is set, so that a CPU Unit can be switched off in the middle of a
@@ -191,6 +193,7 @@ impl CpuUnit {
         self.nx_bus_function.power_on();
         self.io.power_on();
         self.user_program.start_anew();
+        self.announce();
     }
 
     /// Whether the NX Bus Function Module has stopped I/O refreshing because of an error of the unit.
@@ -256,18 +259,27 @@ impl CpuUnit {
     }
 
     fn refresh_outputs(&mut self) {
+        let header = CpuHeader { refreshing: self.io_refreshing, messages_enabled: true, ..self.header() };
+        // What has been written from outside may be forced.
+        self.io.memory.apply_forced();
+        self.bus.c_to_m.publish(header, self.io.c_to_m());
+    }
+
+    /// After power-on, before the first task period: nothing is refreshed yet, but the unit knows which task to expect.
+    fn announce(&mut self) {
+        let header = self.header();
+        self.bus.c_to_m.publish(header, self.io.c_to_m());
+    }
+
+    fn header(&self) -> CpuHeader {
         let mut header = CpuHeader {
-            refreshing: self.io_refreshing,
-            messages_enabled: true,
             task_periods: self.task_periods,
             task_period: self.task_period,
             system_time_ns: self.io.system_time_ns().unwrap_or(0),
             ..CpuHeader::default()
         };
         self.nx_bus_function.tell(&mut header);
-        // Values written from outside may be forced.
-        self.io.memory.apply_forced();
-        self.bus.c_to_m.publish(header, self.io.c_to_m());
+        header
     }
 }
 

@@ -45,6 +45,7 @@ impl NxEct101 {
     /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause persists
     /// occurs again.
     pub fn reset_errors(&mut self) {
+        self.look_for_io_communications();
         self.objects.diagnosis.reset_errors();
     }
 
@@ -132,6 +133,7 @@ impl NxEct101 {
         if start == Start::EscReset {
             return None;
         }
+        self.start_to_watch();
         let diagnosis = &mut self.objects.diagnosis;
         diagnosis.see_no_more(Fault::SiiVerification);
         if start == Start::PowerOn {

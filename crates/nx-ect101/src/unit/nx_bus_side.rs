@@ -8,22 +8,48 @@ use crate::fault::Fault;
 use crate::nx_server;
 use crate::status::NxUnitStatus;
 use crate::unit::NxEct101;
+use crate::unit::task_watch::TaskWatch;
 
 impl NxEct101 {
     /// If the CPU Unit stops I/O refreshing, or its task stops, the NX bus has no I/O communications.
     pub(super) fn watch_io_communications(&mut self, cause: RefreshCause, cpu: CpuHeader) {
         if cause == RefreshCause::Period {
-            self.task_watch.pass(cpu.task_periods);
+            self.task_watch.pass();
         }
-        let refreshing = cpu.refreshing && !self.task_watch.has_stopped(self.period, cpu.task_period);
-        if self.cpu_refreshing && !refreshing {
-            self.io_communications_lost = true;
-            self.objects.diagnosis.see(Fault::IoCommunications);
-        } else if refreshing && core::mem::take(&mut self.io_communications_lost) {
+        self.task_watch.hear(cpu);
+        let was_lost =
+            core::mem::replace(&mut self.io_communications_lost, self.task_watch.is_lost(self.period));
+        match (was_lost, self.io_communications_lost) {
+            (false, true) => self.objects.diagnosis.see(Fault::IoCommunications),
+            (true, false) => self.objects.diagnosis.see_no_more(Fault::IoCommunications),
+            (true, true) | (false, false) => {}
+        }
+        self.is_initialized |= self.is_refreshed_by_cpu();
+    }
+
+    /// Before a reset of the errors: a CPU Unit that refreshes I/O again is no cause any more, even if the unit's next
+    /// refresh is still to come.
+    pub(super) fn look_for_io_communications(&mut self) {
+        if !self.io_communications_lost {
+            return;
+        }
+        self.task_watch.hear(self.bus.c_to_m.newest().header);
+        if self.is_refreshed_by_cpu() {
+            self.io_communications_lost = false;
             self.objects.diagnosis.see_no_more(Fault::IoCommunications);
         }
-        self.cpu_refreshing = refreshing;
-        self.is_initialized |= refreshing;
+    }
+
+    /// The unit starts: it watches the CPU Unit from the beginning.
+    pub(super) fn start_to_watch(&mut self) {
+        self.task_watch = TaskWatch::start(self.bus.c_to_m.newest().header);
+        self.io_communications_lost = false;
+        self.objects.diagnosis.see_no_more(Fault::IoCommunications);
+    }
+
+    /// Whether the CPU Unit does I/O refreshing.
+    pub(super) fn is_refreshed_by_cpu(&self) -> bool {
+        self.task_watch.is_refreshed(self.period)
     }
 
     /// The decisions of the NX Bus Function Module: to stop I/O refreshing, to reset the errors.

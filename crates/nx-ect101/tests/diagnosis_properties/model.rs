@@ -133,7 +133,6 @@ impl Model {
         self.injected.clear();
         self.memory_damaged = damaged;
         self.sii_not_loaded = false;
-        (self.cpu_stopped, self.cpu_refreshing) = (false, false);
         self.time_ns = 0;
         self.emergencies_lost = 0;
         self.start();
@@ -154,6 +153,8 @@ impl Model {
 
     /// The unit starts (8-6): the current errors are cleared, the logs are kept.
     fn start(&mut self) {
+        // It watches the CPU Unit from the beginning.
+        (self.cpu_stopped, self.cpu_refreshing) = (false, false);
         self.clear_errors();
         self.standing.clear();
         self.emergencies.clear();

@@ -1,6 +1,6 @@
 //! The memory of the variables, and its forced bits.
 
-use nx_bus::{SlaveStatus, UnitHeader};
+use nx_bus::UnitHeader;
 
 use super::ports::{
     ERROR_TABLE, IO_DATA_ACTIVE, MESSAGE_TABLE, SLAVE_STATUS, STATUS_BYTES, SYSTEM_TABLE_ELEMENTS, UNIT_ERROR,
@@ -58,15 +58,14 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// Zeros and the default of EtherCAT Slave Status (manual, 6-3-2), nothing forced.
+    /// Zeros, nothing forced. The default of EtherCAT Slave Status (manual, 6-3-2) is the unit's: it comes with the first
+    /// I/O refresh.
     pub(crate) fn new(m_to_c_bytes: usize, c_to_m_bytes: usize) -> Self {
-        let mut memory = Self {
+        Self {
             m_to_c: Image::new(m_to_c_bytes),
             c_to_m: Image::new(c_to_m_bytes),
             status: Image::new(STATUS_BYTES),
-        };
-        memory.take_io_data(SlaveStatus::default().bits(), &[]);
-        memory
+        }
     }
 
     /// Stores the report of the unit with this NX Unit number. Forced values are kept. The system-defined

@@ -148,9 +148,7 @@ impl Run {
         let (fill, (seen_to, seen)) = (Arc::new(AtomicU16::new(NO_FILL)), channel());
         let program = program(&fill, &seen_to);
         let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, program);
-        let status = SlaveStatus::default().bits();
-        let mut model = [Bits::zeros(IMAGE_BYTES), Bits::zeros(IMAGE_BYTES), Bits::zeros(2)];
-        model[2].write(0..16, &status.to_le_bytes());
+        let model = [Bits::zeros(IMAGE_BYTES), Bits::zeros(IMAGE_BYTES), Bits::zeros(2)];
         let places = places(cpu.io());
         let published = None;
         Self { unit, cpu, places, fill, seen, seen_to, model, published, program_fills: None }

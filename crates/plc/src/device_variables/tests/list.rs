@@ -136,7 +136,7 @@ fn a_bit_of_the_status_and_the_word_are_one_memory() {
     let [word, bit] = ["N1_EtherCAT_Slave_Status", "N1_Data_from_EtherCAT_Master_to_CPU_Unit_Valid"]
         .map(|name| io.find(name).expect(name));
     io.force(bit, &[1]).expect("a bit");
-    assert_eq!(io.read(word).expect("a word")[..], [0x02, 0x02]);
+    assert_eq!(io.read(word).expect("a word")[..], [0x02, 0x00]);
     assert!(io.status().m_to_c_valid);
     assert_eq!((io.is_forced(bit), io.is_forced(word)), (Ok(true), Ok(false)));
     io.force(word, &[0, 0]).expect("a word");

@@ -17,7 +17,7 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         "what an error of the CPU Unit does: NX Unit I/O Communications Error (80200000)",
         |units| StopIoRefreshing { units }),
     row!("start I/O refreshing of {units}", "start I/O refreshing of unit 1",
-        "the CPU Unit is well again",
+        "the CPU Unit is well again, from its next task period on",
         |units| StartIoRefreshing { units }),
     row!("stop the task of {units}", "stop the task of unit 1",
         "the primary periodic task stands, with its I/O refresh",
