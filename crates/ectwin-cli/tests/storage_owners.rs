@@ -173,8 +173,8 @@ fn a_full_disk_under_the_capture_is_reported_at_once_and_the_units_go_on() {
     let link = free_link();
     let arguments = [run(&["unit.toml"], &link), vec!["--pcap", "/dev/full"]].concat();
     let mut unit = Started::new(&folder, "", &arguments).ready();
-    // No frame has been received yet.
-    unit.wait_for("cannot be written: No space left on device");
+    // No frame has come yet.
+    unit.wait_for("the capture /dev/full cannot be written: No space left on device");
     let ended = unit.interrupt();
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);
     assert!(ended.stderr.contains("cannot write /dev/full"), "{}", ended.stderr);

@@ -7,6 +7,7 @@
 //! This is the only crate below the binary that opens sockets and reads a clock. Without its feature `media` it
 //! has links in memory only.
 
+mod answers;
 mod clock;
 #[cfg(feature = "media")]
 mod descriptor;

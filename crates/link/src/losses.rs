@@ -11,9 +11,10 @@ enum Loss {
     Foreign,
     LeftAtFarEnd,
     NoWay,
+    Answered,
 }
 
-const KINDS: usize = 7;
+const KINDS: usize = 8;
 /// The header that the port puts before a UDP datagram.
 const ETHERNET_HEADER_BYTES: usize = 14;
 
@@ -45,6 +46,10 @@ impl Loss {
             (Self::NoWay, _) => {
                 (6, "the cable is pulled, the first unit is off, or a loop is open without a cable")
             }
+            (Self::Answered, _) => (
+                7,
+                "a slave has already answered it: at the other end is another ectwin or a slave, or the network is a loop",
+            ),
         }
     }
 }
@@ -65,7 +70,16 @@ impl Losses {
     /// A frame did not return. The first one of its kind is logged.
     #[cold]
     pub(crate) fn count(&mut self, frame: &[u8], fate: FrameFate) {
-        let loss = Loss::of(frame, fate);
+        self.count_loss(frame, Loss::of(frame, fate));
+    }
+
+    /// A frame was no request, but an answer.
+    #[cold]
+    pub(crate) fn count_answered(&mut self, frame: &[u8]) {
+        self.count_loss(frame, Loss::Answered);
+    }
+
+    fn count_loss(&mut self, frame: &[u8], loss: Loss) {
         let (place, reason) = loss.row(self.envelope);
         let Some(counted) = self.counts.get_mut(place) else { return };
         let (_, count) = counted.get_or_insert((loss, 0));
@@ -101,7 +115,7 @@ mod tests {
     use super::*;
 
     /// A frame of each kind, and its fate.
-    fn one_of_each() -> [(Vec<u8>, FrameFate); KINDS] {
+    fn one_of_each() -> [(Vec<u8>, FrameFate); KINDS - 1] {
         let ethercat = |length_field: u16, datagram_bytes: u8| {
             let mut frame = vec![0xFF; 12];
             frame.extend([0x88, 0xA4]);
@@ -128,8 +142,9 @@ mod tests {
         for (times, (frame, fate)) in one_of_each().iter().enumerate() {
             (0..=times).for_each(|_| losses.count(frame, *fate));
         }
+        (0..8).for_each(|_| losses.count_answered(&[0; 60]));
         let counts: Vec<u64> = losses.counts.iter().flatten().map(|(_, count)| *count).collect();
-        assert_eq!(counts, [1, 2, 3, 4, 5, 6, 7]);
+        assert_eq!(counts, [1, 2, 3, 4, 5, 6, 7, 8]);
     }
 
     #[test]

@@ -15,6 +15,11 @@ pub enum OpenError {
         /// The names of the existing interfaces.
         available: Vec<String>,
     },
+    /// A loopback interface returns each answer as the next frame.
+    Loopback {
+        /// The name.
+        name: String,
+    },
     /// The kernel refuses because a capability is missing.
     NoPermission {
         /// The link.
@@ -57,6 +62,11 @@ impl OpenError {
     pub fn help(&self) -> String {
         match self {
             Self::NoSuchInterface { available, .. } => format!("there are: {}", available.join(", ")),
+            Self::Loopback { .. } => {
+                "for a master on this machine: udp:127.0.0.1, tap:ect0, or raw:u0 after \
+                 `sudo ip link add m0 type veth peer name u0`, with the master at m0"
+                    .to_owned()
+            }
             Self::NoPermission { link, .. } => help_for_permission(link),
             Self::InUse { link: LinkSpec::Udp(_) } => {
                 "end the program that listens there, or take another port: udp:ADDR:PORT".to_owned()
@@ -98,6 +108,10 @@ impl fmt::Display for OpenError {
             Self::NoSuchInterface { name, .. } => {
                 write!(formatter, "there is no network interface \"{name}\"")
             }
+            Self::Loopback { name } => write!(
+                formatter,
+                "raw:{name} is refused: {name} is a loopback interface, which returns each answer as the next frame"
+            ),
             Self::NoPermission { link: link @ LinkSpec::Raw(_), .. } => {
                 write!(formatter, "no permission to open {link}: raw frames need CAP_NET_RAW")
             }

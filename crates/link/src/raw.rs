@@ -33,6 +33,9 @@ impl RawPort {
             let available = interfaces.into_iter().map(|interface| interface.name).collect();
             return Err(OpenError::NoSuchInterface { name: name.to_owned(), available });
         };
+        if interface.is_loopback() {
+            return Err(OpenError::Loopback { name: name.to_owned() });
+        }
         let open = || {
             // The bell is set up first: changes from here on ring it.
             let bell = Bell::new()?;

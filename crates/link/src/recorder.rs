@@ -49,12 +49,17 @@ struct Record {
 }
 
 impl Recorder {
-    /// Starts a capture of the link `link_name` into `out`, with the times of `clock`.
+    /// Starts a capture of the link `link_name` into `out`, which messages call `out_name`, with the times of `clock`.
     ///
     /// # Errors
     /// No thread can be started.
-    pub fn start(out: impl Medium + 'static, link_name: &str, clock: &Clock) -> io::Result<Self> {
-        let writer = PcapngWriter::new(Outlet::new(out, link_name), link_name)?;
+    pub fn start(
+        out: impl Medium + 'static,
+        out_name: &str,
+        link_name: &str,
+        clock: &Clock,
+    ) -> io::Result<Self> {
+        let writer = PcapngWriter::new(Outlet::new(out, out_name), link_name)?;
         let (queue, records) = sync_channel(QUEUE_FRAMES);
         let thread = std::thread::Builder::new().name("capture".to_owned());
         Ok(Self {

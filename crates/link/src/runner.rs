@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub use segment::FrameFate;
 use time::{Duration, Instant};
 
+use crate::answers::{Answers, is_marked};
 use crate::losses::Losses;
 use crate::{Clock, FRAME_BUFFER_BYTES, FramePort};
 
@@ -80,7 +81,7 @@ pub trait Observer {
 pub struct Statistics {
     /// Frames received.
     pub frames: u64,
-    /// Frames that did not return: destroyed, or sent out at the far end.
+    /// Frames that did not return: destroyed, sent out at the far end, or answers of other slaves.
     pub destroyed: u64,
     /// Frames whose EtherCAT length exceeded their end.
     pub overlong: u64,
@@ -124,6 +125,7 @@ struct Run<'a, 'o, P, R> {
     clock: &'a Clock,
     /// The carrier that the responder knows.
     carrier: bool,
+    answers: Answers,
     losses: Losses,
     statistics: Statistics,
 }
@@ -141,7 +143,8 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         clock: &'a Clock,
     ) -> Self {
         let (losses, statistics) = (Losses::new(port.envelope()), Statistics::default());
-        Self { port, responder, observer, clock, carrier: true, losses, statistics }
+        let answers = Answers::new();
+        Self { port, responder, observer, clock, carrier: true, answers, losses, statistics }
     }
 
     fn end(self) -> Statistics {
@@ -174,20 +177,34 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         if self.observer.is_some() {
             request.copy_from_slice(frame);
         }
-        let fate = self.responder.frame(received, frame);
-        if fate == FrameFate::Returned {
-            self.send(frame);
-        }
         self.statistics.frames += 1;
+        let fate = self.fate_of(received, frame);
         if fate != FrameFate::Returned {
             self.statistics.destroyed += 1;
-            self.losses.count(frame, fate);
         }
         self.count_overlong();
         if let Some(observer) = &mut self.observer {
             let answer = (fate == FrameFate::Returned).then_some(&*frame);
             observer.frame(Seen { received, request, answered: self.clock.now(), answer });
         }
+    }
+
+    /// Lets a frame pass through the responder and sends it back, unless it is an answer itself.
+    fn fate_of(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        if self.answers.has(now, frame) {
+            self.losses.count_answered(frame);
+            return FrameFate::Destroyed;
+        }
+        let was_marked = is_marked(frame);
+        let fate = self.responder.frame(now, frame);
+        match fate {
+            FrameFate::Returned => {
+                self.send(frame);
+                self.answers.remember(now, was_marked, frame);
+            }
+            FrameFate::Destroyed | FrameFate::CrossedOver => self.losses.count(frame, fate),
+        }
+        fate
     }
 
     /// A frame that cannot be sent is lost, as on a cable; the master sends another one.

@@ -32,9 +32,23 @@ fn make(name: &str) -> io::Result<SyncDevice> {
     Ok(device)
 }
 
+impl TapPort {
+    /// The kernel reports a deleted interface as a descriptor in a bad state.
+    fn lost(&self, error: io::Error) -> io::Error {
+        if error.raw_os_error() != Some(rustix::io::Errno::BADFD.raw_os_error()) {
+            return error;
+        }
+        let name = &self.name;
+        let words =
+            format!("the interface {name} was deleted; start again with tap:{name} to create it again");
+        io::Error::new(io::ErrorKind::NotConnected, words)
+    }
+}
+
 impl FramePort for TapPort {
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
-        let received = receive_from(&self.device, wait, || self.device.recv(buffer))?;
+        let received = receive_from(&self.device, wait, || self.device.recv(buffer));
+        let received = received.map_err(|error| self.lost(error))?;
         // The kernel sends IPv6 and ARP on the new interface first.
         Ok(received.filter(|length_bytes| buffer.get(..*length_bytes).is_some_and(may_be_ethercat)))
     }

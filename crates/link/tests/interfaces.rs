@@ -241,3 +241,30 @@ fn an_interface_that_does_not_exist_is_named_beside_those_that_do() {
     assert_eq!(error.to_string(), "there is no network interface \"no-such-if0\"");
     assert!(error.help().contains("lo"), "{}", error.help());
 }
+
+#[test]
+fn a_loopback_interface_is_refused_with_what_works() {
+    let error = open(&"raw:lo".parse().unwrap()).err().unwrap();
+    assert!(matches!(error, OpenError::Loopback { .. }), "{error}");
+    assert!(error.to_string().contains("lo is a loopback interface"), "{error}");
+    for instead in ["udp:127.0.0.1", "tap:ect0", "type veth"] {
+        assert!(error.help().contains(instead), "{}", error.help());
+    }
+}
+
+#[test]
+fn a_tap_interface_that_is_deleted_is_named() {
+    let name = "a_tap_interface_that_is_deleted_is_named";
+    in_network_namespace(name, || {
+        let mut unit = match open(&"tap:ect0".parse().unwrap()) {
+            Ok(unit) => unit,
+            Err(error) => return skip(name, &error.to_string()),
+        };
+        ip(&["link", "delete", "ect0"]);
+        let error = unit.receive(&mut [0; FRAME_BUFFER_BYTES], SOON).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "the interface ect0 was deleted; start again with tap:ect0 to create it again"
+        );
+    });
+}

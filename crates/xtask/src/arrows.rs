@@ -64,7 +64,7 @@ const FLOORS: &[Row] = &[
     row("wasm", 9, Only(&["time", "plc"])),
     row("modbus", 10, Only(&["nx-ect101", "plc"])),
     row("opcua", 10, Only(&["plc"])),
-    row("link", 10, Only(&["time", "capture", "segment"])),
+    row("link", 10, Only(&["time", "wire", "capture", "segment"])),
     row("storage", 10, Only(&[])),
     row("ectwin", 11, AnyFloorBelow),
     row("ectwin-cli", 12, AnyFloorBelow),

@@ -104,7 +104,9 @@ fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
 
 fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {
     let path = args.pcap.clone().unwrap_or_default();
-    Recorder::start(capture, &link.to_string(), clock).map_err(|source| Failure::Unwritable { path, source })
+    let name = path.display().to_string();
+    Recorder::start(capture, &name, &link.to_string(), clock)
+        .map_err(|source| Failure::Unwritable { path, source })
 }
 
 /// A flag that these signals set.

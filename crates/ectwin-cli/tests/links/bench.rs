@@ -55,6 +55,12 @@ impl Twin {
         self.field("link").strip_prefix("udp:").unwrap().parse().unwrap()
     }
 
+    /// Waits until its log has these words, without a time limit.
+    pub(crate) fn wait_for(&self, words: &str) {
+        let has_words = |_| std::fs::read_to_string(&self.log).unwrap().contains(words);
+        assert!((0..1_000_000).any(has_words), "`{words}` does not come");
+    }
+
     /// Sends it a signal.
     pub(crate) fn signal(&self, name: &str) {
         let kill = format!("kill -{name} {}", self.id());

@@ -7,7 +7,7 @@ use std::process::Command;
 use ectwin::Duration;
 use testbed::{add_veth_pair, in_network_namespace, ip};
 
-use crate::bench::{BRD, Master, Twin, UNIT, count, frame};
+use crate::bench::{BRD, LRW, Master, Twin, UNIT, count, frame};
 
 const DL_STATUS: u16 = 0x0110;
 const LOST_LINKS_OF_PORT_IN: u16 = 0x0310;
@@ -145,5 +145,74 @@ fn a_vlan_tag_comes_back() {
         // One unit has answered.
         assert_eq!(answer[answer.len() - 2], 1);
         twin.end();
+    });
+}
+
+#[test]
+fn two_ectwins_at_both_ends_of_a_cable_do_not_answer_each_other() {
+    in_network_namespace("interfaces::two_ectwins_at_both_ends_of_a_cable_do_not_answer_each_other", || {
+        add_veth_pair("m0", "u0");
+        let [one, other] = ["m0", "u0"].map(|end| Twin::start(end, &["--link", &format!("raw:{end}")]));
+        let mut cable = sender_at("m0");
+        for first_of_address in [0x10, 0x02] {
+            let mut request = frame(BRD, 0, [0; 4], &[0, 0]);
+            request[6] = first_of_address;
+            cable.send_to(&request, None).unwrap().unwrap();
+        }
+        one.wait_for("a slave has already answered it");
+        let [one, other] = [one, other].map(Twin::end);
+        assert_eq!(count(&one, "frames=2 destroyed=2 "), 1, "{one}");
+        assert_eq!(count(&other, "frames=2 destroyed=0 "), 1, "{other}");
+    });
+}
+
+/// Another program of the machine that has the interface open for sending.
+fn sender_at(name: &str) -> Box<dyn pnet_datalink::DataLinkSender> {
+    let interface = pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name).unwrap();
+    match pnet_datalink::channel(&interface, pnet_datalink::Config::default()).unwrap() {
+        pnet_datalink::Channel::Ethernet(sender, _) => sender,
+        _ => panic!("{name} is no Ethernet"),
+    }
+}
+
+#[test]
+fn a_master_with_a_locally_administered_address_is_served() {
+    in_network_namespace("interfaces::a_master_with_a_locally_administered_address_is_served", || {
+        add_veth_pair("m0", "u0");
+        let twin = Twin::start("local-address", &["--link", "raw:u0"]);
+        let mut master = Master::at("m0");
+        // A unit answers the one, no unit the other.
+        for (command, working_counter) in [(BRD, 1), (LRW, 0)] {
+            let mut request = frame(command, 0, [0; 4], &[0, 0]);
+            request[6] = 0x02;
+            for _ in 0..50 {
+                assert!(master.send(&request));
+                let answer = master.receive(Duration::from_secs(10)).unwrap();
+                assert_eq!(answer[28], working_counter);
+            }
+        }
+        let log = twin.end();
+        assert_eq!(count(&log, "destroyed=0 "), 1, "{log}");
+    });
+}
+
+#[test]
+fn the_log_names_an_interface_that_is_renamed_or_deleted_and_the_receive_buffer() {
+    const TEST: &str =
+        "interfaces::the_log_names_an_interface_that_is_renamed_or_deleted_and_the_receive_buffer";
+    in_network_namespace(TEST, || {
+        add_veth_pair("m0", "u0");
+        let twin = Twin::start("renamed", &["--link", "raw:u0"]);
+        ip(&["link", "set", "u0", "down"]);
+        twin.wait_for("u0 has lost its carrier");
+        ip(&["link", "set", "u0", "name", "u9"]);
+        twin.wait_for("u0 is gone: it has the name u9 now");
+        ip(&["link", "set", "u9", "name", "u0"]);
+        ip(&["link", "set", "u0", "up"]);
+        twin.wait_for("u0 is up again after ");
+        ip(&["link", "delete", "u0"]);
+        twin.wait_for("u0 is gone; waiting for an interface of this name");
+        let log = twin.end();
+        assert_eq!(count(&log, "the receive buffer has "), 1, "{log}");
     });
 }

@@ -34,6 +34,8 @@ struct Bound {
     claimed: Option<(u32, Claim)>,
     /// Since when there has been no carrier.
     lost_at: Option<Instant>,
+    /// No interface has the name.
+    is_gone: bool,
     /// The last refusal to bind, so that it is logged only once.
     refusal: Option<io::ErrorKind>,
 }
@@ -48,7 +50,12 @@ impl Interface {
         Ok(Self {
             name: found.name.clone(),
             socket,
-            bound: Mutex::new(Bound { claimed: Some((found.index, claim)), lost_at, refusal: None }),
+            bound: Mutex::new(Bound {
+                claimed: Some((found.index, claim)),
+                lost_at,
+                is_gone: false,
+                refusal: None,
+            }),
             carrier: AtomicBool::new(carrier),
             dropped: AtomicU64::new(0),
         })
@@ -69,8 +76,11 @@ impl Interface {
     /// Follows the interface: binds again if its name has another index, and stores the carrier.
     pub(super) fn look(&self) {
         let mut bound = self.bound();
-        let found = find(&self.name);
-        let index = found.as_ref().map(|found| found.index);
+        let interfaces = pnet_datalink::interfaces();
+        let found = interfaces.iter().find(|interface| interface.name == self.name);
+        let index = found.map(|found| found.index);
+        let renamed = interfaces.iter().find(|interface| Some(interface.index) == bound.index());
+        let new_name = renamed.map(|interface| &*interface.name).filter(|name| *name != self.name);
         if index != bound.index() {
             let was_bound = bound.claimed.take().is_some();
             if let Some(index) = index {
@@ -80,8 +90,8 @@ impl Interface {
                 self.bind_again(&mut bound, index);
             }
         }
-        let carrier = bound.claimed.is_some() && found.as_ref().is_some_and(has_carrier);
-        self.log(&mut bound, found.is_some(), carrier);
+        let carrier = bound.claimed.is_some() && found.is_some_and(has_carrier);
+        self.log(&mut bound, found.is_some(), new_name, carrier);
         self.carrier.store(carrier, Ordering::Relaxed);
     }
 
@@ -98,15 +108,24 @@ impl Interface {
         }
     }
 
-    fn log(&self, bound: &mut Bound, is_there: bool, carrier: bool) {
+    fn log(&self, bound: &mut Bound, is_there: bool, new_name: Option<&str>, carrier: bool) {
         let name = &self.name;
+        // An interface can lose its carrier first, and its name later.
+        let was_gone = core::mem::replace(&mut bound.is_gone, !is_there);
+        if bound.is_gone && !was_gone {
+            match new_name {
+                Some(new_name) => tracing::warn!(
+                    "{name} is gone: it has the name {new_name} now; waiting for an interface of the name {name}, such as \
+                     by `ip link set {new_name} name {name}`"
+                ),
+                None => tracing::warn!("{name} is gone; waiting for an interface of this name"),
+            }
+        }
         match (bound.lost_at, carrier) {
             (None, false) => {
                 bound.lost_at = Some(Instant::now());
                 if is_there {
                     tracing::warn!("{name} has lost its carrier: the cable to the master is pulled");
-                } else {
-                    tracing::warn!("{name} is gone; waiting for an interface of this name");
                 }
             }
             (Some(lost_at), true) => {
@@ -140,11 +159,6 @@ impl Bound {
     fn index(&self) -> Option<u32> {
         self.claimed.as_ref().map(|(index, _)| *index)
     }
-}
-
-/// The interface that has this name at present.
-pub(super) fn find(name: &str) -> Option<NetworkInterface> {
-    pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name)
 }
 
 fn has_carrier(interface: &NetworkInterface) -> bool {

@@ -98,14 +98,15 @@ impl PacketSocket {
     /// Beyond the limit of the system if permitted (CAP_NET_ADMIN), else up to the limit.
     fn enlarge_receive_buffer(&self) {
         use rustix::net::sockopt::set_socket_recv_buffer_size_force;
-        if set_socket_recv_buffer_size_force(&self.socket, RECEIVE_BUFFER_BYTES).is_ok() {
-            return;
+        if set_socket_recv_buffer_size_force(&self.socket, RECEIVE_BUFFER_BYTES).is_err() {
+            // The kernel cuts a value above its limit.
+            let _limited = self.socket.set_recv_buffer_size(RECEIVE_BUFFER_BYTES);
         }
-        // The kernel cuts a value above its limit.
-        let _limited = self.socket.set_recv_buffer_size(RECEIVE_BUFFER_BYTES);
         let (is, wanted) = (self.receive_buffer_bytes() >> 11, RECEIVE_BUFFER_BYTES >> 10);
         if is < wanted {
             tracing::info!("the receive buffer has {is} KiB, not {wanted} KiB: {HELP_FOR_BUFFER}");
+        } else {
+            tracing::info!("the receive buffer has {is} KiB");
         }
     }
 

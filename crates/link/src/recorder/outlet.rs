@@ -34,7 +34,7 @@ impl Medium for File {
 /// A medium with a buffer of complete blocks before it. Writing to it never fails.
 pub(super) struct Outlet<M> {
     medium: M,
-    link_name: String,
+    name: String,
     waiting: Vec<u8>,
     /// Number of bytes of `waiting` that the medium has accepted.
     taken: usize,
@@ -50,9 +50,9 @@ struct Refusal {
 }
 
 impl<M: Medium> Outlet<M> {
-    pub(super) fn new(medium: M, link_name: &str) -> Self {
-        let (waiting, link_name) = (Vec::with_capacity(2 * BUFFER_BYTES), link_name.to_owned());
-        Self { medium, link_name, waiting, taken: 0, before: 0, refusal: None }
+    pub(super) fn new(medium: M, name: &str) -> Self {
+        let (waiting, name) = (Vec::with_capacity(2 * BUFFER_BYTES), name.to_owned());
+        Self { medium, name, waiting, taken: 0, before: 0, refusal: None }
     }
 
     pub(super) const fn has_room(&self) -> bool {
@@ -75,14 +75,14 @@ impl<M: Medium> Outlet<M> {
         match (self.try_push(), &self.refusal) {
             (Ok(()), None) => {}
             (Ok(()), Some(_)) => {
-                tracing::warn!("the capture of {} is written again", self.link_name);
+                tracing::warn!("the capture {} is written again", self.name);
                 self.refusal = None;
             }
             (Err(error), known) => {
                 if known.is_none() {
                     tracing::error!(
-                        "the capture of {} cannot be written: {error}; this is tried again",
-                        self.link_name
+                        "the capture {} cannot be written: {error}; this is tried again",
+                        self.name
                     );
                 }
                 self.refusal = Some(Refusal { error, at: Instant::now() });

@@ -27,7 +27,7 @@ fn exchange<'a>(request: &'a [u8], answer: Option<&'a [u8]>) -> Seen<'a> {
 #[test]
 fn request_and_answer_are_two_records() {
     let shared = Shared::default();
-    let mut recorder = Recorder::start(shared.clone(), "memory", &Clock::start()).unwrap();
+    let mut recorder = Recorder::start(shared.clone(), "file", "memory", &Clock::start()).unwrap();
     recorder.frame(exchange(b"request", Some(b"answered")));
     recorder.frame(exchange(b"destroyed", None));
     assert_eq!(recorder.finish().unwrap(), Recording { written: 3, lost: 0 });
@@ -56,7 +56,7 @@ impl Medium for Stuck {}
 #[test]
 fn what_the_medium_cannot_take_is_counted_and_never_waited_for() {
     let (go, stuck) = std::sync::mpsc::channel();
-    let mut recorder = Recorder::start(Stuck(stuck), "memory", &Clock::start()).unwrap();
+    let mut recorder = Recorder::start(Stuck(stuck), "file", "memory", &Clock::start()).unwrap();
     let total = 2 * QUEUE_FRAMES as u64;
     for _ in 0..total {
         recorder.frame(exchange(&[0; FRAME_BUFFER_BYTES], None));

@@ -184,3 +184,79 @@ fn the_responder_hears_of_the_carrier_before_the_frame_that_came_with_it() {
     assert_eq!(diary.0, ["frame 1", "carrier false", "frame 2", "carrier true", "frame 3", "frame 4"]);
     assert_eq!(statistics.dropped, 3);
 }
+
+/// Does with a frame what slaves do, and ends its run when nothing has come for 20 ms or far too much has.
+struct Slaves<'a> {
+    counts: u16,
+    frames: u32,
+    silence: u32,
+    due: Instant,
+    stop: &'a AtomicBool,
+}
+
+impl Responder for Slaves<'_> {
+    fn frame(&mut self, _now: Instant, frame: &mut [u8]) -> FrameFate {
+        (self.frames, self.silence) = (self.frames + 1, 0);
+        if let wire::FrameKind::Datagrams(layout) = wire::FrameKind::of(frame) {
+            for mut datagram in layout.datagrams(frame) {
+                datagram.working_counter += self.counts;
+                datagram.header.address += u16::from(datagram.header.command.increments_position());
+                datagram.close();
+            }
+        }
+        wire::mark_source_address(frame);
+        FrameFate::Returned
+    }
+
+    fn poll(&mut self, now: Instant) {
+        if now >= self.due {
+            self.due = now + Duration::from_millis(1);
+            self.silence += 1;
+        }
+        self.stop.store(self.silence > 20 || self.frames > 5_000, Ordering::Relaxed);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.due
+    }
+}
+
+/// How many frames slaves at both ends of a link answer, after one end has sent this one.
+fn answered_at_both_ends(frame: &[u8], counts: u16) -> [u32; 2] {
+    let (mut one, other) = memory::pair();
+    one.send(frame).unwrap();
+    let answered = |mut port| {
+        let stop = AtomicBool::new(false);
+        let mut slaves = Slaves { counts, frames: 0, silence: 0, due: Instant::ZERO, stop: &stop };
+        run(&mut port, &mut slaves, None, &Clock::start(), &stop).unwrap();
+        slaves.frames
+    };
+    thread::scope(|scope| {
+        let other = scope.spawn(move || answered(other));
+        [answered(one), other.join().unwrap()]
+    })
+}
+
+#[test]
+fn an_answer_is_answered_by_no_other_slave() {
+    let from = |first_of_address: u8, mut frame: Vec<u8>| {
+        frame[6] = first_of_address;
+        frame
+    };
+    let build = wire::FrameBuilder::new;
+    let broadcast = build().physical(wire::Command::Brd, 0, 0x0130, &[0, 0]).finish();
+    let position = build().physical(wire::Command::Aprd, 9, 0x0130, &[0, 0]).finish();
+    let other_type = [&[0xFF; 6][..], &[0x10, 0, 0, 0, 0, 1, 0x88, 0xA4, 0, 0x40], &[0; 44]].concat();
+    for (frame, counts, most) in [
+        (from(0x10, broadcast.clone()), 1, 1),
+        (from(0x12, broadcast.clone()), 3, 1),
+        (from(0x10, broadcast.clone()), 0, 2),
+        (from(0x10, position.clone()), 0, 2),
+        (other_type, 0, 2),
+        // Nothing distinguishes it from a request, except how often it comes.
+        (from(0x12, position), 0, 3_000),
+    ] {
+        let [one, other] = answered_at_both_ends(&frame, counts);
+        assert!(other >= 1 && one + other <= most, "{one} and {other} answers to {frame:02X?}");
+    }
+}
