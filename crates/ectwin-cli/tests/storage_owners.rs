@@ -173,7 +173,7 @@ fn a_full_disk_under_the_capture_is_reported_at_once_and_the_units_go_on() {
     let link = free_link();
     let arguments = [run(&["unit.toml"], &link), vec!["--pcap", "/dev/full"]].concat();
     let mut unit = Started::new(&folder, "", &arguments).ready();
-    // No frame has come yet.
+    // No frame has been received yet.
     unit.wait_for("the capture /dev/full cannot be written: No space left on device");
     let ended = unit.interrupt();
     assert_eq!(ended.code, Some(2), "{}", ended.stderr);

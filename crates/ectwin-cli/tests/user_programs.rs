@@ -1,10 +1,14 @@
 //! The reports of the built command about a user program while it runs.
 
 mod running;
+#[expect(dead_code, reason = "each test uses a part of it")]
+#[expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+mod started;
 
 use std::path::{Path, PathBuf};
 
 use running::{Running, must};
+use started::{Started, folder_of, free_link};
 
 /// A program in a file of the test.
 fn written(name: &str, source: &str) -> PathBuf {
@@ -53,4 +57,57 @@ fn a_changed_program_is_loaded_and_a_wrong_one_is_not() {
     change(&program, "SetAlarm(3);");
     running.wait_for("a user program was loaded");
     running.wait_for_before("user-defined error 16#3 ", "has changed");
+}
+
+/// A unit whose program is `source`, in a folder of the test's own, without `-v`; and the file of the program.
+fn started(test: &str, keys: &str, source: &str) -> (Started, PathBuf) {
+    let folder = folder_of(test);
+    let program = folder.join("p.st");
+    change(&program, source);
+    let unit = format!("model = \"nx-ect101\"\n[cpu]\nprogram = \"p.st\"\n{keys}");
+    must(std::fs::write(folder.join("unit.toml"), unit));
+    (Started::new(&folder, "", &["run", "unit.toml", "--link", &free_link()]).ready(), program)
+}
+
+fn signal(name: &str, id: &str) {
+    assert!(must(std::process::Command::new("kill").args([name, id]).status()).success());
+}
+
+/// Its first scan would take half a minute and longer.
+#[test]
+fn an_endless_scan_is_reported_and_ends_when_a_correct_program_is_there() {
+    let keys = "fail_soft = false\nstatement_budget = 1_000_000_000\n";
+    let (mut unit, program) =
+        started("endless", keys, "VAR n : LINT; END_VAR WHILE TRUE DO n := n + 1; END_WHILE;");
+    let line = unit.wait_for("CPU Unit of unit 1: the program has not returned for ");
+    assert!(line.contains("80200000"), "{line}");
+    signal("-USR1", &unit.id());
+    unit.wait_for("the errors are reset when the program of unit 1 has returned");
+    change(&program, "SetAlarm(7, Misspelt);");
+    unit.wait_for("the old program continues");
+    change(&program, "SetAlarm(7);");
+    unit.wait_for("p.st is correct again, and is loaded in unit 1");
+    unit.wait_for("the errors of all NX Bus Function Modules are reset");
+    unit.wait_for("user-defined error 16#7 ");
+    let ended = unit.interrupt();
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("overrun"), "{}", ended.stderr);
+}
+
+/// What the user asks for, and the end of a warning, are seen without `-v`.
+#[test]
+fn the_end_of_a_mistake_and_the_reset_of_errors_are_logged_without_v() {
+    let (mut unit, program) = started("quiet", "", "SetAlarm(1);");
+    signal("-USR1", &unit.id());
+    unit.wait_for("the errors of all NX Bus Function Modules are reset");
+    for _ in 0..2 {
+        change(&program, "SetAlarm(2, Misspelt);");
+        unit.wait_for("the old program continues in unit 1");
+        change(&program, "SetAlarm(1);");
+        unit.wait_for("p.st is correct again, and is the program that runs");
+    }
+    change(&program, "SetAlarm(2, Misspelt);");
+    unit.wait_for("the old program continues in unit 1");
+    change(&program, "SetAlarm(3);");
+    unit.wait_for("p.st is correct again, and is loaded in unit 1");
 }

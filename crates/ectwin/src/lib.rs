@@ -35,6 +35,7 @@ mod opcua_clients;
 mod program_file;
 mod program_files;
 mod setup;
+mod task_watch;
 mod twin;
 mod unit_side;
 pub mod user_files;

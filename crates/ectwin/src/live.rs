@@ -12,6 +12,7 @@ use time::{Duration, Instant};
 
 use crate::Twin;
 use crate::program_files::{ProgramChanges, Reports};
+use crate::task_watch::{TaskPulse, TaskWatch};
 use crate::twin::{Line, Parts, cpu_deadline, cycle};
 use crate::unit_side::UnitSide;
 
@@ -45,6 +46,8 @@ pub fn run<'o, P: FramePort>(
     parts.cpus.iter_mut().for_each(|cpu| cpu.switch_off_on(Arc::clone(stop)));
     let (line, cpus, error_reset) = (&mut parts.line, &mut parts.cpus, &parts.error_reset);
     let mut changes = ProgramChanges::watch(parts.programs)?;
+    let pulse = TaskPulse::of(cpus);
+    let watch = TaskWatch::new(&pulse, changes.waiting(), error_reset);
     let mut reports = Reports::default();
     let statistics = thread::scope(|scope| {
         let tasks = thread::Builder::new().name("cpu-unit".to_owned());
@@ -53,16 +56,20 @@ pub fn run<'o, P: FramePort>(
                 changes.apply(cpus);
                 if error_reset.swap(false, Ordering::Relaxed) {
                     cpus.iter_mut().for_each(CpuUnit::reset_errors);
-                    tracing::info!("the errors of all NX Bus Function Modules are reset");
+                    tracing::warn!("the errors of all NX Bus Function Modules are reset");
                 }
-                let next = turn(cpus, now);
+                pulse.cycle(cpus, now, clock);
                 reports.tell(cpus, now);
-                next
+                cpu_deadline(cpus)
             });
             reports.tell_all(cpus);
         })?;
+        let watching = thread::Builder::new().name("task-watch".to_owned());
+        let watching = watching.spawn_scoped(scope, || watch.run(clock, stop));
+        let watching = watching.inspect_err(|_| stop.store(true, Ordering::Relaxed))?;
         let result = runner::run(port, line, observer, clock, stop);
         stop.store(true, Ordering::Relaxed);
+        watching.thread().unpark();
         tasks.thread().unpark();
         tasks.join().map_err(|_| cpu_units_panicked())?;
         result

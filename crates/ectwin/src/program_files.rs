@@ -2,14 +2,16 @@
 //! are logged.
 
 use std::io;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel};
 use std::thread;
 use std::time::Duration as WallDuration;
 
-use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, ProgramEvent};
+use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, Program, ProgramEvent};
 use time::{Duration, Instant};
 
-use crate::watched_program::{Loaded, Watch, WatchedProgram};
+use crate::watched_program::{Change, Watch, WatchedProgram};
 
 /// Interval at which the files are checked.
 const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
@@ -18,8 +20,19 @@ const TELL_AGAIN: Duration = Duration::from_millis(1_000);
 
 /// Changed programs on their way to their CPU Units. Dropping it ends the watch.
 pub(crate) struct ProgramChanges {
-    changed: Receiver<Loaded>,
+    changed: Receiver<Change>,
+    waiting: Waiting,
     _watch: Option<Sender<()>>,
+}
+
+/// Changed programs that have not been loaded yet.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Waiting(Arc<AtomicUsize>);
+
+impl Waiting {
+    pub(crate) fn is_any(&self) -> bool {
+        self.0.load(Ordering::Relaxed) > 0
+    }
 }
 
 impl ProgramChanges {
@@ -29,35 +42,53 @@ impl ProgramChanges {
     /// No thread can be started.
     pub(crate) fn watch(programs: Vec<(usize, WatchedProgram)>) -> io::Result<Self> {
         let (sender, changed) = sync_channel(1);
+        let waiting = Waiting::default();
         if programs.is_empty() {
-            return Ok(Self { changed, _watch: None });
+            return Ok(Self { changed, waiting, _watch: None });
         }
+        let Waiting(count) = waiting.clone();
         let (watch, ended) = channel();
         let mut watches = Watch::all(programs);
         let body = move || {
             while let Err(RecvTimeoutError::Timeout) = ended.recv_timeout(LOOK_AGAIN) {
-                let programs = watches.iter_mut().flat_map(Watch::look);
-                if programs.map(|program| sender.send(program).is_ok()).any(|sent| !sent) {
-                    return;
+                for change in watches.iter_mut().filter_map(Watch::look) {
+                    count.fetch_add(1, Ordering::Relaxed);
+                    if sender.send(change).is_err() {
+                        return;
+                    }
                 }
             }
         };
         thread::Builder::new().name("program-files".to_owned()).spawn(body)?;
-        Ok(Self { changed, _watch: Some(watch) })
+        Ok(Self { changed, waiting, _watch: Some(watch) })
+    }
+
+    /// Those that have not been loaded yet.
+    pub(crate) fn waiting(&self) -> Waiting {
+        self.waiting.clone()
     }
 
     /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it.
     pub(crate) fn apply(&mut self, cpus: &mut [CpuUnit]) {
-        while let Ok((position, program)) = self.changed.try_recv() {
-            let Some(cpu) = cpus.get_mut(position) else { continue };
-            let mode = cpu.mode();
-            cpu.set_mode(OperatingMode::Program);
-            if cpu.load(program).is_err() {
-                unreachable!("the CPU Unit is in PROGRAM mode");
+        while let Ok(Change { programs, report }) = self.changed.try_recv() {
+            self.waiting.0.fetch_sub(1, Ordering::Relaxed);
+            for (position, program) in programs {
+                if let Some(cpu) = cpus.get_mut(position) {
+                    load(cpu, program);
+                }
             }
-            cpu.set_mode(mode);
+            report.log();
         }
     }
+}
+
+fn load(cpu: &mut CpuUnit, program: Box<dyn Program + Send>) {
+    let mode = cpu.mode();
+    cpu.set_mode(OperatingMode::Program);
+    if cpu.load(program).is_err() {
+        unreachable!("the CPU Unit is in PROGRAM mode");
+    }
+    cpu.set_mode(mode);
 }
 
 /// The events of CPU Units that are not logged yet.

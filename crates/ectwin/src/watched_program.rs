@@ -28,6 +28,29 @@ pub(crate) struct WatchedProgram {
 /// A program to be loaded, and the position of its unit.
 pub(crate) type Loaded = (usize, Box<dyn Program + Send>);
 
+/// A change of a program, for those units that have to load it.
+pub(crate) struct Change {
+    pub(crate) programs: Vec<Loaded>,
+    pub(crate) report: Report,
+}
+
+/// What is logged when a change has been loaded.
+pub(crate) struct Report {
+    words: String,
+    /// The change before it was wrong, and a warning.
+    ends_warning: bool,
+}
+
+impl Report {
+    pub(crate) fn log(&self) {
+        if self.ends_warning {
+            tracing::warn!("{}", self.words);
+        } else {
+            tracing::info!("{}", self.words);
+        }
+    }
+}
+
 /// Checks the files of a program repeatedly, for all units that run it.
 pub(crate) struct Watch {
     /// Files and folders, as named.
@@ -39,6 +62,8 @@ pub(crate) struct Watch {
     users: Vec<User>,
     /// The last logged error about files that cannot be read.
     logged: Option<String>,
+    /// The last change was wrong, or could not be read.
+    is_wrong: bool,
 }
 
 /// A unit that runs the program.
@@ -70,7 +95,7 @@ impl Watch {
 
     fn new(paths: Vec<PathBuf>, read: Option<Stamps>) -> Self {
         let seen = read.clone().ok_or_else(String::new);
-        Self { paths, read, seen, users: Vec::new(), logged: None }
+        Self { paths, read, seen, users: Vec::new(), logged: None, is_wrong: false }
     }
 
     fn same_text(&self, text: ProgramText) -> Arc<ProgramText> {
@@ -82,27 +107,27 @@ impl Watch {
 
     /// The program of each unit that must load it: its files have changed, and it has no mistakes for that
     /// unit. Mistakes are logged once, and the old program continues.
-    pub(crate) fn look(&mut self) -> Vec<Loaded> {
+    pub(crate) fn look(&mut self) -> Option<Change> {
         let now = stamps(&self.paths);
         // A file that is being written changes from check to check, and is read when it no longer changes.
         // While an editor replaces it, it may be missing for a moment.
         let rests = self.seen == now;
         self.seen = now;
         match &self.seen {
-            _ if !rests => Vec::new(),
+            _ if !rests => None,
             Ok(stamps) if self.read.as_ref() == Some(stamps) => {
                 self.logged = None;
-                Vec::new()
+                None
             }
             Ok(stamps) => self.read(stamps.clone()),
             Err(reason) => {
                 self.log_once(reason.clone());
-                Vec::new()
+                None
             }
         }
     }
 
-    fn read(&mut self, stamps: Stamps) -> Vec<Loaded> {
+    fn read(&mut self, stamps: Stamps) -> Option<Change> {
         match ProgramText::read(&self.paths) {
             Ok(text) => {
                 self.read = Some(stamps);
@@ -114,7 +139,7 @@ impl Watch {
                     self.read = Some(stamps);
                 }
                 self.log_once(error.to_string());
-                Vec::new()
+                None
             }
         }
     }
@@ -123,10 +148,11 @@ impl Watch {
         if self.logged.as_ref() != Some(&reason) {
             tracing::warn!("{reason}; the old program continues");
             self.logged = Some(reason);
+            self.is_wrong = true;
         }
     }
 
-    fn compile(&mut self, text: ProgramText) -> Vec<Loaded> {
+    fn compile(&mut self, text: ProgramText) -> Option<Change> {
         let (name, text) = (self.name(), Arc::new(text));
         let mut loaded = Vec::new();
         let mut wrong = BTreeMap::<String, Vec<usize>>::new();
@@ -140,12 +166,11 @@ impl Watch {
                 Err(error) => wrong.entry(error.to_string()).or_default().push(user.position),
             }
         }
-        if loaded.is_empty() && wrong.is_empty() {
-            tracing::debug!("{name} was written, and is the same");
-        }
-        if !loaded.is_empty() {
-            let positions: Vec<_> = loaded.iter().map(|(position, _)| *position).collect();
-            tracing::info!("{name} has changed, and is loaded in {}", units(&positions));
+        let ends_warning = core::mem::replace(&mut self.is_wrong, !wrong.is_empty());
+        match (loaded.is_empty() && wrong.is_empty(), ends_warning) {
+            (true, true) => tracing::warn!("{name} is correct again, and is the program that runs"),
+            (true, false) => tracing::debug!("{name} was written, and is the same"),
+            (false, _) => {}
         }
         for (words, positions) in wrong {
             for line in words.lines() {
@@ -154,7 +179,12 @@ impl Watch {
             let units = units(&positions);
             tracing::warn!("{name} has changed and is wrong: the old program continues in {units}");
         }
-        loaded
+        let positions: Vec<_> = loaded.iter().map(|(position, _)| *position).collect();
+        let words = match ends_warning {
+            true => format!("{name} is correct again, and is loaded in {}", units(&positions)),
+            false => format!("{name} has changed, and is loaded in {}", units(&positions)),
+        };
+        (!loaded.is_empty()).then(|| Change { programs: loaded, report: Report { words, ends_warning } })
     }
 
     /// The files and folders of the program in a message.

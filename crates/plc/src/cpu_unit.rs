@@ -82,6 +82,12 @@ impl CpuUnit {
         self.io.switch_off = flag;
     }
 
+    /// Ends a scan that is under way when this flag is set, so that a program that does not return can be replaced. Its
+    /// owner clears it after the scan.
+    pub fn end_scan_on(&mut self, flag: Arc<AtomicBool>) {
+        self.io.end_scan = flag;
+    }
+
     /// When the next task period begins.
     #[must_use]
     pub const fn deadline(&self) -> Instant {

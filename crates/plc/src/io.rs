@@ -31,6 +31,8 @@ pub struct Io {
     has_stopped: bool,
     /// The owner of the CPU Unit sets it to end a scan early.
     pub(crate) switch_off: Arc<AtomicBool>,
+    /// The same for one scan, so that another program can be loaded.
+    pub(crate) end_scan: Arc<AtomicBool>,
 }
 
 impl Io {
@@ -46,6 +48,7 @@ impl Io {
             nx_bus_reset: NxBusReset::None,
             has_stopped: false,
             switch_off: Arc::default(),
+            end_scan: Arc::default(),
         };
         io.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
         io
@@ -175,11 +178,11 @@ impl Io {
         self.memory.unit_error()
     }
 
-    /// Whether the scan must end immediately, because the CPU Unit is switched off. A program whose scan can be
-    /// long checks this about once a millisecond.
+    /// Whether the scan must end immediately, because the CPU Unit is switched off, or another program waits for one
+    /// that does not return. A program whose scan can be long checks this about once a millisecond.
     #[must_use]
     pub fn ends_scan(&self) -> bool {
-        self.switch_off.load(Ordering::Relaxed)
+        self.switch_off.load(Ordering::Relaxed) || self.end_scan.load(Ordering::Relaxed)
     }
 
     /// Stores the data and statuses of the unit; forced values are kept.
