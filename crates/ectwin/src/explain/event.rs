@@ -3,7 +3,7 @@
 mod channels;
 mod words;
 
-use nx_ect101::{AttachedInformation, Event, EventCode, IndicatorStatus};
+use nx_ect101::{AttachedInformation, EcatEffect, Event, EventCode, IndicatorStatus};
 
 use super::{Advice, Explanation, Fact, Section, Subject};
 
@@ -59,10 +59,27 @@ fn level_fact(event: &Event) -> String {
 fn indicators(event: &Event) -> Vec<Fact> {
     let rows =
         [("RUN", event.run), ("ERR", event.err), ("TS green", event.ts_green), ("TS red", event.ts_red)];
-    let touched =
-        |(label, status): (&'static str, IndicatorStatus)| Some(Fact::new(label, words::indicator(status)?));
+    let touched = |(label, status): (&'static str, IndicatorStatus)| {
+        let pattern = words::indicator(status)?;
+        Some(match label {
+            "RUN" => Fact::new(label, run(event, pattern)),
+            _ => Fact::new(label, pattern),
+        })
+    };
     let facts: Vec<Fact> = rows.into_iter().filter_map(touched).collect();
     if facts.is_empty() { vec![Fact::new("all", "as without the event")] } else { facts }
+}
+
+/// RUN depends only on the state. Where an event does not change it, the manual's row is that of one state.
+fn run(event: &Event, pattern: &str) -> String {
+    match event.ecat_effect {
+        EcatEffect::NotAffected | EcatEffect::RetainState => format!(
+            "shows the EtherCAT state, which this event does not change (in the manual's table: {pattern})"
+        ),
+        EcatEffect::StopInit | EcatEffect::StopPreop | EcatEffect::EnterSafeop | EcatEffect::Restart => {
+            pattern.to_owned()
+        }
+    }
 }
 
 fn attached(event: &Event) -> Vec<Fact> {
