@@ -99,7 +99,8 @@ impl Failure {
         }
     }
 
-    fn words(&self) -> (String, Option<String>) {
+    /// The message and the remedy.
+    pub(crate) fn words(&self) -> (String, Option<String>) {
         let (message, help) = self.message_and_help();
         match self.source() {
             Some(source) if descriptors::are_exhausted(source) => {

@@ -10,6 +10,7 @@ use std::path::Path;
 
 use ectwin::st;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
+use serde::Serialize;
 use user_file::FileError;
 use user_file::{MISTAKES_MAX, and_more, escaped};
 
@@ -75,6 +76,16 @@ impl FileProblems {
         self.have_stopped |= other.have_stopped;
     }
 
+    /// The first ones as data.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = ProblemRow<'_>> {
+        self.list.iter().map(FileProblem::row)
+    }
+
+    /// Whether there are more than the first ones.
+    pub(crate) const fn are_more(&self) -> bool {
+        self.more > 0 || self.have_stopped
+    }
+
     pub(crate) const fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
@@ -87,6 +98,23 @@ impl FileProblems {
             text.push_str(&format!("{more}\n"));
         }
         text
+    }
+}
+
+/// A mistake as data for programs. Without a place it is one of a file as a whole.
+#[derive(Debug, Serialize)]
+pub(crate) struct ProblemRow<'a> {
+    file: Option<&'a str>,
+    line: Option<usize>,
+    column: Option<usize>,
+    message: &'a str,
+    help: Option<&'a str>,
+}
+
+impl<'a> ProblemRow<'a> {
+    /// A mistake without a place.
+    pub(crate) const fn without_place(message: &'a str, help: Option<&'a str>) -> Self {
+        Self { file: None, line: None, column: None, message, help }
     }
 }
 
@@ -138,6 +166,17 @@ impl FileProblem {
         let label = nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned());
         let help = nearest.and(expected).unwrap_or_default();
         Self::at(path, text, error.span.clone(), &error.message, &label).with_help(&help)
+    }
+
+    fn row(&self) -> ProblemRow<'_> {
+        let place = self.excerpt.as_ref().map(Excerpt::place);
+        ProblemRow {
+            file: place.map(|(name, ..)| name),
+            line: place.map(|(_, line, _)| line),
+            column: place.map(|(.., column)| column),
+            message: &self.message,
+            help: self.help.as_deref().or_else(|| (self.label != "here").then_some(&*self.label)),
+        }
     }
 
     fn with_help(mut self, help: &str) -> Self {

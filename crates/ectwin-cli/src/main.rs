@@ -5,6 +5,7 @@ mod colour;
 mod commands;
 mod descriptors;
 mod failure;
+mod failure_document;
 mod file_problem;
 mod output;
 mod overwrite;

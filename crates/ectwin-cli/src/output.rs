@@ -1,5 +1,6 @@
 //! The targets of results and logs: results to stdout, logs to stderr.
 
+use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,9 +32,16 @@ pub(crate) fn start_logging(verbose: u8) {
 /// A JSON document, with the end of its last line.
 pub(crate) fn json(document: &impl serde::Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(document);
-    let source =
-        |error| Failure::Unwritable { path: PathBuf::from("stdout"), source: io::Error::from(error) };
-    text.map(|text| text + "\n").map_err(source)
+    text.map(|text| text + "\n").map_err(no_json)
+}
+
+/// A JSON document in one line, without its end.
+pub(crate) fn json_line(document: &impl serde::Serialize) -> Result<String, Failure> {
+    serde_json::to_string(document).map_err(no_json)
+}
+
+fn no_json(error: serde_json::Error) -> Failure {
+    Failure::Unwritable { path: PathBuf::from("stdout"), source: io::Error::from(error) }
 }
 
 /// Prints a result immediately. If the reader closes the pipe (`| head`), that is not an error.
@@ -72,10 +80,85 @@ fn cut(line: &str) -> String {
     }
 }
 
-/// Writes a result to `path`, or to stdout without one.
+/// Writes a result to `path`, or to stdout without one and for `-`.
 pub(crate) fn write(path: Option<&Path>, result: &[u8]) -> Result<(), Failure> {
-    let Some(path) = path else { return print(result) };
+    let Some(path) = path.filter(|path| !is_stdout(path)) else { return print(result) };
     std::fs::write(path, result).map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+}
+
+/// Whether an output of the command line is stdout.
+pub(crate) fn is_stdout(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Refuses stdout as an output that cannot go there.
+pub(crate) fn refuse_stdout(option: &str, path: &Path, why: &str) -> Result<(), Failure> {
+    if !is_stdout(path) {
+        return Ok(());
+    }
+    let message = format!("{option} - means stdout, and {why}");
+    Err(Failure::Refused { message, help: "give a file; one of this name is ./-".to_owned() })
+}
+
+/// The target of text for people: stdout, unless a result for programs goes there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum People {
+    Stdout,
+    Stderr,
+}
+
+impl People {
+    /// Beside these outputs.
+    pub(crate) fn beside<'p>(outputs: impl IntoIterator<Item = &'p Path>) -> Self {
+        if outputs.into_iter().any(is_stdout) { Self::Stderr } else { Self::Stdout }
+    }
+
+    /// Prints a text for display immediately.
+    pub(crate) fn print_text(self, text: &str) -> Result<(), Failure> {
+        match self {
+            Self::Stdout => print_text(text),
+            Self::Stderr => {
+                // Nobody is left to read it if stderr is closed.
+                let _ = io::stderr().write_all(for_terminals(text).as_bytes());
+                Ok(())
+            }
+        }
+    }
+
+    /// Prints a line for display immediately.
+    pub(crate) fn print_line(self, line: impl std::fmt::Display) -> Result<(), Failure> {
+        self.print_text(&format!("{line}\n"))
+    }
+}
+
+/// A result that is written line by line.
+pub(crate) enum LinesOut {
+    Stdout,
+    File(PathBuf, File),
+}
+
+impl LinesOut {
+    /// Creates the file, unless `path` is stdout.
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+        if is_stdout(path) {
+            return Ok(Self::Stdout);
+        }
+        match File::create(path) {
+            Ok(file) => Ok(Self::File(path.to_owned(), file)),
+            Err(source) => Err(Failure::Unwritable { path: path.to_owned(), source }),
+        }
+    }
+
+    /// Writes a line immediately.
+    pub(crate) fn line(&mut self, line: &str) -> Result<(), Failure> {
+        let line = format!("{line}\n");
+        match self {
+            Self::Stdout => print(line.as_bytes()),
+            Self::File(path, file) => file
+                .write_all(line.as_bytes())
+                .map_err(|source| Failure::Unwritable { path: path.clone(), source }),
+        }
+    }
 }
 
 #[cfg(test)]

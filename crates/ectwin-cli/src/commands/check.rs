@@ -13,11 +13,12 @@ use user_file::{MISTAKES_MAX, and_more};
 
 use crate::cli::CheckArgs;
 use crate::failure::Failure;
+use crate::failure_document::or_document;
 use crate::{output, unit_files};
 
 /// Shows the findings and the resulting exchange. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
-    let (file, text) = unit_files::parse(&args.unit)?;
+    let (file, text) = or_document(args.json, unit_files::parse(&args.unit))?;
     let configuration = Configuration::from_unit_file(&file);
     let levels = UnitSettings::from_unit_file(&file).event_levels;
     let verdict = configuration.check();

@@ -10,7 +10,8 @@ use user_file::of_another_kind;
 use super::search::{folder_of, refuse_existing, write_new};
 use crate::cli::ImportArgs;
 use crate::failure::Failure;
-use crate::{output, unit_files};
+use crate::output::{self, People};
+use crate::unit_files;
 
 /// Maximum number of default units that are written for a capture: the position of a slave in a datagram can be
 /// any number.
@@ -18,7 +19,10 @@ const UNITS_MAX: usize = 1_000;
 
 /// Writes the scenario, and reports its contents.
 pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
-    refuse_existing(&args.output)?;
+    let is_stdout = output::is_stdout(&args.output);
+    if !is_stdout {
+        refuse_existing(&args.output)?;
+    }
     let frames = read(&args.capture)?;
     if args.units.is_empty() && frames.units() > UNITS_MAX {
         return Err(Failure::Refused {
@@ -33,8 +37,13 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     for unit in &args.units {
         unit_files::parse(unit)?;
     }
-    write_new(&args.output, &text(args, &frames)?)?;
-    output::print_line(format_args!(
+    let text = text(args, &frames)?;
+    if is_stdout {
+        output::print(text.as_bytes())?;
+    } else {
+        write_new(&args.output, &text)?;
+    }
+    People::beside([args.output.as_path()]).print_line(format_args!(
         "{}: {} frames, {} of them answered, in {}",
         args.output.display(),
         frames.len(),

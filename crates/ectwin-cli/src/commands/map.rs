@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::cli::MapArgs;
 use crate::failure::Failure;
+use crate::failure_document::or_document;
 use crate::{output, unit_files};
 
 /// The JSON document.
@@ -52,7 +53,7 @@ const COLUMNS: [&str; 13] = [
 ];
 
 pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
-    let (file, _) = unit_files::parse(&args.unit)?;
+    let (file, _) = or_document(args.json, unit_files::parse(&args.unit))?;
     let rows = rows(&DeviceVariables::of_unit_file(&file));
     let text = match (args.json, args.csv) {
         (true, _) => output::json(&Document { variables: rows })?,

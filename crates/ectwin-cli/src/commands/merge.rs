@@ -10,7 +10,7 @@ use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failu
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
-use crate::output;
+use crate::output::{self, People};
 use crate::overwrite::{self, Output};
 
 /// Maximum number of cases in one line of a message.
@@ -23,16 +23,17 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     }
     let kept = if args.junit.is_some() { Kept::All } else { Kept::Failed };
     let (results, all) = read_all(&args.results, kept)?.complete()?;
+    let people = People::beside(args.junit.as_deref());
     let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);
     for result in failed.clone() {
         let told = format!("FAILED  {}: {}\n{}", result.file, result.title, failure_story(result));
-        output::print_text(&told)?;
+        people.print_text(&told)?;
     }
     if let Some(path) = &args.junit {
         output::write(Some(path), junit_report(&results)?.as_bytes())?;
     }
     let failed = failed.count() as u64;
-    output::print_line(format_args!("{}: {} ok, {failed} failed", case_count(all), all - failed))?;
+    people.print_line(format_args!("{}: {} ok, {failed} failed", case_count(all), all - failed))?;
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }
 

@@ -18,7 +18,7 @@ use std::fs;
 
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
-use crate::output;
+use crate::output::People;
 use crate::overwrite::{self, Output};
 
 use campaign::Campaign;
@@ -43,11 +43,12 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
     overwrite::refuse(&outputs(args), campaign.inputs())?;
+    let people = People::beside(outputs(args).iter().map(|output| output.path));
     let captures = Captures::choose(args.pcap.as_deref(), cases.len(), campaign.inputs())?;
     if let Some(seed) = campaign.drawn_seed() {
-        output::print_line(format_args!("seed {seed}, drawn at random"))?;
+        people.print_line(format_args!("seed {seed}, drawn at random"))?;
     }
-    let mut results = Results::open(args, captures)?;
+    let mut results = Results::open(args, captures, people)?;
     let wanted = threads::Wanted { trace: args.trace, capture: args.pcap.is_some() };
     let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
     threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;

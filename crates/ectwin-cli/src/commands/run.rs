@@ -21,6 +21,9 @@ use capture_file::CaptureFile;
 
 /// Emulates the units until SIGINT, SIGTERM or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
+    if let Some(path) = &args.pcap {
+        output::refuse_stdout("--pcap", path, "the line `ready` is there")?;
+    }
     let setups = setups(args)?;
     refuse_overwriting(args, &setups)?;
     let units = setups.len();

@@ -23,6 +23,7 @@ pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
         return Err(without_dice(path));
     }
     if let Some(output) = &args.output {
+        output::refuse_stdout("-o", output, "a scenario refers to its files from a folder")?;
         refuse_existing(output)?;
         refuse_elsewhere(path, &text, output)?;
     }

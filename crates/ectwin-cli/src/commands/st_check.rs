@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::cli::StCheckArgs;
 use crate::failure::Failure;
+use crate::failure_document::or_document;
 use crate::file_problem::FileProblems;
 use crate::{output, unit_files};
 
@@ -32,9 +33,10 @@ struct Row<'a> {
 
 /// Checks a program and reports its problems.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
-    let variables = DeviceVariables::of_unit_file(&unit_file(args)?);
+    let variables = DeviceVariables::of_unit_file(&or_document(args.json, unit_file(args))?);
     let unreadable = |(path, source)| Failure::Unreadable { path, source };
-    let sources = user_files::program_sources(&args.programs).map_err(unreadable)?;
+    let sources = user_files::program_sources(&args.programs).map_err(unreadable);
+    let sources = or_document(args.json, sources)?;
     let judged = StructuredText::judge(sources, &variables);
     if args.json {
         let problems = judged.as_ref().err();

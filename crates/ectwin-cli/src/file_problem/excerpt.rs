@@ -51,6 +51,11 @@ impl Excerpt {
         Self { first_line: excerpt.first_line + before, line: excerpt.line + before, ..excerpt }
     }
 
+    /// The name of the file, and the marked place: line and column, from 1.
+    pub(super) fn place(&self) -> (&str, usize, usize) {
+        (&self.name, self.line + 1, self.column + 1)
+    }
+
     /// The place within the excerpt.
     pub(super) fn marked(&self) -> SourceSpan {
         self.marked.clone().into()

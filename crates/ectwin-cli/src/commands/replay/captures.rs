@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::result::CaseResult;
 use crate::failure::Failure;
+use crate::output;
 use crate::overwrite::{self, Output};
 
 /// The target of the captures.
@@ -45,7 +46,7 @@ impl Captures {
                 path
             }
         };
-        fs::write(&path, capture.unwrap_or_default()).map_err(|source| Failure::Unwritable { path, source })
+        output::write(Some(&path), capture.unwrap_or_default())
     }
 }
 
