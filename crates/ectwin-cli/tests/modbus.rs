@@ -11,21 +11,20 @@ use ectwin::link::memory;
 use ectwin::modbus::{ModbusMap, Table};
 use ectwin::unit_file::UnitFile;
 use ectwin::{Setup, Twin};
-use plc::{DeviceVariables, VariableSource};
+use plc::{DeviceVariables, Series, Variable};
 
 /// The maximum of each data set; the setting rules do not matter here.
 const EVERYTHING: &str = "model = \"nx-ect101\"\n[io_allocation]\n\
     m_to_c = { uints = 40, bytes = 10, udint = 32 }\nc_to_m = { uints = 40, bytes = 10, udint = 32 }\n";
 
 /// First words of a row of the page.
-fn title(source: VariableSource, port: Option<&str>, name: &str) -> String {
-    match source {
-        VariableSource::Entry { number, .. } => {
-            port.unwrap_or(name).replacen(&format!("{number:02}"), "nn", 1)
-        }
-        VariableSource::SlaveStatusBit { .. } => "EtherCAT Slave Status, bit n".to_owned(),
-        VariableSource::UnitMessageActiveTable | VariableSource::UnitErrorFlagTable => format!("`{name}[n]`"),
-        _ => port.unwrap_or(name).to_owned(),
+fn title(variables: &DeviceVariables, variable: &Variable) -> String {
+    let name = variable.port.as_ref().unwrap_or(&variable.name);
+    match variable.series {
+        Some(Series { number, .. }) => name.replacen(&format!("{number:02}"), "nn", 1),
+        None if variables.word_of(variable).is_some() => "EtherCAT Slave Status, bit n".to_owned(),
+        None if variable.variable_type.elements.is_some() => format!("`{name}[n]`"),
+        None => name.clone(),
     }
 }
 
@@ -56,12 +55,12 @@ fn widen(all: &mut Option<RangeInclusive<u16>>, more: RangeInclusive<u16>) {
 #[test]
 fn the_page_tells_every_place_of_the_map() {
     let file = UnitFile::parse(EVERYTHING).unwrap();
-    let variables = DeviceVariables::of_unit_file(&file);
+    let variables = DeviceVariables::of(file.variable_table());
     let map = ModbusMap::of(&variables);
     let mut rows: BTreeMap<(String, &str), [Option<RangeInclusive<u16>>; 2]> = BTreeMap::new();
     for row in map.rows() {
         let variable = variables.get(row.variable).unwrap();
-        let title = title(variable.source, variable.port.as_deref(), &variable.name);
+        let title = title(&variables, variable);
         let [all, forced] = rows.entry((title, table(row.table))).or_default();
         widen(all, row.addresses.clone());
         if let Some(more) = row.forced.clone() {

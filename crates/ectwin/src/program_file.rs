@@ -121,6 +121,7 @@ mod tests {
 
     fn variables() -> DeviceVariables {
         let file = nx_ect101::unit_file::UnitFile::parse("model = \"nx-ect101\"");
-        DeviceVariables::of_unit_file(&file.unwrap_or_else(|_| panic!("the factory setting is right")))
+        let file = file.unwrap_or_else(|_| panic!("the factory setting is right"));
+        DeviceVariables::of(file.variable_table())
     }
 }

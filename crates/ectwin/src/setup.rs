@@ -152,7 +152,7 @@ impl Setup {
     /// The I/O map: the device variables of the CPU Unit for this unit.
     #[must_use]
     pub fn device_variables(&self) -> DeviceVariables {
-        DeviceVariables::of_unit_file(&self.file)
+        DeviceVariables::of(self.file.variable_table())
     }
 
     /// The files of the user program, including those in its folders; none if it has no files.

@@ -16,8 +16,5 @@ mod request;
 mod server;
 mod unit;
 
-pub use map::{
-    BYTES_BASE, ERROR_TABLE_BASE, FORCED_C_TO_M_BASE, FORCED_M_TO_C_BASE, IO_DATA_ACTIVE, MESSAGE_TABLE_BASE,
-    MapRow, ModbusMap, SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, Table, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
-};
+pub use map::{MapRow, ModbusMap, Table};
 pub use server::{CONNECTIONS_MAX, Server, serve};

@@ -1,22 +1,16 @@
 //! The addresses of the variables.
 //!
-//! One element of an array is one register, a BYTE in the low byte; a UDINT is two, the low word first. Each
-//! data set has its fixed place whatever is allocated, so that another entry changes no address.
+//! The first address of a variable is in its table, which the unit model gives. One element of an array is one register,
+//! a BYTE in the low byte; a UDINT is two, the low word first. A BOOL is one bit.
 
-mod bases;
 mod rows;
 mod table;
 
-use nx_ect101::{DataSetKind, Direction};
-use plc::{DeviceVariables, Target, VariableId, VariableSource};
+use plc::{DeviceVariables, Target, Variable, VariableId};
 
 use crate::addresses::Addresses;
 use crate::exception::Exception;
 
-pub use bases::{
-    BYTES_BASE, ERROR_TABLE_BASE, FORCED_C_TO_M_BASE, FORCED_M_TO_C_BASE, IO_DATA_ACTIVE, MESSAGE_TABLE_BASE,
-    SLAVE_STATUS, SLAVE_STATUS_BITS_BASE, UDINT_BASE, UINTS_BASE, UNIT_ERROR,
-};
 pub use rows::MapRow;
 pub use table::Table;
 
@@ -39,6 +33,8 @@ pub(crate) struct Register {
     pub(crate) start: usize,
     /// One of a BYTE, otherwise two.
     pub(crate) length_bytes: usize,
+    /// The greatest number that it takes.
+    pub(crate) greatest: u16,
     pub(crate) writing: Writing,
 }
 
@@ -96,7 +92,7 @@ impl ModbusMap {
             rows,
         };
         for (id, variable) in variables.iter() {
-            map.add(id, variable.source);
+            map.add(variables, id, variable);
         }
         map.input_registers.sort_by_key(Addressed::address);
         map.holding_registers.sort_by_key(Addressed::address);
@@ -129,61 +125,62 @@ impl ModbusMap {
         }
     }
 
-    fn add(&mut self, id: VariableId, source: VariableSource) {
-        let bit = |address, target, bit| Bit { address, target, tells: BitTells::Value(bit) };
-        let table = |base: u16| {
-            let elements = 0..plc::SYSTEM_TABLE_ELEMENTS;
-            elements.map(move |element| bit(base + element, id.element(element), 0))
-        };
-        match source {
-            VariableSource::Entry { direction, kind, number } => self.add_entry(id, direction, kind, number),
-            VariableSource::SlaveStatus => {
-                let writing = Writing::Forces;
-                let word =
-                    Register { address: SLAVE_STATUS, target: id.into(), start: 0, length_bytes: 2, writing };
-                self.input_registers.push(word);
-                self.discrete_inputs
-                    .extend((0..16).map(|n| bit(SLAVE_STATUS_BITS_BASE + u16::from(n), id.into(), n)));
-            }
-            // The bits of the word already have addresses.
-            VariableSource::SlaveStatusBit { .. } => {}
-            VariableSource::IoDataActive => self.discrete_inputs.push(bit(IO_DATA_ACTIVE, id.into(), 0)),
-            VariableSource::UnitError => self.discrete_inputs.push(bit(UNIT_ERROR, id.into(), 0)),
-            VariableSource::UnitMessageActiveTable => self.discrete_inputs.extend(table(MESSAGE_TABLE_BASE)),
-            VariableSource::UnitErrorFlagTable => self.discrete_inputs.extend(table(ERROR_TABLE_BASE)),
+    fn add(&mut self, variables: &DeviceVariables, id: VariableId, variable: &Variable) {
+        let Some(modbus) = variable.modbus else { return };
+        // The bits of a word are in the map by their word.
+        if variables.word_of(variable).is_some_and(has_bits) {
+            return;
         }
-    }
-
-    fn add_entry(&mut self, id: VariableId, direction: Direction, kind: DataSetKind, number: u8) {
-        let Some(first) = rows::entry_address(kind, number) else { return };
-        let (forced, own) = match direction {
-            Direction::MToC => (FORCED_M_TO_C_BASE, &mut self.input_registers),
-            Direction::CToM => (FORCED_C_TO_M_BASE, &mut self.holding_registers),
-        };
-        own.extend(entry_registers(id, kind, first, Writing::Writes));
-        let forced: Vec<_> = entry_registers(id, kind, forced + first, Writing::Forces).collect();
-        self.coils.extend(forced.iter().map(|register| Bit {
-            address: register.address,
-            target: register.target,
-            tells: BitTells::IsForced,
-        }));
-        self.holding_registers.extend(forced);
+        let bit = |address, target, tells| Bit { address, target, tells };
+        match Table::of(variable) {
+            table @ (Table::Coils | Table::DiscreteInputs) => {
+                let own = if table == Table::Coils { &mut self.coils } else { &mut self.discrete_inputs };
+                let targets = (modbus.first..).zip(elements(id, variable));
+                own.extend(targets.map(|(address, target)| bit(address, target, BitTells::Value(0))));
+            }
+            Table::InputRegisters => self.input_registers.extend(registers(id, variable, modbus.first)),
+            Table::HoldingRegisters => self.holding_registers.extend(registers(id, variable, modbus.first)),
+        }
+        if let Some(first) = modbus.forced {
+            let forced = registers(id, variable, first)
+                .map(|register| Register { writing: Writing::Forces, ..register });
+            self.holding_registers.extend(forced);
+            let coils = registers(id, variable, first);
+            self.coils.extend(coils.map(|own| bit(own.address, own.target, BitTells::IsForced)));
+        }
+        if let Some(first) = modbus.bits {
+            let bits = (first..).zip(0..8 * variable.variable_type.size_bytes() as u8);
+            self.discrete_inputs.extend(
+                bits.map(|(address, number)| bit(address, Target::from(id), BitTells::Value(number))),
+            );
+        }
     }
 }
 
-fn entry_registers(
-    id: VariableId,
-    kind: DataSetKind,
-    first: u16,
-    writing: Writing,
-) -> impl Iterator<Item = Register> {
-    (0..rows::entry_registers(kind)).map(move |place| {
-        let (target, start, length_bytes) = match kind {
-            DataSetKind::Uints => (id.element(place), 0, 2),
-            DataSetKind::Bytes => (id.element(place), 0, 1),
-            DataSetKind::Udint => (id.into(), 2 * usize::from(place), 2),
-        };
-        Register { address: first + place, target, start, length_bytes, writing }
+fn has_bits(word: &Variable) -> bool {
+    word.modbus.is_some_and(|modbus| modbus.bits.is_some())
+}
+
+/// What a client reads and writes by itself: each element of an array, or the variable.
+fn elements(id: VariableId, variable: &Variable) -> impl Iterator<Item = Target> {
+    let elements = variable.variable_type.elements;
+    let whole = elements.is_none().then(|| Target::from(id));
+    whole.into_iter().chain((0..elements.unwrap_or(0)).map(move |element| id.element(element)))
+}
+
+/// The registers of a variable from this address on.
+fn registers(id: VariableId, variable: &Variable, first: u16) -> impl Iterator<Item = Register> {
+    let size_bytes = variable.variable_type.elementary.size_bytes();
+    let greatest = match (variable.variable_type.is_bool(), size_bytes) {
+        (true, _) => 1,
+        (false, 1) => u8::MAX.into(),
+        (false, _) => u16::MAX,
+    };
+    let words = elements(id, variable)
+        .flat_map(move |target| (0..size_bytes).step_by(2).map(move |start| (target, start)));
+    (first..).zip(words).map(move |(address, (target, start))| {
+        let length_bytes = (size_bytes - start).min(2);
+        Register { address, target, start, length_bytes, greatest, writing: Writing::Writes }
     })
 }
 

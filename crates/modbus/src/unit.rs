@@ -72,11 +72,15 @@ impl Unit {
         .await
     }
 
-    /// Forces elements at their present values, or releases them.
+    /// Writes outputs that are one bit, and forces elements with their present values or releases them.
     pub(crate) async fn write_coils(&self, addresses: Addresses, values: &[bool]) -> Result<(), Exception> {
         let coils = self.map.bits(Table::Coils, addresses)?;
         let changes = coils.iter().zip(values).map(|(coil, &value)| {
-            let operation = if value { Operation::ForceAsItIs } else { Operation::Release };
+            let operation = match (coil.tells, value) {
+                (BitTells::Value(_), _) => Operation::Write([value.into()].into_iter().collect()),
+                (BitTells::IsForced, true) => Operation::ForceAsItIs,
+                (BitTells::IsForced, false) => Operation::Release,
+            };
             Change { target: coil.target, operation }
         });
         let changes: Vec<_> = changes.collect();
@@ -159,7 +163,7 @@ fn register_changes(
 ) -> Result<Vec<Change>, Exception> {
     let mut changes: Vec<(Target, Writing, VariableValue)> = Vec::new();
     for (register, &new) in registers.iter().zip(values) {
-        if register.length_bytes == 1 && new > u16::from(u8::MAX) {
+        if new > register.greatest {
             return Err(Exception::IllegalDataValue);
         }
         if changes.last().is_none_or(|(target, ..)| *target != register.target) {

@@ -11,7 +11,7 @@ use tokio_modbus::client::{Reader, Writer};
 
 /// Like the user program of a machine: it writes its first output in every scan.
 fn counts(io: &mut Io) {
-    if let Some(entry) = io.entry_mut(nx_ect101::DataSetKind::Uints, 1) {
+    if let Some(entry) = io.entry_mut("UINTs", 1) {
         entry[0] = entry[0].wrapping_add(1);
     }
 }

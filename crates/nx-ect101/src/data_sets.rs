@@ -5,7 +5,9 @@
 
 use std::sync::LazyLock;
 
+use iec_types::Elementary;
 use serde::{Deserialize, Deserializer};
+use variables::{ModbusAddress, VariableType};
 use wire::{ObjectIndex, SubIndex};
 
 use crate::tables;
@@ -52,6 +54,24 @@ impl Direction {
 impl DataSetKind {
     /// The three kinds, in the order of their objects.
     pub const ALL: [Self; 3] = [Self::Uints, Self::Bytes, Self::Udint];
+
+    /// The type of an entry (manual, 6-3-2).
+    #[must_use]
+    pub const fn variable_type(self) -> VariableType {
+        match self {
+            Self::Uints => VariableType::array(Elementary::Uint, 15),
+            Self::Bytes => VariableType::array(Elementary::Byte, 10),
+            Self::Udint => VariableType::single(Elementary::Udint),
+        }
+    }
+
+    /// Modbus registers of an entry: one for each element, a UDINT has two.
+    const fn registers(self) -> u16 {
+        match self.variable_type() {
+            VariableType { elements: Some(elements), .. } => elements,
+            VariableType { elementary, elements: None } => elementary.size_bytes().div_ceil(2) as u16,
+        }
+    }
 }
 
 /// One data set and its two sides.
@@ -66,6 +86,8 @@ pub struct DataSet {
     pub name: String,
     /// Name of the object that contains the entries.
     pub entry_name: String,
+    /// Name of the series of its I/O ports, as in `UINTs 01 M to C`.
+    pub series: String,
     /// NX object of the I/O entries.
     #[serde(deserialize_with = "object_index")]
     pub nx_entry: ObjectIndex,
@@ -83,6 +105,10 @@ pub struct DataSet {
     pub max_count: u8,
     /// Whether the factory setting selects it.
     pub default_selected: bool,
+    /// First register of its entry 1 for clients of Modbus.
+    modbus: u16,
+    /// First holding register that forces its entry 1.
+    modbus_forced: u16,
 }
 
 impl DataSet {
@@ -106,6 +132,14 @@ impl DataSet {
     #[must_use]
     pub const fn has(&self, sub: SubIndex) -> bool {
         1 <= sub.0 && sub.0 <= self.max_count
+    }
+
+    /// The Modbus addresses of its entry `number`; none if it has no such entry.
+    #[must_use]
+    pub fn modbus_address(&self, number: u8) -> Option<ModbusAddress> {
+        let registers = u16::from(number).checked_sub(1)? * self.kind.registers();
+        let (first, forced) = (self.modbus + registers, Some(self.modbus_forced + registers));
+        (number <= self.max_count).then_some(ModbusAddress { forced, ..ModbusAddress::at(first) })
     }
 
     /// The number of its I/O entry mapping in the attached information of events. The two sides use opposite

@@ -31,6 +31,7 @@ mod timing;
 mod unit;
 pub mod unit_file;
 mod unit_information;
+mod variables;
 mod verdict;
 
 pub use allocation::{ImageLayout, IoAllocation, IoEntry, SLAVE_STATUS_BYTES};
@@ -66,5 +67,6 @@ pub use timing::Timing;
 pub use unit::NxEct101;
 pub use unit_information::{UnitInformation, UnitVersion, VersionText};
 pub use unit_model::CurrentError;
+pub use variables::variable_table;
 pub use verdict::{Configuration, ExchangedDataSet, Verdict};
 pub use wire::{ObjectIndex, SubIndex};

@@ -17,12 +17,14 @@ use std::path::PathBuf;
 
 use time::Duration;
 use user_file::{Reader, Section, Wanted, read_toml};
+use variables::VariableTable;
 
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
 use crate::slave_settings::SlaveSettings;
 use crate::timing::Timing;
 use crate::unit_information::UnitInformation;
+use crate::variables::variable_table;
 
 pub use entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
 pub use keys::keys;
@@ -147,5 +149,11 @@ impl UnitFile {
             Some(section) => section.value.to_allocation(),
             None => IoAllocation::factory(),
         }
+    }
+
+    /// The variables that a unit with this file has.
+    #[must_use]
+    pub fn variable_table(&self) -> VariableTable {
+        variable_table(&self.name.value, self.unit_number.value, &self.io_allocation())
     }
 }

@@ -33,7 +33,7 @@ struct Bench {
 impl Bench {
     fn new(source: &str) -> Self {
         let allocation = IoAllocation::factory();
-        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation));
         let mut program = StructuredText::compile(source, &variables).expect("a program");
         let (repeats, spent_ns) = (Arc::new(AtomicU64::new(0)), Arc::new(AtomicU64::new(0)));
         let (count, spent) = (repeats.clone(), spent_ns.clone());
@@ -46,7 +46,7 @@ impl Bench {
             spent.store(start.elapsed().as_nanos() as u64, Ordering::Relaxed);
             assert_ne!(program.value("C_to_M_Data_is_Valid").as_deref(), Some("FALSE"), "nothing is copied");
         };
-        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let (unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
         let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(scans));
         Self { cpu, repeats, spent_ns, _unit: unit }
     }

@@ -11,8 +11,7 @@ pub struct Echo;
 
 impl Program for Echo {
     fn scan(&mut self, io: &mut Io) {
-        let usable = io.io_data_active();
-        if !(usable && io.status().m_to_c_valid && io.status().c_to_m_valid) {
+        if !(io.io_data_active() && io.is_data_valid()) {
             return;
         }
         io.copy_twins();

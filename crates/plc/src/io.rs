@@ -1,18 +1,22 @@
 //! The I/O of one unit for a program: its entries by data set, its status, the raw images, and the time.
 
-use core::ops::Range;
 use core::sync::atomic::{AtomicBool, Ordering};
 use std::sync::Arc;
 
 use nx_bus::{SlaveStatus, UnitHeader};
-use nx_ect101::{DataSetKind, Direction, ImageLayout};
 use time::Instant;
+use variables::{Area, Place, VariableTable};
 
 use crate::cpu_event::{CpuEvent, CpuEventLog};
 use crate::device_variables::{DeviceVariables, Memory};
 use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
 use crate::program::ProgramEvent;
+
+/// The series of units that exchange arrays and numbers with their master.
+const UINTS: &str = "UINTs";
+const BYTES: &str = "BYTES";
+const UDINT: &str = "UDINT";
 
 /// The I/O of one unit from the last I/O refresh, and the outputs for the next one.
 #[derive(Clone, Debug)]
@@ -21,7 +25,7 @@ pub struct Io {
     pub(crate) variables: DeviceVariables,
     pub(crate) nx_objects: NxObjectClient,
     /// The positions of the entries that exist in both directions.
-    twins: Vec<(Range<usize>, Range<usize>)>,
+    twins: Vec<(Place, Place)>,
     pub(crate) events: CpuEventLog,
     /// Start of the task period, counted from power-on.
     now: Instant,
@@ -38,9 +42,9 @@ pub struct Io {
 impl Io {
     pub(crate) fn new(variables: DeviceVariables) -> Self {
         let mut io = Self {
-            memory: variables.memory(),
+            memory: Memory::new(&variables),
             nx_objects: NxObjectClient::default(),
-            twins: twins(&variables.m_to_c, &variables.c_to_m),
+            twins: twins(&variables),
             variables,
             events: CpuEventLog::new(),
             now: Instant::ZERO,
@@ -57,7 +61,7 @@ impl Io {
     /// UINTs `number` M to C, 1 to 40; none if it is not allocated.
     #[must_use]
     pub fn uints(&self, number: u8) -> Option<[u16; 15]> {
-        let entry = self.entry(DataSetKind::Uints, number)?;
+        let entry = self.entry(UINTS, number)?;
         let mut elements = [0; 15];
         for (element, octets) in elements.iter_mut().zip(entry.chunks_exact(2)) {
             *element = u16::from_le_bytes(octets.try_into().ok()?);
@@ -68,18 +72,18 @@ impl Io {
     /// BYTES `number` M to C, 1 to 10; none if it is not allocated.
     #[must_use]
     pub fn bytes(&self, number: u8) -> Option<[u8; 10]> {
-        self.entry(DataSetKind::Bytes, number)?.try_into().ok()
+        self.entry(BYTES, number)?.try_into().ok()
     }
 
     /// UDINT `number` M to C, 1 to 32; none if it is not allocated.
     #[must_use]
     pub fn udint(&self, number: u8) -> Option<u32> {
-        self.entry(DataSetKind::Udint, number)?.try_into().map(u32::from_le_bytes).ok()
+        self.entry(UDINT, number)?.try_into().map(u32::from_le_bytes).ok()
     }
 
     /// Sets UINTs `number` C to M, 1 to 40; false if it is not allocated.
     pub fn set_uints(&mut self, number: u8, elements: [u16; 15]) -> bool {
-        let Some(entry) = self.entry_mut(DataSetKind::Uints, number) else { return false };
+        let Some(entry) = self.entry_mut(UINTS, number) else { return false };
         for (octets, element) in entry.chunks_exact_mut(2).zip(elements) {
             octets.copy_from_slice(&element.to_le_bytes());
         }
@@ -88,26 +92,28 @@ impl Io {
 
     /// Sets BYTES `number` C to M, 1 to 10; false if it is not allocated.
     pub fn set_bytes(&mut self, number: u8, elements: [u8; 10]) -> bool {
-        self.set_entry(DataSetKind::Bytes, number, &elements)
+        self.set_entry(BYTES, number, &elements)
     }
 
     /// Sets UDINT `number` C to M, 1 to 32; false if it is not allocated.
     pub fn set_udint(&mut self, number: u8, value: u32) -> bool {
-        self.set_entry(DataSetKind::Udint, number, &value.to_le_bytes())
+        self.set_entry(UDINT, number, &value.to_le_bytes())
     }
 
-    /// The raw bytes of entry `number` M to C, little endian; none if it is not allocated.
+    /// The raw bytes of entry `number` of a series M to C, little endian, such as entry 1 of `UINTs`; none if the unit has
+    /// no such entry, or if it is a single bit.
     #[must_use]
-    pub fn entry(&self, kind: DataSetKind, number: u8) -> Option<&[u8]> {
-        let place = self.variables.m_to_c.place(Direction::MToC, kind, number)?;
-        self.memory.m_to_c.bytes.get(place)
+    pub fn entry(&self, series: &str, number: u8) -> Option<&[u8]> {
+        let place = self.whole_entry(Area::MToC, series, number)?;
+        self.memory.m_to_c.bytes.get(place.start..place.start + place.length_bytes)
     }
 
-    /// The raw bytes of entry `number` C to M, little endian; none if it is not allocated.
+    /// The raw bytes of entry `number` of a series C to M, little endian; none if the unit has no such entry, or if it is
+    /// a single bit.
     #[must_use]
-    pub fn entry_mut(&mut self, kind: DataSetKind, number: u8) -> Option<&mut [u8]> {
-        let place = self.variables.c_to_m.place(Direction::CToM, kind, number)?;
-        self.memory.c_to_m.bytes.get_mut(place)
+    pub fn entry_mut(&mut self, series: &str, number: u8) -> Option<&mut [u8]> {
+        let place = self.whole_entry(Area::CToM, series, number)?;
+        self.memory.c_to_m.bytes.get_mut(place.start..place.start + place.length_bytes)
     }
 
     /// The whole image M to C, entry after entry.
@@ -160,10 +166,16 @@ impl Io {
         self.nx_bus_reset = NxBusReset::Asked;
     }
 
-    /// EtherCAT Slave Status of the unit.
+    /// The status word of the unit, as an EtherCAT slave unit means it.
     #[must_use]
     pub fn status(&self) -> SlaveStatus {
-        SlaveStatus::from_bits(self.memory.slave_status())
+        SlaveStatus::from_bits(self.memory.status())
+    }
+
+    /// Whether the unit says that the data of both directions is valid.
+    #[must_use]
+    pub fn is_data_valid(&self) -> bool {
+        [Area::MToC, Area::CToM].into_iter().all(|area| self.memory.is_data_valid(area))
     }
 
     /// NX Unit I/O Data Active Status: the unit's I/O data can be used for control.
@@ -193,7 +205,7 @@ impl Io {
     /// The CPU Unit is powered on again: all values are initialized, nothing is forced, and no NX object call
     /// is pending.
     pub(crate) fn power_on(&mut self) {
-        self.memory = self.variables.memory();
+        self.memory = Memory::new(&self.variables);
         self.nx_bus_reset = NxBusReset::None;
         self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
     }
@@ -215,25 +227,33 @@ impl Io {
 
     /// Copies every entry M to C to the same entry C to M.
     pub(crate) fn copy_twins(&mut self) {
-        for (from, to) in &self.twins {
-            self.memory.c_to_m.bytes[to.clone()].copy_from_slice(&self.memory.m_to_c.bytes[from.clone()]);
+        for &(from, to) in &self.twins {
+            self.memory.copy_to_master(from, to);
         }
     }
 
-    fn set_entry(&mut self, kind: DataSetKind, number: u8, value: &[u8]) -> bool {
-        let Some(entry) = self.entry_mut(kind, number) else { return false };
-        entry.copy_from_slice(value);
-        true
+    fn set_entry(&mut self, series: &str, number: u8, value: &[u8]) -> bool {
+        let Some(entry) = self.entry_mut(series, number) else { return false };
+        let is_fitting = entry.len() == value.len();
+        if is_fitting {
+            entry.copy_from_slice(value);
+        }
+        is_fitting
+    }
+
+    fn whole_entry(&self, area: Area, series: &str, number: u8) -> Option<Place> {
+        let (_, variable) = self.variables.entry(area, series, number)?;
+        Some(variable.place).filter(|place| place.bit_number().is_none())
     }
 }
 
-/// The positions of the entries that exist in both directions, by data set and number.
-fn twins(m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Vec<(Range<usize>, Range<usize>)> {
-    let entries =
-        DataSetKind::ALL.into_iter().flat_map(|kind| (0..=u8::MAX).map(move |number| (kind, number)));
-    let twins = entries.filter_map(|(kind, number)| {
-        let from = m_to_c.place(Direction::MToC, kind, number)?;
-        Some((from, c_to_m.place(Direction::CToM, kind, number)?))
+/// The positions of the entries that exist in both directions, by series and number.
+fn twins(table: &VariableTable) -> Vec<(Place, Place)> {
+    let entries = table.iter().filter(|(_, variable)| variable.place.area == Area::MToC);
+    let twins = entries.filter_map(|(_, from)| {
+        let series = from.series?;
+        let (_, to) = table.entry(Area::CToM, series.name, series.number)?;
+        (from.variable_type == to.variable_type).then_some((from.place, to.place))
     });
     twins.collect()
 }
@@ -241,7 +261,7 @@ fn twins(m_to_c: &ImageLayout, c_to_m: &ImageLayout) -> Vec<(Range<usize>, Range
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nx_ect101::IoAllocation;
+    use nx_ect101::{DataSetKind, Direction, IoAllocation, variable_table};
 
     fn io() -> Io {
         let mut allocation = IoAllocation::factory();
@@ -249,7 +269,7 @@ mod tests {
             allocation.select(direction, DataSetKind::Bytes, 2);
             allocation.select(direction, DataSetKind::Udint, 4);
         }
-        Io::new(DeviceVariables::of_allocation("N1", 1, &allocation))
+        Io::new(DeviceVariables::of(variable_table("N1", 1, &allocation)))
     }
 
     #[test]

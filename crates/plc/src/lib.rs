@@ -21,9 +21,9 @@ pub use builtin::Builtin;
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
 pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
 pub use device_variables::{
-    DeviceVariables, NodeLocation, SYSTEM_TABLE_ELEMENTS, Target, TextProblem, VALUE_BYTES_MAX, Validity,
-    ValueText, ValueTextError, Variable, VariableAccess, VariableError, VariableId, VariableSource,
-    VariableType, VariableValue, variable_name,
+    Area, BusUnit, DeviceVariables, ModbusAddress, NodeLocation, Place, SYSTEM_TABLE_ELEMENTS, Series,
+    StatusWord, Target, TextProblem, VALUE_BYTES_MAX, Validity, ValueText, ValueTextError, Variable,
+    VariableAccess, VariableError, VariableId, VariableTable, VariableType, VariableValue, variable_name,
 };
 pub use echo::Echo;
 pub use io::Io;

@@ -31,7 +31,7 @@ pub const CHANGES_MAX: usize = 640;
 /// Two ends for the CPU Unit with these variables. All the memory that the program's end ever uses is allocated here.
 #[must_use]
 pub fn connect(variables: &DeviceVariables) -> (OutsideProgram, OutsideEnd) {
-    let first = Published { memory: variables.memory(), taken: 0, now: Instant::ZERO };
+    let first = Published { memory: Memory::new(variables), taken: 0, now: Instant::ZERO };
     let (publisher, published) = triple_buffer::triple_buffer(&first);
     let (sender, changes) = sync_channel(CHANGES_MAX);
     let complete = Arc::new(AtomicU64::new(0));

@@ -33,8 +33,8 @@ fn busy_program() -> impl FnMut(&mut Io) + Send {
 
 #[test]
 fn cycles_variables_forces_and_events_allocate_nothing() {
-    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
-    let (mut unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()));
+    let (mut unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
     let settings = CpuSettings { fail_soft: FailSoftOperation::Stop, ..CpuSettings::default() };
     let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, variables, bus, Box::new(busy_program()));
     cpu.attach(Box::new(|io: &mut Io| io.c_to_m_mut()[100] ^= 1));

@@ -8,8 +8,8 @@ use time::Instant;
 
 #[test]
 fn changes_and_snapshots_allocate_nothing() {
-    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
-    let (_unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()));
+    let (_unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
     let mut cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(Echo));
     let (program, mut end) = outside::connect(cpu.io().variables());
     cpu.attach(Box::new(program));

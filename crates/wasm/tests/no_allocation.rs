@@ -28,8 +28,8 @@ const PROGRAM: &str = r#"(module
 
 #[test]
 fn scans_do_not_allocate() {
-    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
-    let (_unit, bus) = connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()));
+    let (_unit, bus) = connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
     let mut cpu =
         CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(plc::Echo));
     let octets = wat::parse_str(PROGRAM).expect("the text of a module");

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use ectwin::modbus::{MapRow, ModbusMap};
-use nx_ect101::{DataSet, Direction, SlaveStatus};
-use plc::{DeviceVariables, NodeLocation, Variable, VariableAccess, VariableSource};
+use plc::{DeviceVariables, NodeLocation, Variable, VariableAccess};
 use serde::Serialize;
 
 use crate::cli::MapArgs;
@@ -54,7 +53,7 @@ const COLUMNS: [&str; 13] = [
 
 pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let (file, _) = or_document(args.json, unit_files::parse(&args.unit))?;
-    let rows = rows(&DeviceVariables::of_unit_file(&file));
+    let rows = rows(&DeviceVariables::of(file.variable_table()));
     let text = match (args.json, args.csv) {
         (true, _) => output::json(&Document { variables: rows })?,
         (false, true) => as_csv(&rows),
@@ -91,24 +90,12 @@ fn node_location(location: NodeLocation) -> Row {
 
 fn row(variable: &Variable, addresses: Option<&MapRow>) -> Row {
     let forced = addresses.and_then(|row| row.forced.as_ref());
-    let (direction, nx_object, pdo_entry) = match variable.source {
-        VariableSource::Entry { direction, kind, number } => {
-            let set = DataSet::of(direction, kind);
-            let entry = |index: u16| Some(format!("{index:04X}:{number:02X}"));
-            (Some(direction), entry(set.nx_entry.0), entry(set.pdo_entry.0))
-        }
-        VariableSource::SlaveStatus | VariableSource::SlaveStatusBit { .. } => {
-            let (index, sub) = SlaveStatus::NX_OBJECT;
-            (None, Some(format!("{:04X}:{sub}", index.0)), None)
-        }
-        _ => (None, None, None),
-    };
     Row {
         port: variable.port.clone(),
         variable: variable.name.clone(),
         at: variable.at.clone(),
         r#type: variable.variable_type.to_string(),
-        direction: direction.map(Direction::id),
+        direction: variable.place.area.direction_id(),
         access: match variable.access {
             VariableAccess::ReadOnly => "RO",
             VariableAccess::ReadWrite => "RW",
@@ -118,8 +105,8 @@ fn row(variable: &Variable, addresses: Option<&MapRow>) -> Row {
         modbus_last: addresses.map(|row| *row.addresses.end()),
         forced_first: forced.map(|forced| *forced.start()),
         forced_last: forced.map(|forced| *forced.end()),
-        nx_object,
-        pdo_entry,
+        nx_object: variable.nx_object.map(|address| address.to_string()),
+        pdo_entry: variable.pdo_entry.map(|address| address.to_string()),
     }
 }
 
@@ -199,7 +186,7 @@ mod tests {
 
     fn factory() -> Vec<Row> {
         let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { panic!("the shortest unit file") };
-        rows(&DeviceVariables::of_unit_file(&file))
+        rows(&DeviceVariables::of(file.variable_table()))
     }
 
     #[test]

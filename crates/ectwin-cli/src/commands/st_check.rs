@@ -33,7 +33,8 @@ struct Row<'a> {
 
 /// Checks a program and reports its problems.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
-    let variables = DeviceVariables::of_unit_file(&or_document(args.json, unit_file(args))?);
+    let file = or_document(args.json, unit_file(args))?;
+    let variables = DeviceVariables::of(file.variable_table());
     let unreadable = |(path, source)| Failure::Unreadable { path, source };
     let sources = user_files::program_sources(&args.programs).map_err(unreadable);
     let sources = or_document(args.json, sources)?;

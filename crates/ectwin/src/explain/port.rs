@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use plc::{DeviceVariables, Variable, VariableAccess, VariableSource};
+use plc::{DeviceVariables, Variable, VariableAccess};
 
 use super::{Explanation, Fact, Subject, object};
 
@@ -37,7 +37,7 @@ pub(super) fn explanation(name: &'static str) -> Option<Explanation> {
 fn ports() -> Vec<Port> {
     let mut ports: Vec<Port> = Vec::new();
     for file in object::files_with_every_io_entry() {
-        let variables = DeviceVariables::of_unit_file(&file);
+        let variables = DeviceVariables::of(file.variable_table());
         let location = variables.node_location();
         let location = Port {
             name: location.port.to_owned(),
@@ -49,7 +49,7 @@ fn ports() -> Vec<Port> {
             ),
             facts: vec![("variable", location.name), ("AT", location.at)],
         };
-        for port in variables.iter().map(|(_, variable)| port(variable)).chain([location]) {
+        for port in variables.iter().map(|(_, variable)| port(&variables, variable)).chain([location]) {
             if !ports.iter().any(|known| known.name == port.name) {
                 ports.push(port);
             }
@@ -58,7 +58,7 @@ fn ports() -> Vec<Port> {
     ports
 }
 
-fn port(variable: &Variable) -> Port {
+fn port(variables: &DeviceVariables, variable: &Variable) -> Port {
     let Variable { name, at, variable_type, .. } = variable;
     let access = match variable.access {
         VariableAccess::ReadOnly => "programs read it",
@@ -66,8 +66,9 @@ fn port(variable: &Variable) -> Port {
     };
     let mut facts = vec![("variable", name.clone())];
     facts.extend(at.iter().map(|at| ("AT", at.clone())));
-    if let VariableSource::SlaveStatusBit { bit } = variable.source {
-        facts.push(("bit", format!("{bit} of EtherCAT Slave Status")));
+    if let Some((word, bit)) = variables.word_of(variable).zip(variable.place.bit_number()) {
+        let (name, first) = (word.port.as_ref().unwrap_or(&word.name), 8 * word.place.start);
+        facts.push(("bit", format!("{} of {name}", bit - first)));
     }
     Port {
         name: variable.port.clone().unwrap_or_else(|| name.clone()),

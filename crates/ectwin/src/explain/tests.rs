@@ -342,7 +342,7 @@ fn every_io_port_of_the_cpu_unit_is_explained() {
     for (file, text) in UNIT_FILES {
         let file =
             nx_ect101::unit_file::UnitFile::parse(text).unwrap_or_else(|errors| panic!("{file}: {errors}"));
-        let variables = plc::DeviceVariables::of_unit_file(&file);
+        let variables = plc::DeviceVariables::of(file.variable_table());
         for (_, variable) in variables.iter() {
             let port = variable.port.as_ref().unwrap_or(&variable.name);
             for name in [Some(port), Some(&variable.name), variable.at.as_ref()].into_iter().flatten() {

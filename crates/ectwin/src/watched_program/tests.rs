@@ -63,7 +63,7 @@ fn watches(paths: &[&Path], names: &[&str]) -> Vec<Watch> {
             stamps: stamps(&paths).ok(),
             text: ProgramText::read(&paths).expect("two files"),
             paths,
-            variables: DeviceVariables::of_unit_file(&file),
+            variables: DeviceVariables::of(file.variable_table()),
             budget_statements: 1_000,
         };
         (position, program)

@@ -1,5 +1,7 @@
 //! The tables of addresses.
 
+use plc::{Variable, VariableAccess};
+
 /// One of the four tables of Modbus (application protocol, 4.3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Table {
@@ -14,6 +16,16 @@ pub enum Table {
 }
 
 impl Table {
+    /// The table that contains a variable.
+    pub(super) fn of(variable: &Variable) -> Self {
+        match (variable.variable_type.is_bool(), variable.access) {
+            (true, VariableAccess::ReadOnly) => Self::DiscreteInputs,
+            (true, VariableAccess::ReadWrite) => Self::Coils,
+            (false, VariableAccess::ReadOnly) => Self::InputRegisters,
+            (false, VariableAccess::ReadWrite) => Self::HoldingRegisters,
+        }
+    }
+
     /// Its name in data for programs.
     #[must_use]
     pub const fn id(self) -> &'static str {

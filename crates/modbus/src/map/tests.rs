@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nx_ect101::{DataSet, IoAllocation};
+use nx_ect101::{DataSet, DataSetKind, Direction, IoAllocation};
 use proptest::prelude::*;
 
 use super::*;
@@ -15,7 +15,7 @@ fn variables(counts: [[u8; 3]; 2]) -> DeviceVariables {
             allocation.select(direction, kind, count);
         }
     }
-    DeviceVariables::of_allocation("N1", 1, &allocation)
+    DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation))
 }
 
 fn most() -> [[u8; 3]; 2] {
@@ -118,8 +118,7 @@ fn the_last_address_of_all_is_asked_for_without_harm() {
 #[test]
 fn the_largest_data_set_is_forced_in_one_task_period() {
     let map = ModbusMap::of(&variables(most()));
-    let first = FORCED_C_TO_M_BASE + UINTS_BASE;
-    let coils = map.bits(Table::Coils, Addresses { first, quantity: 600 });
+    let coils = map.bits(Table::Coils, Addresses { first: 10_000, quantity: 600 });
     assert!(coils.is_ok_and(|coils| coils.len() <= plc::outside::CHANGES_MAX));
 }
 

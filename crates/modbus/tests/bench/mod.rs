@@ -36,8 +36,8 @@ impl Bench {
             allocation.select(direction, DataSetKind::Bytes, 1);
             allocation.select(direction, DataSetKind::Udint, 2);
         }
-        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
-        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation));
+        let (unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
         let mut cpu =
             CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, Box::new(user_program));
         let (program, end) = outside::connect(cpu.io().variables());

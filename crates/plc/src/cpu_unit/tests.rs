@@ -25,7 +25,7 @@ struct Bench {
 
 impl Bench {
     fn in_op(io_allocation: IoAllocation, cpu: CpuSettings, program: impl Program + Send + 'static) -> Self {
-        let variables = DeviceVariables::of_allocation("N1", 1, &io_allocation);
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &io_allocation));
         let (mut unit, cpu_end) =
             NxEct101::power_on(&UnitSettings { io_allocation, ..UnitSettings::default() });
         unit.check_transition(Instant::ZERO, Check::ProcessData, &[]).expect("the factory setting");

@@ -1,11 +1,9 @@
 //! Reading, writing and forcing by id.
 
-use st::{Class, Elementary};
+use variables::{Target, VariableError, VariableId, VariableTable, VariableType, VariableValue};
 
-use super::error::VariableError;
 use super::list::DeviceVariables;
-use super::memory::{Memory, Place};
-use super::variable::{Target, VariableAccess, VariableId, VariableType, VariableValue};
+use super::memory::Memory;
 use crate::io::Io;
 
 /// Variables by id. A value is little endian; a BOOL takes one byte.
@@ -66,9 +64,7 @@ impl Io {
 
     /// Releases everything.
     pub fn release_all(&mut self) {
-        self.memory.m_to_c.release_all();
-        self.memory.c_to_m.release_all();
-        self.memory.status.release_all();
+        self.memory.release_all();
     }
 
     /// Whether all of a variable or an element is forced.
@@ -101,7 +97,7 @@ impl Io {
 impl Memory {
     pub(crate) fn value(
         &self,
-        variables: &DeviceVariables,
+        variables: &VariableTable,
         target: Target,
     ) -> Result<VariableValue, VariableError> {
         let place = variables.place(target)?;
@@ -109,56 +105,8 @@ impl Memory {
     }
 
     /// Whether all of it is forced.
-    pub(crate) fn is_forced(
-        &self,
-        variables: &DeviceVariables,
-        target: Target,
-    ) -> Result<bool, VariableError> {
+    pub(crate) fn is_forced(&self, variables: &VariableTable, target: Target) -> Result<bool, VariableError> {
         let place = variables.place(target)?;
         Ok(self.of(place.area).is_forced(place))
     }
-}
-
-impl DeviceVariables {
-    /// The type of a variable, or of the selected element.
-    ///
-    /// # Errors
-    /// There is no such variable or element.
-    pub fn type_of(&self, target: Target) -> Result<VariableType, VariableError> {
-        self.place(target)?;
-        let whole = self.at(target.variable)?.variable_type;
-        Ok(if target.element.is_some() { VariableType::single(whole.elementary) } else { whole })
-    }
-
-    /// A memory that is large enough for all of them.
-    pub(crate) fn memory(&self) -> Memory {
-        Memory::new(self.m_to_c_bytes(), self.c_to_m_bytes())
-    }
-
-    /// The position at which a value is written.
-    pub(crate) fn writable(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
-        let place = self.fitting(target, value)?;
-        match self.at(target.variable)?.access {
-            VariableAccess::ReadOnly => Err(VariableError::NotWritable),
-            VariableAccess::ReadWrite => Ok(place),
-        }
-    }
-
-    /// The position at which a value is written or forced.
-    pub(crate) fn fitting(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
-        let place = self.place(target)?;
-        let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);
-        if length_bytes != expected_bytes {
-            return Err(VariableError::WrongLength { length_bytes, expected_bytes });
-        }
-        let elementary = self.at(target.variable)?.variable_type.elementary;
-        match value.iter().find(|&&byte| byte > 1) {
-            Some(&value) if is_bool(elementary) => Err(VariableError::NotABool { value }),
-            _ => Ok(place),
-        }
-    }
-}
-
-fn is_bool(elementary: Elementary) -> bool {
-    elementary.class() == Class::Bool
 }

@@ -1,79 +1,42 @@
 //! The memory of the variables, and its forced bits.
 
 use nx_bus::UnitHeader;
+use variables::{Area, Place, STATUS_BYTES, StatusWord, VariableTable, VariableValue};
 
 use super::ports::{
-    ERROR_TABLE, IO_DATA_ACTIVE, MESSAGE_TABLE, SLAVE_STATUS, STATUS_BYTES, SYSTEM_TABLE_ELEMENTS, UNIT_ERROR,
+    CPU_UNIT_BYTES, ERROR_TABLE, IO_DATA_ACTIVE, MESSAGE_TABLE, SYSTEM_TABLE_ELEMENTS, UNIT_ERROR,
 };
-use super::variable::VariableValue;
 use crate::nx_bus_function::IoRefreshing;
 
-/// The image that contains a variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Area {
-    /// From the master to the CPU Unit.
-    MToC,
-    /// From the CPU Unit to the master.
-    CToM,
-    /// The statuses of the unit and the NX bus.
-    Status,
-}
-
-/// The position of a value. A BOOL may be one bit of a byte, all others have whole bytes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Place {
-    pub(super) area: Area,
-    pub(super) start: usize,
-    pub(super) length_bytes: usize,
-    /// The bits of each byte that belong to it: all, or one.
-    pub(super) mask: u8,
-}
-
-impl Place {
-    pub(super) const fn whole(area: Area, start: usize, length_bytes: usize) -> Self {
-        Self { area, start, length_bytes, mask: 0xFF }
-    }
-
-    pub(super) const fn bit(area: Area, start: usize, bit: u8) -> Self {
-        Self { area, start: start + bit as usize / 8, length_bytes: 1, mask: 1 << (bit % 8) }
-    }
-
-    /// A byte of a value in the form of the memory.
-    const fn to_memory(self, byte: u8) -> u8 {
-        if self.mask == 0xFF || byte == 0 { byte } else { self.mask }
-    }
-
-    /// A byte of memory as a byte of the value.
-    const fn to_value(self, byte: u8) -> u8 {
-        if self.mask == 0xFF { byte } else { (byte & self.mask != 0) as u8 }
-    }
-}
-
-/// The three images.
+/// The images of all areas.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     pub(crate) m_to_c: Image,
     pub(crate) c_to_m: Image,
-    pub(crate) status: Image,
+    status: Image,
+    cpu_unit: Image,
+    /// What its bits mean.
+    status_word: StatusWord,
 }
 
 impl Memory {
-    /// Zeros, nothing forced. The default of EtherCAT Slave Status (manual, 6-3-2) is the unit's: it comes with the first
-    /// I/O refresh.
-    pub(crate) fn new(m_to_c_bytes: usize, c_to_m_bytes: usize) -> Self {
+    /// Zeros, nothing forced. The first value of the status word is the unit's: it comes with the first I/O refresh.
+    pub(crate) fn new(table: &VariableTable) -> Self {
+        let unit = table.unit();
         Self {
-            m_to_c: Image::new(m_to_c_bytes),
-            c_to_m: Image::new(c_to_m_bytes),
+            m_to_c: Image::new(unit.m_to_c_bytes),
+            c_to_m: Image::new(unit.c_to_m_bytes),
             status: Image::new(STATUS_BYTES),
+            cpu_unit: Image::new(CPU_UNIT_BYTES),
+            status_word: unit.status,
         }
     }
 
     /// Stores the report of the unit with this NX Unit number. Forced values are kept. The system-defined
     /// tables end at unit 32: a unit with a higher number has no element in them.
     ///
-    /// The data M to C and EtherCAT Slave Status are I/O data: they keep their last values while no I/O is
-    /// refreshed. The other statuses come from the NX Bus Function Module, which does not depend on I/O
-    /// refreshing (manual, A-3-2).
+    /// The data M to C and the status word are I/O data: they keep their last values while no I/O is refreshed.
+    /// The rest comes from the NX Bus Function Module, which needs no I/O refreshing (manual, A-3-2).
     pub(crate) fn refresh(
         &mut self,
         unit_number: u8,
@@ -85,35 +48,53 @@ impl Memory {
         if is_active {
             self.take_io_data(header.status, m_to_c);
         }
-        let status = &mut self.status.bytes;
-        status[IO_DATA_ACTIVE] = is_active.into();
-        status[UNIT_ERROR] = header.error.into();
-        // The NX Bus Function Module itself always supports message communications (manual, A-5-1).
-        status[MESSAGE_TABLE] = 1;
-        status[ERROR_TABLE] = (refreshing == IoRefreshing::Stopped).into();
+        let cpu_unit = &mut self.cpu_unit.bytes;
+        cpu_unit[IO_DATA_ACTIVE] = is_active.into();
+        cpu_unit[UNIT_ERROR] = header.error.into();
+        // The NX Bus Function Module itself can always be asked (manual, A-5-1).
+        cpu_unit[MESSAGE_TABLE] = 1;
+        cpu_unit[ERROR_TABLE] = (refreshing == IoRefreshing::Stopped).into();
         if u16::from(unit_number) < SYSTEM_TABLE_ELEMENTS {
-            status[MESSAGE_TABLE + usize::from(unit_number)] = header.messages_enabled.into();
-            status[ERROR_TABLE + usize::from(unit_number)] = header.error.into();
+            cpu_unit[MESSAGE_TABLE + usize::from(unit_number)] = header.messages_enabled.into();
+            cpu_unit[ERROR_TABLE + usize::from(unit_number)] = header.error.into();
         }
         self.apply_forced();
     }
 
-    fn take_io_data(&mut self, slave_status: u16, m_to_c: &[u8]) {
+    fn take_io_data(&mut self, status: u16, m_to_c: &[u8]) {
         let length_bytes = self.m_to_c.bytes.len().min(m_to_c.len());
         self.m_to_c.bytes[..length_bytes].copy_from_slice(&m_to_c[..length_bytes]);
-        self.status.bytes[SLAVE_STATUS..][..2].copy_from_slice(&slave_status.to_le_bytes());
+        self.status.bytes.copy_from_slice(&status.to_le_bytes());
     }
 
-    pub(crate) fn slave_status(&self) -> u16 {
-        u16::from_le_bytes([self.status.bytes[SLAVE_STATUS], self.status.bytes[SLAVE_STATUS + 1]])
+    /// The status word of the unit.
+    pub(crate) fn status(&self) -> u16 {
+        u16::from_le_bytes([self.status.bytes[0], self.status.bytes[1]])
+    }
+
+    /// Whether the data of an area is valid by the status word.
+    pub(crate) fn is_data_valid(&self, area: Area) -> bool {
+        self.status_word.allows(area, self.status())
     }
 
     pub(crate) fn io_data_active(&self) -> bool {
-        self.status.bytes[IO_DATA_ACTIVE] != 0
+        self.cpu_unit.bytes[IO_DATA_ACTIVE] != 0
     }
 
     pub(crate) fn unit_error(&self) -> bool {
-        self.status.bytes[UNIT_ERROR] != 0
+        self.cpu_unit.bytes[UNIT_ERROR] != 0
+    }
+
+    /// Copies a value M to C to another one of the same type C to M. Forced bits are restored by the caller.
+    pub(crate) fn copy_to_master(&mut self, from: Place, to: Place) {
+        let source = &self.m_to_c.bytes[from.start..][..from.length_bytes];
+        let target = &mut self.c_to_m.bytes[to.start..][..to.length_bytes];
+        if from.bit_number().is_none() && to.bit_number().is_none() {
+            return target.copy_from_slice(source);
+        }
+        for (byte, source) in target.iter_mut().zip(source) {
+            *byte = *byte & !to.mask() | to.to_memory(from.to_value(*source)) & to.mask();
+        }
     }
 
     /// Restores the value of all forced bits that have been overwritten.
@@ -121,6 +102,14 @@ impl Memory {
         self.m_to_c.apply_forced();
         self.c_to_m.apply_forced();
         self.status.apply_forced();
+        self.cpu_unit.apply_forced();
+    }
+
+    /// Releases everything that is forced.
+    pub(crate) fn release_all(&mut self) {
+        for image in [&mut self.m_to_c, &mut self.c_to_m, &mut self.status, &mut self.cpu_unit] {
+            image.release_all();
+        }
     }
 
     /// Copies values and forcing from another memory of the same size.
@@ -128,6 +117,7 @@ impl Memory {
         self.m_to_c.copy_from(&other.m_to_c);
         self.c_to_m.copy_from(&other.c_to_m);
         self.status.copy_from(&other.status);
+        self.cpu_unit.copy_from(&other.cpu_unit);
     }
 
     pub(super) const fn of(&self, area: Area) -> &Image {
@@ -135,6 +125,7 @@ impl Memory {
             Area::MToC => &self.m_to_c,
             Area::CToM => &self.c_to_m,
             Area::Status => &self.status,
+            Area::CpuUnit => &self.cpu_unit,
         }
     }
 
@@ -143,6 +134,7 @@ impl Memory {
             Area::MToC => &mut self.m_to_c,
             Area::CToM => &mut self.c_to_m,
             Area::Status => &mut self.status,
+            Area::CpuUnit => &mut self.cpu_unit,
         }
     }
 }
@@ -187,8 +179,8 @@ impl Image {
         self.has_forced = other.has_forced;
     }
 
-    /// Releases everything; the values are kept until they are written or refreshed.
-    pub(crate) fn release_all(&mut self) {
+    /// Frees everything; it stays until it is written or refreshed.
+    fn release_all(&mut self) {
         self.apply_forced();
         self.forced.fill(0);
         self.values.fill(0);
@@ -206,7 +198,7 @@ impl Image {
     pub(super) fn write(&mut self, place: Place, value: &[u8]) {
         let bytes = self.bytes.iter_mut().zip(&self.forced).skip(place.start).take(place.length_bytes);
         for ((byte, forced), new) in bytes.zip(value) {
-            let mask = place.mask & !forced;
+            let mask = place.mask() & !forced;
             *byte = *byte & !mask | place.to_memory(*new) & mask;
         }
     }
@@ -215,8 +207,8 @@ impl Image {
     pub(super) fn force(&mut self, place: Place, value: &[u8]) {
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for ((forced, fixed), new) in bits.zip(value) {
-            *forced |= place.mask;
-            *fixed = *fixed & !place.mask | place.to_memory(*new) & place.mask;
+            *forced |= place.mask();
+            *fixed = *fixed & !place.mask() | place.to_memory(*new) & place.mask();
         }
         self.has_forced = true;
         self.apply_forced();
@@ -227,8 +219,8 @@ impl Image {
         self.apply_forced();
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for (forced, fixed) in bits {
-            *forced &= !place.mask;
-            *fixed &= !place.mask;
+            *forced &= !place.mask();
+            *fixed &= !place.mask();
         }
         self.has_forced = self.forced.iter().any(|&forced| forced != 0);
     }
@@ -236,6 +228,6 @@ impl Image {
     /// Whether all of it is forced.
     pub(super) fn is_forced(&self, place: Place) -> bool {
         let mut own = self.forced.iter().skip(place.start).take(place.length_bytes);
-        own.all(|forced| forced & place.mask == place.mask)
+        own.all(|forced| forced & place.mask() == place.mask())
     }
 }

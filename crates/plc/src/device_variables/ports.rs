@@ -1,57 +1,44 @@
-//! The I/O ports of the unit and the variables of the NX bus (manual, 6-3-2, A-3-3 and A-5).
+//! The variables that the CPU Unit adds: what its NX bus reports of the unit, and the system-defined tables (manual, A-3-3
+//! and A-5).
 
-use nx_ect101::{DataSet, DataSetKind, Direction, ImageLayout, SLAVE_STATUS_BITS, StatusBit};
 use st::Elementary;
-
-use super::memory::{Area, Place};
-use super::variable::{Variable, VariableAccess, VariableType};
+use variables::{
+    Area, BusUnit, ModbusAddress, Place, Variable, VariableAccess, VariableType, at_specification,
+    variable_name,
+};
 
 /// Elements of the system-defined tables: the NX Bus Function Module and 32 NX Units (manual, A-5-1).
 pub const SYSTEM_TABLE_ELEMENTS: u16 = 33;
 
 const TABLE_BYTES: usize = SYSTEM_TABLE_ELEMENTS as usize;
-/// Positions of the parts of the status image.
-pub(crate) const SLAVE_STATUS: usize = 0;
-pub(crate) const IO_DATA_ACTIVE: usize = 2;
-pub(crate) const UNIT_ERROR: usize = 3;
-pub(crate) const MESSAGE_TABLE: usize = 4;
+/// Where they lie in the image of the CPU Unit itself.
+pub(crate) const IO_DATA_ACTIVE: usize = 0;
+pub(crate) const UNIT_ERROR: usize = 1;
+pub(crate) const MESSAGE_TABLE: usize = 2;
 pub(crate) const ERROR_TABLE: usize = MESSAGE_TABLE + TABLE_BYTES;
-/// Length of the status image in bytes.
-pub(crate) const STATUS_BYTES: usize = ERROR_TABLE + TABLE_BYTES;
+/// Length of that image in bytes.
+pub(crate) const CPU_UNIT_BYTES: usize = ERROR_TABLE + TABLE_BYTES;
 
-/// The meaning of a variable.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum VariableSource {
-    /// An I/O entry of a data set.
-    Entry {
-        /// The direction of the data.
-        direction: Direction,
-        /// The data set.
-        kind: DataSetKind,
-        /// Number of the entry, its subindex.
-        number: u8,
-    },
-    /// EtherCAT Slave Status, the whole word.
-    SlaveStatus,
-    /// One bit of it.
-    SlaveStatusBit {
-        /// Its number, 0 to 15.
-        bit: u8,
-    },
-    /// NX Unit I/O Data Active Status.
-    IoDataActive,
-    /// NX Unit Error Status.
-    UnitError,
-    /// `_NXB_UnitMsgActiveTbl`: which NX Units support message communications.
-    UnitMessageActiveTable,
-    /// `_NXB_UnitErrFlagTbl`: which NX Units have an error.
-    UnitErrorFlagTable,
+/// A variable of the CPU Unit itself: its name or that of its I/O port, its place, its discrete input for clients of
+/// Modbus.
+struct Row {
+    name: &'static str,
+    start: usize,
+    discrete_input: u16,
 }
 
-/// The port that contains a location instead of data: NX_ReadObj and NX_WriteObj need a variable that is
-/// assigned to it.
+const OF_BUS: [Row; 2] = [
+    Row { name: "NX Unit I/O Data Active Status", start: IO_DATA_ACTIVE, discrete_input: 16 },
+    Row { name: "NX Unit Error Status", start: UNIT_ERROR, discrete_input: 17 },
+];
+
+const SYSTEM_DEFINED: [Row; 2] = [
+    Row { name: "_NXB_UnitMsgActiveTbl", start: MESSAGE_TABLE, discrete_input: 100 },
+    Row { name: "_NXB_UnitErrFlagTbl", start: ERROR_TABLE, discrete_input: 200 },
+];
+
+/// The port that is no data but a place: NX_ReadObj and NX_WriteObj ask for a variable that is assigned to it.
 const NODE_LOCATION_PORT: &str = "Node location information";
-const SLAVE_STATUS_PORT: &str = "EtherCAT Slave Status";
 
 /// The location of a unit, for NX_ReadObj and NX_WriteObj: a constant of its CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,123 +60,42 @@ impl NodeLocation {
         Self {
             name: variable_name(device_name, NODE_LOCATION_PORT),
             port: NODE_LOCATION_PORT,
-            at: at(unit_number, "", NODE_LOCATION_PORT),
+            at: at_specification(unit_number, NODE_LOCATION_PORT),
             type_name: "_sNXUNIT_ID",
             unit_number,
         }
     }
 }
 
-/// Makes the variables of one unit.
-pub(super) struct Ports<'a> {
-    pub(super) device_name: &'a str,
-    pub(super) unit_number: u8,
-}
-
-impl Ports<'_> {
-    /// The entries of one direction, in the order of the image. An entry that is in the wrong data set, or
-    /// occurs a second time, has no I/O port.
-    pub(super) fn entries(&self, direction: Direction, layout: &ImageLayout) -> Vec<Variable> {
-        let mut entries = Vec::new();
-        for kind in DataSetKind::ALL {
-            for number in 0..=u8::MAX {
-                if let Some(bytes) = layout.place(direction, kind, number) {
-                    entries.push((bytes.start, self.entry(direction, kind, number, bytes.start)));
-                }
-            }
-        }
-        entries.sort_by_key(|(start, _)| *start);
-        entries.into_iter().map(|(_, variable)| variable).collect()
-    }
-
-    fn entry(&self, direction: Direction, kind: DataSetKind, number: u8, start: usize) -> Variable {
-        let set = match kind {
-            DataSetKind::Uints => "UINTs",
-            DataSetKind::Bytes => "BYTES",
-            DataSetKind::Udint => "UDINT",
-        };
-        let variable_type = VariableType::of_entry(kind);
-        let (area, way, access) = match direction {
-            Direction::MToC => (Area::MToC, "M to C", VariableAccess::ReadOnly),
-            Direction::CToM => (Area::CToM, "C to M", VariableAccess::ReadWrite),
-        };
-        let length_bytes = usize::from(DataSet::of(direction, kind).entry_bytes);
-        let source = VariableSource::Entry { direction, kind, number };
-        let port = format!("{set} {number:02} {way}");
-        let place = Place::whole(area, start, length_bytes);
-        Variable { access, ..self.port(self.device_name, "", &port, variable_type, source, place) }
-    }
-
-    /// EtherCAT Slave Status and its bits, and the statuses of the unit in the NX Bus Function Module.
-    pub(super) fn statuses(&self) -> Vec<Variable> {
-        let (word, bool) = (VariableType::single(Elementary::Word), VariableType::single(Elementary::Bool));
-        let place = Place::whole(Area::Status, SLAVE_STATUS, 2);
-        let source = VariableSource::SlaveStatus;
-        let mut list = vec![self.port(self.device_name, "", SLAVE_STATUS_PORT, word, source, place)];
-        for StatusBit { bit, port } in SLAVE_STATUS_BITS {
-            let place = Place::bit(Area::Status, SLAVE_STATUS, bit);
-            let (path, source) = (format!("{SLAVE_STATUS_PORT}/"), VariableSource::SlaveStatusBit { bit });
-            list.push(self.port(self.device_name, &path, port, bool, source, place));
-        }
-        let prefix = format!("NXBus_{}", self.device_name);
-        let of_bus = [
-            ("NX Unit I/O Data Active Status", VariableSource::IoDataActive, IO_DATA_ACTIVE),
-            ("NX Unit Error Status", VariableSource::UnitError, UNIT_ERROR),
-        ];
-        for (port, source, start) in of_bus {
-            let place = Place::whole(Area::Status, start, 1);
-            list.push(self.port(&prefix, "", port, bool, source, place));
-        }
-        list
-    }
-
-    /// A read-only variable of an I/O port.
-    fn port(
-        &self,
-        prefix: &str,
-        path: &str,
-        port: &str,
-        variable_type: VariableType,
-        source: VariableSource,
-        place: Place,
-    ) -> Variable {
-        Variable {
-            name: variable_name(prefix, port),
-            port: Some(port.to_owned()),
-            at: Some(at(self.unit_number, path, port)),
-            variable_type,
-            access: VariableAccess::ReadOnly,
-            source,
-            place,
-        }
-    }
-}
-
-fn at(unit_number: u8, path: &str, port: &str) -> String {
-    format!("IOBus://unit#{unit_number}/{path}{port}")
-}
-
-/// The default name of a variable of an I/O port (manual, 6-1-2): the device name and the port's, with `_` for
-/// every character that is not a letter or a digit.
-#[must_use]
-pub fn variable_name(device_name: &str, port: &str) -> String {
-    let words = port.replace(|character: char| !character.is_ascii_alphanumeric(), "_");
-    format!("{device_name}_{words}")
+/// What the NX Bus Function Module reports of the unit: I/O ports of the NX bus.
+pub(super) fn of_bus(unit: &BusUnit) -> [Variable; 2] {
+    let prefix = format!("NXBus_{}", unit.device_name);
+    OF_BUS.map(|row| Variable {
+        name: variable_name(&prefix, row.name),
+        port: Some(row.name.to_owned()),
+        at: Some(at_specification(unit.unit_number, row.name)),
+        ..row.variable(VariableType::single(Elementary::Bool))
+    })
 }
 
 /// The system-defined variables: they have no device name, and no AT specification.
 pub(super) fn system_defined() -> [Variable; 2] {
-    let tables = [
-        ("_NXB_UnitMsgActiveTbl", VariableSource::UnitMessageActiveTable, MESSAGE_TABLE),
-        ("_NXB_UnitErrFlagTbl", VariableSource::UnitErrorFlagTable, ERROR_TABLE),
-    ];
-    tables.map(|(name, source, start)| Variable {
-        name: name.to_owned(),
-        port: None,
-        at: None,
-        variable_type: VariableType::array(Elementary::Bool, SYSTEM_TABLE_ELEMENTS),
-        access: VariableAccess::ReadOnly,
-        source,
-        place: Place::whole(Area::Status, start, TABLE_BYTES),
-    })
+    SYSTEM_DEFINED.map(|row| row.variable(VariableType::array(Elementary::Bool, SYSTEM_TABLE_ELEMENTS)))
+}
+
+impl Row {
+    fn variable(&self, variable_type: VariableType) -> Variable {
+        Variable {
+            name: self.name.to_owned(),
+            port: None,
+            at: None,
+            variable_type,
+            access: VariableAccess::ReadOnly,
+            place: Place::whole(Area::CpuUnit, self.start, variable_type.size_bytes()),
+            series: None,
+            modbus: Some(ModbusAddress::at(self.discrete_input)),
+            nx_object: None,
+            pdo_entry: None,
+        }
+    }
 }

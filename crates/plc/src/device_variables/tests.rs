@@ -1,9 +1,8 @@
-//! The list of variables, their memory and their texts.
+//! The list of variables and their memory.
 
 mod list;
-mod text;
 
-use nx_ect101::{DataSetKind, Direction, IoAllocation};
+use nx_ect101::{DataSetKind, Direction, IoAllocation, variable_table};
 
 use crate::device_variables::DeviceVariables;
 use crate::io::Io;
@@ -20,5 +19,5 @@ fn allocation(m_to_c: [u8; 3], c_to_m: [u8; 3]) -> IoAllocation {
 }
 
 fn io_of(allocation: &IoAllocation) -> Io {
-    Io::new(DeviceVariables::of_allocation("N1", 1, allocation))
+    Io::new(DeviceVariables::of(variable_table("N1", 1, allocation)))
 }

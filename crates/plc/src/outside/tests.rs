@@ -18,8 +18,8 @@ struct Bench {
 
 impl Bench {
     fn with(user_program: impl Program + Send + 'static) -> Self {
-        let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
-        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()));
+        let (unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
         let settings = CpuSettings { task_period: PERIOD, ..CpuSettings::default() };
         let mut cpu = CpuUnit::power_on(Instant::ZERO, settings, variables, bus, Box::new(user_program));
         let (program, end) = connect(cpu.io().variables());

@@ -11,7 +11,7 @@ fn allocation() -> IoAllocation {
 }
 
 fn variables() -> DeviceVariables {
-    DeviceVariables::of_allocation("N1", 1, &allocation())
+    DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation()))
 }
 
 fn compile(source: &str) -> Result<StructuredText, Problems> {

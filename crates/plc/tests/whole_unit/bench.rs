@@ -28,7 +28,7 @@ impl Bench {
         cpu: CpuSettings,
         program: impl Program + Send + 'static,
     ) -> Self {
-        let variables = DeviceVariables::of_allocation("N1", 1, &io_allocation);
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &io_allocation));
         let settings = UnitSettings { io_allocation, ..UnitSettings::default() };
         let (unit, cpu_end) = NxEct101::power_on(&settings);
         let now = Instant::ZERO;

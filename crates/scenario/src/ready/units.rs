@@ -40,7 +40,7 @@ impl Maker<'_> {
             let source = self.unit_text(DEFAULT_UNIT, Part::Script, Origin { path: None, program: None });
             self.units.extend(source);
         }
-        let variables = self.units.iter().map(|unit| DeviceVariables::of_unit_file(&unit.file));
+        let variables = self.units.iter().map(|unit| DeviceVariables::of(unit.file.variable_table()));
         self.variables = variables.collect();
     }
 
@@ -114,7 +114,7 @@ impl Maker<'_> {
         file: &UnitFile,
     ) -> Option<ProgramFile> {
         let sources = self.program_sources(paths, part)?;
-        match StructuredText::compile(sources, &DeviceVariables::of_unit_file(file)) {
+        match StructuredText::compile(sources, &DeviceVariables::of(file.variable_table())) {
             Ok(program) => {
                 let program = program.with_budget(file.cpu.statement_budget.value);
                 Some(ProgramFile { name: paths.join(", "), program })

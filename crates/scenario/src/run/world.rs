@@ -175,7 +175,7 @@ fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::Device
         task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
         ..CpuSettings::from_unit_file(&source.file)
     };
-    let (variables, program) = (DeviceVariables::of_unit_file(&source.file), source.program.start());
+    let (variables, program) = (DeviceVariables::of(source.file.variable_table()), source.program.start());
     (config, unit, CpuUnit::power_on(now, cpu, variables, bus, program))
 }
 

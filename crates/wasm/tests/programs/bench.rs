@@ -31,7 +31,7 @@ pub(crate) struct Bench {
 
 /// The variables of the factory setting.
 pub(crate) fn variables() -> DeviceVariables {
-    DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory())
+    DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()))
 }
 
 /// Loads the text of a module.
@@ -48,7 +48,7 @@ pub(crate) fn scanning(scan: &str) -> String {
 impl Bench {
     fn new(program: Box<dyn plc::Program + Send>) -> Self {
         let variables = variables();
-        let (unit, bus) = connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let (unit, bus) = connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
         let settings = CpuSettings { mode: OperatingMode::Run, ..CpuSettings::default() };
         Self { cpu: CpuUnit::power_on(Instant::ZERO, settings, variables, bus, program), unit }
     }

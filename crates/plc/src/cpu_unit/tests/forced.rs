@@ -143,8 +143,8 @@ impl Run {
         for direction in Direction::ALL {
             DataSetKind::ALL.into_iter().for_each(|kind| allocation.select(direction, kind, 1));
         }
-        let variables = DeviceVariables::of_allocation("N1", 1, &allocation);
-        let (unit, bus) = nx_bus::connect(variables.m_to_c_bytes(), variables.c_to_m_bytes());
+        let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation));
+        let (unit, bus) = nx_bus::connect(variables.unit().m_to_c_bytes, variables.unit().c_to_m_bytes);
         let (fill, (seen_to, seen)) = (Arc::new(AtomicU16::new(NO_FILL)), channel());
         let program = program(&fill, &seen_to);
         let cpu = CpuUnit::power_on(Instant::ZERO, CpuSettings::default(), variables, bus, program);

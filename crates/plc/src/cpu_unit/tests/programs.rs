@@ -32,7 +32,7 @@ fn told(name: &'static str) -> (Box<Told>, Receiver<String>) {
 
 fn cpu_unit(settings: CpuSettings, program: Box<dyn Program + Send>) -> (NxEct101, CpuUnit) {
     let unit_settings = UnitSettings::default();
-    let variables = DeviceVariables::of_allocation("N1", 1, &unit_settings.io_allocation);
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &unit_settings.io_allocation));
     let (unit, bus) = NxEct101::power_on(&unit_settings);
     (unit, CpuUnit::power_on(at_ms(100), settings, variables, bus, program))
 }
@@ -233,7 +233,7 @@ const PLANT: &str = "PROGRAM Lamp VAR Runs : INT; END_VAR Runs := Runs + 1; END_
     END_CONFIGURATION";
 
 fn structured_text(source: &str) -> Box<StructuredText> {
-    let variables = DeviceVariables::of_allocation("N1", 1, &IoAllocation::factory());
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &IoAllocation::factory()));
     Box::new(StructuredText::compile(source, &variables).expect("a program"))
 }
 

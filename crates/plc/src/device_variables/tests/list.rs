@@ -17,7 +17,7 @@ fn table(io: &Io) -> String {
         let Variable { name, port, at, variable_type, access, place, .. } = variable;
         let port = port.as_deref().unwrap_or("-");
         let at = at.as_deref().unwrap_or("-");
-        let (start, length, mask) = (place.start, place.length_bytes, place.mask);
+        let (start, length, mask) = (place.start, place.length_bytes, place.mask());
         writeln!(
             table,
             "{name} | {port} | {at} | {variable_type} | {access:?} | {:?} {start}+{length} {mask:02X}",
@@ -68,8 +68,7 @@ fn an_entry_of_another_data_set_or_a_second_one_has_no_io_port() {
     let entries = vec![entry(0x6001, 1), entry(0x6000, 2), entry(0x6000, 2), entry(0x6000, 1)];
     allocation.allocate(Direction::MToC, DataSetKind::Uints, entries);
     let io = io_of(&allocation);
-    let found =
-        io.variables().iter().filter(|(_, variable)| matches!(variable.source, VariableSource::Entry { .. }));
+    let found = io.variables().iter().filter(|(_, variable)| variable.series.is_some());
     let found: Vec<_> = found.map(|(_, variable)| (variable.name.as_str(), variable.place.start)).collect();
     assert_eq!(found, [("N1_UINTs_02_M_to_C", 10), ("N1_UINTs_01_M_to_C", 70)]);
 }
@@ -106,7 +105,9 @@ fn what_does_not_fit_is_refused_with_its_numbers() {
     assert_eq!(io.read(output.element(15)), Err(missing));
     assert_eq!(io.read(flag.element(0)), Err(VariableError::NotAnArray));
     assert_eq!(io.force(flag, &[2]), Err(VariableError::NotABool { value: 2 }));
-    assert_eq!(io.read(VariableId(999)), Err(VariableError::NoSuchVariable));
+    let many = io_of(&allocation([40, 0, 0], [40, 0, 0]));
+    let of_another = many.variables().iter().last().map(|(id, _)| id).expect("variables");
+    assert_eq!(io.read(of_another), Err(VariableError::NoSuchVariable));
 }
 
 #[test]
@@ -161,7 +162,8 @@ fn the_system_tables_have_the_elements_of_the_unit() {
     );
     assert_eq!(table(&io, active), [&[1, 1][..], &[0; 31]].concat());
     assert_eq!(table(&io, errors), [&[0, 1][..], &[0; 31]].concat());
-    let mut beyond = Io::new(DeviceVariables::of_allocation("N1", 63, &IoAllocation::empty()));
+    let mut beyond =
+        Io::new(DeviceVariables::of(nx_ect101::variable_table("N1", 63, &IoAllocation::empty())));
     beyond.take_inputs(
         UnitHeader { error: true, messages_enabled: true, ..UnitHeader::default() },
         IoRefreshing::GoesOn,
@@ -179,10 +181,10 @@ proptest! {
     #[test]
     fn every_entry_has_one_variable_and_they_cover_the_images(m_to_c in counts(), c_to_m in counts()) {
         let io = io_of(&allocation(m_to_c, c_to_m));
-        for (wanted, image_bytes) in [(Direction::MToC, io.m_to_c().len()), (Direction::CToM, io.c_to_m().len())] {
+        for (area, image_bytes) in [(Area::MToC, io.m_to_c().len()), (Area::CToM, io.c_to_m().len())] {
             let mut next = 0;
             for (_, variable) in io.variables().iter() {
-                if matches!(variable.source, VariableSource::Entry { direction, .. } if direction == wanted) {
+                if variable.place.area == area {
                     prop_assert_eq!(variable.place.start, next, "no gap and no overlap");
                     prop_assert_eq!(variable.place.length_bytes, variable.variable_type.size_bytes());
                     next += variable.place.length_bytes;

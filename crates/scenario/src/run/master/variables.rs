@@ -144,7 +144,7 @@ fn bits(address: EntryAddress) -> &'static [StatusBit] {
 fn type_of(direction: Direction, entry: &PdoEntry) -> Option<VariableType> {
     let is_of = |set: &&DataSet| set.direction == direction && set.pdo_entry == entry.index;
     match (DataSet::all().iter().find(is_of), entry.bit_length) {
-        (Some(set), _) => Some(VariableType::of_entry(set.kind)),
+        (Some(set), _) => Some(set.kind.variable_type()),
         (None, 1) => Some(VariableType::single(Elementary::Bool)),
         (None, 8) => Some(VariableType::single(Elementary::Usint)),
         _ => None,

@@ -2,9 +2,9 @@
 
 use core::fmt;
 
-use st::Elementary;
+use iec_types::Elementary;
 
-use crate::device_variables::VariableError;
+use crate::error::VariableError;
 
 /// The problem in the text of a value or of a variable, and its position.
 #[derive(Clone, Debug, PartialEq, Eq)]

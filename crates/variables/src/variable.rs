@@ -1,14 +1,13 @@
 //! One device variable: name, I/O port, AT specification, type, access and position.
 
 use core::fmt;
-use core::ops::Range;
 
 use arrayvec::ArrayVec;
-use nx_ect101::{DataSetKind, Direction};
-use st::{Class, Elementary};
+use iec_types::{Class, Elementary};
+use wire::EntryAddress;
 
-use super::memory::Place;
-use super::ports::VariableSource;
+use crate::modbus::ModbusAddress;
+use crate::place::Place;
 
 /// Length of the longest variable in bytes: the system-defined tables of 33 BOOL.
 pub const VALUE_BYTES_MAX: usize = 33;
@@ -18,7 +17,7 @@ pub type VariableValue = ArrayVec<u8, VALUE_BYTES_MAX>;
 
 /// A variable of one CPU Unit, looked up once by its name. It is not valid for another CPU Unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct VariableId(pub(super) u16);
+pub struct VariableId(pub(crate) u16);
 
 impl VariableId {
     /// One element of an array, counted from 0.
@@ -65,16 +64,6 @@ impl VariableType {
         Self { elementary, elements: Some(elements) }
     }
 
-    /// The type of an I/O entry of a data set (manual, 6-3-2).
-    #[must_use]
-    pub const fn of_entry(kind: DataSetKind) -> Self {
-        match kind {
-            DataSetKind::Uints => Self::array(Elementary::Uint, 15),
-            DataSetKind::Bytes => Self::array(Elementary::Byte, 10),
-            DataSetKind::Udint => Self::single(Elementary::Udint),
-        }
-    }
-
     /// Length in bytes, element after element.
     #[must_use]
     pub const fn size_bytes(self) -> usize {
@@ -112,6 +101,16 @@ pub enum VariableAccess {
     ReadWrite,
 }
 
+/// A numbered entry of a series that its unit has in both directions, such as `UINTs` 1 to 40. Entry `n` M to C and
+/// entry `n` C to M belong together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Series {
+    /// Name of the series.
+    pub name: &'static str,
+    /// Number of the entry, from 1.
+    pub number: u8,
+}
+
 /// A device variable or a system-defined variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variable {
@@ -125,24 +124,21 @@ pub struct Variable {
     pub variable_type: VariableType,
     /// What sets its value.
     pub access: VariableAccess,
-    /// Its meaning.
-    pub source: VariableSource,
-    pub(super) place: Place,
+    /// The position of its value.
+    pub place: Place,
+    /// The entry of a series that it is; none if it belongs to no series.
+    pub series: Option<Series>,
+    /// Its addresses for Modbus; none: it has none.
+    pub modbus: Option<ModbusAddress>,
+    /// The NX object that contains it; none: it is in no object.
+    pub nx_object: Option<EntryAddress>,
+    /// The CoE object that a master maps into its PDOs; none: it cannot be mapped.
+    pub pdo_entry: Option<EntryAddress>,
 }
 
 impl Variable {
-    /// The position of its bytes in [`crate::Io::m_to_c`] or [`crate::Io::c_to_m`]; none if it is not an I/O entry.
-    #[must_use]
-    pub fn image_bytes(&self) -> Option<(Direction, Range<usize>)> {
-        let bytes = self.place.start..self.place.start + self.place.length_bytes;
-        match self.source {
-            VariableSource::Entry { direction, .. } => Some((direction, bytes)),
-            _ => None,
-        }
-    }
-
     /// Whether this is its name or its AT specification, in upper or lower case.
-    pub(super) fn is_called(&self, name_or_at: &str) -> bool {
+    pub(crate) fn is_called(&self, name_or_at: &str) -> bool {
         let at = self.at.as_deref().is_some_and(|at| at.eq_ignore_ascii_case(name_or_at));
         at || self.name.eq_ignore_ascii_case(name_or_at)
     }

@@ -1,9 +1,9 @@
 //! Values as text.
 
+use iec_types::Elementary;
 use proptest::prelude::*;
-use st::Elementary;
 
-use crate::device_variables::*;
+use crate::*;
 
 const UINTS: VariableType = VariableType::array(Elementary::Uint, 3);
 

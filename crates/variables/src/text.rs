@@ -5,10 +5,10 @@ mod problem;
 use core::fmt;
 use core::ops::RangeInclusive;
 
-use st::{Class, Elementary};
+use iec_types::{Class, Elementary, calendar};
 use time::Duration;
 
-use super::variable::VariableType;
+use crate::variable::VariableType;
 
 pub use problem::{TextProblem, ValueTextError};
 
@@ -122,7 +122,7 @@ fn element(elementary: Elementary, whole: Part<'_>) -> Result<Vec<u8>, ValueText
             Err(_) => part.is(TextProblem::NotANumber),
         },
         Class::Time => duration(part),
-        Class::Date => match st::value_of(elementary, whole.text) {
+        Class::Date => match calendar::value_of(elementary, whole.text) {
             Some(moment) => Ok(moment.to_le_bytes().to_vec()),
             None => whole.is(TextProblem::NotATime),
         },
@@ -226,6 +226,6 @@ fn show_element(elementary: Elementary, bytes: &[u8], formatter: &mut fmt::Forma
             let sign = if nanos < 0 { "-" } else { "" };
             write!(formatter, "T#{sign}{}", Duration::from_nanos(nanos.unsigned_abs()))
         }
-        Class::Date => formatter.write_str(&st::text_of(elementary, bits)),
+        Class::Date => calendar::write(formatter, elementary, bits),
     }
 }

@@ -1,0 +1,4 @@
+//! The table, its places and its texts.
+
+mod table;
+mod text;
