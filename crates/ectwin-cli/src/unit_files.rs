@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use ectwin::unit_file::UnitFile;
 use ectwin::user_files::{self, Wanted};
 use ectwin::{Setup, SetupError};
-use plc::Builtin;
+use plc::{Builtin, WithCpu};
 
 use crate::descriptors;
 use crate::failure::Failure;
@@ -52,7 +52,7 @@ pub(crate) fn storage_path(path: &Path, file: &UnitFile) -> Option<PathBuf> {
 }
 
 /// The files of this unit file: the memory and those of the program.
-pub(crate) fn named_files(path: &Path, file: &UnitFile) -> Vec<PathBuf> {
+pub(crate) fn named_files(path: &Path, file: &WithCpu<UnitFile>) -> Vec<PathBuf> {
     let named = file.cpu.program.iter().flat_map(|program| &program.value);
     let is_file = |name: &&PathBuf| Builtin::named(&name.display().to_string()).is_none();
     let programs: Vec<_> = named.filter(is_file).map(|name| folder_of(path).join(name)).collect();
@@ -71,9 +71,9 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
 }
 
 /// Reads one unit file with its text, without the files that it refers to.
-pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
+pub(crate) fn parse(path: &Path) -> Result<(WithCpu<UnitFile>, String), Failure> {
     let text = text_of(path)?;
-    match UnitFile::parse(&text) {
+    match WithCpu::parse(&text, UnitFile::read) {
         Ok(file) => Ok((file, text)),
         Err(errors) => Err(Failure::BadFile(problems(path, &text, &SetupError::UnitFile(errors)))),
     }

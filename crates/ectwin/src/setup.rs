@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use nx_ect101::unit_file::{Located, UnitFile};
 use nx_ect101::{NxEct101, Timing, UnitSettings, device_config_with};
-use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, StructuredText};
+use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, StructuredText, WithCpu};
 use time::Instant;
 
 use crate::memory_file::MemoryFile;
@@ -22,7 +22,7 @@ pub use error::SetupError;
 /// `builtin:messages`, which also does so with messages ([`plc::MessageEcho`]); `builtin:pulse`, which counts
 /// ([`plc::Pulse`], A-4); or a file ([`Setup::program_file`]).
 pub struct Setup {
-    file: UnitFile,
+    file: WithCpu<UnitFile>,
     program: Box<dyn Program + Send>,
     /// The files of the program, if it has files.
     program_files: Option<ProgramFiles>,
@@ -62,7 +62,7 @@ impl Setup {
     /// # Errors
     /// The mistakes in it or in the program, with their places.
     pub fn from_toml_with_programs(text: &str, programs: &[PathBuf]) -> Result<Self, SetupError> {
-        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
+        let file = WithCpu::parse(text, UnitFile::read).map_err(SetupError::UnitFile)?;
         Self::without_program(file).with_program_files(programs)
     }
 
@@ -140,7 +140,7 @@ impl Setup {
     /// The unit file.
     #[must_use]
     pub const fn file(&self) -> &UnitFile {
-        &self.file
+        &self.file.unit
     }
 
     /// The settings of the unit.
@@ -177,21 +177,22 @@ impl Setup {
         let (found, writer) = self.memory.unwrap_or(MemoryFile::none()).into_parts();
         let (unit, bus) = NxEct101::power_on_with(&settings, found);
         let cpu =
-            CpuSettings { system_time_ns: self.system_time_ns, ..CpuSettings::from_unit_file(&self.file) };
+            CpuSettings { system_time_ns: self.system_time_ns, ..CpuSettings::from_section(&self.file.cpu) };
         let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
         let cpu = CpuUnit::power_on(now, cpu, variables, bus, self.program);
         Powered { config, unit, cpu, writer }
     }
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
-        let setup = Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?);
+        let setup =
+            Self::without_program(WithCpu::parse(text, UnitFile::read).map_err(SetupError::UnitFile)?);
         match setup.file.cpu.program.clone() {
             Some(name) => setup.with_named_program(&name, folder),
             None => Ok(setup),
         }
     }
 
-    fn without_program(file: UnitFile) -> Self {
+    fn without_program(file: WithCpu<UnitFile>) -> Self {
         let program = Box::new(|_: &mut Io| {});
         Self { file, program, program_files: None, system_time_ns: None, memory: None }
     }

@@ -38,27 +38,6 @@ pub enum Model {
     NxEct101,
 }
 
-/// Operating mode of the CPU Unit at power-on.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum CpuMode {
-    /// `run`: I/O is refreshed and the program runs.
-    #[default]
-    Run,
-    /// `program`: I/O is refreshed, the program is stopped.
-    Program,
-}
-
-/// The reaction of the NX Bus Function Module to an error of the two families for which the manual makes it
-/// depend on this setting (manual, 8-3-4: 10410000 and 80200000).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum FailSoftOperation {
-    /// *Fail-soft*: only the unit with the error stops; an error reset in the unit is sufficient.
-    #[default]
-    FailSoft,
-    /// *Stop*: I/O refreshing stops until the error is reset in the NX Bus Function Module.
-    Stop,
-}
-
 /// The level that a user assigns to an event whose level can be changed (manual, 8-3-4).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChangedLevel {
@@ -67,27 +46,6 @@ pub struct ChangedLevel {
     /// Its level: observation or minor fault.
     pub level: Located<EventLevel>,
 }
-
-/// Section `[cpu]`: the CPU Unit.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct CpuSection {
-    /// Period of the primary periodic task, one of those that CPU Units support; 1 ms if left out.
-    pub task_period: Located<Duration>,
-    /// From power-on to the first task period, 0 s to 32 ms; if left out, it is taken from a scenario's seed, else 0.
-    pub task_phase: Option<Located<Duration>>,
-    /// Mode at power-on; RUN if left out.
-    pub mode: Located<CpuMode>,
-    /// Fail-soft operation of the NX bus; fail-soft if left out.
-    pub fail_soft: Located<FailSoftOperation>,
-    /// Files and folders of the user program, relative to the unit file; none if left out.
-    pub program: Option<Located<Vec<PathBuf>>>,
-    /// Maximum number of statements of a scan of a program in Structured Text, 1 to 1,000,000,000;
-    /// [`STATEMENT_BUDGET_DEFAULT`] if left out.
-    pub statement_budget: Located<u64>,
-}
-
-/// Default of the maximum number of statements of a scan: a few milliseconds of work.
-pub const STATEMENT_BUDGET_DEFAULT: u64 = 100_000;
 
 /// One virtual unit. The field comments give the defaults of values that are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -123,23 +81,23 @@ pub struct UnitFile {
     pub pdo: Option<Located<PdoSection>>,
     /// Changed event levels, in the order of their codes.
     pub event_levels: Vec<ChangedLevel>,
-    /// The CPU Unit.
-    pub cpu: CpuSection,
 }
 
 impl UnitFile {
-    /// Reads the text of a unit file.
+    /// Reads the text of a unit file, except the section `[cpu]`, which the CPU Unit reads.
     ///
     /// # Errors
     /// All mistakes, in the order of the file: text that is not TOML (then nothing else is checked), unknown
     /// keys, wrong types, bad values, `model` missing.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
-        read_toml(text, Wanted::UnitFile, sections::unit)
+        read_toml(text, Wanted::UnitFile, Self::read)
     }
 
-    /// Reads a unit that is a table of another file. What is wrong is refused by `reader`.
-    pub fn read(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> Option<Self> {
-        sections::unit(reader, table)
+    /// Reads the keys of this model from a unit file or from a table of another file; none if it does not contain its
+    /// model. `[cpu]` is one of them, but its keys are read by the CPU Unit. `reader` refuses what is wrong.
+    #[must_use]
+    pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Self> {
+        sections::unit(reader, file)
     }
 
     /// The I/O allocation that the file asks for, right or wrong.

@@ -1,5 +1,6 @@
 //! The CPU Unit: a primary periodic task that refreshes the I/O of one unit and runs a user program.
 
+mod operating_mode;
 mod settings;
 
 use core::fmt;
@@ -15,7 +16,8 @@ use crate::io::Io;
 use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
 use crate::program::{Program, Slot};
 
-pub use settings::{CpuSettings, OperatingMode};
+pub use operating_mode::OperatingMode;
+pub use settings::CpuSettings;
 
 /// A CPU Unit in operation, with one unit on its NX bus.
 pub struct CpuUnit {

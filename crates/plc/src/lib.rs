@@ -5,6 +5,7 @@
 
 mod builtin;
 mod cpu_event;
+mod cpu_section;
 mod cpu_unit;
 mod device_variables;
 mod echo;
@@ -19,6 +20,7 @@ mod structured_text;
 
 pub use builtin::Builtin;
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
+pub use cpu_section::{CPU_KEYS, CpuSection, STATEMENT_BUDGET_DEFAULT, WithCpu};
 pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
 pub use device_variables::{
     Area, BusUnit, DeviceVariables, ModbusAddress, NodeLocation, Place, SYSTEM_TABLE_ELEMENTS, Series,
@@ -29,7 +31,7 @@ pub use echo::Echo;
 pub use io::Io;
 pub use message_echo::MessageEcho;
 pub use nx_bus::{NxMessageError, NxValue};
-pub use nx_ect101::unit_file::{FailSoftOperation, STATEMENT_BUDGET_DEFAULT};
+pub use nx_bus_function::FailSoftOperation;
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;

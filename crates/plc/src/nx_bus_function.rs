@@ -6,7 +6,17 @@
 //! the unit with the error stops, and a reset in the unit is sufficient.
 
 use nx_bus::{CpuHeader, UnitHeader};
-use nx_ect101::unit_file::FailSoftOperation;
+
+/// The reaction of the NX Bus Function Module to an error of the two families for which the manual makes it
+/// depend on this setting (manual, 8-3-4: 10410000 and 80200000).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FailSoftOperation {
+    /// *Fail-soft*: only the unit with the error stops; an error reset in the unit is sufficient.
+    #[default]
+    FailSoft,
+    /// *Stop*: I/O refreshing stops until the error is reset in the NX Bus Function Module.
+    Stop,
+}
 
 /// Whether I/O is refreshed on the NX bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,10 +5,10 @@ mod host;
 
 use std::any::Any;
 
-use nx_ect101::unit_file::STATEMENT_BUDGET_DEFAULT;
 use st::{Instance, Problems, Sources};
 use time::Duration;
 
+use crate::cpu_section::STATEMENT_BUDGET_DEFAULT;
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
 use crate::io::Io;
 use crate::program::{Program, ProgramEvent};

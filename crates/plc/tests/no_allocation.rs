@@ -4,9 +4,8 @@
 
 use allocation_counter::measure;
 use nx_bus::UnitHeader;
-use nx_ect101::unit_file::FailSoftOperation;
 use nx_ect101::{IoAllocation, SlaveStatus};
-use plc::{CpuSettings, CpuUnit, DeviceVariables, Io, OperatingMode, ProgramEvent};
+use plc::{CpuSettings, CpuUnit, DeviceVariables, FailSoftOperation, Io, OperatingMode, ProgramEvent};
 use time::Instant;
 
 const CYCLES: u64 = 1_000;

@@ -71,7 +71,7 @@ const FLOORS: &[Row] = &[
         6,
         Only(&["time", "wire", "user-file", "esi", "coe-kit", "device", "unit-keys", "unit-model"]),
     ),
-    row("plc", 7, Only(&["time", "wire", "st", "nx-bus", "variables", "nx-ect101"])),
+    row("plc", 7, Only(&["time", "wire", "st", "nx-bus", "variables", "user-file"])),
     row("plant", 8, AnyFloorBelow),
     row("scenario", 9, AnyFloorBelow),
     row("wasm", 9, Only(&["time", "plc"])),

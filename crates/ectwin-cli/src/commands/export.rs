@@ -4,6 +4,7 @@ use std::slice;
 
 use ectwin::unit_file::UnitFile;
 use nx_ect101::UnitSettings;
+use plc::WithCpu;
 
 use crate::cli::ExportArgs;
 use crate::failure::Failure;
@@ -24,11 +25,11 @@ pub(crate) fn sii(args: &ExportArgs) -> Result<(), Failure> {
     write(args, &file, &esi::sii::image(&description))
 }
 
-fn unit_file(args: &ExportArgs) -> Result<UnitFile, Failure> {
+fn unit_file(args: &ExportArgs) -> Result<WithCpu<UnitFile>, Failure> {
     unit_files::parse(&args.unit).map(|(file, _)| file)
 }
 
-fn write(args: &ExportArgs, file: &UnitFile, result: &[u8]) -> Result<(), Failure> {
+fn write(args: &ExportArgs, file: &WithCpu<UnitFile>, result: &[u8]) -> Result<(), Failure> {
     if let Some(path) = &args.output {
         let output = Output { option: "-o", path };
         overwrite::refuse(&[output], slice::from_ref(&args.unit))?;

@@ -58,7 +58,7 @@ pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
 
 fn unit_file(args: &StCheckArgs) -> Result<UnitFile, Failure> {
     match &args.unit {
-        Some(path) => unit_files::parse(path).map(|(file, _)| file),
+        Some(path) => unit_files::parse(path).map(|(file, _)| file.unit),
         // The only key that a unit file needs.
         None => Ok(UnitFile::parse(FACTORY).unwrap_or_else(|_| unreachable!("the factory setting is right"))),
     }

@@ -369,7 +369,8 @@ fn every_io_port_of_the_cpu_unit_is_explained() {
 /// Every key of the reader, by its path and by its last word; a number alone is an object or an event.
 #[test]
 fn every_key_of_the_unit_file_is_explained() {
-    for path in nx_ect101::unit_file::keys() {
+    let of_cpu = plc::CPU_KEYS.map(|key| format!("cpu.{key}"));
+    for path in nx_ect101::unit_file::keys().into_iter().chain(of_cpu) {
         let last = path.rsplit_once('.').map_or(path.as_str(), |(_, last)| last);
         let is_number = last.starts_with(|first: char| first.is_ascii_digit());
         for name in [path.as_str(), if is_number { &path } else { last }] {

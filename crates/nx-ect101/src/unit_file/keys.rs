@@ -41,8 +41,6 @@ pub(super) const DATA_SETS: [(&str, DataSetKind); 3] =
     [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
 pub(super) const PDO: [&str; 2] = ["assign", "mapping"];
 pub(super) const ASSIGN: [&str; 2] = ["rx", "tx"];
-pub(super) const CPU: [&str; 6] =
-    ["task_period", "task_phase", "mode", "fail_soft", "program", "statement_budget"];
 
 /// The transitions of a unit without BOOT, by the standard's letters.
 pub(super) fn transitions() -> Vec<&'static str> {
@@ -65,12 +63,13 @@ pub(super) fn changeable_events() -> impl Iterator<Item = EventCode> {
     Event::all().iter().filter(|event| event.changeable_level).map(|event| event.code)
 }
 
-/// Every key and every section of the unit file, as a path with dots: `start_up`, `cpu`, `cpu.fail_soft`.
+/// Every key and every section of the unit file, as a path with dots: `start_up`, `times`, `times.sii`. Of `cpu` it has
+/// only the section: the CPU Unit reads its keys.
 #[must_use]
 pub fn keys() -> Vec<String> {
     let owned = |keys: &[&str]| keys.iter().map(|key| (*key).to_owned()).collect::<Vec<_>>();
     let data_sets = || DATA_SETS.iter().map(|(key, _)| (*key).to_owned()).collect();
-    let sections: [(&str, Vec<String>); 11] = [
+    let sections: [(&str, Vec<String>); 10] = [
         ("times", owned(&TIMES)),
         ("times.transitions", owned(&transitions())),
         ("refuse", owned(&refuse())),
@@ -81,7 +80,6 @@ pub fn keys() -> Vec<String> {
         ("pdo.assign", owned(&ASSIGN)),
         ("pdo.mapping", mappings()),
         ("event_levels", changeable_events().map(|code| code.to_string()).collect()),
-        ("cpu", owned(&CPU)),
     ];
     let within =
         sections.iter().flat_map(|(section, keys)| keys.iter().map(move |key| format!("{section}.{key}")));

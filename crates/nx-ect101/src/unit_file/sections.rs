@@ -1,14 +1,10 @@
 //! The sections of a unit file, key by key.
 
-use time::Duration;
 use user_file::{DeValue, Located, Problem, Reader, Section, Value, values, wrong_type};
 use wire::ObjectIndex;
 
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
-use super::{
-    ChangedLevel, CpuMode, CpuSection, FailSoftOperation, Model, STATEMENT_BUDGET_DEFAULT, UnitFile,
-    information, keys, slave, times,
-};
+use super::{ChangedLevel, Model, UnitFile, information, keys, slave, times};
 use crate::data_sets::DataSet;
 use crate::events::EventLevel;
 use crate::timing::Timing;
@@ -43,7 +39,6 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     let io_allocation = io_allocation(reader, file);
     let pdo = pdo(reader, file);
     let event_levels = event_levels(reader, file);
-    let cpu = cpu(reader, file);
     Some(UnitFile {
         model: model?,
         name: name.unwrap_or_else(|| Located::left_out("N1".into())),
@@ -60,7 +55,6 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
         io_allocation,
         pdo,
         event_levels,
-        cpu,
     })
 }
 
@@ -189,41 +183,4 @@ fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<ChangedL
 fn level(place: &str, value: &DeValue<'_>) -> Result<EventLevel, Problem> {
     let choices = [("observation", EventLevel::Observation), ("minor_fault", EventLevel::MinorFault)];
     values::choice(place, value, &choices)
-}
-
-fn cpu(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> CpuSection {
-    let mut cpu = CpuSection {
-        task_period: Located::left_out(Duration::from_millis(1)),
-        task_phase: None,
-        mode: Located::left_out(CpuMode::Run),
-        fail_soft: Located::left_out(FailSoftOperation::FailSoft),
-        program: None,
-        statement_budget: Located::left_out(STATEMENT_BUDGET_DEFAULT),
-    };
-    let Some(section) = reader.section(file, "cpu") else { return cpu };
-    reader.only(&section, &keys::CPU);
-    if let Some(task_period) = reader.value(&section, "task_period", times::task_period) {
-        cpu.task_period = task_period;
-    }
-    cpu.task_phase = reader.value(&section, "task_phase", times::task_phase);
-    let modes = [("run", CpuMode::Run), ("program", CpuMode::Program)];
-    if let Some(mode) = reader.value(&section, "mode", |place, value| values::choice(place, value, &modes)) {
-        cpu.mode = mode;
-    }
-    let budget = reader.value(&section, "statement_budget", |place, value| {
-        values::integer(place, value, 1..=1_000_000_000, "1 to 1000000000 statements")
-    });
-    if let Some(budget) = budget {
-        cpu.statement_budget = budget;
-    }
-    if let Some(fail_soft) = reader.value(&section, "fail_soft", fail_soft) {
-        cpu.fail_soft = fail_soft;
-    }
-    cpu.program = reader.value(&section, "program", values::paths);
-    cpu
-}
-
-fn fail_soft(place: &str, value: &DeValue<'_>) -> Result<FailSoftOperation, Problem> {
-    let is_fail_soft = values::truth(place, value)?;
-    Ok(if is_fail_soft { FailSoftOperation::FailSoft } else { FailSoftOperation::Stop })
 }

@@ -88,24 +88,6 @@ fn a_file_with_every_key_reads_as_written() {
     assert_eq!(file.storage.unwrap().value, PathBuf::from("N1.nvm"));
     let [level] = file.event_levels.as_slice() else { panic!("{:?}", file.event_levels) };
     assert_eq!((level.event_code.value.0, level.level.value), (0x3917_0000, EventLevel::Observation));
-    assert_eq!(file.cpu.task_period.value, Duration::from_millis(1));
-    assert_eq!((file.cpu.mode.value, file.cpu.fail_soft.value), (CpuMode::Run, FailSoftOperation::Stop));
-    assert_eq!(file.cpu.program.unwrap().value, [PathBuf::from("echo.st")]);
-}
-
-#[test]
-fn task_periods_are_those_of_cpu_units() {
-    let is_taken = |period: &str| {
-        UnitFile::parse(&format!("model = \"nx-ect101\"\ncpu.task_period = \"{period}\"")).is_ok()
-    };
-    for period in
-        ["125us", "250us", "500us", "750us", "1ms", "1250us", "2ms", "4ms", "8ms", "31750us", "32ms"]
-    {
-        assert!(is_taken(period), "{period}");
-    }
-    for period in ["0ms", "1us", "124us", "126us", "249us", "375us", "1100us", "32250us", "100ms", "1s"] {
-        assert!(!is_taken(period), "{period}");
-    }
 }
 
 #[test]
@@ -114,13 +96,6 @@ fn unit_numbers_are_those_of_the_nx_bus() {
     for number in 0..=u8::MAX {
         assert_eq!(read(number).is_ok(), (1..=32).contains(&number), "{number}");
     }
-}
-
-#[test]
-fn several_programs_are_a_list() {
-    let text = "model = \"nx-ect101\"\ncpu.program = [\"a.st\", \"blocks\"]";
-    let program = UnitFile::parse(text).unwrap().cpu.program.unwrap();
-    assert_eq!(program.value, [PathBuf::from("a.st"), PathBuf::from("blocks")]);
 }
 
 #[test]
@@ -165,8 +140,7 @@ fn what_is_left_out_is_as_documented() {
     let file = UnitFile::parse("model = \"nx-ect101\"").unwrap();
     assert_eq!(file.name, Located::left_out("N1".into()));
     assert_eq!((file.unit_number.value, file.serial.value, file.id_switch.value), (1, 1, 1));
-    assert_eq!((file.timing.value, file.cpu.mode.value), (Timing::Exact, CpuMode::Run));
-    assert_eq!(file.cpu.fail_soft.value, FailSoftOperation::FailSoft);
+    assert_eq!(file.timing.value, Timing::Exact);
     assert_eq!((&file.io_allocation, &file.pdo, &file.storage), (&None, &None, &None));
     assert_eq!(file.io_allocation(), IoAllocation::factory());
 }
@@ -242,11 +216,8 @@ const WRONG: &[(&str, &str)] = &[
     ("model missing", "name = \"N1\""),
     ("unknown model", "model = \"nx-ect102\""),
     ("model of wrong type", "model = 101"),
-    (
-        "unknown keys",
-        "model = \"nx-ect101\"\nunit_nr = 1\nunitnumber = 1\nzzz = 1\n[cpu]\nperiod = 1\ntaskperiod = 1",
-    ),
-    ("key in the wrong table", "model = \"nx-ect101\"\n[cpu]\nserial = 1"),
+    ("unknown keys", "model = \"nx-ect101\"\nunit_nr = 1\nunitnumber = 1\nzzz = 1"),
+    ("key in the wrong table", "model = \"nx-ect101\"\n[times]\nserial = 1"),
     ("unit number", "model = \"nx-ect101\"\nunit_number = 33"),
     ("unit number 0", "model = \"nx-ect101\"\nunit_number = 0"),
     ("unit number as text", "model = \"nx-ect101\"\nunit_number = \"1\""),
@@ -284,20 +255,6 @@ const WRONG: &[(&str, &str)] = &[
     ("transitions as a number", "model = \"nx-ect101\"\ntimes.transitions = 20"),
     ("refusals", "model = \"nx-ect101\"\nrefuse = { safeop = 1, op = 0, pre_op = 0x10000, acknowledge = 1 }"),
     ("storage", "model = \"nx-ect101\"\nstorage = \"\""),
-    ("period", "model = \"nx-ect101\"\ncpu.task_period = \"1h\""),
-    ("period too long", "model = \"nx-ect101\"\ncpu.task_period = \"33ms\""),
-    ("period between two steps", "model = \"nx-ect101\"\ncpu.task_period = \"300us\""),
-    ("programs of two types", "model = \"nx-ect101\"\ncpu.program = [\"a.st\", 2]"),
-    ("no program in a list", "model = \"nx-ect101\"\ncpu.program = []"),
-    ("program as a number", "model = \"nx-ect101\"\ncpu.program = 3"),
-    ("period as a number", "model = \"nx-ect101\"\ncpu.task_period = 1"),
-    ("mode", "model = \"nx-ect101\"\n[cpu]\nmode = \"RUN\""),
-    ("fail-soft as a word", "model = \"nx-ect101\"\n[cpu]\nfail_soft = \"stop\""),
-    ("fail-soft misspelt", "model = \"nx-ect101\"\n[cpu]\nfailsoft = true"),
-    ("statement budget of nothing", "model = \"nx-ect101\"\n[cpu]\nstatement_budget = 0"),
-    ("statement budget as a word", "model = \"nx-ect101\"\n[cpu]\nstatement_budget = \"large\""),
-    ("cpu no table", "model = \"nx-ect101\"\ncpu = \"run\""),
-    ("array of tables", "model = \"nx-ect101\"\n[[cpu]]\nmode = \"run\""),
     ("unknown data set", "model = \"nx-ect101\"\n[io_allocation.m_to_c]\nuint = 6"),
     ("unknown direction", "model = \"nx-ect101\"\n[io_allocation.m_to_m]\nuints = 6"),
     ("count", "model = \"nx-ect101\"\nio_allocation.m_to_c.uints = 256"),
@@ -316,7 +273,7 @@ const WRONG: &[(&str, &str)] = &[
     ),
     ("event level", "model = \"nx-ect101\"\nevent_levels.39160000 = \"minor\""),
     ("after letters of more than one byte", "# µs\r\nmodel = \"nx-ect101\" \r\n\"ÄÖ\" = { a = 1 }\r\n"),
-    ("everything at once", "model = 1\nserial = -1\nmodell = 2\n[cpu]\nmode = 3\nprogram = 4"),
+    ("everything at once", "model = 1\nserial = -1\nmodell = 2\n[times]\nsii = 3\nmailbox = 4"),
 ];
 
 #[test]
@@ -333,10 +290,10 @@ fn a_wrong_file_is_told_with_place_value_and_expectation() {
 
 #[test]
 fn spans_point_at_what_is_wrong() {
-    let text = "model = \"nx-ect101\"\n[cpu]\nmode = \"walk\"";
+    let text = "model = \"nx-ect101\"\n[times]\nsii = \"walk\"";
     let errors = UnitFile::parse(text).unwrap_err();
     let error = errors.iter().next().unwrap();
-    assert_eq!((&text[error.span.clone()], error.line, error.column), ("\"walk\"", 3, 8));
+    assert_eq!((&text[error.span.clone()], error.line, error.column), ("\"walk\"", 3, 7));
 }
 
 #[test]

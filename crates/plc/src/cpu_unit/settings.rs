@@ -1,28 +1,10 @@
 //! The settings of a CPU Unit.
 
-use core::fmt;
-
-use nx_ect101::unit_file::{CpuMode, FailSoftOperation, UnitFile};
 use time::Duration;
 
-/// Operating mode of the CPU Unit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum OperatingMode {
-    /// RUN: the user program runs.
-    #[default]
-    Run,
-    /// PROGRAM: the user program is stopped; the I/O exchange continues and the values are kept (manual, A-4).
-    Program,
-}
-
-impl fmt::Display for OperatingMode {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.pad(match self {
-            Self::Run => "RUN",
-            Self::Program => "PROGRAM",
-        })
-    }
-}
+use super::operating_mode::OperatingMode;
+use crate::cpu_section::CpuSection;
+use crate::nx_bus_function::FailSoftOperation;
 
 /// The settings of a CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,17 +24,13 @@ pub struct CpuSettings {
 impl CpuSettings {
     /// The settings of a unit file, without system time.
     #[must_use]
-    pub fn from_unit_file(file: &UnitFile) -> Self {
-        let mode = match file.cpu.mode.value {
-            CpuMode::Run => OperatingMode::Run,
-            CpuMode::Program => OperatingMode::Program,
-        };
+    pub fn from_section(cpu: &CpuSection) -> Self {
         Self {
-            task_period: file.cpu.task_period.value,
-            task_phase: file.cpu.task_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
-            mode,
+            task_period: cpu.task_period.value,
+            task_phase: cpu.task_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
+            mode: cpu.mode.value,
             system_time_ns: None,
-            fail_soft: file.cpu.fail_soft.value,
+            fail_soft: cpu.fail_soft.value,
         }
     }
 }

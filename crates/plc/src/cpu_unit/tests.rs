@@ -5,13 +5,13 @@ mod forced;
 mod programs;
 
 use device::{Check, Exchange, PortLinks, RefreshCause, SmIndex, Unit};
-use nx_ect101::unit_file::{FailSoftOperation, UnitFile};
 use nx_ect101::{DataSetKind, Direction, IoAllocation, NxEct101, UnitSettings};
 use proptest::prelude::*;
 use wire::AlState;
 
 use super::*;
 use crate::Echo;
+use crate::{FailSoftOperation, WithCpu};
 
 struct Bench {
     unit: NxEct101,
@@ -154,8 +154,9 @@ fn task_periods_keep_their_phase_and_leave_out_what_was_missed() {
 
 #[test]
 fn a_unit_file_sets_up_a_cpu_unit() {
-    let text = "model = \"nx-ect101\"\n[cpu]\ntask_period = \"4ms\"\nmode = \"program\"";
-    let settings = CpuSettings::from_unit_file(&UnitFile::parse(text).expect("a right file"));
+    let text = "[cpu]\ntask_period = \"4ms\"\nmode = \"program\"";
+    let file = WithCpu::parse(text, |_, _| Some(())).expect("a right file");
+    let settings = CpuSettings::from_section(&file.cpu);
     assert_eq!((settings.task_period, settings.mode), (Duration::from_millis(4), OperatingMode::Program));
 }
 

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nx_ect101::unit_file::UnitFile;
-use plc::{Builtin, DeviceVariables, StructuredText};
+use plc::{Builtin, DeviceVariables, StructuredText, WithCpu};
 use st::Sources;
 use user_file::{Reader, Section, Wanted};
 
@@ -26,7 +26,7 @@ struct Origin<'a> {
 /// Whether a table of a scenario file is a unit. What is wrong is refused by `reader`.
 pub(crate) fn is_unit(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> bool {
     let refused = reader.refused();
-    UnitFile::read(reader, table).is_some() && reader.refused() == refused
+    WithCpu::read(reader, table, UnitFile::read).is_some() && reader.refused() == refused
 }
 
 impl Maker<'_> {
@@ -68,7 +68,7 @@ impl Maker<'_> {
     }
 
     fn unit_text(&mut self, text: &str, part: Part, origin: Origin<'_>) -> Option<UnitSource> {
-        let file = match UnitFile::parse(text) {
+        let file = match WithCpu::parse(text, UnitFile::read) {
             Ok(file) => file,
             Err(errors) => {
                 for error in errors.iter() {
@@ -96,7 +96,12 @@ impl Maker<'_> {
         Some(UnitSource { file, program })
     }
 
-    fn user_program(&mut self, paths: Vec<String>, part: Part, file: &UnitFile) -> Option<UserProgram> {
+    fn user_program(
+        &mut self,
+        paths: Vec<String>,
+        part: Part,
+        file: &WithCpu<UnitFile>,
+    ) -> Option<UserProgram> {
         if let [only] = paths.as_slice()
             && let Some(builtin) = Builtin::named(only)
         {
@@ -111,7 +116,7 @@ impl Maker<'_> {
         &mut self,
         paths: &[String],
         part: Part,
-        file: &UnitFile,
+        file: &WithCpu<UnitFile>,
     ) -> Option<ProgramFile> {
         let sources = self.program_sources(paths, part)?;
         match StructuredText::compile(sources, &DeviceVariables::of(file.variable_table())) {

@@ -173,7 +173,7 @@ fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::Device
     let cpu = CpuSettings {
         system_time_ns: Some(SYSTEM_TIME_NS),
         task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
-        ..CpuSettings::from_unit_file(&source.file)
+        ..CpuSettings::from_section(&source.file.cpu)
     };
     let (variables, program) = (DeviceVariables::of(source.file.variable_table()), source.program.start());
     (config, unit, CpuUnit::power_on(now, cpu, variables, bus, program))
