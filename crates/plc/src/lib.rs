@@ -35,5 +35,6 @@ pub use nx_bus_function::FailSoftOperation;
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;
+pub use st::Elementary;
 pub use structured_text::StructuredText;
 pub use wire::{ObjectIndex, SubIndex};

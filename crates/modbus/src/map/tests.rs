@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use nx_ect101::{DataSet, DataSetKind, Direction, IoAllocation};
+use plc::{Area, BusUnit, ModbusAddress, Place, StatusWord, VariableAccess, VariableTable, VariableType};
 use proptest::prelude::*;
 
 use super::*;
@@ -141,4 +142,50 @@ fn the_places_are_those_of_the_page() {
     assert_eq!(row("N1_Ready_to_Write_Message_Data_to_EtherCAT_Master"), (bits, 9..=9, None));
     assert_eq!(row("NXBus_N1_NX_Unit_Error_Status"), (bits, 17..=17, None));
     assert_eq!(row("_NXB_UnitErrFlagTbl"), (bits, 200..=232, None));
+}
+
+/// A terminal of 16 outputs and 16 inputs, the inputs with places for forced values.
+fn terminal() -> DeviceVariables {
+    let channel = |name: &str, area, access, number: u8, forced: Option<u16>| Variable {
+        name: format!("K1_{name}_{number}"),
+        port: None,
+        at: None,
+        variable_type: VariableType::single(plc::Elementary::Bool),
+        access,
+        place: Place::bit(area, usize::from(number - 1)),
+        series: None,
+        modbus: Some(ModbusAddress { forced, ..ModbusAddress::at(1_000 + u16::from(number)) }),
+        nx_object: None,
+        pdo_entry: None,
+    };
+    let outputs =
+        (1..=16).map(|number| channel("Output", Area::MToC, VariableAccess::ReadOnly, number, None));
+    let inputs = (1..=16).map(|number| {
+        channel("Input", Area::CToM, VariableAccess::ReadWrite, number, Some(5_000 + u16::from(number)))
+    });
+    let unit = BusUnit {
+        device_name: "K1".into(),
+        unit_number: 1,
+        m_to_c_bytes: 2,
+        c_to_m_bytes: 2,
+        status: StatusWord::default(),
+    };
+    DeviceVariables::of(VariableTable::new(unit, outputs.chain(inputs).collect()))
+}
+
+#[test]
+fn single_bits_are_discrete_inputs_and_coils_and_are_forced_by_registers_of_one_bit() {
+    let variables = terminal();
+    let map = ModbusMap::of(&variables);
+    meanings(&variables);
+    let bits = |table, first| map.bits(table, Addresses { first, quantity: 16 }).map(<[Bit]>::to_vec);
+    let target = |name: &str| Target::from(variables.find(name).expect(name));
+    let output = bits(Table::DiscreteInputs, 1_001).expect("16 outputs")[2];
+    assert_eq!((output.target, output.tells), (target("K1_Output_3"), BitTells::Value(0)));
+    let input = bits(Table::Coils, 1_001).expect("16 inputs")[15];
+    assert_eq!((input.target, input.tells), (target("K1_Input_16"), BitTells::Value(0)));
+    let forced = bits(Table::Coils, 5_001).expect("16 inputs")[0];
+    assert_eq!((forced.target, forced.tells), (target("K1_Input_1"), BitTells::IsForced));
+    let register = map.registers(Table::HoldingRegisters, Addresses::one(5_001)).expect("a register")[0];
+    assert_eq!((register.greatest, register.length_bytes, register.writing), (1, 1, Writing::Forces));
 }

@@ -1,6 +1,7 @@
 //! The list of variables and their memory.
 
 mod list;
+mod terminal;
 
 use nx_ect101::{DataSetKind, Direction, IoAllocation, variable_table};
 
