@@ -33,9 +33,6 @@ impl RawPort {
             let available = interfaces.into_iter().map(|interface| interface.name).collect();
             return Err(OpenError::NoSuchInterface { name: name.to_owned(), available });
         };
-        if interface.is_loopback() {
-            return Err(OpenError::Loopback { name: name.to_owned() });
-        }
         let open = || {
             // The bell is set up first: changes from here on ring it.
             let bell = Bell::new()?;
@@ -44,6 +41,9 @@ impl RawPort {
         };
         let (bell, bound, socket) =
             open().map_err(|error| OpenError::of(LinkSpec::Raw(name.to_owned()), error))?;
+        if interface.is_loopback() {
+            return Err(OpenError::Loopback { name: name.to_owned() });
+        }
         if !interface.is_up() {
             tracing::warn!("{name} is down: `ip link set {name} up` before the master starts");
         } else if !bound.carrier() {

@@ -244,12 +244,14 @@ fn an_interface_that_does_not_exist_is_named_beside_those_that_do() {
 
 #[test]
 fn a_loopback_interface_is_refused_with_what_works() {
-    let error = open(&"raw:lo".parse().unwrap()).err().unwrap();
-    assert!(matches!(error, OpenError::Loopback { .. }), "{error}");
-    assert!(error.to_string().contains("lo is a loopback interface"), "{error}");
-    for instead in ["udp:127.0.0.1", "tap:ect0", "type veth"] {
-        assert!(error.help().contains(instead), "{}", error.help());
-    }
+    in_network_namespace("a_loopback_interface_is_refused_with_what_works", || {
+        let error = open(&"raw:lo".parse().unwrap()).err().unwrap();
+        assert!(matches!(error, OpenError::Loopback { .. }), "{error}");
+        assert!(error.to_string().contains("lo is a loopback interface"), "{error}");
+        for instead in ["udp:127.0.0.1", "tap:ect0", "type veth"] {
+            assert!(error.help().contains(instead), "{}", error.help());
+        }
+    });
 }
 
 #[test]
