@@ -4,6 +4,7 @@
 //! A [`UnitFile`] or [`TerminalSettings`] select one, [`device_config`] describes it to the slave stack, and a
 //! [`Terminal`] moves the levels between process data and its [`Wiring`].
 
+mod bus_wiring;
 mod channels;
 mod config;
 mod description;
@@ -12,8 +13,10 @@ mod model;
 mod settings;
 mod terminal;
 mod unit_file;
+mod variables;
 mod wiring;
 
+pub use bus_wiring::BusWiring;
 pub use channels::Channels;
 pub use config::device_config;
 pub use description::description;

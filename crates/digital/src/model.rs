@@ -2,11 +2,21 @@
 //! indicators of the ports.
 
 use core::fmt::Debug;
+use std::sync::Arc;
 
 use coe_kit::indicators::{self, Pattern};
-use unit_model::{DataValid, Model, ModelUnit, SlaveView};
+use esi::DeviceDescription;
+use time::Duration;
+use unit_model::{DataValid, Model, ModelUnit, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection};
+use user_file::{Reader, Section};
+use variables::VariableTable;
 
-use crate::terminal::Terminal;
+use crate::bus_wiring::BusWiring;
+use crate::config::device_config;
+use crate::description::description;
+use crate::terminal::{self, Terminal};
+use crate::unit_file::{self, UnitFile};
+use crate::variables::variable_table;
 use crate::wiring::Wiring;
 
 /// The model.
@@ -22,11 +32,53 @@ const PORT_OUT: &str = "L/A OUT";
 
 impl Model for DigitalModel {
     fn name(&self) -> &'static str {
-        "digital"
+        unit_file::MODEL
     }
 
     fn indicators(&self) -> &'static [&'static str] {
         &[RUN, PORT_IN, PORT_OUT]
+    }
+}
+
+impl UnitFiles for DigitalModel {
+    fn keys(&self) -> Vec<&'static str> {
+        unit_file::all_keys()
+    }
+
+    fn read(&self, reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Arc<dyn UnitSection>> {
+        Some(Arc::new(UnitFile::read(reader, file)))
+    }
+}
+
+impl UnitSection for UnitFile {
+    fn model(&self) -> &'static dyn Model {
+        &MODEL
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn description(&self) -> DeviceDescription {
+        description(&self.settings)
+    }
+
+    fn variables(&self) -> VariableTable {
+        variable_table(&self.name, &self.settings)
+    }
+
+    fn refresh_period(&self) -> Option<Duration> {
+        terminal::refresh_period(self.settings.inputs)
+    }
+
+    fn power_on(&self, conditions: &PowerOn) -> PoweredUnit {
+        let mut settings = if conditions.fast { &self.fast } else { &self.settings }.clone();
+        if !self.names_refresh_phase {
+            settings.refresh_phase = conditions.refresh_phase;
+        }
+        let (wiring, cpu) = BusWiring::connect(settings.outputs, settings.inputs);
+        let unit = Box::new(Terminal::power_on(&settings, wiring));
+        PoweredUnit { config: device_config(&settings), unit, cpu }
     }
 }
 

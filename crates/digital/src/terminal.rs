@@ -12,6 +12,11 @@ use crate::wiring::Wiring;
 /// Time between two reads of the inputs.
 const INPUT_PERIOD: Duration = Duration::from_millis(1);
 
+/// Only inputs need a timer.
+pub(crate) fn refresh_period(inputs: Channels) -> Option<Duration> {
+    (!inputs.is_none()).then_some(INPUT_PERIOD)
+}
+
 /// A terminal in operation: it only passes levels between the process data and its wiring.
 #[derive(Debug)]
 pub struct Terminal<W> {
@@ -50,7 +55,7 @@ impl<W: Wiring> Terminal<W> {
 impl<W: Wiring> Unit for Terminal<W> {
     /// Outputs are applied with the frame, so that only inputs need a timer.
     fn refresh_period(&self) -> Option<Duration> {
-        (!self.inputs.is_none()).then_some(INPUT_PERIOD)
+        refresh_period(self.inputs)
     }
 
     fn refresh(&mut self, _now: Instant, exchange: Exchange<'_>) {

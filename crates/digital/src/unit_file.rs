@@ -2,15 +2,15 @@
 
 use device::OutputsBeforeOp;
 use time::Duration;
-use unit_keys::{CommonKeys, OutputsRule, Shape};
-use unit_model::Model;
+use unit_keys::{CommonKeys, OutputsRule, Shape, Timing};
 use user_file::{DeValue, FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
 
 use crate::channels::Channels;
 use crate::description::timeouts;
-use crate::model::MODEL;
 use crate::settings::{Ports, TerminalSettings};
 
+/// The name of the model.
+pub(crate) const MODEL: &str = "digital";
 /// The keys of this model, in addition to those of every model.
 pub const KEYS: [&str; 4] = ["inputs", "outputs", "ports", "mailbox"];
 
@@ -19,6 +19,11 @@ const SHAPE: Shape = Shape { mailbox: false, boot: false };
 /// The controller loads its EEPROM, without further start-up.
 const START_UP: Duration = Duration::ZERO;
 
+/// The keys at the top of a file.
+pub(crate) fn all_keys() -> Vec<&'static str> {
+    ["model", "cpu"].into_iter().chain(KEYS).chain(unit_keys::KEYS).collect()
+}
+
 /// The contents of a terminal's unit file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitFile {
@@ -26,6 +31,10 @@ pub struct UnitFile {
     pub name: String,
     /// The settings of the terminal.
     pub settings: TerminalSettings,
+    /// The file names `refresh_phase`.
+    pub(crate) names_refresh_phase: bool,
+    /// The settings without the times of the file.
+    pub(crate) fast: TerminalSettings,
 }
 
 impl UnitFile {
@@ -35,40 +44,47 @@ impl UnitFile {
     /// All mistakes, in the order of the file.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
         read_toml(text, Wanted::UnitFile, |reader, file| {
-            let name = MODEL.name();
-            let keys: Vec<&str> = ["model"].into_iter().chain(KEYS).chain(unit_keys::KEYS).collect();
-            reader.only(file, &keys);
             if file.get("model").is_none() {
-                reader.refuse(0..0, Problem::new("`model` is missing", format!("`model = \"{name}\"`")));
+                reader.refuse(0..0, Problem::new("`model` is missing", format!("`model = \"{MODEL}\"`")));
             }
-            reader.value(file, "model", |place, value| values::choice(place, value, &[(name, ())]));
+            reader.value(file, "model", |place, value| values::choice(place, value, &[(MODEL, ())]));
             Some(Self::read(reader, file))
         })
     }
 
-    /// Reads the keys of a terminal and those of every model. The caller handles `model` and unknown keys.
+    /// Reads the keys of a terminal and those of every model. The caller handles the value of `model`.
     #[must_use]
     pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Self {
+        reader.only(file, &all_keys());
         let inputs = reader.value(file, "inputs", channels).map_or(Channels::NONE, |inputs| inputs.value);
         let outputs = reader.value(file, "outputs", channels).map_or(Channels::NONE, |outputs| outputs.value);
         let ports = reader.value(file, "ports", ports).map_or(Ports::TWO, |ports| ports.value);
         reader.value(file, "mailbox", no_mailbox);
         let common = CommonKeys::read(reader, file, SHAPE);
-        let (slave, timing) = (&common.slave, common.timing);
-        let settings = TerminalSettings {
-            inputs,
-            outputs,
-            ports,
-            serial: common.serial.as_ref().map_or(1, |serial| serial.value),
-            alias: common.alias.as_ref().map_or(0, |alias| alias.value),
-            start_up: common.start_up(START_UP),
-            refresh_phase: common.refresh_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
-            outputs_before_op: outputs_before_op(slave.outputs_before_op),
-            sii: slave.sii_timing(timing),
-            is_sii_blank: slave.is_sii_blank,
-            conduct: slave.conduct(timing),
-        };
-        Self { name: common.name.map_or_else(|| "K1".into(), |name| name.value), settings }
+        let settings = |timing| TerminalSettings { inputs, outputs, ports, ..of_common(&common, timing) };
+        Self {
+            settings: settings(common.timing),
+            fast: settings(Timing::Fast),
+            names_refresh_phase: common.refresh_phase.is_some(),
+            name: common.name.as_ref().map_or_else(|| "K1".into(), |name| name.value.clone()),
+        }
+    }
+}
+
+/// The settings of the keys that every model has.
+fn of_common(common: &CommonKeys, timing: Timing) -> TerminalSettings {
+    let slave = &common.slave;
+    let common = &CommonKeys { timing, ..common.clone() };
+    TerminalSettings {
+        serial: common.serial.as_ref().map_or(1, |serial| serial.value),
+        alias: common.alias.as_ref().map_or(0, |alias| alias.value),
+        start_up: common.start_up(START_UP),
+        refresh_phase: common.refresh_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
+        outputs_before_op: outputs_before_op(slave.outputs_before_op),
+        sii: slave.sii_timing(timing),
+        is_sii_blank: slave.is_sii_blank,
+        conduct: slave.conduct(timing),
+        ..TerminalSettings::default()
     }
 }
 

@@ -4,10 +4,10 @@ use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use ectwin::unit_file::UnitFile;
 use ectwin::user_files::{self, Wanted};
 use ectwin::{Setup, SetupError};
-use plc::{Builtin, WithCpu};
+use plant::UnitFile;
+use plc::Builtin;
 
 use crate::descriptors;
 use crate::failure::Failure;
@@ -47,13 +47,13 @@ fn lack_of_descriptors(error: &SetupError) -> Option<Failure> {
 
 /// The file of the non-volatile memory in this unit file, after symbolic links.
 pub(crate) fn storage_path(path: &Path, file: &UnitFile) -> Option<PathBuf> {
-    let path = folder_of(path).join(&file.storage.as_ref()?.value);
+    let path = folder_of(path).join(&file.section().storage()?.value);
     Some(storage::resolve(&path).unwrap_or(path))
 }
 
 /// The files of this unit file: the memory and those of the program.
-pub(crate) fn named_files(path: &Path, file: &WithCpu<UnitFile>) -> Vec<PathBuf> {
-    let named = file.cpu.program.iter().flat_map(|program| &program.value);
+pub(crate) fn named_files(path: &Path, file: &UnitFile) -> Vec<PathBuf> {
+    let named = file.cpu().program.iter().flat_map(|program| &program.value);
     let is_file = |name: &&PathBuf| Builtin::named(&name.display().to_string()).is_none();
     let programs: Vec<_> = named.filter(is_file).map(|name| folder_of(path).join(name)).collect();
     let programs = user_files::program_files(&programs).unwrap_or(programs);
@@ -71,9 +71,9 @@ pub(crate) fn text_of(path: &Path) -> Result<String, Failure> {
 }
 
 /// Reads one unit file with its text, without the files that it refers to.
-pub(crate) fn parse(path: &Path) -> Result<(WithCpu<UnitFile>, String), Failure> {
+pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
     let text = text_of(path)?;
-    match WithCpu::parse(&text, UnitFile::read) {
+    match UnitFile::parse(&text) {
         Ok(file) => Ok((file, text)),
         Err(errors) => Err(Failure::BadFile(problems(path, &text, &SetupError::UnitFile(errors)))),
     }

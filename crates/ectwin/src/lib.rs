@@ -55,6 +55,7 @@ pub use nx_ect101::{
 };
 #[cfg(feature = "opcua")]
 pub use opcua::{self, Server as OpcUaServer};
+pub use plant::{self, UnitFile};
 pub use plc::{
     CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
     NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,

@@ -4,58 +4,42 @@ use std::io;
 use std::path::Path;
 
 use device::Network;
-use nx_ect101::{Damage, MemoryAtPowerOn, NonVolatileMemory, NxEct101, UnitSettings};
 use storage::{ChangesLost, StoredFile};
+use unit_model::{MemoryAtPowerOn, MemoryDamage, ModelUnit, UnitSection};
 
 /// The contents of a unit's file, and its owner from now on.
 #[derive(Debug)]
 pub(crate) struct MemoryFile {
     found: MemoryAtPowerOn,
-    /// None for a memory without a file.
-    writer: Option<storage::Writer>,
+    writer: storage::Writer,
 }
 
 impl MemoryFile {
-    /// A memory without a file: it is new, and it is not stored.
-    pub(crate) const fn none() -> Self {
-        Self { found: MemoryAtPowerOn::Factory, writer: None }
-    }
-
     /// Claims the file for this unit, and reads it. A damaged file is renamed and not changed; the unit starts
     /// with the fault in the manual, and stores a new memory after its power was cycled. A file that has never
     /// been a memory is refused, and not changed.
-    pub(crate) fn open(path: &Path) -> io::Result<Self> {
+    pub(crate) fn open(path: &Path, section: &dyn UnitSection) -> io::Result<Self> {
         let file = StoredFile::claim(path)?;
-        let found = match file.read()?.map(|bytes| NonVolatileMemory::decode(&bytes)) {
+        let found = match file.read()?.map(|bytes| section.check_memory(&bytes).map(|()| bytes)) {
             None => MemoryAtPowerOn::Factory,
-            Some(Ok(memory)) => MemoryAtPowerOn::Stored(Box::new(memory)),
-            Some(Err(Damage::NoMemory)) => {
+            Some(Ok(bytes)) => MemoryAtPowerOn::Stored(bytes),
+            Some(Err(MemoryDamage::NoMemory)) => {
                 let words = "it is there, and is not the memory of a unit; it is left as it is";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, words));
             }
-            Some(Err(damage)) => {
+            Some(Err(damage @ MemoryDamage::Damaged(_))) => {
                 let aside = file.set_aside()?;
                 tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
                 MemoryAtPowerOn::Damaged
             }
         };
-        let writer = storage::Writer::start(file, room_bytes(&found))?;
-        Ok(Self { found, writer: Some(writer) })
+        let writer = storage::Writer::start(file, section.memory_bytes_max(&found))?;
+        Ok(Self { found, writer })
     }
 
     /// The contents, and the writer.
-    pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, Option<storage::Writer>) {
+    pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, storage::Writer) {
         (self.found, self.writer)
-    }
-}
-
-/// Room for the memory with full logs, so that storing it allocates nothing.
-fn room_bytes(found: &MemoryAtPowerOn) -> usize {
-    match found {
-        MemoryAtPowerOn::Stored(memory) => memory.encoded_bytes_max(),
-        MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => {
-            NonVolatileMemory::factory(&UnitSettings::default()).encoded_bytes_max()
-        }
     }
 }
 
@@ -73,11 +57,11 @@ impl Keeper {
     }
 
     /// Passes the memory to its writer, if it has changed. This does not wait for the disk.
-    pub(crate) fn keep(&mut self, network: &mut Network<NxEct101>) {
+    pub(crate) fn keep(&mut self, network: &mut Network<Box<dyn ModelUnit>>) {
         let Some((device, esc)) = network.slave_mut(self.position) else { return };
         let unit = device.unit_mut();
         if unit.take_memory_change(esc.sii_image(), esc.sii_words_written()) {
-            self.writer.store(|bytes| unit.memory().encode_into(bytes));
+            self.writer.store(|bytes| unit.encode_memory(bytes));
         }
     }
 

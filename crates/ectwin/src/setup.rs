@@ -5,10 +5,11 @@ mod error;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use nx_ect101::unit_file::{Located, UnitFile};
-use nx_ect101::{NxEct101, Timing, UnitSettings, device_config_with};
-use plc::{Builtin, CpuSettings, CpuUnit, DeviceVariables, Io, Program, StructuredText, WithCpu};
+use plant::{PowerConditions, Powered, UnitFile};
+use plc::{Builtin, DeviceVariables, Io, Program, StructuredText};
 use time::Instant;
+use unit_model::PowerOn;
+use user_file::Located;
 
 use crate::memory_file::MemoryFile;
 use crate::program_file::{ProgramFileError, ProgramText};
@@ -22,10 +23,11 @@ pub use error::SetupError;
 /// `builtin:messages`, which also does so with messages ([`plc::MessageEcho`]); `builtin:pulse`, which counts
 /// ([`plc::Pulse`], A-4); or a file ([`Setup::program_file`]).
 pub struct Setup {
-    file: WithCpu<UnitFile>,
+    file: UnitFile,
     program: Box<dyn Program + Send>,
     /// The files of the program, if it has files.
     program_files: Option<ProgramFiles>,
+    is_fast: bool,
     system_time_ns: Option<u64>,
     memory: Option<MemoryFile>,
 }
@@ -62,7 +64,7 @@ impl Setup {
     /// # Errors
     /// The mistakes in it or in the program, with their places.
     pub fn from_toml_with_programs(text: &str, programs: &[PathBuf]) -> Result<Self, SetupError> {
-        let file = WithCpu::parse(text, UnitFile::read).map_err(SetupError::UnitFile)?;
+        let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
         Self::without_program(file).with_program_files(programs)
     }
 
@@ -110,14 +112,15 @@ impl Setup {
     /// [`SetupError::Storage`] if the file cannot be used: another unit stores its memory there, it is not the
     /// memory of a unit, or its folder is missing or cannot be written.
     pub fn with_storage(mut self, folder: &Path) -> Result<Self, SetupError> {
-        if let Some(storage) = &self.file.storage {
+        if let Some(storage) = self.file.section().storage() {
             let path = folder.join(&storage.value);
-            let memory = MemoryFile::open(&path).map_err(|error| SetupError::Storage {
-                path: path.display().to_string(),
-                reason: error.to_string(),
-                os_error: error.raw_os_error(),
-                span: storage.span.clone().unwrap_or_default(),
-            })?;
+            let memory =
+                MemoryFile::open(&path, self.file.section()).map_err(|error| SetupError::Storage {
+                    path: path.display().to_string(),
+                    reason: error.to_string(),
+                    os_error: error.raw_os_error(),
+                    span: storage.span.clone().unwrap_or_default(),
+                })?;
             self.memory = Some(memory);
         }
         Ok(self)
@@ -126,7 +129,7 @@ impl Setup {
     /// Removes the simulated times of the unit, whatever `timing` in its file is.
     #[must_use]
     pub fn fast(mut self) -> Self {
-        self.file.timing.value = Timing::Fast;
+        self.is_fast = true;
         self
     }
 
@@ -140,19 +143,13 @@ impl Setup {
     /// The unit file.
     #[must_use]
     pub const fn file(&self) -> &UnitFile {
-        &self.file.unit
-    }
-
-    /// The settings of the unit.
-    #[must_use]
-    pub fn settings(&self) -> UnitSettings {
-        UnitSettings::from_unit_file(&self.file)
+        &self.file
     }
 
     /// The I/O map: the device variables of the CPU Unit for this unit.
     #[must_use]
     pub fn device_variables(&self) -> DeviceVariables {
-        DeviceVariables::of(self.file.variable_table())
+        self.file.variables().clone()
     }
 
     /// The files of the user program, including those in its folders; none if it has no files.
@@ -165,36 +162,38 @@ impl Setup {
     /// The files of the user program, if it has files; they are moved out.
     pub(crate) fn watched_program(&mut self) -> Option<WatchedProgram> {
         let ProgramFiles { paths, stamps, text } = self.program_files.take()?;
-        let budget_statements = self.file.cpu.statement_budget.value;
+        let budget_statements = self.file.cpu().statement_budget.value;
         Some(WatchedProgram { paths, stamps, text, variables: self.device_variables(), budget_statements })
     }
 
-    pub(crate) fn power_on(self, now: Instant) -> Powered {
-        let (settings, variables) = (self.settings(), self.device_variables());
-        if let (Some(storage), None) = (&self.file.storage, &self.memory) {
-            tracing::warn!("{}: memory only, nobody has said where this file is", storage.value.display());
+    /// The unit and its CPU Unit with power, and the writer of its non-volatile memory.
+    pub(crate) fn power_on(self, now: Instant) -> (Powered, Option<storage::Writer>) {
+        if let (Some(storage), None) = (self.file.section().storage(), &self.memory) {
+            tracing::warn!(
+                "{}: memory only, because the folder of this file is not known",
+                storage.value.display()
+            );
         }
-        let (found, writer) = self.memory.unwrap_or(MemoryFile::none()).into_parts();
-        let (unit, bus) = NxEct101::power_on_with(&settings, found);
-        let cpu =
-            CpuSettings { system_time_ns: self.system_time_ns, ..CpuSettings::from_section(&self.file.cpu) };
-        let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
-        let cpu = CpuUnit::power_on(now, cpu, variables, bus, self.program);
-        Powered { config, unit, cpu, writer }
+        let (memory, writer) = self.memory.map(MemoryFile::into_parts).unzip();
+        let conditions = PowerConditions {
+            unit: PowerOn { fast: self.is_fast, memory: memory.unwrap_or_default(), ..PowerOn::default() },
+            system_time_ns: self.system_time_ns,
+            ..PowerConditions::default()
+        };
+        (self.file.power_on(now, &conditions, self.program), writer)
     }
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
-        let setup =
-            Self::without_program(WithCpu::parse(text, UnitFile::read).map_err(SetupError::UnitFile)?);
-        match setup.file.cpu.program.clone() {
+        let setup = Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?);
+        match setup.file.cpu().program.clone() {
             Some(name) => setup.with_named_program(&name, folder),
             None => Ok(setup),
         }
     }
 
-    fn without_program(file: WithCpu<UnitFile>) -> Self {
+    fn without_program(file: UnitFile) -> Self {
         let program = Box::new(|_: &mut Io| {});
-        Self { file, program, program_files: None, system_time_ns: None, memory: None }
+        Self { file, program, program_files: None, is_fast: false, system_time_ns: None, memory: None }
     }
 
     fn with_named_program(
@@ -222,7 +221,7 @@ impl Setup {
         paths: Vec<PathBuf>,
         span: Option<Range<usize>>,
     ) -> Result<(), SetupError> {
-        let budget_statements = self.file.cpu.statement_budget.value;
+        let budget_statements = self.file.cpu().statement_budget.value;
         let stamps = watched_program::stamps(&paths).ok();
         let read = ProgramText::read(&paths).and_then(|text| {
             let program = text.compile(&self.device_variables(), budget_statements)?;
@@ -236,16 +235,8 @@ impl Setup {
 
     fn compile(&self, source: &str) -> Result<StructuredText, st::Problems> {
         let program = StructuredText::compile(source, &self.device_variables())?;
-        Ok(program.with_budget(self.file.cpu.statement_budget.value))
+        Ok(program.with_budget(self.file.cpu().statement_budget.value))
     }
-}
-
-/// A unit that has been powered on, before it is added to a line.
-pub(crate) struct Powered {
-    pub(crate) config: device::DeviceConfig,
-    pub(crate) unit: NxEct101,
-    pub(crate) cpu: CpuUnit,
-    pub(crate) writer: Option<storage::Writer>,
 }
 
 fn refused(error: ProgramFileError, span: Option<Range<usize>>) -> SetupError {

@@ -5,15 +5,15 @@ use std::sync::atomic::AtomicBool;
 
 use device::Network;
 use link::{FrameFate, Responder};
-use nx_ect101::NxEct101;
+use plant::Powered;
 use plc::CpuUnit;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
 use storage::ChangesLost;
 use time::{Duration, Instant};
+use unit_model::ModelUnit;
 
 use crate::memory_file::Keeper;
-use crate::setup::Powered;
 use crate::unit_side::UnitSide;
 use crate::watched_program::WatchedProgram;
 use crate::{Setup, SetupError};
@@ -70,7 +70,7 @@ impl Twin {
         let mut programs = Vec::new();
         for (position, mut setup) in setups.into_iter().enumerate() {
             programs.extend(setup.watched_program().map(|program| (position, program)));
-            let Powered { config, unit, cpu, writer } = setup.power_on(now);
+            let (Powered { config, unit, cpu }, writer) = setup.power_on(now);
             units.push((config, unit));
             cpus.push(cpu);
             keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
@@ -169,7 +169,7 @@ pub(crate) fn cpu_deadline(cpus: &[CpuUnit]) -> Instant {
 /// The units without their CPU Units, for a link.
 #[derive(Debug)]
 pub(crate) struct Line {
-    network: Network<NxEct101>,
+    network: Network<Box<dyn ModelUnit>>,
     /// The units whose memory is stored in a file.
     keepers: Vec<Keeper>,
 }

@@ -1,19 +1,20 @@
 //! The internal side of a unit: its state, its CPU Unit, its faults and logs.
 
-use coe_kit::indicators::PortCondition;
+use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Network, Start};
 use esc::Port;
-use nx_ect101::{
-    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, NxEct101,
-};
+use plant::{ErrorLog, Indicators};
 use plc::{CpuUnit, Io};
 use time::Instant;
+use unit_model::{
+    CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable, ModelUnit, NotThere, SlaveView,
+};
 use wire::{AlState, AlStatus, AlStatusCode};
 
 /// The internal state of a unit, and its CPU Unit.
 #[derive(Debug)]
 pub struct UnitSide<'a> {
-    network: &'a mut Network<NxEct101>,
+    network: &'a mut Network<Box<dyn ModelUnit>>,
     cpu: &'a mut CpuUnit,
     position: usize,
     now: Instant,
@@ -23,7 +24,7 @@ impl<'a> UnitSide<'a> {
     /// # Panics
     /// If there is no such unit.
     pub(crate) fn of(
-        network: &'a mut Network<NxEct101>,
+        network: &'a mut Network<Box<dyn ModelUnit>>,
         cpus: &'a mut [CpuUnit],
         position: usize,
         now: Instant,
@@ -35,20 +36,20 @@ impl<'a> UnitSide<'a> {
         }
     }
 
-    fn device(&self) -> &Device<NxEct101> {
+    fn device(&self) -> &Device<Box<dyn ModelUnit>> {
         match self.network.device(self.position) {
             Some(device) => device,
             None => unreachable!("`UnitSide::of` has found a unit at this position"),
         }
     }
 
-    fn unit(&self) -> &NxEct101 {
-        self.device().unit()
+    fn unit(&self) -> &dyn ModelUnit {
+        &**self.device().unit()
     }
 
-    fn unit_mut(&mut self) -> &mut NxEct101 {
+    fn unit_mut(&mut self) -> &mut dyn ModelUnit {
         match self.network.device_mut(self.position) {
-            Some(device) => device.unit_mut(),
+            Some(device) => &mut **device.unit_mut(),
             None => unreachable!("`UnitSide::of` has found a unit at this position"),
         }
     }
@@ -85,6 +86,12 @@ impl<'a> UnitSide<'a> {
         }
     }
 
+    /// The unit as one of this model, such as `digital::Terminal`; none if it is another one.
+    #[must_use]
+    pub fn as_model<M: ModelUnit>(&self) -> Option<&M> {
+        self.unit().as_model()
+    }
+
     /// The I/O by data set, as the user program sees it.
     #[must_use]
     pub fn io(&self) -> &Io {
@@ -106,13 +113,27 @@ impl<'a> UnitSide<'a> {
 impl UnitSide<'_> {
     /// The cause of a fault appears. Some faults are detected immediately, others when the unit starts or when
     /// the master requests a state (manual, 8-3-4, detection timing).
-    pub fn inject(&mut self, fault: Fault) {
-        self.unit_mut().inject(fault);
+    ///
+    /// # Panics
+    /// If the model has no fault of this name.
+    pub fn inject(&mut self, fault: impl AsRef<str>) {
+        self.expect_fault(fault.as_ref(), |unit, fault| unit.inject(fault));
     }
 
     /// The cause of a fault disappears. Its effect remains until the recovery in the manual.
-    pub fn remove(&mut self, fault: Fault) {
-        self.unit_mut().remove(fault);
+    ///
+    /// # Panics
+    /// If the model has no fault of this name.
+    pub fn remove(&mut self, fault: impl AsRef<str>) {
+        self.expect_fault(fault.as_ref(), |unit, fault| unit.remove(fault));
+    }
+
+    fn expect_fault(&mut self, fault: &str, act: impl Fn(&mut dyn ModelUnit, &str) -> Result<(), NotThere>) {
+        let unit = self.unit_mut();
+        if act(unit, fault).is_err() {
+            let model = unit.model();
+            panic!("{} has no fault {fault}; it has {}", model.name(), model.faults().join(", "));
+        }
     }
 
     /// The current errors of a level, the oldest first: objects 2003 and 2004.
@@ -136,7 +157,7 @@ impl UnitSide<'_> {
     /// The system event log, which is the diagnosis history 10F3, and the access event log.
     #[must_use]
     pub fn error_log(&self) -> &ErrorLog {
-        self.unit().error_log()
+        plant::error_log(self.unit())
     }
 
     /// Changes the level of an event, effective from the next start of the unit (manual, 6-5-1).
@@ -164,9 +185,18 @@ impl UnitSide<'_> {
     /// at a point in time.
     #[must_use]
     pub fn indicators(&self) -> Indicators {
-        let device = self.device();
-        let ports = [self.port(Port::In), self.port(Port::Out)];
-        self.unit().indicators(device.al_status(), device.al_status_code(), ports)
+        plant::indicators(self.unit(), &self.slave_view())
+    }
+
+    /// What an indicator does now, by the name that the model gives it; none if the model has no such indicator.
+    #[must_use]
+    pub fn indicator(&self, name: &str) -> Option<Pattern> {
+        self.unit().indicator(name, &self.slave_view())
+    }
+
+    fn slave_view(&self) -> SlaveView {
+        let [in_port, out_port] = [Port::In, Port::Out].map(|port| self.port(port));
+        SlaveView { al_status: self.al_status(), al_status_code: self.al_status_code(), in_port, out_port }
     }
 
     fn port(&self, port: Port) -> PortCondition {
@@ -196,7 +226,11 @@ impl UnitSide<'_> {
     }
 
     /// Turns the ID switch. The unit reads it when it starts (manual, 3-3).
+    ///
+    /// # Panics
+    /// If the model has no ID switch.
     pub fn set_id_switch(&mut self, id_switch: u8) {
-        self.unit_mut().set_id_switch(id_switch);
+        let unit = self.unit_mut();
+        assert!(unit.set_switch("ID", id_switch.into()).is_ok(), "{} has no ID switch", unit.model().name());
     }
 }

@@ -48,7 +48,9 @@ fn check(input: &[u8]) -> Checked {
         }
         Err(error) => return Err(format!("{error:?}")),
     };
-    let _findings = Configuration::from_unit_file(setup.file()).check();
+    if let Some(file) = setup.file().section().as_model::<nx_ect101::unit_file::UnitFile>() {
+        let _findings = Configuration::from_unit_file(file).check();
+    }
     let _variables = setup.device_variables();
     let mut twin = Twin::power_on([setup]);
     twin.run_for(RUN);

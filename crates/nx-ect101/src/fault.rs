@@ -27,6 +27,12 @@ pub enum Fault {
     MessageCommunications,
 }
 
+impl AsRef<str> for Fault {
+    fn as_ref(&self) -> &str {
+        self.name()
+    }
+}
+
 impl Fault {
     /// All faults. If there are several, the master reads the AL status code of the first.
     pub const ALL: [Self; 9] = [

@@ -1,15 +1,30 @@
 //! The unit as the house sees it: the words of the model, and the view that knows no model.
 
-use coe_kit::indicators::Pattern;
-use unit_model::{
-    CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, Model, ModelUnit, NotThere,
-    SlaveView,
-};
+use std::path::PathBuf;
+use std::sync::Arc;
 
+use coe_kit::indicators::Pattern;
+use esi::DeviceDescription;
+use objects::ObjectTable;
+use time::Duration;
+use unit_model::{
+    CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable, MemoryDamage,
+    Model, ModelUnit, NotThere, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection,
+};
+use user_file::{Located, Reader, Section};
+use variables::VariableTable;
+
+use crate::config::device_config_with;
+use crate::description::description;
 use crate::events::Event;
 use crate::fault::Fault;
 use crate::indicators::Indicators;
+use crate::memory::{Damage, MemoryAtPowerOn, NonVolatileMemory};
+use crate::settings::UnitSettings;
+use crate::tables::object_table;
+use crate::timing::Timing;
 use crate::unit::NxEct101;
+use crate::unit_file::{self, UnitFile};
 
 /// The model.
 pub static MODEL: NxEct101Model = NxEct101Model;
@@ -72,6 +87,91 @@ impl Model for NxEct101Model {
     }
 }
 
+impl UnitFiles for NxEct101Model {
+    fn keys(&self) -> Vec<&'static str> {
+        unit_file::top_keys().to_vec()
+    }
+
+    fn read(&self, reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Arc<dyn UnitSection>> {
+        let file = UnitFile::read(reader, file)?;
+        Some(Arc::new(file))
+    }
+}
+
+impl UnitSection for UnitFile {
+    fn model(&self) -> &'static dyn Model {
+        &MODEL
+    }
+
+    fn name(&self) -> &str {
+        &self.name.value
+    }
+
+    fn storage(&self) -> Option<&Located<PathBuf>> {
+        self.storage.as_ref()
+    }
+
+    fn explicit_device_id(&self) -> u16 {
+        UnitSettings::from_unit_file(self).explicit_device_id()
+    }
+
+    fn description(&self) -> DeviceDescription {
+        description(&UnitSettings::from_unit_file(self))
+    }
+
+    fn objects(&self) -> Arc<ObjectTable> {
+        object_table()
+    }
+
+    fn variables(&self) -> VariableTable {
+        self.variable_table()
+    }
+
+    fn refresh_period(&self) -> Option<Duration> {
+        Some(self.timing.value.slave_period(self.io_allocation().total_bytes()))
+    }
+
+    fn check_memory(&self, bytes: &[u8]) -> Result<(), MemoryDamage> {
+        match NonVolatileMemory::decode(bytes) {
+            Ok(_) => Ok(()),
+            Err(Damage::NoMemory) => Err(MemoryDamage::NoMemory),
+            Err(damage) => Err(MemoryDamage::Damaged(damage.to_string())),
+        }
+    }
+
+    fn memory_bytes_max(&self, memory: &unit_model::MemoryAtPowerOn) -> usize {
+        match found(memory) {
+            MemoryAtPowerOn::Stored(memory) => memory.encoded_bytes_max(),
+            MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => {
+                NonVolatileMemory::factory(&UnitSettings::default()).encoded_bytes_max()
+            }
+        }
+    }
+
+    fn power_on(&self, conditions: &PowerOn) -> PoweredUnit {
+        let fast = UnitFile { timing: Located::left_out(Timing::Fast), ..self.clone() };
+        let mut settings = UnitSettings::from_unit_file(if conditions.fast { &fast } else { self });
+        if self.refresh_phase.is_none() {
+            settings.refresh_phase = conditions.refresh_phase;
+        }
+        let (unit, cpu) = NxEct101::power_on_with(&settings, found(&conditions.memory));
+        let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
+        PoweredUnit { config, unit: Box::new(unit), cpu }
+    }
+}
+
+/// The memory that was found. What cannot be decoded is damaged.
+fn found(memory: &unit_model::MemoryAtPowerOn) -> MemoryAtPowerOn {
+    match memory {
+        unit_model::MemoryAtPowerOn::Factory => MemoryAtPowerOn::Factory,
+        unit_model::MemoryAtPowerOn::Damaged => MemoryAtPowerOn::Damaged,
+        unit_model::MemoryAtPowerOn::Stored(bytes) => match NonVolatileMemory::decode(bytes) {
+            Ok(memory) => MemoryAtPowerOn::Stored(Box::new(memory)),
+            Err(_) => MemoryAtPowerOn::Damaged,
+        },
+    }
+}
+
 impl ModelUnit for NxEct101 {
     fn model(&self) -> &'static dyn Model {
         &MODEL
@@ -100,6 +200,10 @@ impl ModelUnit for NxEct101 {
 
     fn reset_errors(&mut self) {
         self.reset_errors();
+    }
+
+    fn set_event_level(&mut self, code: EventCode, level: EventLevel) -> Result<(), LevelNotChangeable> {
+        self.set_event_level(code, level)
     }
 
     fn clear_event_log(&mut self, log: EventLog) {
@@ -139,7 +243,6 @@ impl ModelUnit for NxEct101 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::UnitSettings;
 
     #[test]
     fn each_word_of_the_model_means_something_to_a_unit_and_no_other_does() {

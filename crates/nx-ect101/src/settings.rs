@@ -2,6 +2,7 @@
 
 use device::StartUp;
 use time::Duration;
+pub use unit_model::LevelNotChangeable;
 
 use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
@@ -57,10 +58,6 @@ pub struct EventLevels {
     /// For 39170000.
     mismatch_m_to_c: Option<EventLevel>,
 }
-
-/// The level of this event cannot be changed, or not to that level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelNotChangeable;
 
 impl EventLevels {
     /// Changes the level of an event.

@@ -28,6 +28,7 @@ use crate::variables::variable_table;
 
 pub use entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
 pub use keys::keys;
+pub(crate) use keys::top_keys;
 pub use user_file::{FileErrors, Located};
 pub use wire::EntryAddress;
 
@@ -100,7 +101,7 @@ impl UnitFile {
         sections::unit(reader, file)
     }
 
-    /// The I/O allocation that the file asks for, right or wrong.
+    /// The I/O allocation in the file, correct or not.
     #[must_use]
     pub fn io_allocation(&self) -> IoAllocation {
         match &self.io_allocation {

@@ -57,3 +57,7 @@ pub struct CurrentError {
     /// Attached information 1.
     pub detail: Option<u32>,
 }
+
+/// The level of this event cannot be changed, or not to that level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelNotChangeable;

@@ -6,10 +6,14 @@
 
 mod event;
 mod model;
+mod section;
 mod slave_view;
 mod unit;
+mod unit_files;
 
-pub use event::{CurrentError, EventCode, EventInfo, EventLevel, EventLog};
+pub use event::{CurrentError, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable};
 pub use model::Model;
+pub use section::{MemoryAtPowerOn, MemoryDamage, PowerOn, PoweredUnit, UnitSection};
 pub use slave_view::SlaveView;
 pub use unit::{DataValid, ModelUnit, NotThere};
+pub use unit_files::UnitFiles;

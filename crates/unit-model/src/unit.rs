@@ -6,7 +6,7 @@ use core::fmt::{self, Debug};
 use coe_kit::indicators::Pattern;
 use device::Unit;
 
-use crate::event::{CurrentError, EventCode, EventLevel, EventLog};
+use crate::event::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable};
 use crate::model::Model;
 use crate::slave_view::SlaveView;
 
@@ -40,6 +40,14 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
 
     /// A user resets the errors. An error whose cause still exists occurs again.
     fn reset_errors(&mut self) {}
+
+    /// A user changes the level of an event, in force from the next start of the unit on.
+    ///
+    /// # Errors
+    /// [`LevelNotChangeable`].
+    fn set_event_level(&mut self, _code: EventCode, _level: EventLevel) -> Result<(), LevelNotChangeable> {
+        Err(LevelNotChangeable)
+    }
 
     /// A user clears a log.
     fn clear_event_log(&mut self, _log: EventLog) {}

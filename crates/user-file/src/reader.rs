@@ -24,7 +24,7 @@ pub fn read_toml<T>(
     wanted: Wanted,
     read: impl FnOnce(&mut Reader<'_>, &Section<'_, '_>) -> Option<T>,
 ) -> Result<T, FileErrors> {
-    let mut reader = Reader { text, errors: Mistakes::default() };
+    let mut reader = Reader { text, errors: Mistakes::default(), refused_keys: Vec::new() };
     if let Some(refusal) = of_another_kind(text.as_bytes(), "", wanted) {
         reader.refuse(0..0, Problem::new(format!("{}; {}", refusal.message, refusal.help), ""));
         return Err(reader.into_errors());
@@ -45,6 +45,8 @@ pub fn read_toml<T>(
 pub struct Reader<'t> {
     text: &'t str,
     errors: Mistakes<FileError>,
+    /// The places of keys that are refused already.
+    refused_keys: Vec<usize>,
 }
 
 impl Reader<'_> {
@@ -65,9 +67,19 @@ impl Reader<'_> {
         self.errors.count()
     }
 
+    /// Refuses a key in the caller's words; [`Reader::only`] does not refuse it again.
+    pub fn refuse_key(&mut self, key: &Located<&str>, problem: Problem) {
+        let span = key.span.clone().unwrap_or_default();
+        self.refused_keys.push(span.start);
+        self.refuse(span, problem);
+    }
+
     /// Refuses every key of `section` that is none of `keys`.
     pub fn only(&mut self, section: &Section<'_, '_>, keys: &[&str]) {
         for (key, _) in section.entries().into_iter().filter(|(key, _)| !keys.contains(&key.value)) {
+            if key.span.as_ref().is_some_and(|span| self.refused_keys.contains(&span.start)) {
+                continue;
+            }
             self.refuse_by(key.span.unwrap_or_default(), || section.unknown_key(key.value, keys));
         }
     }

@@ -2,9 +2,7 @@
 
 use std::slice;
 
-use ectwin::unit_file::UnitFile;
-use nx_ect101::UnitSettings;
-use plc::WithCpu;
+use plant::UnitFile;
 
 use crate::cli::ExportArgs;
 use crate::failure::Failure;
@@ -14,22 +12,21 @@ use crate::{output, overwrite, unit_files};
 /// The ESI file, which the configuration tool of a master reads.
 pub(crate) fn esi(args: &ExportArgs) -> Result<(), Failure> {
     let file = unit_file(args)?;
-    let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));
-    write(args, &file, esi::xml(&description, &nx_ect101::object_table()).as_bytes())
+    let section = file.section();
+    write(args, &file, esi::xml(&section.description(), &section.objects()).as_bytes())
 }
 
 /// The SII image: the contents of the unit's EEPROM at power-on.
 pub(crate) fn sii(args: &ExportArgs) -> Result<(), Failure> {
     let file = unit_file(args)?;
-    let description = nx_ect101::description(&UnitSettings::from_unit_file(&file));
-    write(args, &file, &esi::sii::image(&description))
+    write(args, &file, &esi::sii::image(&file.section().description()))
 }
 
-fn unit_file(args: &ExportArgs) -> Result<WithCpu<UnitFile>, Failure> {
+fn unit_file(args: &ExportArgs) -> Result<UnitFile, Failure> {
     unit_files::parse(&args.unit).map(|(file, _)| file)
 }
 
-fn write(args: &ExportArgs, file: &WithCpu<UnitFile>, result: &[u8]) -> Result<(), Failure> {
+fn write(args: &ExportArgs, file: &UnitFile, result: &[u8]) -> Result<(), Failure> {
     if let Some(path) = &args.output {
         let output = Output { option: "-o", path };
         overwrite::refuse(&[output], slice::from_ref(&args.unit))?;

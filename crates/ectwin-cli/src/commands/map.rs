@@ -53,7 +53,7 @@ const COLUMNS: [&str; 13] = [
 
 pub(crate) fn run(args: &MapArgs) -> Result<(), Failure> {
     let (file, _) = or_document(args.json, unit_files::parse(&args.unit))?;
-    let rows = rows(&DeviceVariables::of(file.variable_table()));
+    let rows = rows(file.variables());
     let text = match (args.json, args.csv) {
         (true, _) => output::json(&Document { variables: rows })?,
         (false, true) => as_csv(&rows),
@@ -180,13 +180,13 @@ fn range(first: u16, last: u16) -> String {
 
 #[cfg(test)]
 mod tests {
-    use ectwin::unit_file::UnitFile;
+    use plant::UnitFile;
 
     use super::*;
 
     fn factory() -> Vec<Row> {
         let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { panic!("the shortest unit file") };
-        rows(&DeviceVariables::of(file.variable_table()))
+        rows(file.variables())
     }
 
     #[test]

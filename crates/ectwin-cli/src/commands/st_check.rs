@@ -1,9 +1,8 @@
 //! `ectwin st check FILE.st`.
 
 use ectwin::st::{Place, Problems};
-use ectwin::unit_file::UnitFile;
 use ectwin::user_files;
-use ectwin::{DeviceVariables, StructuredText};
+use ectwin::{StructuredText, UnitFile};
 use serde::Serialize;
 
 use crate::cli::StCheckArgs;
@@ -33,8 +32,7 @@ struct Row<'a> {
 
 /// Checks a program and reports its problems.
 pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
-    let file = or_document(args.json, unit_file(args))?;
-    let variables = DeviceVariables::of(file.variable_table());
+    let variables = or_document(args.json, unit_file(args))?.variables().clone();
     let unreadable = |(path, source)| Failure::Unreadable { path, source };
     let sources = user_files::program_sources(&args.programs).map_err(unreadable);
     let sources = or_document(args.json, sources)?;
@@ -58,7 +56,7 @@ pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
 
 fn unit_file(args: &StCheckArgs) -> Result<UnitFile, Failure> {
     match &args.unit {
-        Some(path) => unit_files::parse(path).map(|(file, _)| file.unit),
+        Some(path) => unit_files::parse(path).map(|(file, _)| file),
         // The only key that a unit file needs.
         None => Ok(UnitFile::parse(FACTORY).unwrap_or_else(|_| unreachable!("the factory setting is right"))),
     }

@@ -32,6 +32,12 @@ pub(super) const UNIT: [&str; 23] = [
     "event_levels",
     "cpu",
 ];
+
+/// The keys at the top of a file.
+pub(crate) const fn top_keys() -> &'static [&'static str] {
+    &UNIT
+}
+
 pub(super) const TIMES: [&str; 3] = ["transitions", "sii", "mailbox"];
 pub(super) const REFUSED_STATES: [(&str, AlState); 4] =
     [("init", AlState::Init), ("pre_op", AlState::PreOp), ("safe_op", AlState::SafeOp), ("op", AlState::Op)];

@@ -1,7 +1,5 @@
 //! Node addresses of the units: a master with its own program identifies each unit by its ID (manual, 3-3).
 
-use nx_ect101::UnitSettings;
-
 use super::maker::Maker;
 use super::problem::Part;
 use crate::run::NODE_ADDRESS_MAX;
@@ -10,7 +8,7 @@ impl Maker<'_> {
     /// The node address of each unit, in the order of the line. Refuses IDs that are missing, equal, or not a
     /// node address, each with its unit.
     pub(super) fn node_addresses(&mut self) -> Option<Vec<u16>> {
-        let ids = self.units.iter().map(|unit| UnitSettings::from_unit_file(&unit.file).explicit_device_id());
+        let ids = self.units.iter().map(|unit| unit.file.section().explicit_device_id());
         let ids: Vec<u16> = ids.collect();
         let problems = (0..ids.len()).filter_map(|at| Some((at, problem(&ids, at)?)));
         let problems: Vec<_> = problems.collect();

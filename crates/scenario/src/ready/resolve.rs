@@ -55,7 +55,7 @@ impl Maker<'_> {
         let find = |(at, variables): (usize, &DeviceVariables)| Some((at, variables.find_target(name).ok()?));
         let found = self.variables.iter().enumerate().find_map(find);
         if found.is_none() {
-            let units = self.units.iter().map(|unit| unit.file.name.value.as_str());
+            let units = self.units.iter().map(|unit| unit.file.name());
             let help = format!("the units are named {}", units.collect::<Vec<_>>().join(", "));
             self.refuse(part, format!("no unit has the device variable {name}"), help);
         }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use nx_ect101::unit_file::UnitFile;
-use plc::{Builtin, DeviceVariables, StructuredText, WithCpu};
+use plant::UnitFile;
+use plc::{Builtin, StructuredText};
 use st::Sources;
 use user_file::{Reader, Section, Wanted};
 
@@ -26,7 +26,7 @@ struct Origin<'a> {
 /// Whether a table of a scenario file is a unit. What is wrong is refused by `reader`.
 pub(crate) fn is_unit(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> bool {
     let refused = reader.refused();
-    WithCpu::read(reader, table, UnitFile::read).is_some() && reader.refused() == refused
+    UnitFile::read(reader, table).is_some() && reader.refused() == refused
 }
 
 impl Maker<'_> {
@@ -40,7 +40,7 @@ impl Maker<'_> {
             let source = self.unit_text(DEFAULT_UNIT, Part::Script, Origin { path: None, program: None });
             self.units.extend(source);
         }
-        let variables = self.units.iter().map(|unit| DeviceVariables::of(unit.file.variable_table()));
+        let variables = self.units.iter().map(|unit| unit.file.variables().clone());
         self.variables = variables.collect();
     }
 
@@ -68,7 +68,7 @@ impl Maker<'_> {
     }
 
     fn unit_text(&mut self, text: &str, part: Part, origin: Origin<'_>) -> Option<UnitSource> {
-        let file = match WithCpu::parse(text, UnitFile::read) {
+        let file = match UnitFile::parse(text) {
             Ok(file) => file,
             Err(errors) => {
                 for error in errors.iter() {
@@ -85,7 +85,7 @@ impl Maker<'_> {
                 return None;
             }
         };
-        let program = match (origin.program, &file.cpu.program) {
+        let program = match (origin.program, &file.cpu().program) {
             (Some(own), _) => self.user_program(own, part, &file)?,
             (None, Some(named)) => {
                 let seen = |path: &PathBuf| seen_from_scenario(origin.path, path).display().to_string();
@@ -96,12 +96,7 @@ impl Maker<'_> {
         Some(UnitSource { file, program })
     }
 
-    fn user_program(
-        &mut self,
-        paths: Vec<String>,
-        part: Part,
-        file: &WithCpu<UnitFile>,
-    ) -> Option<UserProgram> {
+    fn user_program(&mut self, paths: Vec<String>, part: Part, file: &UnitFile) -> Option<UserProgram> {
         if let [only] = paths.as_slice()
             && let Some(builtin) = Builtin::named(only)
         {
@@ -116,12 +111,12 @@ impl Maker<'_> {
         &mut self,
         paths: &[String],
         part: Part,
-        file: &WithCpu<UnitFile>,
+        file: &UnitFile,
     ) -> Option<ProgramFile> {
         let sources = self.program_sources(paths, part)?;
-        match StructuredText::compile(sources, &DeviceVariables::of(file.variable_table())) {
+        match StructuredText::compile(sources, file.variables()) {
             Ok(program) => {
-                let program = program.with_budget(file.cpu.statement_budget.value);
+                let program = program.with_budget(file.cpu().statement_budget.value);
                 Some(ProgramFile { name: paths.join(", "), program })
             }
             Err(problems) => {

@@ -1,7 +1,7 @@
 //! An executable scenario: units, master, steps, all of them checked.
 
-use nx_ect101::unit_file::UnitFile;
-use plc::{Builtin, Io, Program, WithCpu};
+use plant::UnitFile;
+use plc::{Builtin, Io, Program};
 use time::Duration;
 
 use super::master::MasterProgram;
@@ -70,7 +70,7 @@ pub struct RandomPart {
 #[derive(Clone, Debug)]
 pub struct UnitSource {
     /// Its unit file.
-    pub file: WithCpu<UnitFile>,
+    pub file: UnitFile,
     /// The program of its CPU Unit.
     pub program: UserProgram,
 }

@@ -7,10 +7,9 @@ mod orders;
 mod variables;
 
 use device::Network;
-use nx_ect101::{NxEct101, UnitSettings, device_config_with};
-use plc::{CpuSettings, CpuUnit, DeviceVariables};
+use plant::{PowerConditions, Powered};
 use time::{Duration, Instant};
-use unit_model::{EventCode, ModelUnit};
+use unit_model::{EventCode, ModelUnit, PowerOn};
 use wire::{AlStatus, AlStatusCode};
 
 use super::calendar::SYSTEM_TIME_NS;
@@ -53,9 +52,9 @@ impl World {
         let now = Instant::ZERO;
         let mut cpus = Vec::new();
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
-            let (config, unit, cpu) = powered(source, dice_of_phases(seed, participant), now);
+            let Powered { config, unit, cpu } = powered(source, dice_of_phases(seed, participant), now);
             cpus.push(cpu);
-            (config, Box::new(unit) as Box<dyn ModelUnit>)
+            (config, unit)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
@@ -163,20 +162,15 @@ impl World {
 }
 
 /// A unit with its CPU Unit, according to its file. Phases that are left out are random.
-fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> (device::DeviceConfig, NxEct101, CpuUnit) {
-    let mut settings = UnitSettings::from_unit_file(&source.file);
-    let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
-    let (refresh_phase, task_phase) = (dice.phase(period), dice.phase(source.file.cpu.task_period.value));
-    settings.refresh_phase = source.file.refresh_phase.as_ref().map_or(refresh_phase, |named| named.value);
-    let (unit, bus) = NxEct101::power_on(&settings);
-    let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
-    let cpu = CpuSettings {
+fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> Powered {
+    let file = &source.file;
+    let refresh_phase = dice.phase(file.section().refresh_period().unwrap_or(Duration::ZERO));
+    let conditions = PowerConditions {
+        unit: PowerOn { refresh_phase, ..PowerOn::default() },
+        task_phase: dice.phase(file.cpu().task_period.value),
         system_time_ns: Some(SYSTEM_TIME_NS),
-        task_phase: source.file.cpu.task_phase.as_ref().map_or(task_phase, |named| named.value),
-        ..CpuSettings::from_section(&source.file.cpu)
     };
-    let (variables, program) = (DeviceVariables::of(source.file.variable_table()), source.program.start());
-    (config, unit, CpuUnit::power_on(now, cpu, variables, bus, program))
+    file.power_on(now, &conditions, source.program.start())
 }
 
 pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {

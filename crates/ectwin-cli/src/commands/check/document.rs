@@ -59,6 +59,13 @@ struct DataSetRow {
     exchanged_bytes: usize,
 }
 
+/// The document of a model without setting rules, for these lengths from the master and to the master.
+pub(super) fn without_rules(outputs: usize, inputs: usize) -> Result<String, Failure> {
+    let sizes = |bytes| DirectionSizes { pdo_bytes: bytes, io_bytes: bytes, exchanged_bytes: bytes };
+    let sizes = Sizes { m_to_c: sizes(outputs), c_to_m: sizes(inputs) };
+    crate::output::json(&Document { findings: Vec::new(), sizes, data_sets: Vec::new() })
+}
+
 /// The JSON document.
 pub(super) fn of(
     configuration: &Configuration,

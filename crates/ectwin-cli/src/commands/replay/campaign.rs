@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use ectwin::unit_file::UnitFile;
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Recording, Scenario};
 
@@ -194,7 +193,7 @@ fn load(
         let path = folder.join(name);
         if wanted == Wanted::UnitFile {
             // Not read, but must not be replaced: the memory of the unit.
-            let file = UnitFile::parse(text).ok();
+            let file = plant::UnitFile::parse(text).ok();
             inputs.extend(file.and_then(|file| unit_files::storage_path(&path, &file)));
         }
         inputs.push(path);

@@ -1,0 +1,126 @@
+//! A unit before it has power: the section of a unit file that a model has read.
+
+use core::any::Any;
+use core::fmt::{self, Debug};
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use device::DeviceConfig;
+use esi::DeviceDescription;
+use nx_bus::CpuEnd;
+use objects::ObjectTable;
+use time::Duration;
+use user_file::Located;
+use variables::VariableTable;
+
+use crate::model::Model;
+use crate::unit::ModelUnit;
+
+/// What a unit file says of one unit.
+pub trait UnitSection: Any + Debug + Send + Sync {
+    /// The model.
+    fn model(&self) -> &'static dyn Model;
+
+    /// The name of the unit.
+    fn name(&self) -> &str;
+
+    /// The file of the non-volatile memory, relative to the unit file; none: memory only.
+    fn storage(&self) -> Option<&Located<PathBuf>> {
+        None
+    }
+
+    /// The Explicit Device ID at power-on; 0: none.
+    fn explicit_device_id(&self) -> u16 {
+        0
+    }
+
+    /// The description for ESI and SII.
+    fn description(&self) -> DeviceDescription;
+
+    /// The object dictionary; empty for a unit without a mailbox.
+    fn objects(&self) -> Arc<ObjectTable> {
+        Arc::default()
+    }
+
+    /// The variables of the unit for its CPU Unit.
+    fn variables(&self) -> VariableTable;
+
+    /// Time between two refreshes by the unit's own timer; none if it has no timer.
+    fn refresh_period(&self) -> Option<Duration>;
+
+    /// Whether these bytes are the non-volatile memory of a unit of this model.
+    ///
+    /// # Errors
+    /// The problem.
+    fn check_memory(&self, _bytes: &[u8]) -> Result<(), MemoryDamage> {
+        Err(MemoryDamage::NoMemory)
+    }
+
+    /// The maximum length of the non-volatile memory of this unit, so that storing it allocates nothing.
+    fn memory_bytes_max(&self, _memory: &MemoryAtPowerOn) -> usize {
+        0
+    }
+
+    /// Gives power to the unit. All memory that it ever uses is allocated here.
+    fn power_on(&self, conditions: &PowerOn) -> PoweredUnit;
+}
+
+impl dyn UnitSection {
+    /// The section as that of this model, for whoever knows the model.
+    #[must_use]
+    pub fn as_model<S: UnitSection>(&self) -> Option<&S> {
+        (self as &dyn Any).downcast_ref()
+    }
+}
+
+/// The conditions of the first power-on. The default is what the unit file says, with a new memory.
+#[derive(Clone, Debug, Default)]
+pub struct PowerOn {
+    /// The times of unit file and model are dropped.
+    pub fast: bool,
+    /// From the first step of the unit to its first refresh, where the file does not name it.
+    pub refresh_phase: Duration,
+    /// The contents of the non-volatile memory.
+    pub memory: MemoryAtPowerOn,
+}
+
+/// The contents of a non-volatile memory at power-on.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum MemoryAtPowerOn {
+    /// Nothing was ever stored: the factory setting.
+    #[default]
+    Factory,
+    /// These bytes, which [`UnitSection::check_memory`] has accepted.
+    Stored(Vec<u8>),
+    /// It cannot be read.
+    Damaged,
+}
+
+/// Why bytes are not the non-volatile memory of a unit.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum MemoryDamage {
+    /// They have never been one.
+    NoMemory,
+    /// They have been one; the reason.
+    Damaged(String),
+}
+
+impl fmt::Display for MemoryDamage {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoMemory => formatter.write_str("not the memory of a unit"),
+            Self::Damaged(reason) => formatter.write_str(reason),
+        }
+    }
+}
+
+/// A unit that has just received power.
+#[derive(Debug)]
+pub struct PoweredUnit {
+    /// The description for the slave stack.
+    pub config: DeviceConfig,
+    /// The unit.
+    pub unit: Box<dyn ModelUnit>,
+    /// The CPU Unit's end of its bus.
+    pub cpu: CpuEnd,
+}
