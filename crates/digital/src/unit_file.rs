@@ -21,7 +21,7 @@ const START_UP: Duration = Duration::ZERO;
 
 /// The keys at the top of a file.
 pub(crate) fn all_keys() -> Vec<&'static str> {
-    ["model", "cpu"].into_iter().chain(KEYS).chain(unit_keys::KEYS).collect()
+    ["model"].into_iter().chain(KEYS).chain(unit_keys::KEYS).chain(["cpu"]).collect()
 }
 
 /// The contents of a terminal's unit file.
