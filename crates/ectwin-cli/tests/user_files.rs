@@ -156,6 +156,24 @@ fn twenty_thousand_unknown_keys_are_twenty_mistakes_and_a_number() {
 }
 
 #[test]
+fn unknown_keys_of_a_scenario_are_twenty_mistakes_and_a_number() {
+    let bench = bench("unknown-keys-of-a-scenario");
+    let keys: String = (0..20_000).map(|at| format!("key_{at} = 1\n")).collect();
+    for text in [
+        format!("title = \"t\"\nsteps = []\n{keys}"),
+        format!("title = \"t\"\nsteps = []\n[[units]]\nmodel = \"nx-ect101\"\n{keys}"),
+        format!("title = \"t\"\n[[steps]]\nline = \"be quiet\"\n{keys}"),
+        format!("title = \"t\"\n[[steps]]\n[steps.unit.restart]\nunits = 1\n{keys}"),
+    ] {
+        bench.put("FILE", &text);
+        let ended = bounded(&bench, &["replay", "FILE"]);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert_eq!(ended.stderr.matches("unknown key").count(), 20, "{}", ended.stderr);
+        assert_eq!(ended.stderr.lines().last(), Some("and 19980 more"));
+    }
+}
+
+#[test]
 fn wrong_and_right_steps_are_read_in_one_pass() {
     let bench = bench("many-steps");
     let steps = |step: &str| format!("title = \"t\"\nsteps = [\n{}]\n", step.repeat(180_000));
