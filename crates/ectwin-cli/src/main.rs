@@ -8,6 +8,7 @@ mod failure;
 mod failure_document;
 mod file_problem;
 mod output;
+mod output_file;
 mod overwrite;
 mod privileges;
 mod unit_files;

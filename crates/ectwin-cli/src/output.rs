@@ -131,33 +131,33 @@ impl People {
     }
 }
 
-/// A result that is written line by line.
-pub(crate) enum LinesOut {
+/// The target of a result that is written in pieces.
+pub(crate) enum ResultOut {
     Stdout,
-    File(PathBuf, File),
+    File(File),
 }
 
-impl LinesOut {
-    /// Creates the file, unless `path` is stdout.
-    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
-        if is_stdout(path) {
-            return Ok(Self::Stdout);
-        }
-        match File::create(path) {
-            Ok(file) => Ok(Self::File(path.to_owned(), file)),
-            Err(source) => Err(Failure::Unwritable { path: path.to_owned(), source }),
+impl Write for ResultOut {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),
+            Self::File(file) => file.write(bytes),
         }
     }
 
-    /// Writes a line immediately.
-    pub(crate) fn line(&mut self, line: &str) -> Result<(), Failure> {
-        let line = format!("{line}\n");
+    fn flush(&mut self) -> io::Result<()> {
         match self {
-            Self::Stdout => print(line.as_bytes()),
-            Self::File(path, file) => file
-                .write_all(line.as_bytes())
-                .map_err(|source| Failure::Unwritable { path: path.clone(), source }),
+            Self::Stdout => unless_closed(io::stdout().flush(), ()),
+            Self::File(file) => file.flush(),
         }
+    }
+}
+
+/// If the reader closes the pipe, that is not an error.
+fn unless_closed<T>(result: io::Result<T>, closed: T) -> io::Result<T> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(closed),
+        result => result,
     }
 }
 

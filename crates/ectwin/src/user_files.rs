@@ -16,7 +16,7 @@ use user_file::{Refusal, escaped};
 
 pub use beside::Beside;
 pub use folders::below;
-pub use lines::Lines;
+pub use lines::{Line, Lines};
 pub use user_file::Wanted;
 
 const MIB: u64 = 1 << 20;

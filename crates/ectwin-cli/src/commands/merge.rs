@@ -1,17 +1,25 @@
 //! `ectwin merge RESULT.jsonl…`: merges the parts of a campaign, if none of its cases is missing or duplicate.
 
+mod again;
+mod place;
+
 use std::collections::BTreeMap;
 use std::mem;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{Lines, Unreadable, Wanted};
 
-use super::replay::{CASES_MAX, CaseResult, Partition, Verdict, case_count, failure_story, junit_report};
+use super::replay::{
+    CASES_MAX, CaseResult, JunitReport, Partition, Totals, Verdict, case_count, failure_story,
+};
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
-use crate::output::{self, People};
+use crate::output::People;
+use crate::output_file::LaterOutput;
 use crate::overwrite::{self, Output};
+use again::ResultsAgain;
+use place::Place;
 
 /// Maximum number of cases in one line of a message.
 const NAMED_CASES: usize = 8;
@@ -21,28 +29,52 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         overwrite::refuse(&[Output { option: "--junit", path }], &args.results)?;
     }
-    let kept = if args.junit.is_some() { Kept::All } else { Kept::Failed };
-    let (results, all) = read_all(&args.results, kept)?.complete()?;
+    let found = read_all(&args.results)?.complete()?;
     let people = People::beside(args.junit.as_deref());
-    let failed = results.iter().filter(|result| result.verdict == Verdict::Failed);
-    for result in failed.clone() {
-        let told = format!("FAILED  {}: {}\n{}", result.file, result.title, failure_story(result));
-        people.print_text(&told)?;
+    let mut again = ResultsAgain::new(&args.results);
+    match &args.junit {
+        Some(path) => report(path, &found, &mut again, people)?,
+        None => {
+            for place in found.places.iter().filter(|place| place.verdict == Verdict::Failed) {
+                print(&again.read(place)?, people)?;
+            }
+        }
     }
-    if let Some(path) = &args.junit {
-        output::write(Some(path), junit_report(&results)?.as_bytes())?;
-    }
-    let failed = failed.count() as u64;
-    people.print_line(format_args!("{}: {} ok, {failed} failed", case_count(all), all - failed))?;
+    let Totals { cases, failed, .. } = found.totals;
+    people.print_line(format_args!("{}: {} ok, {failed} failed", case_count(cases), cases - failed))?;
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
+}
+
+/// Writes all results as JUnit, and prints the failed ones.
+fn report(path: &Path, found: &Found, again: &mut ResultsAgain<'_>, people: People) -> Result<(), Failure> {
+    let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
+    let file = LaterOutput::open(path)?.begin()?;
+    let mut report = JunitReport::begin(file, found.totals).map_err(unwritable)?;
+    for place in &found.places {
+        let result = again.read(place)?;
+        report.take(&result).map_err(unwritable)?;
+        print(&result, people)?;
+    }
+    report.end().map_err(unwritable)
+}
+
+/// Prints a failed result.
+fn print(result: &CaseResult, people: People) -> Result<(), Failure> {
+    match result.verdict {
+        Verdict::Passed => Ok(()),
+        Verdict::Failed => {
+            let story = failure_story(result);
+            people.print_text(&format!("FAILED  {}: {}\n{story}", result.file, result.title))
+        }
+    }
 }
 
 /// Reads file after file. Lines that are not results are reported, the first of them in full; one more ends the
 /// reading.
-fn read_all(paths: &[PathBuf], kept: Kept) -> Result<Merged<'_>, Failure> {
-    let (mut merged, mut problems) = (Merged::new(paths, kept), FileProblems::default());
+fn read_all(paths: &[PathBuf]) -> Result<Merged<'_>, Failure> {
+    let (mut merged, mut problems) = (Merged::new(paths), FileProblems::default());
     for (file, path) in paths.iter().enumerate() {
-        let read = read_file(path, |result| merged.take(result, file), &mut problems);
+        let read = read_file(path, |result, start| merged.take(result, file, start), &mut problems);
         match read {
             Ok(()) => {}
             Err(NotMerged::Unreadable(error)) => {
@@ -71,15 +103,15 @@ enum NotMerged {
 
 fn read_file(
     path: &Path,
-    mut take: impl FnMut(CaseResult) -> Result<(), Failure>,
+    mut take: impl FnMut(CaseResult, u64) -> Result<(), Failure>,
     problems: &mut FileProblems,
 ) -> Result<(), NotMerged> {
     let mut lines = Lines::open(path, Wanted::Results).map_err(NotMerged::Unreadable)?;
-    while let Some((number, line)) = lines.next_line().map_err(NotMerged::Unreadable)? {
-        match result_of(line) {
-            Ok(result) => take(result).map_err(NotMerged::Contrary)?,
+    while let Some(line) = lines.next_line().map_err(NotMerged::Unreadable)? {
+        match result_of(line.bytes) {
+            Ok(result) => take(result, line.start).map_err(NotMerged::Contrary)?,
             Err(_) if problems.is_full() => return Err(NotMerged::TooManyProblems),
-            Err(reason) => problems.push(no_result(path, number, line, &reason)),
+            Err(reason) => problems.push(no_result(path, line.number, line.bytes, &reason)),
         }
     }
     Ok(())
@@ -101,21 +133,18 @@ fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProbl
     FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
 
-/// Which results are kept until the end; for all others only their presence is recorded.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kept {
-    Failed,
-    All,
+/// The places of all results, in the order of their cases.
+struct Found {
+    places: Vec<Place>,
+    totals: Totals,
 }
 
 /// The results of one campaign, in the order of reading.
 struct Merged<'a> {
     paths: &'a [PathBuf],
-    kept: Kept,
     campaign: Option<Campaign>,
-    /// For each case the number of its file, from 1; 0: none so far.
-    files: Vec<u32>,
-    results: Vec<CaseResult>,
+    places: Vec<Place>,
+    totals: Totals,
 }
 
 /// The common values of all parts of a campaign, and the first file with them.
@@ -127,12 +156,12 @@ struct Campaign {
 }
 
 impl<'a> Merged<'a> {
-    const fn new(paths: &'a [PathBuf], kept: Kept) -> Self {
-        Self { paths, kept, campaign: None, files: Vec::new(), results: Vec::new() }
+    fn new(paths: &'a [PathBuf]) -> Self {
+        Self { paths, campaign: None, places: Vec::new(), totals: Totals::default() }
     }
 
-    /// Adds a result of the file at this position.
-    fn take(&mut self, mut result: CaseResult, file: usize) -> Result<(), Failure> {
+    /// Takes a result of the file at this place.
+    fn take(&mut self, mut result: CaseResult, file: usize, start: u64) -> Result<(), Failure> {
         let fingerprint = mem::take(&mut result.campaign);
         let own = Campaign { fingerprint, cases: result.cases, parts: result.partition.count(), file };
         match &self.campaign {
@@ -143,26 +172,24 @@ impl<'a> Merged<'a> {
             }
             Some(_) => {}
             None => {
-                self.files = vec![0; own.cases as usize];
+                let none = Place { file: 0, verdict: Verdict::Passed, start: 0 };
+                self.places = vec![none; own.cases as usize];
                 self.campaign = Some(own);
             }
         }
-        self.note(result.case, file)?;
-        if self.kept == Kept::All || result.verdict == Verdict::Failed {
-            self.results.push(result);
-        }
-        Ok(())
+        self.totals.add(&result);
+        self.note(result.case, Place { file: file as u32 + 1, verdict: result.verdict, start })
     }
 
-    /// The case is present.
-    fn note(&mut self, case: u64, file: usize) -> Result<(), Failure> {
-        let Some(place) = self.files.get_mut(case as usize - 1) else {
+    /// The case is there.
+    fn note(&mut self, case: u64, found: Place) -> Result<(), Failure> {
+        let Some(place) = self.places.get_mut(case as usize - 1) else {
             unreachable!("case {case} is one of its campaign");
         };
-        match mem::replace(place, file as u32 + 1) {
+        match mem::replace(place, found).file {
             0 => Ok(()),
             other => {
-                let (one, two) = (self.path(other as usize - 1), self.path(file));
+                let (one, two) = (self.path(other as usize - 1), self.path(found.file as usize - 1));
                 let message = format!("case {case} is there twice: in {one} and in {two}");
                 Err(refused(&message, "give each part once"))
             }
@@ -173,18 +200,17 @@ impl<'a> Merged<'a> {
         self.paths.get(file).map(|path| path.display().to_string()).unwrap_or_default()
     }
 
-    /// The kept results, in the order of their cases, and the number of all, if none is missing.
-    fn complete(mut self) -> Result<(Vec<CaseResult>, u64), Failure> {
+    /// The places of the results, if none is missing.
+    fn complete(self) -> Result<Found, Failure> {
         let Some(Campaign { cases, parts, .. }) = self.campaign else {
             return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
         };
         let missing: Vec<u64> =
-            (1..).zip(&self.files).filter(|(_, file)| **file == 0).map(|(case, _)| case).collect();
+            (1..).zip(&self.places).filter(|(_, place)| place.file == 0).map(|(case, _)| case).collect();
         if !missing.is_empty() {
             return Err(lacking(&missing, cases, parts));
         }
-        self.results.sort_unstable_by_key(|result| result.case);
-        Ok((self.results, cases))
+        Ok(Found { places: self.places, totals: self.totals })
     }
 }
 

@@ -11,6 +11,7 @@ mod partition;
 mod result;
 mod results;
 mod seeds;
+mod spool;
 mod story;
 mod threads;
 
@@ -28,7 +29,7 @@ use results::Results;
 
 pub(crate) use campaign::read_scenario;
 pub(crate) use case::CASES_MAX;
-pub(crate) use junit::report as junit_report;
+pub(crate) use junit::{JunitReport, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};
 pub(crate) use result::{CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};

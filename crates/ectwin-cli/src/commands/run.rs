@@ -1,6 +1,5 @@
 //! `ectwin run FILE… --link LINK`.
 
-mod capture_file;
 mod servers;
 
 use std::fs::File;
@@ -14,10 +13,10 @@ use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
+use crate::output_file::OutputFile;
 use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, unit_files};
-use capture_file::CaptureFile;
 
 /// Emulates the units until SIGINT, SIGTERM or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -34,7 +33,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let listener = args.modbus.map(servers::listen_for_modbus).transpose()?;
     #[cfg(feature = "opcua")]
     let opcua_listener = args.opcua.map(servers::listen_for_opcua).transpose()?;
-    let capture = args.pcap.as_deref().map(CaptureFile::open).transpose()?;
+    let capture = args.pcap.as_deref().map(OutputFile::open).transpose()?;
     privileges::give_up(&files(args, &setups));
 
     let setups = with_storage(args, setups)?;

@@ -2,6 +2,7 @@
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
+use std::process::Command;
 
 use serde_json::json;
 
@@ -124,24 +125,29 @@ fn merge_refuses_what_is_not_the_whole() {
     }
 }
 
-#[test]
-fn merge_reads_files_of_any_size_line_by_line() {
-    const MIB: usize = 1 << 20;
-    const CASES: usize = 300;
-    let bench = campaign("large");
+const MIB: usize = 1 << 20;
+
+/// Results with titles of almost 1 MiB.
+fn large_results(bench: &Bench, file: &str, cases: usize) {
     bench.ectwin(&["replay", "s/1-right.toml", "--json", "one.jsonl"]);
     let one = &bench.json_lines("one.jsonl")[0];
-    // Larger than any file that is read completely, with few long lines.
-    let path = bench.folder.join("large.jsonl");
-    let mut large = BufWriter::new(File::create(&path).unwrap());
-    for case in 1..=CASES {
+    let mut large = BufWriter::new(File::create(bench.folder.join(file)).unwrap());
+    for case in 1..=cases {
         let mut line = one.clone();
         line["case"] = json!(case);
-        line["cases"] = json!(CASES);
+        line["cases"] = json!(cases);
         line["title"] = json!("t".repeat(MIB - 1_000));
         writeln!(large, "{line}").unwrap();
     }
     large.into_inner().unwrap();
+}
+
+#[test]
+fn merge_reads_files_of_any_size_line_by_line() {
+    let bench = campaign("large");
+    // Larger than any file that is read completely, with few long lines.
+    large_results(&bench, "large.jsonl", 300);
+    let path = bench.folder.join("large.jsonl");
     assert!(fs::metadata(&path).unwrap().len() > 256 * MIB as u64);
     let ended = bench.ectwin(&["merge", "large.jsonl"]);
     fs::remove_file(path).unwrap();
@@ -151,6 +157,45 @@ fn merge_reads_files_of_any_size_line_by_line() {
         "{}",
         ended.stderr
     );
+}
+
+#[test]
+fn merge_writes_a_report_that_is_larger_than_its_memory() {
+    let bench = campaign("large-report");
+    large_results(&bench, "large.jsonl", 80);
+    let script = "ulimit -v 60000; exec \"$@\"";
+    let merge = ["merge", "large.jsonl", "--junit", "large.xml"];
+    let mut command = Command::new("sh");
+    command.args(["-c", script, "sh", env!("CARGO_BIN_EXE_ectwin")]).args(merge);
+    let output = command.current_dir(&bench.folder).output().unwrap();
+    let report = fs::metadata(bench.folder.join("large.xml")).map_or(0, |report| report.len());
+    for file in ["large.jsonl", "large.xml"] {
+        fs::remove_file(bench.folder.join(file)).unwrap();
+    }
+    let (told, errors) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!((output.status.code(), told.as_ref()), (Some(0), "80 cases: 80 ok, 0 failed\n"), "{errors}");
+    assert!(report > 79 * MIB as u64, "{report}");
+}
+
+#[test]
+fn a_replay_that_is_refused_changes_no_output() {
+    let bench = campaign("refused-outputs");
+    bench.put("kept.jsonl", "lines");
+    bench.put("kept.xml", "report");
+    for outputs in [
+        ["--json", "kept.jsonl", "--junit", "no/report.xml"],
+        ["--json", "no/lines.jsonl", "--junit", "kept.xml"],
+        ["--json", "new.jsonl", "--junit", "no/report.xml"],
+        ["--junit", "new.xml", "--json", "no/lines.jsonl"],
+        ["--json", "kept.jsonl", "--pcap", "kept.xml/"],
+        ["--junit", "new.xml", "--pcap", "kept.xml/"],
+    ] {
+        let ended = bench.ectwin(&[&["replay", "s"], &outputs[..]].concat());
+        assert!(ended.code.is_some_and(|code| code > 1), "{outputs:?}: {}", ended.stderr);
+        assert_eq!((bench.text("kept.jsonl"), bench.text("kept.xml")), ("lines".into(), "report".into()));
+        let is_there = |file: &&str| bench.folder.join(file).exists();
+        assert_eq!(["new.jsonl", "new.xml"].iter().find(|file| is_there(file)), None, "{outputs:?}");
+    }
 }
 
 #[test]

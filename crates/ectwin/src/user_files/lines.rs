@@ -20,6 +20,19 @@ pub struct Lines {
     wanted: Wanted,
     line: Vec<u8>,
     number: usize,
+    /// Where the next line begins, in bytes.
+    next: u64,
+}
+
+/// A line of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Line<'l> {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Where it begins, in bytes.
+    pub start: u64,
+    /// Its bytes without its end.
+    pub bytes: &'l [u8],
 }
 
 impl Lines {
@@ -34,17 +47,19 @@ impl Lines {
         let head = whole_lines(reader.fill_buf().map_err(Reason::Io).map_err(refused)?);
         let checked = user_file::text(head.to_vec(), &path.to_string_lossy(), wanted);
         checked.map_err(Reason::OfAnotherKind).map_err(refused)?;
+        let mut next = 0;
         if reader.buffer().starts_with(BYTE_ORDER_MARK) {
             reader.consume(BYTE_ORDER_MARK.len());
+            next = BYTE_ORDER_MARK.len() as u64;
         }
-        Ok(Self { reader, wanted, line: Vec::new(), number: 0 })
+        Ok(Self { reader, wanted, line: Vec::new(), number: 0, next })
     }
 
-    /// The next line with its number, from 1, and without its end; none after the last.
+    /// The next line; none behind the last.
     ///
     /// # Errors
     /// The file cannot be read, or the line is too long.
-    pub fn next_line(&mut self) -> Result<Option<(usize, &[u8])>, Unreadable> {
+    pub fn next_line(&mut self) -> Result<Option<Line<'_>>, Unreadable> {
         let wanted = self.wanted;
         let refused = |reason| Unreadable { reason, wanted };
         self.line.clear();
@@ -54,7 +69,11 @@ impl Lines {
         match self.line.len() as u64 {
             0 => Ok(None),
             length if length > LINE_BYTES_MAX => Err(refused(Reason::LineTooLong { number: self.number })),
-            _ => Ok(Some((self.number, self.line.trim_ascii_end()))),
+            length => {
+                let start = self.next;
+                self.next += length;
+                Ok(Some(Line { number: self.number, start, bytes: self.line.trim_ascii_end() }))
+            }
         }
     }
 }

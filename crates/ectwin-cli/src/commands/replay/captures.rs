@@ -23,8 +23,6 @@ impl Captures {
     pub(super) fn choose(path: Option<&Path>, cases: usize, inputs: &[PathBuf]) -> Result<Self, Failure> {
         let Some(path) = path else { return Ok(Self::None) };
         if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
-            let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
-            fs::create_dir_all(path).map_err(unwritable)?;
             return Ok(Self::Folder { folder: path.to_owned(), inputs: inputs.to_vec() });
         }
         if cases > 1 {
@@ -33,6 +31,12 @@ impl Captures {
             return Err(Failure::Refused { message, help });
         }
         Ok(Self::File(path.to_owned()))
+    }
+
+    /// Makes the folder, if they go to one.
+    pub(super) fn make_folder(&self) -> Result<(), Failure> {
+        let Self::Folder { folder, .. } = self else { return Ok(()) };
+        fs::create_dir_all(folder).map_err(|source| Failure::Unwritable { path: folder.clone(), source })
     }
 
     /// Writes the capture of a case.

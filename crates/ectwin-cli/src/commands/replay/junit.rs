@@ -1,47 +1,188 @@
-//! Results as JUnit, which every CI system can display. Its times are virtual, and it has no time stamps.
+//! Results as JUnit, which every CI system shows, written one by one. Its times are virtual, and it has no time stamps.
 
-use std::io;
-use std::path::PathBuf;
+use std::io::{self, BufWriter, Write};
 use std::time::Duration;
 
-use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+use quick_junit::XmlString;
+use quick_xml::Writer;
+use quick_xml::escape::escape;
+use quick_xml::events::attributes::Attr;
+use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
-use super::result::{CaseResult, FailedStep};
+use super::result::{CaseResult, FailedStep, Verdict};
 use super::story;
-use crate::failure::Failure;
 
-/// One suite with a test case for each result, in their order.
-pub(crate) fn report(results: &[CaseResult]) -> Result<String, Failure> {
-    let lasted = Duration::from_nanos(results.iter().map(|result| result.virtual_ns).sum());
-    let mut suite = TestSuite::new("scenarios");
-    suite.add_test_cases(results.iter().map(test_case));
-    suite.set_time(lasted);
-    let mut report = Report::new("ectwin replay");
-    report.add_test_suite(suite);
-    report.set_time(lasted);
-    report.to_string().map_err(|error| Failure::Unwritable {
-        path: PathBuf::from("JUnit"),
-        source: io::Error::other(error),
-    })
+const REPORT: &str = "testsuites";
+const SUITE: &str = "testsuite";
+const CASE: &str = "testcase";
+const FAILURE: &str = "failure";
+const INDENT: usize = 4;
+
+/// What the head of a report says of all results.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Totals {
+    pub(crate) cases: u64,
+    pub(crate) failed: u64,
+    lasted_ns: u64,
 }
 
-fn test_case(result: &CaseResult) -> TestCase {
-    let status = result.failure.as_ref().map_or_else(TestCaseStatus::success, |step| failed(result, step));
-    let mut case = TestCase::new(format!("{} (seed {})", result.title, result.seed), status);
-    case.set_classname(result.file.as_str());
-    case.set_time(Duration::from_nanos(result.virtual_ns));
-    // GitLab and others use these as a link from a failure to its place.
-    case.extra.insert("file".into(), result.file.as_str().into());
-    if let Some(step) = &result.failure {
-        case.extra.insert("line".into(), step.line.to_string().into());
+impl Totals {
+    /// Counts a result.
+    pub(crate) fn add(&mut self, result: &CaseResult) {
+        self.cases += 1;
+        self.failed += u64::from(result.verdict == Verdict::Failed);
+        self.lasted_ns = self.lasted_ns.saturating_add(result.virtual_ns);
     }
-    case
 }
 
-fn failed(result: &CaseResult, step: &FailedStep) -> TestCaseStatus {
-    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-    status.set_type("expectation");
-    status.set_message(format!("{}:{}: `{}`: {}", result.file, step.line, step.step, step.seen));
-    status.set_description(story::failure(result));
-    status
+/// A report with one suite, whose head is written. The results follow in their order.
+pub(crate) struct JunitReport<W: Write> {
+    writer: Writer<BufWriter<W>>,
+    /// A suite without cases is one tag.
+    has_cases: bool,
+}
+
+impl<W: Write> JunitReport<W> {
+    pub(crate) fn begin(to: W, totals: Totals) -> io::Result<Self> {
+        let mut writer = Writer::new_with_indent(BufWriter::new(to), b' ', INDENT);
+        let (tests, failures) = (totals.cases.to_string(), totals.failed.to_string());
+        let time = seconds(totals.lasted_ns);
+        writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+        let (tests, failures) = (("tests", tests.as_str()), ("failures", failures.as_str()));
+        let (none_skipped, no_errors, time) = (("skipped", "0"), ("errors", "0"), ("time", time.as_str()));
+        let report = [("name", "ectwin replay"), tests, none_skipped, failures, no_errors, time];
+        writer.write_event(Event::Start(BytesStart::new(REPORT).with_attributes(report)))?;
+        let suite = [("name", "scenarios"), tests, none_skipped, no_errors, failures, time];
+        let suite = BytesStart::new(SUITE).with_attributes(suite);
+        let has_cases = totals.cases > 0;
+        writer.write_event(if has_cases { Event::Start(suite) } else { Event::Empty(suite) })?;
+        Ok(Self { writer, has_cases })
+    }
+
+    /// Writes the next result.
+    pub(crate) fn take(&mut self, result: &CaseResult) -> io::Result<()> {
+        let name = XmlString::new(format!("{} (seed {})", result.title, result.seed));
+        let file = XmlString::new(&result.file);
+        let time = seconds(result.virtual_ns);
+        let mut case = BytesStart::new(CASE);
+        case.extend_attributes([("name", name.as_str()), ("classname", file.as_str()), ("time", &time)]);
+        // GitLab and others link a failure to its place by these.
+        case.push_attribute(("file", file.as_str()));
+        let Some(step) = &result.failure else { return self.writer.write_event(Event::Empty(case)) };
+        case.push_attribute(("line", step.line.to_string().as_str()));
+        self.writer.write_event(Event::Start(case))?;
+        self.failure(result, step)?;
+        self.writer.write_event(Event::End(BytesEnd::new(CASE)))
+    }
+
+    fn failure(&mut self, result: &CaseResult, step: &FailedStep) -> io::Result<()> {
+        let message =
+            XmlString::new(format!("{}:{}: `{}`: {}", result.file, step.line, step.step, step.seen));
+        let told = XmlString::new(story::failure(result));
+        // Line ends stay line ends, which readers have always seen here.
+        let message = escape(message.as_str());
+        let mut failure = BytesStart::new(FAILURE);
+        failure.push_attribute(Attr::DoubleQ("message", message.as_ref()));
+        failure.push_attribute(("type", "expectation"));
+        self.writer.write_event(Event::Start(failure))?;
+        self.writer.write_event(Event::Text(BytesText::new(told.as_str())))?;
+        self.writer.write_event(Event::End(BytesEnd::new(FAILURE)))
+    }
+
+    /// Ends the report behind its last result.
+    pub(crate) fn end(mut self) -> io::Result<()> {
+        if self.has_cases {
+            self.writer.write_event(Event::End(BytesEnd::new(SUITE)))?;
+        }
+        self.writer.write_event(Event::End(BytesEnd::new(REPORT)))?;
+        self.writer.write_indent()?;
+        self.writer.into_inner().flush()
+    }
+}
+
+fn seconds(nanos: u64) -> String {
+    format!("{:.3}", Duration::from_nanos(nanos).as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
+
+    use super::super::partition::Partition;
+    use super::*;
+
+    fn result(case: u64, title: &str, failure: Option<&str>) -> CaseResult {
+        let failure = failure.map(|seen| FailedStep {
+            line: 7,
+            step: "unit 1 is in <OP> & \"OP\"".to_owned(),
+            at_ns: 5_000_000,
+            seen: seen.to_owned(),
+        });
+        CaseResult {
+            case,
+            cases: 9,
+            partition: Partition::WHOLE,
+            campaign: "0".to_owned(),
+            file: "s/a & b.toml".to_owned(),
+            title: title.to_owned(),
+            seed: case,
+            verdict: if failure.is_some() { Verdict::Failed } else { Verdict::Passed },
+            failure,
+            virtual_ns: 1_234_567_890 * case,
+            cycles: 0,
+            differences: Vec::new(),
+        }
+    }
+
+    fn streamed(results: &[CaseResult]) -> String {
+        let mut totals = Totals::default();
+        results.iter().for_each(|result| totals.add(result));
+        let mut bytes = Vec::new();
+        let mut report = JunitReport::begin(&mut bytes, totals).unwrap();
+        results.iter().for_each(|result| report.take(result).unwrap());
+        report.end().unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    /// The report as the library for JUnit writes it, which needs all results at once.
+    fn at_once(results: &[CaseResult]) -> String {
+        let lasted = Duration::from_nanos(results.iter().map(|result| result.virtual_ns).sum());
+        let mut suite = TestSuite::new("scenarios");
+        for result in results {
+            let status = result.failure.as_ref().map_or_else(TestCaseStatus::success, |step| {
+                let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+                status.set_type("expectation");
+                let message = format!("{}:{}: `{}`: {}", result.file, step.line, step.step, step.seen);
+                status.set_message(message).set_description(story::failure(result));
+                status
+            });
+            let mut case = TestCase::new(format!("{} (seed {})", result.title, result.seed), status);
+            case.set_classname(result.file.as_str()).set_time(Duration::from_nanos(result.virtual_ns));
+            case.extra.insert("file".into(), result.file.as_str().into());
+            if let Some(step) = &result.failure {
+                case.extra.insert("line".into(), step.line.to_string().into());
+            }
+            suite.add_test_case(case);
+        }
+        suite.set_time(lasted);
+        let mut report = Report::new("ectwin replay");
+        report.add_test_suite(suite).set_time(lasted);
+        report.to_string().unwrap()
+    }
+
+    #[test]
+    fn a_report_that_is_written_one_by_one_is_what_the_library_for_junit_writes() {
+        let results = [
+            result(1, "outputs stop in OP", None),
+            result(
+                2,
+                "Öl & <tags> \"quoted\" 'so'\ttab",
+                Some("unit 1 is in SAFE-OP\nand more ]]> \u{1b}[31m\u{7}"),
+            ),
+            result(3, "", Some("")),
+        ];
+        for count in 0..=results.len() {
+            assert_eq!(streamed(&results[..count]), at_once(&results[..count]), "{count} results");
+        }
+    }
 }

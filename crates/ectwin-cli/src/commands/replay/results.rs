@@ -1,32 +1,37 @@
 //! The targets of results, one by one: text output, the file of JSON lines, JUnit, captures.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use super::captures::Captures;
 use super::partition::Partition;
-use super::result::{CaseResult, Verdict};
+use super::result::Verdict;
+use super::spool::Spool;
+use super::story;
 use super::threads::Ended;
-use super::{junit, story};
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
-use crate::output::{self, LinesOut, People};
+use crate::output::{self, People, ResultOut};
+use crate::output_file::LaterOutput;
 
 /// Accepts the results in the order of their cases.
 pub(super) struct Results {
     people: People,
-    lines: Option<LinesOut>,
+    lines: Option<(PathBuf, ResultOut)>,
     captures: Captures,
-    junit: Option<(PathBuf, Vec<CaseResult>)>,
+    junit: Option<Spool>,
     passed: u64,
     failed: u64,
 }
 
 impl Results {
-    /// Creates the files first, so that a failure does not waste a run.
+    /// Opens the files, before anything runs without effect. None of them is changed unless all are open.
     pub(super) fn open(args: &ReplayArgs, captures: Captures, people: People) -> Result<Self, Failure> {
-        let lines = args.json.as_deref().map(LinesOut::create);
-        let junit = args.junit.clone().map(|path| (path, Vec::new()));
-        Ok(Self { people, lines: lines.transpose()?, captures, junit, passed: 0, failed: 0 })
+        let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
+        let junit = args.junit.as_deref().map(Spool::open).transpose()?;
+        captures.make_folder()?;
+        let lines = args.json.clone().zip(lines.map(LaterOutput::begin).transpose()?);
+        Ok(Self { people, lines, captures, junit, passed: 0, failed: 0 })
     }
 
     /// The next case.
@@ -34,23 +39,25 @@ impl Results {
         let Ended { result, trace, capture } = ended;
         self.people.print_text(&story::case(&result, trace.as_deref()))?;
         self.captures.write(&result, capture.as_deref())?;
-        if let Some(lines) = &mut self.lines {
-            lines.line(&output::json_line(&result)?)?;
+        if let Some((path, lines)) = &mut self.lines {
+            let line = output::json_line(&result)? + "\n";
+            let written = lines.write_all(line.as_bytes()).and_then(|()| lines.flush());
+            written.map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
         }
         match result.verdict {
             Verdict::Passed => self.passed += 1,
             Verdict::Failed => self.failed += 1,
         }
-        if let Some((_, results)) = &mut self.junit {
-            results.push(result);
+        if let Some(junit) = &mut self.junit {
+            junit.take(&result)?;
         }
         Ok(())
     }
 
     /// All results of this part are complete; `all` is the total number.
     pub(super) fn close(self, partition: Partition, all: u64) -> Result<(), Failure> {
-        if let Some((path, results)) = &self.junit {
-            output::write(Some(path), junit::report(results)?.as_bytes())?;
+        if let Some(junit) = self.junit {
+            junit.close()?;
         }
         let part = match partition.count() {
             1 => String::new(),

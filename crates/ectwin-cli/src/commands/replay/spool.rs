@@ -1,0 +1,63 @@
+//! The results of a JUnit report until its head is known: in a file without a name, not in memory.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Seek, Write};
+use std::path::{Path, PathBuf};
+
+use super::junit::{JunitReport, Totals};
+use super::result::CaseResult;
+use crate::failure::Failure;
+use crate::output::ResultOut;
+use crate::output_file::LaterOutput;
+
+/// A report that is written when the last result is there.
+pub(super) struct Spool {
+    path: PathBuf,
+    report: LaterOutput,
+    results: BufWriter<File>,
+    totals: Totals,
+}
+
+impl Spool {
+    /// Of the report in this file, which is changed at the end only.
+    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
+        let report = LaterOutput::open(path)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        // The folder of the report has room for it; that of a device may take no files.
+        let file = tempfile::tempfile_in(folder).or_else(|_| tempfile::tempfile());
+        let file = file.map_err(unwritable(path))?;
+        Ok(Self { path: path.to_owned(), report, results: BufWriter::new(file), totals: Totals::default() })
+    }
+
+    pub(super) fn take(&mut self, result: &CaseResult) -> Result<(), Failure> {
+        self.totals.add(result);
+        let line = serde_json::to_string(result).map_err(io::Error::from);
+        let written = line.and_then(|line| writeln!(self.results, "{line}"));
+        written.map_err(unwritable(&self.path))
+    }
+
+    /// Writes the report.
+    pub(super) fn close(self) -> Result<(), Failure> {
+        let Self { path, report, results, totals } = self;
+        let spooled = results.into_inner().map_err(io::IntoInnerError::into_error);
+        let spooled = spooled.map_err(unwritable(&path))?;
+        write_report(report.begin()?, totals, spooled).map_err(unwritable(&path))
+    }
+}
+
+fn write_report(to: ResultOut, totals: Totals, mut spooled: File) -> io::Result<()> {
+    spooled.rewind()?;
+    let mut report = JunitReport::begin(to, totals)?;
+    let mut lines = BufReader::new(spooled);
+    let mut line = Vec::new();
+    while lines.read_until(b'\n', &mut line)? > 0 {
+        report.take(&serde_json::from_slice(&line)?)?;
+        line.clear();
+    }
+    report.end()
+}
+
+fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> Failure {
+    let path: PathBuf = path.to_owned();
+    |source| Failure::Unwritable { path, source }
+}
