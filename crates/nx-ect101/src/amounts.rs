@@ -1,9 +1,11 @@
 //! The numbers of entries of the data sets on their two sides.
 
+use coe_kit::pdo::PdoSettings;
+
 use crate::allocation::IoAllocation;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
 use crate::finding::{Amount, FindingPlace};
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings::assigned_entries;
 
 impl Amount {
     /// Entries on exactly one side.
@@ -20,7 +22,7 @@ impl Amount {
 /// The amounts of the three data sets of `direction`.
 pub(crate) fn of(io: &IoAllocation, pdo: &PdoSettings, direction: Direction) -> [Amount; 3] {
     DataSetKind::ALL.map(|kind| {
-        let pdo_entries = pdo.assigned_entries(DataSet::of(direction, kind)).iter();
+        let pdo_entries = assigned_entries(pdo, DataSet::of(direction, kind)).iter();
         Amount {
             io_entries: io.entries(direction, kind).len(),
             pdo_entries: pdo_entries.filter(|entry| !entry.is_empty()).count(),

@@ -49,6 +49,12 @@ impl Direction {
             Self::CToM => "c_to_m",
         }
     }
+
+    /// Its assignment object: 1C12 or 1C13.
+    #[must_use]
+    pub fn assignment(self) -> ObjectIndex {
+        Assignment::of(self).object
+    }
 }
 
 impl DataSetKind {

@@ -1,5 +1,6 @@
 //! The contents of ESI and SII, from the same tables that answer online.
 
+use coe_kit::pdo::PdoObjects;
 use esi::{
     CoeDetails, DeviceDescription, EscPresets, FmmuUsage, GeneralFlags, Group, InitCommand, Mailbox,
     MailboxArea, MailboxProtocols, Pdo, PdoEntry, PortPhysics, SyncManager, SyncManagerType, Timeouts,
@@ -10,7 +11,6 @@ use wire::{ObjectIndex, SubIndex};
 
 use crate::data_sets::{Assignment, DataSet, Direction, Limits, StatusPdo};
 use crate::layout;
-use crate::mapping::{MappedEntry, Mapping};
 use crate::settings::UnitSettings;
 use crate::tables::object_table;
 
@@ -22,7 +22,7 @@ const ESC_CONFIGURATION: [u16; 4] = [0x0008, 0, 0, 0];
 #[must_use]
 pub fn description(settings: &UnitSettings) -> DeviceDescription {
     let table = object_table();
-    let mapping = Mapping::factory(&table);
+    let mapping = PdoObjects::of_table(&table);
     DeviceDescription {
         vendor: Vendor { id: layout::VENDOR_ID, name: layout::VENDOR_NAME.into() },
         group: Group { group_type: "NX-ECT".into(), name: "NX-series EtherCAT Slave Units".into() },
@@ -70,11 +70,12 @@ fn mailbox() -> Mailbox {
     }
 }
 
-fn sync_managers(mapping: &Mapping) -> Vec<SyncManager> {
+fn sync_managers(mapping: &PdoObjects) -> Vec<SyncManager> {
     let limits = Limits::of_model();
     // 1A00 is always assigned, so inputs are never shorter than its 2 bytes.
     let (outputs_bytes, inputs_bytes) = ((0, limits.rxpdo_bytes), (2, limits.txpdo_bytes));
-    let default = |direction| u16::try_from(mapping.size_bytes(direction)).unwrap_or(u16::MAX);
+    let default =
+        |direction: Direction| u16::try_from(mapping.size_bytes(direction.assignment())).unwrap_or(u16::MAX);
     vec![
         SyncManager {
             control: layout::MAILBOX_RECEIVE_CONTROL,
@@ -107,13 +108,13 @@ fn buffered_sync_manager(usage: SyncManagerType, default_bytes: u16, (min, max):
     SyncManager { usage, start: 0, default_bytes, min_bytes, max_bytes, control: 0, enable: 1 }
 }
 
-/// All PDOs of one direction, ascending by index, including those that are not assigned by default.
-fn pdos(table: &ObjectTable, mapping: &Mapping, direction: Direction) -> Vec<Pdo> {
+/// All PDOs of one direction, ascending by index, those that are not assigned by default included.
+fn pdos(table: &ObjectTable, mapping: &PdoObjects, direction: Direction) -> Vec<Pdo> {
     let sync_manager = match direction {
         Direction::MToC => 2,
         Direction::CToM => 3,
     };
-    let assigned: Vec<ObjectIndex> = mapping.assigned(direction).collect();
+    let assigned: Vec<ObjectIndex> = mapping.assigned(direction.assignment()).collect();
     let pdo = |index: ObjectIndex| Pdo {
         index,
         name: table.object(index).map(|object| object.name.clone()).unwrap_or_default(),
@@ -125,12 +126,12 @@ fn pdos(table: &ObjectTable, mapping: &Mapping, direction: Direction) -> Vec<Pdo
     Assignment::of(direction).allowed.iter().copied().map(pdo).collect()
 }
 
-fn pdo_entry(table: &ObjectTable, mapped: MappedEntry) -> PdoEntry {
-    let bit_length = u8::try_from(mapped.bit_length()).unwrap_or(u8::MAX);
-    match table.entry(mapped.index(), mapped.sub()) {
+fn pdo_entry(table: &ObjectTable, mapped: coe_kit::pdo::PdoEntry) -> PdoEntry {
+    let bit_length = u8::try_from(mapped.bit_length).unwrap_or(u8::MAX);
+    match table.entry(mapped.index, mapped.sub) {
         Some(entry) => PdoEntry {
-            index: mapped.index(),
-            sub: mapped.sub(),
+            index: mapped.index,
+            sub: mapped.sub,
             name: entry.name.clone(),
             data_type: entry.data_type,
             bit_length,

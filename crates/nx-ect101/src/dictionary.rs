@@ -2,6 +2,7 @@
 
 mod io_entries;
 
+use coe_kit::pdo::PdoObjects;
 use objects::{Dictionary, ObjectServer, ObjectTable};
 use time::Duration;
 use wire::{AlState, ObjectIndex, SdoAbort, SubIndex};
@@ -10,7 +11,6 @@ use crate::allocation::ImageLayout;
 use crate::diagnosis::{DIAGNOSIS_MESSAGE_BYTES, Diagnosis, current_error_bytes};
 use crate::events::EventLevel;
 use crate::identification::Identification;
-use crate::mapping::Mapping;
 use crate::memory::LogRecord;
 use crate::messages::{Message, Messages};
 use crate::tables::object_table;
@@ -27,8 +27,8 @@ const MINOR_FAULTS: u16 = 0x2004;
 #[derive(Debug)]
 pub(crate) struct UnitObjects {
     values: Dictionary,
-    pub(crate) mapping: Mapping,
-    /// As of the last transition from PRE-OP to SAFE-OP.
+    pub(crate) mapping: PdoObjects,
+    /// As of the last PRE-OP to SAFE-OP.
     unmapped: UnmappedEntries,
     pub(crate) identification: Identification,
     pub(crate) messages: Messages,
@@ -49,7 +49,7 @@ impl UnitObjects {
         diagnosis: Diagnosis,
     ) -> Self {
         let table = object_table();
-        let mapping = Mapping::factory(&table);
+        let mapping = PdoObjects::of_table(&table);
         let mut objects = Self {
             values: Dictionary::new(table),
             mapping,

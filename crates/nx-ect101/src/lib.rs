@@ -14,13 +14,12 @@ mod finding;
 mod identification;
 mod indicators;
 pub mod layout;
-mod mapping;
 mod memory;
 mod messages;
 mod model;
 mod nx_objects;
 mod nx_server;
-mod pdo_settings;
+pub mod pdo_settings;
 pub mod performance;
 mod rules;
 mod settings;
@@ -43,7 +42,7 @@ pub use events::{
     AttachedInformation, Cause, DetectionTiming, EcatEffect, Event, EventCode, EventLevel, EventLog,
     IndicatorStatus, IoRefreshEffect, Notified, Recovery,
 };
-pub use exchange::{ByteCopy, ExchangePlan};
+pub use exchange::ExchangePlan;
 pub use fault::Fault;
 pub use finding::{Amount, Fact, Finding, Side};
 pub use indicators::{
@@ -57,7 +56,6 @@ pub use messages::MESSAGE_BYTES;
 pub use model::MODEL;
 pub use nx_bus::SlaveStatus;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};
-pub use pdo_settings::{PdoEntry, PdoSettings};
 pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
 pub use settings::{EventLevels, LevelNotChangeable, NewestAcknowledged, UnitSettings};
 pub use slave_settings::{OutputsRule, SlaveSettings};

@@ -12,11 +12,12 @@ mod sm_order;
 mod total;
 mod r#type;
 
+use coe_kit::pdo::PdoSettings;
+
 use crate::allocation::IoAllocation;
 use crate::data_sets::Direction;
 use crate::events::EventCode;
 use crate::finding::{Finding, Side};
-use crate::pdo_settings::PdoSettings;
 
 /// Maximum number of findings of one configuration: five by data set and side, six by direction and side.
 pub(crate) const MAX_FINDINGS: usize = 5 * 6 + 6 * 2;

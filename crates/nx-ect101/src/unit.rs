@@ -7,6 +7,7 @@ mod nx_bus_side;
 mod reported;
 mod task_watch;
 
+use coe_kit::pdo::PdoSettings;
 use device::{Action, Check, Exchange, RefreshCause, SmIndex, Start, Unit};
 use nx_bus::{CpuEnd, CpuHeader, SlaveStatus, UnitEnd};
 use objects::ObjectServer;
@@ -18,13 +19,13 @@ use crate::data_sets::Direction;
 use crate::diagnosis::Diagnosis;
 use crate::dictionary::UnitObjects;
 use crate::events::Event;
-use crate::exchange::{self, ExchangePlan, StatusToMaster};
+use crate::exchange::{ExchangePlan, StatusToMaster};
 use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
 use crate::nx_objects::NxObject;
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings;
 use crate::rules;
 use crate::settings::UnitSettings;
 use crate::status::NxUnitStatus;
@@ -107,7 +108,7 @@ impl NxEct101 {
             memory,
             bus,
             io_findings,
-            pdo: PdoSettings::factory(),
+            pdo: pdo_settings::factory(),
             pdo_findings: Vec::with_capacity(rules::MAX_FINDINGS),
             m_to_c: vec![0; m_to_c_layout.size_bytes()],
             m_to_c_layout,
@@ -184,7 +185,7 @@ impl NxEct101 {
     /// Receives outputs and reports the status to the CPU Unit.
     fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
         if let Some(outputs) = outputs.filter(|_| self.io_is_refreshed()) {
-            exchange::copy(&self.plan.m_to_c, outputs, &mut self.m_to_c);
+            self.plan.copies(Direction::MToC).apply(outputs, &mut self.m_to_c);
         }
         if self.io_is_refreshed() {
             self.objects.give_unmapped_entries(&mut self.m_to_c);
@@ -199,7 +200,7 @@ impl NxEct101 {
         inputs.fill(0);
         let image = self.io_is_refreshed().then_some(self.c_to_m.as_slice());
         if let Some(image) = image {
-            exchange::copy(&self.plan.c_to_m, image, inputs);
+            self.plan.copies(Direction::CToM).apply(image, inputs);
         }
         self.objects.take_unmapped_entries(image);
         if cause == RefreshCause::Period {
@@ -210,7 +211,7 @@ impl NxEct101 {
             new_messages: self.objects.diagnosis.has_new_messages(),
             sysmac_error: self.objects.diagnosis.error_status(),
         };
-        exchange::put_status(&self.plan.status, status, inputs);
+        self.plan.put_status(status, inputs);
     }
 }
 
@@ -229,7 +230,7 @@ impl Unit for NxEct101 {
     fn mapped_bytes(&self, sync_manager: SmIndex) -> u16 {
         let direction = if sync_manager == SmIndex::OUTPUTS { Direction::MToC } else { Direction::CToM };
         // Three or six PDOs of at most 1,275 bytes each.
-        u16::try_from(self.objects.mapping.size_bytes(direction)).unwrap_or(u16::MAX)
+        u16::try_from(self.objects.mapping.size_bytes(direction.assignment())).unwrap_or(u16::MAX)
     }
 
     fn check_transition(

@@ -1,11 +1,13 @@
 //! The allocator: from a configuration to its violations and the resulting exchange.
 
+use coe_kit::pdo::PdoSettings;
+
 use crate::allocation::IoAllocation;
 use crate::amounts;
 use crate::data_sets::{DataSet, Direction};
 use crate::exchange::ExchangePlan;
 use crate::finding::Finding;
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings;
 use crate::rules::{self, RuleId};
 use crate::unit_file::UnitFile;
 
@@ -22,7 +24,7 @@ impl Configuration {
     /// The factory setting of both sides.
     #[must_use]
     pub fn factory() -> Self {
-        Self { io: IoAllocation::factory(), pdo: PdoSettings::factory() }
+        Self { io: IoAllocation::factory(), pdo: pdo_settings::factory() }
     }
 
     /// The settings in a unit file; values that are left out are those of the factory setting.
@@ -31,7 +33,7 @@ impl Configuration {
         let pdo = file
             .pdo
             .as_ref()
-            .map_or_else(PdoSettings::factory, |section| PdoSettings::of_section(&section.value));
+            .map_or_else(pdo_settings::factory, |section| pdo_settings::of_section(&section.value));
         Self { io: file.io_allocation(), pdo }
     }
 

@@ -5,12 +5,12 @@
 
 use core::ops::Range;
 
+use coe_kit::pdo::PdoObjects;
 use objects::Dictionary;
 use wire::{ObjectIndex, SubIndex};
 
 use crate::allocation::ImageLayout;
 use crate::data_sets::{DataSet, Direction};
-use crate::mapping::Mapping;
 
 /// Maximum number of entries of one direction: 40, 10 and 32.
 const MAX_ENTRIES: usize = 82;
@@ -42,8 +42,13 @@ impl UnmappedEntries {
         self.c_to_m.clear();
     }
 
-    /// Adapts to this mapping. Every I/O entry has its default again, as in the process images.
-    pub(super) fn rebuild(&mut self, values: &mut Dictionary, mapping: &Mapping, layouts: [&ImageLayout; 2]) {
+    /// Follows this mapping. Every I/O entry has its default again, as in the process images.
+    pub(super) fn rebuild(
+        &mut self,
+        values: &mut Dictionary,
+        mapping: &PdoObjects,
+        layouts: [&ImageLayout; 2],
+    ) {
         self.clear();
         for set in DataSet::all() {
             let [m_to_c, c_to_m] = layouts;

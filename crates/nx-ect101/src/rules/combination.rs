@@ -5,12 +5,13 @@
 //!
 //! A data set is selected if it has entries. One finding contains all data sets of a direction.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::amounts::{self, different};
 use crate::data_sets::Direction;
 use crate::finding::{Fact, Finding, Side};
-use crate::pdo_settings::PdoSettings;
 
 /// Data Size Mismatched between PDO Entry and I/O Entry.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x3917_0000, 0x3916_0000);

@@ -5,10 +5,12 @@
 //! Fails:  1C13 = 1A01; 1C12 = 1A00; 1602 with the entries 01 to 0B; TxPDOs of 1,205 bytes by status assigned
 //! twice. The rule `total` covers more data than 1,200 bytes.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::data_sets::{DataSet, Direction, Limits, StatusPdo};
 use crate::finding::{Fact, Finding, FindingPlace, Side};
-use crate::pdo_settings::{PdoSettings, is_assignable};
+use crate::pdo_settings::{assigned_entries, data_bytes, is_assignable, size_bytes};
 
 /// RxPDO Mapping Error and TxPDO Mapping Error.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x350A_0000, 0x3509_0000);
@@ -40,19 +42,20 @@ fn check(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
 
 fn unit_status(pdo: &PdoSettings) -> Option<Fact> {
     let mut mandatory = StatusPdo::all().iter().filter(|status| status.mandatory);
-    let assigned = |status: &StatusPdo| pdo.assigned(Direction::CToM).any(|pdo| pdo == status.index);
+    let assigned =
+        |status: &StatusPdo| pdo.assigned(Direction::CToM.assignment()).any(|pdo| pdo == status.index);
     (!mandatory.all(assigned)).then_some(Fact::UnitStatusNotAssigned)
 }
 
 fn stray(pdo: &PdoSettings, direction: Direction) -> Option<Fact> {
-    let mut elements = pdo.assignment(direction).iter().enumerate();
+    let mut elements = pdo.assignment(direction.assignment()).iter().enumerate();
     let (place, &pdo) = elements.find(|(_, pdo)| pdo.0 != 0 && !is_assignable(direction, **pdo))?;
     Some(Fact::NotAssignable { place, pdo })
 }
 
 /// The first entry that the data set does not have, or for which its mapping object has no room.
 fn beyond_maximum(pdo: &PdoSettings, set: &DataSet) -> Option<Fact> {
-    let entries = pdo.assigned_entries(set);
+    let entries = assigned_entries(pdo, set);
     let missing = entries.iter().position(|entry| entry.index == set.pdo_entry && !set.has(entry.sub));
     let room = usize::from(set.max_count);
     let place = missing.or((entries.len() > room).then_some(room))?;
@@ -61,8 +64,8 @@ fn beyond_maximum(pdo: &PdoSettings, set: &DataSet) -> Option<Fact> {
 
 fn too_long(pdo: &PdoSettings) -> Option<Fact> {
     let Limits { exchange_bytes, txpdo_bytes: limit_bytes, .. } = Limits::of_model();
-    let size_bytes = pdo.size_bytes(Direction::CToM);
-    let by_status = pdo.data_bytes(Direction::CToM) <= usize::from(exchange_bytes);
+    let size_bytes = size_bytes(pdo, Direction::CToM);
+    let by_status = data_bytes(pdo, Direction::CToM) <= usize::from(exchange_bytes);
     let too_long = by_status && size_bytes > usize::from(limit_bytes);
     too_long.then_some(Fact::TxPdosTooLong { size_bytes, limit_bytes })
 }

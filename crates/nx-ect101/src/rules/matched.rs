@@ -6,12 +6,13 @@
 //! One finding contains all data sets of a direction. The rule `combination` covers a data set without entries
 //! on one side; it raises the same event for the direction.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::amounts::{self, different};
 use crate::data_sets::Direction;
 use crate::finding::{Amount, Fact, Finding, Side};
-use crate::pdo_settings::PdoSettings;
 
 /// Data Size Mismatched between PDO Entry and I/O Entry.
 const PDO: RuleEvents = RuleEvents::at_safe_op(Side::PdoEntry, 0x3917_0000, 0x3916_0000);

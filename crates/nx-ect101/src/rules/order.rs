@@ -6,13 +6,14 @@
 //! The rule `type` covers an entry of another data set: if the order would be correct with this entry removed,
 //! or replaced by the missing entry, it counts as correct.
 
+use coe_kit::pdo::PdoSettings;
 use wire::{ObjectIndex, SubIndex};
 
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::data_sets::DataSet;
 use crate::finding::{Fact, Finding, FindingPlace, Side};
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings::assigned_entries;
 use crate::unit_file::EntryAddress;
 
 /// Incorrect I/O Entry Order.
@@ -39,7 +40,7 @@ fn check_io(io: &IoAllocation, findings: &mut Vec<Finding>) {
 
 fn check_pdo(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
     for set in DataSet::all() {
-        let entries = pdo.assigned_entries(set).iter();
+        let entries = assigned_entries(pdo, set).iter();
         let elements = entries.map(|entry| match entry.is_empty() {
             true => Element::Empty,
             false => element(set, set.pdo_entry, entry.index, entry.sub),

@@ -3,10 +3,12 @@
 //! Passes: 1C13 = 1A00, 1A01, 1A03.
 //! Fails:  1C13 = 1A03, 1A00, 1A01; 1C12 = 1601, 1601.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::data_sets::Direction;
 use crate::finding::{Fact, Finding, FindingPlace, Side};
-use crate::pdo_settings::{PdoSettings, is_assignable};
+use crate::pdo_settings::is_assignable;
 
 /// Incorrect RxPDO Mapping Order and Incorrect TxPDO Mapping Order.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x392E_0000, 0x392F_0000);
@@ -30,7 +32,7 @@ fn check(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
 /// The first PDO whose index is not above that of the PDO before it. A PDO that cannot be assigned in this
 /// direction is ignored in the order; the rule `mandatory` reports it.
 fn not_ascending(pdo: &PdoSettings, direction: Direction) -> Option<Fact> {
-    let elements = pdo.assignment(direction).iter().copied().enumerate();
+    let elements = pdo.assignment(direction.assignment()).iter().copied().enumerate();
     let mut before = None;
     for (place, pdo) in elements.filter(|&(_, pdo)| is_assignable(direction, pdo)) {
         if let Some(after) = before.replace(pdo).filter(|&before| before >= pdo) {

@@ -4,11 +4,13 @@
 //! Passes: 40 entries of 15 UINT, 1,200 bytes.
 //! Fails:  40 entries of 15 UINT and one UDINT, 1,204 bytes.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::data_sets::{Direction, Limits};
 use crate::finding::{Fact, Finding, FindingPlace, Side};
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings::data_bytes;
 
 /// I/O Entry Data Capacity Exceeded.
 const IO: RuleEvents = RuleEvents::at_power_on(Side::IoEntry, 0x391D_0000, 0x391C_0000);
@@ -28,7 +30,7 @@ fn check_io(io: &IoAllocation, findings: &mut Vec<Finding>) {
 }
 
 fn check_pdo(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
-    check(&PDO, |direction| pdo.data_bytes(direction), findings);
+    check(&PDO, |direction| data_bytes(pdo, direction), findings);
 }
 
 fn check(events: &RuleEvents, data_bytes: impl Fn(Direction) -> usize, findings: &mut Vec<Finding>) {

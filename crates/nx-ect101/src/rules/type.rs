@@ -4,11 +4,13 @@
 //! Fails:  7001:01 there; 7000:29 there, which does not exist. On the master's side the rule `mandatory` reports
 //! entries that do not exist.
 
+use coe_kit::pdo::PdoSettings;
+
 use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::data_sets::DataSet;
 use crate::finding::{Fact, Finding, FindingPlace, Side};
-use crate::pdo_settings::PdoSettings;
+use crate::pdo_settings::assigned_entries;
 use crate::unit_file::EntryAddress;
 
 /// Illegal I/O Entry Added.
@@ -38,7 +40,7 @@ fn check_io(io: &IoAllocation, findings: &mut Vec<Finding>) {
 
 fn check_pdo(pdo: &PdoSettings, findings: &mut Vec<Finding>) {
     for set in DataSet::all() {
-        let mut entries = pdo.assigned_entries(set).iter().enumerate();
+        let mut entries = assigned_entries(pdo, set).iter().enumerate();
         let stray = entries.find(|(_, entry)| entry.index != set.pdo_entry && !entry.is_empty());
         findings.extend(stray.map(|(place, entry)| {
             let entry = EntryAddress { index: entry.index, sub: entry.sub };

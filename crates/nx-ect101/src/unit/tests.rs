@@ -8,7 +8,7 @@ use crate::allocation::tests::symmetric;
 use crate::allocation::{IoAllocation, IoEntry};
 use crate::data_sets::DataSetKind;
 use crate::events::{EventCode, EventLevel};
-use crate::mapping::tests::set;
+use crate::pdo_settings::tests::set;
 use crate::settings::{EventLevels, NewestAcknowledged};
 use crate::timing::Timing;
 use crate::unit_file::UnitFile;

@@ -1,7 +1,7 @@
 //! Random settings of both sides: correct ones, ones that violate one rule, and any.
 
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{Configuration, DataSetKind, Direction, IoAllocation, IoEntry, PdoEntry, PdoSettings};
+use nx_ect101::{Configuration, DataSetKind, Direction, IoAllocation, IoEntry, pdo_settings};
 use proptest::prelude::*;
 use proptest::sample::Index;
 use wire::{ObjectIndex, SubIndex};
@@ -36,7 +36,7 @@ impl Settings {
 
     pub(crate) fn configuration(&self) -> Configuration {
         let mut io = IoAllocation::empty();
-        let mut settings = PdoSettings::factory();
+        let mut settings = pdo_settings::factory();
         for (way, direction) in Direction::ALL.into_iter().enumerate() {
             for (set, kind) in DataSetKind::ALL.into_iter().enumerate() {
                 let entry =
@@ -44,10 +44,10 @@ impl Settings {
                 io.allocate(direction, kind, self.io[way][set].iter().map(entry).collect());
                 let address =
                     |&(index, sub): &Address| EntryAddress { index: ObjectIndex(index), sub: SubIndex(sub) };
-                let entries = self.pdo[way][set].iter().map(|entry| PdoEntry::at(address(entry)));
+                let entries = self.pdo[way][set].iter().map(|entry| pdo_settings::entry_at(address(entry)));
                 settings.map(ObjectIndex(pdo(way, set)), entries);
             }
-            settings.assign(direction, self.assigned[way].iter().copied().map(ObjectIndex));
+            settings.assign(direction.assignment(), self.assigned[way].iter().copied().map(ObjectIndex));
         }
         Configuration { io, pdo: settings }
     }

@@ -66,7 +66,7 @@ fn pattern(length: usize, seed: u8) -> Vec<u8> {
 /// Applies the plan of `way` to a pattern.
 fn applied(verdict: &Verdict, way: usize, from: &[u8], length: usize) -> Vec<u8> {
     let mut image = vec![UNTOUCHED; length];
-    verdict.plan.apply(Direction::ALL[way], from, &mut image);
+    verdict.plan.copies(Direction::ALL[way]).apply(from, &mut image);
     image
 }
 
@@ -98,15 +98,15 @@ proptest! {
         let stops = verdict.findings.iter().any(|finding| !["combination", "matched"].contains(&finding.rule.id()));
         for direction in Direction::ALL {
             let io = configuration.io.layout(direction).size_bytes();
-            let pdo = configuration.pdo.size_bytes(direction);
+            let pdo = nx_ect101::pdo_settings::size_bytes(&configuration.pdo, direction);
             let (from, to) = if direction == Direction::MToC { (pdo, io) } else { (io, pdo) };
-            for copy in verdict.plan.copies(direction) {
+            for copy in verdict.plan.copies(direction).copies() {
                 prop_assert!(copy.from + copy.length_bytes <= from && copy.to + copy.length_bytes <= to);
             }
-            prop_assert!(!stops || verdict.plan.copies(direction).is_empty());
+            prop_assert!(!stops || verdict.plan.copies(direction).copies().is_empty());
         }
         let exchanged: usize = verdict.data_sets.iter().map(|set| set.exchanged_bytes()).sum();
-        let moved = Direction::ALL.into_iter().flat_map(|direction| verdict.plan.copies(direction));
+        let moved = Direction::ALL.into_iter().flat_map(|direction| verdict.plan.copies(direction).copies());
         prop_assert_eq!(exchanged, moved.map(|copy| copy.length_bytes).sum::<usize>());
     }
 }

@@ -1,6 +1,6 @@
 //! The master's own user program: its file, its device names, its period.
 
-use nx_ect101::PdoSettings;
+use nx_ect101::pdo_settings;
 use st::{TASK_PERIODS, is_task_period};
 use time::Duration;
 
@@ -84,7 +84,7 @@ impl Maker<'_> {
 /// The variables of all PDO entries that the master has in the factory setting, and through the orders of the steps.
 fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
     let mut variables = MasterVariables::new();
-    let mut settings = vec![PdoSettings::factory(); nodes.len()];
+    let mut settings = vec![pdo_settings::factory(); nodes.len()];
     for (node, settings) in nodes.iter().zip(&settings) {
         variables.add_slave(node, settings);
     }

@@ -125,7 +125,7 @@ impl DirectionSizes {
     fn of(direction: Direction, configuration: &Configuration, verdict: &Verdict) -> Self {
         let sets = || verdict.data_sets.iter().filter(|set| set.data_set.direction == direction);
         Self {
-            pdo_bytes: configuration.pdo.size_bytes(direction),
+            pdo_bytes: nx_ect101::pdo_settings::size_bytes(&configuration.pdo, direction),
             io_bytes: sets().map(|set| set.io_entries * usize::from(set.data_set.entry_bytes)).sum(),
             exchanged_bytes: sets().map(ExchangedDataSet::exchanged_bytes).sum(),
         }

@@ -1,5 +1,6 @@
 //! The resulting exchange.
 
+use nx_ect101::pdo_settings::size_bytes;
 use nx_ect101::{Configuration, Direction, EventLevel, Finding, Moment, RULES, Verdict};
 
 /// The reaction of the unit to these settings, in a few words.
@@ -50,7 +51,7 @@ pub(super) fn table(configuration: &Configuration, verdict: &Verdict) -> String 
     };
     let (m_to_c, c_to_m) = (bytes(Direction::MToC), bytes(Direction::CToM));
     let pdo = &configuration.pdo;
-    let (rx, tx) = (pdo.size_bytes(Direction::MToC), pdo.size_bytes(Direction::CToM));
+    let (rx, tx) = (size_bytes(pdo, Direction::MToC), size_bytes(pdo, Direction::CToM));
     text.push_str(&format!(
         "  {m_to_c} bytes from master to CPU Unit (RxPDOs: {rx}), {c_to_m} bytes back (TxPDOs: {tx})\n"
     ));

@@ -2,7 +2,8 @@
 
 use core::task::Poll;
 
-use nx_ect101::{Direction, PdoSettings};
+use coe_kit::pdo::PdoSettings;
+use nx_ect101::Direction;
 use plc::{CpuEvent, ProgramEvent, STATEMENT_BUDGET_DEFAULT};
 use st::{Alarm, External, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems};
 use time::{Duration, Instant};

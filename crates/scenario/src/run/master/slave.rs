@@ -1,8 +1,9 @@
 //! The state of one unit in the scripted master, and the settings that it is going to write, correct or not.
 
 use ::master::{FmmuSettings, ProcessDataArea, SlaveSettings, SyncManagerSettings, registers};
+use coe_kit::pdo::{PdoEntry, PdoSettings};
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{Assignment, Direction, ObjectIndex, PdoEntry, PdoSettings, SubIndex, UnitSettings};
+use nx_ect101::{Direction, ObjectIndex, SubIndex, UnitSettings, pdo_settings};
 
 use super::operation::{MailboxChannels, Operation};
 use super::process_data::ProcessData;
@@ -29,7 +30,7 @@ pub(crate) struct Slave {
 #[derive(Debug)]
 enum Startup {
     Mapping(u16),
-    Assignment(Direction, u16),
+    Assignment(u16),
 }
 
 impl Slave {
@@ -43,7 +44,7 @@ impl Slave {
         Self {
             unit,
             settings,
-            pdo: PdoSettings::factory(),
+            pdo: pdo_settings::factory(),
             startup: Vec::new(),
             wrong_lengths: Vec::new(),
             wrong_controls: Vec::new(),
@@ -82,9 +83,8 @@ impl Slave {
     }
 
     pub(crate) fn assign(&mut self, index: u16, pdos: &[Hex<u16>]) {
-        if let Some(direction) = assign(&mut self.pdo, index, pdos) {
-            self.startup.push(Startup::Assignment(direction, index));
-        }
+        assign(&mut self.pdo, index, pdos);
+        self.startup.push(Startup::Assignment(index));
     }
 
     pub(crate) fn wrong_length(&mut self, number: u8, length_bytes: u16) {
@@ -103,9 +103,8 @@ impl Slave {
 
     /// As the unit counts: everything that is assigned, even if it does not belong there.
     fn size_bytes(&self, direction: Direction) -> u16 {
-        let entries = self.pdo.assigned(direction).flat_map(|pdo| self.pdo.entries(pdo));
-        let bits: usize = entries.map(|entry| usize::from(entry.bit_length)).sum();
-        u16::try_from(bits.div_ceil(8)).unwrap_or(u16::MAX)
+        let size_bytes = self.pdo.size_bytes(direction.assignment(), |_| true);
+        u16::try_from(size_bytes).unwrap_or(u16::MAX)
     }
 
     /// SyncManagers 0 and 1.
@@ -148,16 +147,12 @@ impl Slave {
     fn startup_sdo(&self, startup: &Startup) -> Vec<Operation> {
         match startup {
             Startup::Mapping(pdo) => {
-                let element = |entry: &PdoEntry| {
-                    u32::from(entry.index.0) << 16
-                        | u32::from(entry.sub.0) << 8
-                        | u32::from(entry.bit_length & 0xFF)
-                };
-                let elements = self.pdo.entries(ObjectIndex(*pdo)).iter().map(element);
+                let elements =
+                    self.pdo.entries(ObjectIndex(*pdo)).iter().map(|entry| PdoEntry::element(*entry));
                 self.write_list(*pdo, elements.map(|element| element.to_le_bytes().to_vec()).collect())
             }
-            Startup::Assignment(direction, index) => {
-                let pdos = self.pdo.assignment(*direction).iter();
+            Startup::Assignment(index) => {
+                let pdos = self.pdo.assignment(ObjectIndex(*index)).iter();
                 self.write_list(*index, pdos.map(|pdo| pdo.0.to_le_bytes().to_vec()).collect())
             }
         }
@@ -222,12 +217,9 @@ pub(crate) fn changed_settings(settings: &mut PdoSettings, order: &MasterOrder) 
 
 fn map(settings: &mut PdoSettings, pdo: u16, entries: &[Entry]) {
     let address = |entry: &Entry| EntryAddress { index: ObjectIndex(entry.index), sub: SubIndex(entry.sub) };
-    settings.map(ObjectIndex(pdo), entries.iter().map(address).map(PdoEntry::at));
+    settings.map(ObjectIndex(pdo), entries.iter().map(address).map(pdo_settings::entry_at));
 }
 
-/// The direction of the assignment object; none if it is not one.
-fn assign(settings: &mut PdoSettings, index: u16, pdos: &[Hex<u16>]) -> Option<Direction> {
-    let direction = Direction::ALL.into_iter().find(|&way| Assignment::of(way).object.0 == index)?;
-    settings.assign(direction, pdos.iter().map(|pdo| ObjectIndex(pdo.0)));
-    Some(direction)
+fn assign(settings: &mut PdoSettings, index: u16, pdos: &[Hex<u16>]) {
+    settings.assign(ObjectIndex(index), pdos.iter().map(|pdo| ObjectIndex(pdo.0)));
 }

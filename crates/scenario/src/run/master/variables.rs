@@ -1,10 +1,9 @@
 //! The variables of the master's user program: the PDO entries of its slaves as device variables, and the
 //! system-defined tables (manual, A-4-3 and A-5-1).
 
+use coe_kit::pdo::{PdoEntry, PdoSettings};
 use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{
-    DataSet, Direction, MINOR_FAULT_BIT, OBSERVATION_BIT, PdoEntry, PdoSettings, StatusBit, object_table,
-};
+use nx_ect101::{DataSet, Direction, MINOR_FAULT_BIT, OBSERVATION_BIT, StatusBit, object_table};
 use plc::{VariableType, variable_name};
 use st::{Elementary, Global};
 
@@ -88,8 +87,8 @@ impl MasterVariables {
     /// Adds the PDO entries of a unit with these settings, unless they already exist.
     pub(crate) fn add_slave(&mut self, node: &Node, settings: &PdoSettings) {
         for direction in Direction::ALL {
-            for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
-                self.add_entry(node, direction, entry);
+            for placed in settings.placed(direction.assignment()) {
+                self.add_entry(node, direction, &placed.entry);
             }
         }
     }
@@ -162,15 +161,9 @@ pub(crate) struct Place {
 
 /// The position of an entry with these settings; none if it is not mapped.
 fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
-    let mut start = 0;
-    for entry in settings.assigned(direction).flat_map(|pdo| settings.entries(pdo)) {
-        let length = usize::from(entry.bit_length);
-        if (entry.index, entry.sub) == (address.index, address.sub) {
-            return Some(Place { start, length });
-        }
-        start += length;
-    }
-    None
+    let is_at = |entry: &PdoEntry| (entry.index, entry.sub) == (address.index, address.sub);
+    let placed = settings.placed(direction.assignment()).find(|placed| is_at(&placed.entry))?;
+    Some(Place { start: placed.bits.start, length: placed.bits.len() })
 }
 
 impl Place {
@@ -195,9 +188,10 @@ mod tests {
 
     /// The factory setting and, of each direction, the first UDINT.
     fn settings() -> PdoSettings {
-        let mut settings = PdoSettings::factory();
-        settings.assign(Direction::MToC, [0x1601, 0x1603].map(ObjectIndex));
-        settings.assign(Direction::CToM, [0x1A00, 0x1A01, 0x1A03, 0x1BFE, 0x1BFF].map(ObjectIndex));
+        let mut settings = nx_ect101::pdo_settings::factory();
+        settings.assign(Direction::MToC.assignment(), [0x1601, 0x1603].map(ObjectIndex));
+        settings
+            .assign(Direction::CToM.assignment(), [0x1A00, 0x1A01, 0x1A03, 0x1BFE, 0x1BFF].map(ObjectIndex));
         settings
     }
 
