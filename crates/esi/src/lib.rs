@@ -5,6 +5,7 @@
 //! dictionary, from the same [`objects::ObjectTable`] that answers online.
 
 mod description;
+mod known_device;
 mod process_data;
 pub mod sii;
 mod startup;
@@ -14,9 +15,10 @@ pub use description::{
     CoeDetails, DeviceDescription, GeneralFlags, Group, Mailbox, MailboxArea, MailboxProtocols, PortPhysics,
     Vendor,
 };
+pub use known_device::{KnownDevice, NamedBit};
 pub use process_data::{FmmuUsage, Pdo, PdoEntry, SyncManager, SyncManagerType};
 pub use startup::{DiagMessage, EscPresets, InitCommand, Timeouts, Transition};
-pub use xml::xml;
+pub use xml::{element_type, xml};
 
 #[cfg(test)]
 mod tests;

@@ -252,4 +252,10 @@ mod tests {
             assert_eq!(identity(sub), number.to_le_bytes());
         }
     }
+
+    #[test]
+    fn the_description_has_the_pdo_settings_of_the_factory() {
+        let described = coe_kit::pdo::PdoSettings::of_description(&factory());
+        assert_eq!(described, crate::pdo_settings::factory());
+    }
 }

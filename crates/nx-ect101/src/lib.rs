@@ -17,6 +17,7 @@ pub mod layout;
 mod memory;
 mod messages;
 mod model;
+mod named_bits;
 mod nx_objects;
 mod nx_server;
 pub mod pdo_settings;

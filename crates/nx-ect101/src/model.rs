@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use coe_kit::indicators::Pattern;
-use esi::DeviceDescription;
+use esi::{DeviceDescription, NamedBit};
 use objects::ObjectTable;
 use time::Duration;
 use unit_model::{
@@ -20,6 +20,7 @@ use crate::events::Event;
 use crate::fault::Fault;
 use crate::indicators::Indicators;
 use crate::memory::{Damage, MemoryAtPowerOn, NonVolatileMemory};
+use crate::named_bits::NAMED_BITS;
 use crate::settings::UnitSettings;
 use crate::tables::object_table;
 use crate::timing::Timing;
@@ -121,6 +122,10 @@ impl UnitSection for UnitFile {
 
     fn objects(&self) -> Arc<ObjectTable> {
         object_table()
+    }
+
+    fn named_bits(&self) -> &'static [NamedBit] {
+        NAMED_BITS
     }
 
     fn variables(&self) -> VariableTable {

@@ -31,17 +31,10 @@ pub fn of_section(section: &PdoSection) -> PdoSettings {
     settings
 }
 
-/// The entry at `address` with the length of its object; 0 bits for an entry that does not exist. An entry beyond the
-/// highest subindex of a data set has the length of those before it.
+/// The entry at `address` with the length of its object.
 #[must_use]
 pub fn entry_at(address: EntryAddress) -> PdoEntry {
-    let EntryAddress { index, sub } = address;
-    let of_data_set = DataSet::all().iter().find(|set| set.pdo_entry == index);
-    let bit_length = match of_data_set {
-        Some(set) => set.entry_bytes * 8,
-        None => object_table().entry(index, sub).map_or(0, |entry| entry.bit_length),
-    };
-    PdoEntry { index, sub, bit_length }
+    PdoEntry::of_table(&object_table(), address)
 }
 
 /// The entries of a data set, if its PDO is assigned; else none.

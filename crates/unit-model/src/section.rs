@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use device::DeviceConfig;
-use esi::DeviceDescription;
+use esi::{DeviceDescription, KnownDevice, NamedBit};
 use nx_bus::CpuEnd;
 use objects::ObjectTable;
 use time::Duration;
@@ -42,6 +42,11 @@ pub trait UnitSection: Any + Debug + Send + Sync {
         Arc::default()
     }
 
+    /// Bits of its entries that have names of their own in the tools of the maker.
+    fn named_bits(&self) -> &'static [NamedBit] {
+        &[]
+    }
+
     /// The variables of the unit for its CPU Unit.
     fn variables(&self) -> VariableTable;
 
@@ -66,6 +71,12 @@ pub trait UnitSection: Any + Debug + Send + Sync {
 }
 
 impl dyn UnitSection {
+    /// What the project of a master has about the unit.
+    #[must_use]
+    pub fn known_device(&self) -> KnownDevice {
+        KnownDevice { description: self.description(), objects: self.objects(), bits: self.named_bits() }
+    }
+
     /// The section as that of this model, for whoever knows the model.
     #[must_use]
     pub fn as_model<S: UnitSection>(&self) -> Option<&S> {

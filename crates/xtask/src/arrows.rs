@@ -44,7 +44,7 @@ const FLOORS: &[Row] = &[
     row("mailbox", 3, Only(&["wire", "objects"])),
     row("esi", 3, Only(&["wire", "objects"])),
     row("device", 4, AnyFloorBelow),
-    row("coe-kit", 4, Only(&["time", "wire", "objects"])),
+    row("coe-kit", 4, Only(&["time", "wire", "objects", "esi"])),
     row(
         "unit-model",
         5,

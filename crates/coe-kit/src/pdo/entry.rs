@@ -1,6 +1,7 @@
 //! An element of a PDO mapping object.
 
-use wire::{ObjectIndex, SubIndex};
+use objects::{ObjectCode, ObjectTable};
+use wire::{EntryAddress, ObjectIndex, SubIndex};
 
 /// One element of a PDO mapping object.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -27,6 +28,18 @@ impl PdoEntry {
     pub const fn element(self) -> u32 {
         let [low, high] = self.index.0.to_le_bytes();
         u32::from_le_bytes([self.bit_length.to_le_bytes()[0], self.sub.0, low, high])
+    }
+
+    /// The entry at `address` with the length that the table has for it. An element behind the last one of an array has
+    /// the length of the last one; an entry that does not exist has 0 bits.
+    #[must_use]
+    pub fn of_table(table: &ObjectTable, address: EntryAddress) -> Self {
+        let EntryAddress { index, sub } = address;
+        let object = table.object(index);
+        let last =
+            object.filter(|object| object.code == ObjectCode::Array).and_then(|array| array.entries.last());
+        let entry = object.and_then(|object| object.entry(sub)).or(last);
+        Self { index, sub, bit_length: entry.map_or(0, |entry| entry.bit_length) }
     }
 
     /// Whether the element maps nothing at all.

@@ -8,9 +8,7 @@ use objects::{AccessRights, Object, ObjectTable};
 use wire::{DataType, ObjectIndex, SdoAbort, SubIndex};
 
 use super::PdoEntry;
-
-/// The assignment objects of SyncManagers 0 to 31.
-const ASSIGNMENTS: core::ops::RangeInclusive<u16> = 0x1C10..=0x1C2F;
+use super::assignment::is_assignment_object;
 
 /// All mapping and assignment objects of one unit with their present values.
 #[derive(Clone, Debug)]
@@ -155,7 +153,7 @@ impl List {
         let room = object.entries.len().saturating_sub(1);
         let content = match object {
             _ if is_pdo(object) => Content::Entries,
-            _ if ASSIGNMENTS.contains(&object.index.0) && room > 0 => Content::Pdos,
+            _ if is_assignment_object(object.index) && room > 0 => Content::Pdos,
             _ => return None,
         };
         let mut list = Self { index: object.index, content, count: 0, elements: vec![0; room] };

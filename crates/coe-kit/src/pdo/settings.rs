@@ -2,9 +2,10 @@
 
 use core::ops::Range;
 
+use esi::{DeviceDescription, Pdo, SyncManagerType};
 use wire::ObjectIndex;
 
-use super::{PdoEntry, PdoObjects};
+use super::{PdoEntry, PdoObjects, assignment_object};
 
 /// PDO mapping and PDO assignment of one unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,20 @@ impl PdoSettings {
         let mut settings = Self { assignments: assignments.collect(), mappings: mappings.collect() };
         settings.follow(objects);
         settings
+    }
+
+    /// The settings of a description: every PDO with its entries, and the PDOs of every SyncManager with process data.
+    #[must_use]
+    pub fn of_description(description: &DeviceDescription) -> Self {
+        let pdos = || description.rx_pdos.iter().chain(&description.tx_pdos);
+        let is_used = |usage| matches!(usage, SyncManagerType::Outputs | SyncManagerType::Inputs);
+        let sync_managers = (0..).zip(&description.sync_managers).filter(|(_, sm)| is_used(sm.usage));
+        let assignments = sync_managers.map(|(number, _)| {
+            let assigned = pdos().filter(|pdo| pdo.sync_manager == Some(number)).map(|pdo| pdo.index);
+            (assignment_object(number), assigned.collect())
+        });
+        let mappings = pdos().map(|pdo| (pdo.index, entries(pdo)));
+        Self { assignments: assignments.collect(), mappings: mappings.collect() }
     }
 
     /// Takes over what the objects hold now. Nothing is allocated.
@@ -99,4 +114,13 @@ impl PdoSettings {
         let entries = self.assigned(assignment).filter(|&pdo| counts(pdo)).flat_map(|pdo| self.entries(pdo));
         entries.map(|entry| usize::from(entry.bit_length)).sum::<usize>().div_ceil(8)
     }
+}
+
+fn entries(pdo: &Pdo) -> Vec<PdoEntry> {
+    let entry = |entry: &esi::PdoEntry| PdoEntry {
+        index: entry.index,
+        sub: entry.sub,
+        bit_length: entry.bit_length.into(),
+    };
+    pdo.entries.iter().map(entry).collect()
 }

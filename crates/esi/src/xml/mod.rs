@@ -8,6 +8,8 @@ mod hex;
 mod tests;
 mod types;
 
+pub use types::element_type;
+
 use objects::ObjectTable;
 
 use crate::DeviceDescription;

@@ -71,6 +71,15 @@ pub(super) fn name(data_type: DataType, bit_length: u16) -> String {
     }
 }
 
+/// The name of the type and, of an array, the number of elements; none for what has no such name.
+#[must_use]
+pub fn element_type(data_type: DataType, bit_length: u16) -> Option<(&'static str, Option<u16>)> {
+    let base = BASE_TYPES.iter().find(|(code, _, bits)| (*code, *bits) == (data_type.0, bit_length));
+    let is_array = |bits: u16| bit_length > 0 && bit_length.is_multiple_of(bits);
+    let array = ARRAY_TYPES.iter().find(|(code, _, bits)| *code == data_type.0 && is_array(*bits));
+    base.map(|(_, name, _)| (*name, None)).or(array.map(|(_, name, bits)| (*name, Some(bit_length / bits))))
+}
+
 /// The contents of `data_type`. Whole bytes of an unknown type are bytes.
 pub(super) fn shape(data_type: DataType, bit_length: u16) -> Shape {
     let known = |code: u16| BASE_TYPES.iter().any(|(base, ..)| *base == code);

@@ -1,13 +1,13 @@
 //! The master's own user program: its file, its device names, its period.
 
-use nx_ect101::pdo_settings;
+use coe_kit::pdo::PdoSettings;
 use st::{TASK_PERIODS, is_task_period};
 use time::Duration;
 
 use super::maker::Maker;
 use super::problem::Part;
 use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber};
-use crate::run::{MasterProgram, MasterVariables, Node, changed_settings};
+use crate::run::{MasterProgram, MasterVariables, Node, UnitSource, changed_settings};
 
 /// Maximum number of characters of a device name.
 const NAME_MAX: usize = 127;
@@ -36,10 +36,12 @@ impl Maker<'_> {
 
     /// The units for the program.
     fn nodes(&mut self, device_names: &[String]) -> Option<Vec<Node>> {
+        let devices: Vec<_> = self.units.iter().map(UnitSource::known_device).collect();
         let addresses = self.node_addresses()?;
         let names = self.device_names(device_names, &addresses)?;
-        let nodes = addresses.into_iter().zip(names).enumerate();
-        Some(nodes.map(|(unit, (address, device_name))| Node { unit, address, device_name }).collect())
+        let nodes = addresses.into_iter().zip(names).zip(devices).enumerate();
+        let node = |(unit, ((address, device_name), device))| Node { unit, address, device_name, device };
+        Some(nodes.map(node).collect())
     }
 
     /// A name for each unit: those in the script, then by the node address, such as E005.
@@ -84,14 +86,15 @@ impl Maker<'_> {
 /// The variables of all PDO entries that the master has in the factory setting, and through the orders of the steps.
 fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
     let mut variables = MasterVariables::new();
-    let mut settings = vec![pdo_settings::factory(); nodes.len()];
+    let described = |node: &Node| PdoSettings::of_description(&node.device.description);
+    let mut settings: Vec<_> = nodes.iter().map(described).collect();
     for (node, settings) in nodes.iter().zip(&settings) {
         variables.add_slave(node, settings);
     }
     for (unit, order) in steps.iter().filter_map(pdo_order) {
         let at = unit.position();
         if let (Some(settings), Some(node)) = (settings.get_mut(at), nodes.get(at)) {
-            changed_settings(settings, order);
+            changed_settings(settings, &node.device, order);
             variables.add_slave(node, settings);
         }
     }

@@ -13,8 +13,10 @@ mod states;
 mod variables;
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use ::master::{Answer, LostRead, MailboxConduct, Progress};
+use esi::KnownDevice;
 use time::{Duration, Instant};
 use wire::{Returned, returned_datagrams};
 
@@ -86,9 +88,11 @@ struct Waiting {
 }
 
 impl Master {
-    pub(crate) fn new(units: usize, cycle: Duration, phase: Duration) -> Self {
+    pub(crate) fn new(devices: Vec<Arc<KnownDevice>>, cycle: Duration, phase: Duration) -> Self {
+        let units = devices.len();
+        let slaves = devices.into_iter().enumerate();
         Self {
-            slaves: Slave::line(units),
+            slaves: slaves.map(|(unit, device)| Slave::new(unit, device)).collect(),
             operations: VecDeque::new(),
             waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
             process_data: ProcessData::new(units, cycle, phase),
@@ -169,7 +173,9 @@ impl Master {
     fn listen(&mut self, now: Instant) {
         self.next_listen = now + LISTEN_PERIOD;
         let units = self.slaves.iter().zip(&self.listens).enumerate().filter(|(_, (_, listens))| **listens);
-        self.operations.extend(units.map(|(unit, (slave, _))| Operation::listen(unit, slave.mailbox())));
+        let listen =
+            |(unit, (slave, _)): (usize, (&Slave, _))| Some(Operation::listen(unit, slave.mailbox()?));
+        self.operations.extend(units.filter_map(listen));
         self.begin(now);
     }
 
@@ -287,11 +293,16 @@ impl Master {
         }
     }
 
+    /// Records that an order has failed.
+    fn fail(&mut self, reason: String) {
+        self.story.push(format!("gives up: {reason}"));
+        self.gave_up = Some(reason);
+    }
+
     /// When an order fails, its remaining operations are dropped and the next order starts.
     fn give_up(&mut self, reason: String, now: Instant) {
         if !self.operations.front().is_some_and(Operation::is_listening) {
-            self.story.push(format!("gives up: {reason}"));
-            self.gave_up = Some(reason);
+            self.fail(reason);
         }
         self.keep_counters();
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();

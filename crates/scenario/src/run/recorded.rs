@@ -11,9 +11,11 @@ mod refusal;
 use std::collections::{BTreeSet, HashMap};
 
 use capture::{Direction, Packet, packets};
+use esi::DeviceDescription;
 use time::{Duration, Instant};
 use wire::{Command, Returned, returned_datagrams};
 
+use areas::Mailboxes;
 use differences::Differences;
 
 pub use differences::{Aspect, DifferenceKind};
@@ -157,8 +159,12 @@ pub(crate) struct Recorded {
 }
 
 impl Recorded {
-    pub(crate) fn new(frames: RecordedFrames) -> Self {
-        Self { frames, sent: 0, answered: 0, missing: BTreeSet::new(), differences: Differences::default() }
+    pub(crate) fn new<'a>(
+        frames: RecordedFrames,
+        devices: impl Iterator<Item = &'a DeviceDescription>,
+    ) -> Self {
+        let differences = Differences::none(Mailboxes::of(devices));
+        Self { frames, sent: 0, answered: 0, missing: BTreeSet::new(), differences }
     }
 
     pub(crate) fn deadline(&self) -> Instant {

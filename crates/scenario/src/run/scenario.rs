@@ -1,5 +1,8 @@
 //! An executable scenario: units, master, steps, all of them checked.
 
+use std::sync::Arc;
+
+use esi::KnownDevice;
 use plant::UnitFile;
 use plc::{Builtin, Io, Program};
 use time::Duration;
@@ -75,7 +78,14 @@ pub struct UnitSource {
     pub program: UserProgram,
 }
 
-/// The program of a CPU Unit.
+impl UnitSource {
+    /// What the project of a master has about it.
+    pub(crate) fn known_device(&self) -> Arc<KnownDevice> {
+        Arc::new(self.file.section().known_device())
+    }
+}
+
+/// What a CPU Unit runs.
 #[derive(Clone, Debug)]
 pub enum UserProgram {
     /// None: the data keep their values.

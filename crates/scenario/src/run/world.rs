@@ -60,7 +60,10 @@ impl World {
         let count = network.len();
         let watched = (0..count).map(|_| Watched::default()).collect();
         let phase = scenario.cycle_phase.unwrap_or_else(|| dice_of_phases(seed, 0).phase(scenario.cycle));
-        let master = Master::new(count, scenario.cycle, phase);
+        let devices: Vec<_> = scenario.units.iter().map(UnitSource::known_device).collect();
+        let described = devices.iter().map(|device| &device.description);
+        let recorded = Recorded::new(scenario.recorded.clone(), described);
+        let master = Master::new(devices, scenario.cycle, phase);
         let master = match &scenario.master {
             Some(program) => master.with_program(program.clone(), now),
             None => master,
@@ -70,7 +73,7 @@ impl World {
             cpus: Cpus::new(cpus),
             line: Line::new(seed),
             master,
-            recorded: Recorded::new(scenario.recorded.clone()),
+            recorded,
             now,
             watched,
             programs: scenario.programs.clone(),

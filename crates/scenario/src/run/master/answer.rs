@@ -125,9 +125,10 @@ fn way(
         match at {
             1 => steps.extend(slave.set_mailboxes().into_iter().map(Step::Do)),
             2 => {
-                steps.extend(slave.startup_sdos().into_iter().map(Step::Do));
+                steps.extend(slave.pre_op_sdos().into_iter().map(Step::Do));
                 steps.extend(slave.set_process_data(process_data).into_iter().map(Step::Do));
             }
+            3 => steps.extend(slave.safe_op_sdos().into_iter().map(Step::Do)),
             _ => {}
         }
         steps.push(reach(WAY_UP[at], WAY_UP[at - 1]));

@@ -39,16 +39,12 @@ impl Master {
                 }
             }
             MasterOrder::WriteSdo { unit, entry, value } => {
-                let number = self.last_sdo.order();
-                let channels = self.channels(unit);
-                let order = |unit| Operation::download(unit, channels, entry, &value.0).ordered_as(number);
-                self.queue_for(UnitSet::One(unit), now, order);
+                self.queue_sdo(unit, now, |unit, channels| {
+                    Operation::download(unit, channels, entry, &value.0)
+                });
             }
             MasterOrder::ReadSdo { unit, entry } => {
-                let number = self.last_sdo.order();
-                let channels = self.channels(unit);
-                let order = |unit| Operation::upload(unit, channels, entry).ordered_as(number);
-                self.queue_for(UnitSet::One(unit), now, order);
+                self.queue_sdo(unit, now, |unit, channels| Operation::upload(unit, channels, entry));
             }
             MasterOrder::ExchangeProcessData { every } => self.process_data.exchange(every, now),
             MasterOrder::StopProcessData => self.process_data.stop(),
@@ -79,18 +75,33 @@ impl Master {
                 self.slaves.iter_mut().for_each(Slave::behave);
             }
             MasterOrder::Restart => {
-                let (units, cycle) = (self.slaves.len(), self.process_data.cycle());
-                let phase = self.process_data.phase();
+                let devices = self.slaves.iter().map(Slave::device).collect();
+                let (cycle, phase) = (self.process_data.cycle(), self.process_data.phase());
                 let ticket = self.ticket + 1;
                 let task = self.task.take().map(|task| task.restart(now));
-                *self = Self { ticket, task, ..Self::new(units, cycle, phase) };
+                *self = Self { ticket, task, ..Self::new(devices, cycle, phase) };
             }
         }
     }
 
-    /// The SyncManagers of a unit's mailbox.
-    fn channels(&self, unit: UnitNumber) -> MailboxChannels {
-        self.slaves.get(unit.position()).map(Slave::mailbox).unwrap_or_default()
+    /// An SDO by the mailbox of a unit; without one the order fails.
+    fn queue_sdo(
+        &mut self,
+        unit: UnitNumber,
+        now: Instant,
+        order: impl Fn(usize, MailboxChannels) -> Operation,
+    ) {
+        let number = self.last_sdo.order();
+        match self.slaves.get(unit.position()).and_then(Slave::mailbox) {
+            Some(channels) => {
+                self.queue_for(UnitSet::One(unit), now, |unit| order(unit, channels).ordered_as(number));
+            }
+            None => {
+                let reason = format!("unit {} has no mailbox", unit.position() + 1);
+                self.fail(reason);
+                self.last_sdo.give_up(Some(number));
+            }
+        }
     }
 
     fn with_slave(&mut self, unit: UnitNumber, change: impl FnOnce(&mut Slave)) {

@@ -2,8 +2,8 @@
 
 use core::task::Poll;
 
+use ::master::Direction;
 use coe_kit::pdo::PdoSettings;
-use nx_ect101::Direction;
 use plc::{CpuEvent, ProgramEvent, STATEMENT_BUDGET_DEFAULT};
 use st::{Alarm, External, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems};
 use time::{Duration, Instant};
@@ -122,9 +122,10 @@ impl Task {
 
     /// A slave has process data from now on, at the positions in these settings.
     pub(crate) fn open(&mut self, unit: usize, settings: &PdoSettings) {
+        let Some(node) = self.program.nodes.iter().find(|node| node.unit == unit) else { return };
         for (place, binding) in self.places.iter_mut().zip(&self.program.bindings) {
             if binding.source.unit() == Some(unit) {
-                *place = binding.source.place(settings);
+                *place = binding.source.place(&node.device, settings);
             }
         }
     }
@@ -158,13 +159,14 @@ impl Task {
         for ((binding, place), taken) in bindings.iter().zip(places).zip(taken) {
             bytes.clear();
             match binding.source {
-                Source::ProcessDataTable => table(bytes, nodes, states, |unit, state| {
-                    state == AlState::Op && data.is_exchanging(unit)
+                Source::ProcessDataTable => table(bytes, nodes, states, |node, state| {
+                    state == AlState::Op && data.is_exchanging(node.unit)
                 }),
-                Source::MailboxTable => table(bytes, nodes, states, |_, state| {
-                    matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op)
+                Source::MailboxTable => table(bytes, nodes, states, |node, state| {
+                    node.device.description.mailbox.is_some()
+                        && matches!(state, AlState::PreOp | AlState::SafeOp | AlState::Op)
                 }),
-                Source::Entry { unit, direction: Direction::MToC, .. } => {
+                Source::Entry { unit, direction: Direction::Outputs, .. } => {
                     let Some(place) = *place else { continue };
                     place.take(data.outputs(unit), bytes);
                 }
@@ -196,11 +198,11 @@ impl Task {
 }
 
 /// An element for each node address, from 1 on; FALSE for those without a slave.
-fn table(bytes: &mut Vec<u8>, nodes: &[Node], states: &States, is_set: impl Fn(usize, AlState) -> bool) {
+fn table(bytes: &mut Vec<u8>, nodes: &[Node], states: &States, is_set: impl Fn(&Node, AlState) -> bool) {
     bytes.resize(TABLE_BYTES, 0);
-    for Node { unit, address, .. } in nodes {
-        let is_set = states.state(*unit).is_some_and(|state| is_set(*unit, state));
-        let element = usize::from(*address).checked_sub(1).and_then(|at| bytes.get_mut(at));
+    for node in nodes {
+        let is_set = states.state(node.unit).is_some_and(|state| is_set(node, state));
+        let element = usize::from(node.address).checked_sub(1).and_then(|at| bytes.get_mut(at));
         if let Some(element) = element {
             *element = is_set.into();
         }

@@ -1,9 +1,11 @@
 //! The state of one unit in the scripted master, and the settings that it is going to write, correct or not.
 
-use ::master::{FmmuSettings, ProcessDataArea, SlaveSettings, SyncManagerSettings, registers};
-use coe_kit::pdo::{PdoEntry, PdoSettings};
-use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{Direction, ObjectIndex, SubIndex, UnitSettings, pdo_settings};
+use std::sync::Arc;
+
+use ::master::{FmmuSettings, ProcessDataArea, SlaveSettings, StartUpSdo, SyncManagerSettings, registers};
+use coe_kit::pdo::{PdoEntry, PdoSettings, assignment_object};
+use esi::{KnownDevice, Transition};
+use wire::{EntryAddress, ObjectIndex, SubIndex};
 
 use super::operation::{MailboxChannels, Operation};
 use super::process_data::ProcessData;
@@ -13,9 +15,10 @@ use crate::model::{Entry, Hex, MasterOrder};
 #[derive(Debug)]
 pub(crate) struct Slave {
     unit: usize,
+    device: Arc<KnownDevice>,
     /// The settings in its description.
     settings: SlaveSettings,
-    /// The factory setting of the unit, with the orders of the scenario.
+    /// The PDO settings in its description, with the orders of the scenario.
     pdo: PdoSettings,
     /// The writes for PRE-OP, in the order in which they were ordered.
     startup: Vec<Startup>,
@@ -34,17 +37,13 @@ enum Startup {
 }
 
 impl Slave {
-    /// The units of a line, according to their description.
-    pub(crate) fn line(units: usize) -> Vec<Self> {
-        let settings = SlaveSettings::from_description(&nx_ect101::description(&UnitSettings::default()));
-        (0..units).map(|unit| Self::new(unit, settings.clone())).collect()
-    }
-
-    fn new(unit: usize, settings: SlaveSettings) -> Self {
+    /// The unit at this position of the line, according to its description.
+    pub(crate) fn new(unit: usize, device: Arc<KnownDevice>) -> Self {
         Self {
             unit,
-            settings,
-            pdo: pdo_settings::factory(),
+            settings: SlaveSettings::from_description(&device.description),
+            pdo: PdoSettings::of_description(&device.description),
+            device,
             startup: Vec::new(),
             wrong_lengths: Vec::new(),
             wrong_controls: Vec::new(),
@@ -53,10 +52,13 @@ impl Slave {
         }
     }
 
-    /// The SyncManagers of its mailbox, always correct.
-    pub(crate) fn mailbox(&self) -> MailboxChannels {
-        let channels = self.settings.mailbox.as_ref().map(|mailbox| (mailbox.out, mailbox.inward));
-        channels.unwrap_or_default()
+    pub(crate) fn device(&self) -> Arc<KnownDevice> {
+        Arc::clone(&self.device)
+    }
+
+    /// The SyncManagers of its mailbox, always correct; none without a mailbox.
+    pub(crate) fn mailbox(&self) -> Option<MailboxChannels> {
+        self.settings.mailbox.as_ref().map(|mailbox| (mailbox.out, mailbox.inward))
     }
 
     pub(crate) const fn received(&self) -> u8 {
@@ -78,7 +80,7 @@ impl Slave {
     }
 
     pub(crate) fn map(&mut self, pdo: u16, entries: &[Entry]) {
-        map(&mut self.pdo, pdo, entries);
+        map(&mut self.pdo, &self.device, pdo, entries);
         self.startup.push(Startup::Mapping(pdo));
     }
 
@@ -102,22 +104,22 @@ impl Slave {
     }
 
     /// As the unit counts: everything that is assigned, even if it does not belong there.
-    fn size_bytes(&self, direction: Direction) -> u16 {
-        let size_bytes = self.pdo.size_bytes(direction.assignment(), |_| true);
+    fn size_bytes(&self, sync_manager: u8) -> u16 {
+        let size_bytes = self.pdo.size_bytes(assignment_object(sync_manager), |_| true);
         u16::try_from(size_bytes).unwrap_or(u16::MAX)
     }
 
-    /// SyncManagers 0 and 1.
+    /// The SyncManagers of the mailbox.
     pub(crate) fn set_mailboxes(&self) -> Vec<Operation> {
-        let (out, inward) = self.mailbox();
-        [out, inward].into_iter().flat_map(|sm| self.set(sm)).collect()
+        let channels = self.mailbox().into_iter().flat_map(|(out, inward)| [out, inward]);
+        channels.flat_map(|sm| self.set(sm)).collect()
     }
 
-    /// SyncManagers 2 and 3 and the FMMUs of both.
+    /// The SyncManagers with process data and their FMMUs.
     pub(crate) fn set_process_data(&mut self, process_data: &mut ProcessData) -> Vec<Operation> {
-        for direction in Direction::ALL {
-            let bits = 8 * u32::from(self.size_bytes(direction));
-            self.settings.set_bits(sync_manager(direction), bits);
+        for at in 0..self.settings.process_data.len() {
+            let number = self.settings.process_data[at].sync_manager.number;
+            self.settings.set_bits(number, 8 * u32::from(self.size_bytes(number)));
         }
         let placed = process_data.place(self.unit, &self.settings);
         let areas = &self.settings.process_data;
@@ -132,16 +134,36 @@ impl Slave {
         operations
     }
 
-    /// The SDOs of PRE-OP: the orders of the scenario, then the reset of errors that the ESI requires.
-    pub(crate) fn startup_sdos(&self) -> Vec<Operation> {
-        let mut operations: Vec<_> =
-            self.startup.iter().flat_map(|startup| self.startup_sdo(startup)).collect();
-        operations.push(self.download(Entry { index: 0x2002, sub: 2 }, &[1]));
-        operations
+    /// The SDOs of PRE-OP: the orders of the scenario, then the commands of the description.
+    pub(crate) fn pre_op_sdos(&self) -> Vec<Operation> {
+        let ordered = self.startup.iter().flat_map(|startup| self.startup_sdo(startup));
+        ordered.chain(self.described_sdos(&[Transition::Ip, Transition::Ps])).collect()
     }
 
-    fn download(&self, entry: Entry, value: &[u8]) -> Operation {
-        Operation::download(self.unit, self.mailbox(), entry, value).within_an_order()
+    /// The SDOs on the way to OP.
+    pub(crate) fn safe_op_sdos(&self) -> Vec<Operation> {
+        self.described_sdos(&[Transition::So]).collect()
+    }
+
+    /// Commands of the description. A command that writes the default of its object is skipped, so that the value that a
+    /// scenario has written there is kept.
+    fn described_sdos<'a>(&'a self, transitions: &'a [Transition]) -> impl Iterator<Item = Operation> + 'a {
+        let commands = self.settings.start_up.iter();
+        let wanted = commands.filter(|sdo| transitions.contains(&sdo.transition) && !self.is_default(sdo));
+        wanted.filter_map(|sdo| {
+            let entry = Entry { index: sdo.target.index.0, sub: sdo.target.sub.0 };
+            self.download(entry, &sdo.data)
+        })
+    }
+
+    fn is_default(&self, sdo: &StartUpSdo) -> bool {
+        let entry = self.device.objects.entry(sdo.target.index, sdo.target.sub);
+        entry.is_some_and(|entry| entry.default == sdo.data)
+    }
+
+    /// None without a mailbox.
+    fn download(&self, entry: Entry, value: &[u8]) -> Option<Operation> {
+        Some(Operation::download(self.unit, self.mailbox()?, entry, value).within_an_order())
     }
 
     fn startup_sdo(&self, startup: &Startup) -> Vec<Operation> {
@@ -162,10 +184,9 @@ impl Slave {
     fn write_list(&self, index: u16, elements: Vec<Vec<u8>>) -> Vec<Operation> {
         let download = |sub, value: &[u8]| self.download(Entry { index, sub }, value);
         let count = elements.len() as u8;
-        let mut operations = vec![download(0, &[0])];
-        operations.extend((1..).zip(&elements).map(|(sub, element)| download(sub, element)));
-        operations.push(download(0, &[count]));
-        operations
+        let elements = (1..).zip(&elements).map(|(sub, element)| download(sub, element));
+        let operations = core::iter::once(download(0, &[0])).chain(elements).chain([download(0, &[count])]);
+        operations.flatten().collect()
     }
 
     fn set(&self, mut sm: SyncManagerSettings) -> [Operation; 2] {
@@ -186,14 +207,6 @@ impl Slave {
     }
 }
 
-/// The SyncManager of a direction.
-const fn sync_manager(direction: Direction) -> u8 {
-    match direction {
-        Direction::MToC => 2,
-        Direction::CToM => 3,
-    }
-}
-
 /// The FMMU of an area without process data: it is written nevertheless, and maps nothing.
 fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
     FmmuSettings {
@@ -207,17 +220,18 @@ fn unused_fmmu(area: &ProcessDataArea, logical_start: u32) -> FmmuSettings {
 }
 
 /// The PDO settings after an order that maps or assigns.
-pub(crate) fn changed_settings(settings: &mut PdoSettings, order: &MasterOrder) {
+pub(crate) fn changed_settings(settings: &mut PdoSettings, device: &KnownDevice, order: &MasterOrder) {
     if let MasterOrder::MapPdo { pdo, entries, .. } = order {
-        map(settings, pdo.0, entries);
+        map(settings, device, pdo.0, entries);
     } else if let MasterOrder::AssignPdos { object, pdos, .. } = order {
         assign(settings, object.0, pdos);
     }
 }
 
-fn map(settings: &mut PdoSettings, pdo: u16, entries: &[Entry]) {
+fn map(settings: &mut PdoSettings, device: &KnownDevice, pdo: u16, entries: &[Entry]) {
     let address = |entry: &Entry| EntryAddress { index: ObjectIndex(entry.index), sub: SubIndex(entry.sub) };
-    settings.map(ObjectIndex(pdo), entries.iter().map(address).map(pdo_settings::entry_at));
+    let entry = |entry: &Entry| PdoEntry::of_table(&device.objects, address(entry));
+    settings.map(ObjectIndex(pdo), entries.iter().map(entry));
 }
 
 fn assign(settings: &mut PdoSettings, index: u16, pdos: &[Hex<u16>]) {

@@ -1,17 +1,21 @@
 //! The variables of the master's user program: the PDO entries of its slaves as device variables, and the
 //! system-defined tables (manual, A-4-3 and A-5-1).
 
-use coe_kit::pdo::{PdoEntry, PdoSettings};
-use nx_ect101::unit_file::EntryAddress;
-use nx_ect101::{DataSet, Direction, MINOR_FAULT_BIT, OBSERVATION_BIT, StatusBit, object_table};
+use std::sync::Arc;
+
+use ::master::{Direction, SlaveSettings};
+use coe_kit::pdo::{PdoEntry, PdoSettings, assignment_object};
+use esi::{KnownDevice, NamedBit};
+use objects::AccessRights;
 use plc::{VariableType, variable_name};
 use st::{Elementary, Global};
+use wire::EntryAddress;
 
 /// Number of node addresses with an element in the tables, from 1 on.
 pub(crate) const NODE_ADDRESS_MAX: u16 = 192;
 
 /// A unit for the master's program.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub(crate) struct Node {
     /// Its position in the line.
     pub(crate) unit: usize,
@@ -19,6 +23,8 @@ pub(crate) struct Node {
     pub(crate) address: u16,
     /// First part of its device variables.
     pub(crate) device_name: String,
+    /// What the master's project has about it.
+    pub(crate) device: Arc<KnownDevice>,
 }
 
 /// The meaning of a variable.
@@ -44,11 +50,11 @@ impl Source {
     }
 
     /// Its position in the process data with these settings; none if it is not mapped.
-    pub(crate) fn place(&self, settings: &PdoSettings) -> Option<Place> {
+    pub(crate) fn place(&self, device: &KnownDevice, settings: &PdoSettings) -> Option<Place> {
         match *self {
-            Self::Entry { direction, address, .. } => place(settings, direction, address),
+            Self::Entry { direction, address, .. } => place(device, settings, direction, address),
             Self::InputBit { address, bit, .. } => {
-                let entry = place(settings, Direction::CToM, address)?;
+                let entry = place(device, settings, Direction::Inputs, address)?;
                 Some(Place { start: entry.start + usize::from(bit), length: 1 })
             }
             Self::ProcessDataTable | Self::MailboxTable => None,
@@ -86,28 +92,27 @@ impl MasterVariables {
 
     /// Adds the PDO entries of a unit with these settings, unless they already exist.
     pub(crate) fn add_slave(&mut self, node: &Node, settings: &PdoSettings) {
-        for direction in Direction::ALL {
-            for placed in settings.placed(direction.assignment()) {
-                self.add_entry(node, direction, &placed.entry);
+        for direction in [Direction::Outputs, Direction::Inputs] {
+            for (entry, _) in entries(&node.device, settings, direction) {
+                self.add_entry(node, direction, entry);
             }
         }
     }
 
-    fn add_entry(&mut self, node: &Node, direction: Direction, entry: &PdoEntry) {
+    fn add_entry(&mut self, node: &Node, direction: Direction, entry: PdoEntry) {
         let address = EntryAddress { index: entry.index, sub: entry.sub };
         let source = Source::Entry { unit: node.unit, direction, address };
-        let (objects, type_name) = (object_table(), type_of(direction, entry));
-        let object = objects.entry(entry.index, entry.sub);
-        let (Some(object), Some(type_name), false) = (object, type_name, self.sources.contains(&source))
-        else {
-            return;
-        };
-        let is_writable = direction == Direction::MToC;
+        let object = node.device.objects.entry(entry.index, entry.sub);
+        let (Some(object), false) = (object, self.sources.contains(&source)) else { return };
+        let Some(type_name) = type_of(object, direction, entry) else { return };
+        let is_writable = direction == Direction::Outputs;
         self.add_port(node, "", &object.name, &type_name.to_string(), is_writable, source);
         let path = format!("{}/", object.name);
-        for &StatusBit { bit, port } in bits(address) {
+        let bits =
+            node.device.bits.iter().filter(|bit| direction == Direction::Inputs && bit.entry == address);
+        for &NamedBit { bit, name, .. } in bits {
             let source = Source::InputBit { unit: node.unit, address, bit };
-            self.add_port(node, &path, port, "BOOL", false, source);
+            self.add_port(node, &path, name, "BOOL", false, source);
         }
     }
 
@@ -131,23 +136,15 @@ impl MasterVariables {
     }
 }
 
-/// The bits of an entry that are I/O ports themselves: those of Sysmac Error Status (manual, 7-5-5).
-fn bits(address: EntryAddress) -> &'static [StatusBit] {
-    match (address.index.0, address.sub.0) {
-        (0x2002, 1) => &[OBSERVATION_BIT, MINOR_FAULT_BIT],
-        _ => &[],
-    }
-}
-
-/// None for padding and for a type that is not a type of variables.
-fn type_of(direction: Direction, entry: &PdoEntry) -> Option<VariableType> {
-    let is_of = |set: &&DataSet| set.direction == direction && set.pdo_entry == entry.index;
-    match (DataSet::all().iter().find(is_of), entry.bit_length) {
-        (Some(set), _) => Some(set.kind.variable_type()),
-        (None, 1) => Some(VariableType::single(Elementary::Bool)),
-        (None, 8) => Some(VariableType::single(Elementary::Usint)),
-        _ => None,
-    }
+/// None for an entry that cannot be mapped in this direction, and for one without a type of variables.
+fn type_of(object: &objects::Entry, direction: Direction, entry: PdoEntry) -> Option<VariableType> {
+    let rights = match direction {
+        Direction::Outputs => AccessRights::RX_PDO,
+        Direction::Inputs => AccessRights::TX_PDO,
+    };
+    let data_type = Some(object.data_type).filter(|_| object.access.contains(rights))?;
+    let (name, elements) = esi::element_type(data_type, entry.bit_length)?;
+    Elementary::named(name).map(|elementary| VariableType { elementary, elements })
 }
 
 /// The position of an entry in the process data of its direction.
@@ -160,10 +157,36 @@ pub(crate) struct Place {
 }
 
 /// The position of an entry with these settings; none if it is not mapped.
-fn place(settings: &PdoSettings, direction: Direction, address: EntryAddress) -> Option<Place> {
-    let is_at = |entry: &PdoEntry| (entry.index, entry.sub) == (address.index, address.sub);
-    let placed = settings.placed(direction.assignment()).find(|placed| is_at(&placed.entry))?;
-    Some(Place { start: placed.bits.start, length: placed.bits.len() })
+fn place(
+    device: &KnownDevice,
+    settings: &PdoSettings,
+    direction: Direction,
+    address: EntryAddress,
+) -> Option<Place> {
+    let is_at = |entry: PdoEntry| (entry.index, entry.sub) == (address.index, address.sub);
+    entries(device, settings, direction).find(|(entry, _)| is_at(*entry)).map(|(_, place)| place)
+}
+
+/// The entries of a direction with their places: SyncManager after SyncManager, each from a byte on.
+fn entries(
+    device: &KnownDevice,
+    settings: &PdoSettings,
+    direction: Direction,
+) -> impl Iterator<Item = (PdoEntry, Place)> {
+    let channels = SlaveSettings::from_description(&device.description);
+    let assignments: Vec<_> =
+        channels.areas(direction).map(|area| assignment_object(area.sync_manager.number)).collect();
+    let starts = assignments.into_iter().scan(0, |start, assignment| {
+        let of_this = *start;
+        *start += 8 * settings.size_bytes(assignment, |_| true);
+        Some((of_this, assignment))
+    });
+    starts.flat_map(|(start, assignment)| {
+        settings.placed(assignment).map(move |placed| {
+            let place = Place { start: start + placed.bits.start, length: placed.bits.len() };
+            (placed.entry, place)
+        })
+    })
 }
 
 impl Place {
@@ -184,20 +207,25 @@ impl Place {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nx_ect101::ObjectIndex;
+    use wire::{ObjectIndex, SubIndex};
+
+    fn device() -> Arc<KnownDevice> {
+        let file =
+            plant::UnitFile::parse("model = \"nx-ect101\"").unwrap_or_else(|errors| panic!("{errors}"));
+        Arc::new(file.section().known_device())
+    }
 
     /// The factory setting and, of each direction, the first UDINT.
     fn settings() -> PdoSettings {
-        let mut settings = nx_ect101::pdo_settings::factory();
-        settings.assign(Direction::MToC.assignment(), [0x1601, 0x1603].map(ObjectIndex));
-        settings
-            .assign(Direction::CToM.assignment(), [0x1A00, 0x1A01, 0x1A03, 0x1BFE, 0x1BFF].map(ObjectIndex));
+        let mut settings = PdoSettings::of_description(&device().description);
+        settings.assign(assignment_object(2), [0x1601, 0x1603].map(ObjectIndex));
+        settings.assign(assignment_object(3), [0x1A00, 0x1A01, 0x1A03, 0x1BFE, 0x1BFF].map(ObjectIndex));
         settings
     }
 
     #[test]
     fn the_entries_of_a_slave_have_the_manuals_names() {
-        let node = Node { unit: 0, address: 1, device_name: "E001".into() };
+        let node = Node { unit: 0, address: 1, device_name: "E001".into(), device: device() };
         let mut variables = MasterVariables::new();
         variables.add_slave(&node, &settings());
         let find = |name: &str| variables.globals.iter().find(|global| global.name == name);
@@ -228,16 +256,16 @@ mod tests {
 
     #[test]
     fn entries_lie_behind_each_other() {
-        let address = |index, sub| EntryAddress { index: ObjectIndex(index), sub: nx_ect101::SubIndex(sub) };
+        let address = |index, sub| EntryAddress { index: ObjectIndex(index), sub: SubIndex(sub) };
         let place = |direction, index, sub| {
-            let place = place(&settings(), direction, address(index, sub));
+            let place = place(&device(), &settings(), direction, address(index, sub));
             place.map(|place| (place.start, place.length))
         };
-        assert_eq!(place(Direction::CToM, 0x6003, 2), Some((1, 1)));
-        assert_eq!(place(Direction::CToM, 0x6000, 1), Some((16, 240)));
-        assert_eq!(place(Direction::CToM, 0x6002, 1), Some((16 + 6 * 240, 32)));
-        assert_eq!(place(Direction::MToC, 0x7002, 1), Some((6 * 240, 32)));
-        assert_eq!(place(Direction::MToC, 0x7001, 1), None);
+        assert_eq!(place(Direction::Inputs, 0x6003, 2), Some((1, 1)));
+        assert_eq!(place(Direction::Inputs, 0x6000, 1), Some((16, 240)));
+        assert_eq!(place(Direction::Inputs, 0x6002, 1), Some((16 + 6 * 240, 32)));
+        assert_eq!(place(Direction::Outputs, 0x7002, 1), Some((6 * 240, 32)));
+        assert_eq!(place(Direction::Outputs, 0x7001, 1), None);
     }
 
     #[test]

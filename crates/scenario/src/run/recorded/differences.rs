@@ -2,7 +2,7 @@
 
 use wire::{Command, Returned};
 
-use super::areas;
+use super::areas::{self, Mailboxes};
 use crate::model::hex;
 
 /// Number of differences that are described one by one.
@@ -60,11 +60,17 @@ impl DifferenceKind {
 /// All differences so far.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Differences {
+    mailboxes: Mailboxes,
     kinds: Vec<DifferenceKind>,
     described: Vec<String>,
 }
 
 impl Differences {
+    /// None yet, of units with these mailboxes.
+    pub(super) fn none(mailboxes: Mailboxes) -> Self {
+        Self { mailboxes, ..Self::default() }
+    }
+
     pub(super) fn count(&self) -> u64 {
         self.kinds.iter().map(|kind| kind.count).sum()
     }
@@ -108,12 +114,17 @@ impl Differences {
         self
     }
 
+    /// What a datagram asks for.
+    fn place(&self, datagram: &Returned) -> &'static str {
+        if is_logical(datagram) { "process data" } else { self.mailboxes.name(datagram.header.offset) }
+    }
+
     fn add(&mut self, aspect: Aspect, datagram: Option<&Returned>, words: String) {
         if self.described.len() < DESCRIBED {
             self.described.push(words.clone());
         }
         let command = datagram.map(|datagram| datagram.header.command);
-        let place = datagram.map(place);
+        let place = datagram.map(|datagram| self.place(datagram));
         let same =
             |kind: &&mut DifferenceKind| (kind.aspect, kind.command, kind.place) == (aspect, command, place);
         match self.kinds.iter_mut().find(same) {
@@ -121,11 +132,6 @@ impl Differences {
             None => self.kinds.push(DifferenceKind { aspect, command, place, count: 1, first: words }),
         }
     }
-}
-
-/// The target of a datagram.
-fn place(datagram: &Returned) -> &'static str {
-    if is_logical(datagram) { "process data" } else { areas::name(datagram.header.offset) }
 }
 
 fn is_logical(datagram: &Returned) -> bool {
