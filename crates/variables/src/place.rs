@@ -56,18 +56,21 @@ impl Place {
 
     /// The bits of each byte that belong to the value.
     #[must_use]
+    #[inline]
     pub const fn mask(self) -> u8 {
         self.mask
     }
 
     /// Which bit of its image it is, if it is one.
     #[must_use]
+    #[inline]
     pub const fn bit_number(self) -> Option<usize> {
         if self.mask == 0xFF { None } else { Some(8 * self.start + self.mask.trailing_zeros() as usize) }
     }
 
     /// One element of an array that lies here.
     #[must_use]
+    #[inline]
     pub const fn element(self, element: u16, length_bytes: usize) -> Self {
         Self { start: self.start + element as usize * length_bytes, length_bytes, ..self }
     }
@@ -84,12 +87,14 @@ impl Place {
 
     /// A byte of a value in the form of the memory.
     #[must_use]
+    #[inline]
     pub const fn to_memory(self, byte: u8) -> u8 {
         if self.mask == 0xFF || byte == 0 { byte } else { self.mask }
     }
 
     /// A byte of memory as a byte of the value.
     #[must_use]
+    #[inline]
     pub const fn to_value(self, byte: u8) -> u8 {
         if self.mask == 0xFF { byte } else { (byte & self.mask != 0) as u8 }
     }

@@ -34,6 +34,7 @@ pub struct StatusWord {
 impl StatusWord {
     /// Whether the data of an area is valid with this status. Other areas are always valid.
     #[must_use]
+    #[inline]
     pub const fn allows(self, area: Area, status: u16) -> bool {
         let needed = match area {
             Area::MToC => self.m_to_c_valid,
@@ -60,6 +61,7 @@ impl VariableTable {
 
     /// The unit on its bus.
     #[must_use]
+    #[inline]
     pub const fn unit(&self) -> &BusUnit {
         &self.unit
     }
@@ -107,10 +109,12 @@ impl VariableTable {
 
     /// A variable of this list.
     #[must_use]
+    #[inline]
     pub fn get(&self, id: VariableId) -> Option<&Variable> {
         self.list.get(usize::from(id.0))
     }
 
+    #[inline]
     fn at(&self, id: VariableId) -> Result<&Variable, VariableError> {
         self.get(id).ok_or(VariableError::NoSuchVariable)
     }
@@ -135,6 +139,7 @@ impl VariableTable {
     ///
     /// # Errors
     /// There is no such variable or element.
+    #[inline]
     pub fn place(&self, target: Target) -> Result<Place, VariableError> {
         let variable = self.at(target.variable)?;
         let Some(element) = target.element else { return Ok(variable.place) };
@@ -149,6 +154,7 @@ impl VariableTable {
     ///
     /// # Errors
     /// There is no such variable or element.
+    #[inline]
     pub fn type_of(&self, target: Target) -> Result<VariableType, VariableError> {
         self.place(target)?;
         let whole = self.at(target.variable)?.variable_type;
@@ -159,6 +165,7 @@ impl VariableTable {
     ///
     /// # Errors
     /// There is no such variable or element, it is read-only, or the value does not fit.
+    #[inline]
     pub fn writable(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
         let place = self.fitting(target, value)?;
         match self.at(target.variable)?.access {
@@ -171,6 +178,7 @@ impl VariableTable {
     ///
     /// # Errors
     /// There is no such variable or element, or the value does not fit.
+    #[inline]
     pub fn fitting(&self, target: Target, value: &[u8]) -> Result<Place, VariableError> {
         let place = self.place(target)?;
         let (length_bytes, expected_bytes) = (value.len(), place.length_bytes);
