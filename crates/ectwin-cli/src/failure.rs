@@ -146,7 +146,7 @@ fn help_to_listen(error: &io::Error) -> Option<String> {
             "ports below 1024 need a permission; give another, such as --modbus 1502"
         }
         io::ErrorKind::AddrNotAvailable => {
-            "no interface of this machine has this address; 0.0.0.0 stands for all of them"
+            "no interface of this machine has this address; 0.0.0.0 means all of them"
         }
         _ => return None,
     };

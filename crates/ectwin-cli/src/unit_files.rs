@@ -95,7 +95,7 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
         }
         SetupError::ProgramUnreadable { span: None, help, .. } => FileProblem::of_file(&message, help).into(),
         SetupError::WebAssemblyWrong { .. } => {
-            FileProblem::of_file(&message, "docs/user/wasm-programs.md tells what a module has to be").into()
+            FileProblem::of_file(&message, "docs/user/wasm-programs.md describes the requirements for a module").into()
         }
         SetupError::ProgramWrong { problems } => FileProblems::of_program(problems),
     }

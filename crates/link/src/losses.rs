@@ -39,7 +39,7 @@ impl Loss {
             (Self::Defective(Defect::TooLong), Envelope::Udp) => (1, "it is longer than 1,504 bytes"),
             (Self::Defective(Defect::Truncated), _) => (2, "it ends before its EtherCAT length does"),
             (Self::Defective(Defect::DatagramBeyondEnd), _) => {
-                (3, "a datagram ends behind its EtherCAT length")
+                (3, "a datagram exceeds its EtherCAT length")
             }
             (Self::Foreign, _) => (4, "it is not EtherCAT"),
             (Self::LeftAtFarEnd, _) => (5, "it left at the far end of the line"),

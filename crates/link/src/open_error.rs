@@ -83,7 +83,7 @@ impl OpenError {
                 "the kernel has no TAP driver here: load it by `sudo modprobe tun`".to_owned()
             }
             Self::Failed { link: LinkSpec::Raw(name), .. } => {
-                format!("look at the interface by `ip -details link show {name}`")
+                format!("check the interface with `ip -details link show {name}`")
             }
             Self::Failed { .. } => "a link that always works: udp:127.0.0.1".to_owned(),
         }
@@ -120,7 +120,7 @@ impl fmt::Display for OpenError {
             }
             Self::NoPermission { link, .. } => write!(formatter, "no permission to open {link}"),
             Self::InUse { link } => write!(formatter, "{link} is in use"),
-            Self::AddressNotHere { link } => write!(formatter, "{link} is no address of this machine"),
+            Self::AddressNotHere { link } => write!(formatter, "{link} is not an address of this machine"),
             Self::Failed { link, source } => write!(formatter, "cannot open {link}: {source}"),
         }
     }

@@ -63,7 +63,7 @@ impl Mailbox {
     /// If a size is below 34 or above 1,486 bytes: the sizes are part of this program.
     #[must_use]
     pub fn new(sizes: MailboxSizes, aborts: AbortProfile, table: &ObjectTable) -> Self {
-        assert!(sizes.are_valid(), "{sizes:?}: a mailbox has 34 to 1,486 octets");
+        assert!(sizes.are_valid(), "{sizes:?}: a mailbox has 34 to 1,486 bytes");
         let send_bytes = usize::from(sizes.send_bytes);
         Self {
             sizes,

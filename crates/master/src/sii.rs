@@ -63,7 +63,7 @@ impl fmt::Display for SiiFailure {
         match self {
             Self::Refused { status } => write!(formatter, "the SII refuses to be read, status {status:#06X}"),
             Self::TooLong { category_at, end } => {
-                write!(formatter, "the SII category at word {category_at:#06X} ends behind word {end:#06X}")
+                write!(formatter, "the SII category at word {category_at:#06X} ends after word {end:#06X}")
             }
             Self::Malformed(error) => error.fmt(formatter),
         }

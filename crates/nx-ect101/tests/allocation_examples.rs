@@ -190,9 +190,9 @@ fn every_finding_says_what_is_wrong_and_what_helps() {
         format!("{}: {}. {}", finding.event_name(), finding.message(), finding.correction())
     };
     let expected = [
-        "TxPDO Mapping Error: 0x1C13:03 assigns 0x1601, which is none of its PDOs. Assign only 0x1A00, 0x1A01, \
+        "TxPDO Mapping Error: 0x1C13:03 assigns 0x1601, which is not one of its PDOs. Assign only 0x1A00, 0x1A01, \
          0x1A02, 0x1A03, 0x1BFE, 0x1BFF.",
-        "Incorrect TxPDO Mapping Order: 0x1C13:02 assigns 0x1A00 behind 0x1A01. Assign the PDOs in ascending order \
+        "Incorrect TxPDO Mapping Order: 0x1C13:02 assigns 0x1A00 after 0x1A01. Assign the PDOs in ascending order \
          of their indexes, each once.",
         "Illegal I/O Entry Added M to C: I/O entry mapping 0x1A01 (Data Set in 15 UINT Arrays from EtherCAT Master \
          to CPU Unit) has 6001:01, which it cannot take. Use only entries of 0x6000, subindexes 01 to 28.",

@@ -22,10 +22,10 @@ impl ObjectTable {
     #[must_use]
     pub fn new(mut objects: Vec<Object>) -> Self {
         objects.sort_by_key(|object| object.index);
-        assert!(objects.windows(2).all(|pair| pair[0].index < pair[1].index), "an object stands twice");
+        assert!(objects.windows(2).all(|pair| pair[0].index < pair[1].index), "an object occurs twice");
         for object in &objects {
             let ascending = object.entries.windows(2).all(|pair| pair[0].sub < pair[1].sub);
-            assert!(ascending, "{}: an entry stands twice or out of order", object.index);
+            assert!(ascending, "{}: an entry occurs twice or out of order", object.index);
         }
         let value_offsets = value_offsets(&objects);
         Self { objects, value_offsets }

@@ -74,7 +74,7 @@ fn run(
             _ = stopped => {}
             ended = server.run_with(listener) => {
                 if let Err(reason) = ended {
-                    tracing::warn!("OPC UA is served no longer: {reason}");
+                    tracing::warn!("the OPC UA server has ended: {reason}");
                 }
             }
         }

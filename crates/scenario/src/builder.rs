@@ -139,7 +139,7 @@ impl ScenarioBuilder {
     /// Adds a typed step. It has its own time.
     pub fn step(mut self, step: Step) -> Self {
         if core::mem::take(&mut self.next) != StepForm::default() {
-            self.refuse("a typed step has its own moment", "remove the moment in front of `step`");
+            self.refuse("a typed step has its own time", "remove the time before `step`");
         }
         self.said += 1;
         self.script.steps.push(step.into());

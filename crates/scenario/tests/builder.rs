@@ -56,7 +56,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
         (
             "after step",
             |it| it.after(SHORT).step(Step::at_once(Order::Line(LineOrder::BeQuiet))),
-            "a typed step has its own moment",
+            "a typed step has its own time",
         ),
         ("after", |it| it.after(SHORT), "a moment without a step"),
         ("within", |it| it.within(SHORT), "a moment without a step"),

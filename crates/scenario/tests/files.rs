@@ -138,7 +138,7 @@ fn everything_that_is_wrong_is_told_at_once() {
         "line 5",
         "found `loud`",
         "line 6",
-        "lies before the step",
+        "is before the previous step",
     ] {
         assert!(errors.contains(part), "{part}:\n{errors}");
     }
@@ -239,7 +239,7 @@ fn until_holds_as_long_as_it_takes() {
     let early = verdict("{ never = \"unit 1 is in PRE-OP\", until = \"unit 1 is in OP\" }");
     assert!(early.as_ref().is_err_and(|failure| failure.contains("it does hold")), "{early:?}");
     let vain = verdict("{ expect = \"unit 1 has no error\", until = \"unit 1 has recorded 85000000\" }");
-    assert!(vain.as_ref().is_err_and(|failure| failure.contains("waits in vain")), "{vain:?}");
+    assert!(vain.as_ref().is_err_and(|failure| failure.contains("is not true before the limit")), "{vain:?}");
 }
 
 /// An expectation that is never checked would always be fulfilled.

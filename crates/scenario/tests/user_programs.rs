@@ -266,7 +266,7 @@ fn missing_equal_and_too_large_ids_are_mistakes_when_the_master_has_a_program() 
         two("", ", id_switch = 1"),
         [
             "units 1 and 2 both have the ID 1: it is the node address / `id_switch = 2`, or `id_switch = 0` and \
-          `alias = 2`: each unit needs an ID of its own when the master has a program"
+          `alias = 2`: each unit needs a different ID if the master has a program"
         ]
     );
     assert!(two("", ", id_switch = 0")[0].starts_with("unit 2 has no ID: the master's program needs it"));

@@ -27,7 +27,7 @@ impl Wanted {
             Self::Scenario => "a scenario is TOML; docs/user/write-a-scenario.md has one to begin with",
             Self::Program => "a program is Structured Text in UTF-8, such as scenarios/programs/a-3-3.st",
             Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
-            Self::Results => "give what the parts of a campaign wrote by `ectwin replay --json`",
+            Self::Results => "give the files that the parts of a campaign wrote with `ectwin replay --json`",
         }
     }
 }

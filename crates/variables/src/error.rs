@@ -36,7 +36,7 @@ impl fmt::Display for VariableError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSuchVariable => formatter.write_str("the CPU Unit has no such variable"),
-            Self::NotAnArray => formatter.write_str("the variable is no array"),
+            Self::NotAnArray => formatter.write_str("the variable is not an array"),
             Self::NoSuchElement { element, elements } => {
                 write!(formatter, "element {element} of an array of {elements}, counted from 0")
             }

@@ -23,7 +23,7 @@ fn address(text: &str, example: u16) -> Result<SocketAddr, String> {
     let address = text.parse().or_else(|_| text.parse().map(on_loopback));
     address.map_err(|_: ParseIntError| {
         format!(
-            "{text:?} is no address: expected PORT or ADDR:PORT, such as {example} or 127.0.0.1:{example}"
+            "{text:?} is not an address: expected PORT or ADDR:PORT, such as {example} or 127.0.0.1:{example}"
         )
     })
 }

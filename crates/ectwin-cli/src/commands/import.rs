@@ -27,7 +27,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     if args.units.is_empty() && frames.units() > UNITS_MAX {
         return Err(Failure::Refused {
             message: format!(
-                "{} shows a line of {} units; {UNITS_MAX} are the most that a scenario gets by itself",
+                "{} contains a line of {} units; at most {UNITS_MAX} default units can be written",
                 args.capture.display(),
                 frames.units()
             ),

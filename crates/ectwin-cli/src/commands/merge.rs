@@ -129,7 +129,7 @@ fn result_of(line: &[u8]) -> Result<CaseResult, String> {
 
 fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProblem {
     let help = "each line comes from `ectwin replay --json`; a job that was killed may have left half a line";
-    let message = format!("this line is no result: {reason}");
+    let message = format!("this line is not a result: {reason}");
     FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
 

@@ -74,7 +74,7 @@ fn shard(choice: Option<PartitionChoice>) -> Result<Shard, Failure> {
 
 fn automatic_shard() -> Result<Shard, Failure> {
     let shard = partition::from_environment(&|name| std::env::var(name).ok()).map_err(|message| {
-        let help = "`--partition i/n` says it without variables; docs/user/campaigns.md tells who sets which";
+        let help = "use `--partition i/n`; docs/user/campaigns.md lists the variables of CI systems";
         Failure::Refused { message: format!("--partition auto: {message}"), help: help.to_owned() }
     })?;
     if let Some(path) = &shard.status_file {

@@ -24,7 +24,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "contradictory-times",
         r#"{ at = "20ms", line = "be quiet" }, { at = "10ms", line = "be quiet" }"#,
-        &["10ms lies before the step in front of it", "steps happen in the order of the file"],
+        &["10ms is before the previous step", "steps happen in the order of the file"],
     ),
     ("two-triggers", r#"{ at = "20ms", after = "1ms", line = "be quiet" }"#, &["one of at, after and when"]),
     (
@@ -32,7 +32,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
         r#"{ expect = "unit 1 is in OP", within = "1ms", for = "1ms" }"#,
         &["`within`, `for` and `until` contradict each other"],
     ),
-    ("no-teller", r#"{ at = "1ms" }"#, &["a step tells one of master, unit"]),
+    ("no-teller", r#"{ at = "1ms" }"#, &["a step has exactly one of master, unit"]),
     ("unknown-key", r#"{ mastre = "restart" }"#, &["mastre"]),
     ("no-toml", "{ master = ", &[":2:"]),
 ];

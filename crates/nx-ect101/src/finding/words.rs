@@ -16,7 +16,7 @@ impl Finding {
                 format!("{assignment} does not assign 0x1A00, NX Unit Status Information")
             }
             Fact::NotAssignable { place, pdo } => {
-                format!("{assignment}:{:02X} assigns {pdo}, which is none of its PDOs", place + 1)
+                format!("{assignment}:{:02X} assigns {pdo}, which is not one of its PDOs", place + 1)
             }
             Fact::BeyondMaximum { entries, maximum, .. } => {
                 format!("{} has {entries} entries or one beyond subindex {maximum:02X}", self.subject())
@@ -25,7 +25,7 @@ impl Finding {
                 format!("the TxPDOs have {size_bytes} bytes, the unit sends {limit_bytes} at most")
             }
             Fact::NotAscending { place, pdo, after } => {
-                format!("{assignment}:{:02X} assigns {pdo} behind {after}", place + 1)
+                format!("{assignment}:{:02X} assigns {pdo} after {after}", place + 1)
             }
             Fact::IllegalEntry { entry, .. } => {
                 format!("{} has {}, which it cannot take", self.subject(), shown(entry))

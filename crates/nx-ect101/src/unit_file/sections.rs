@@ -133,7 +133,7 @@ fn mappings(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<MappingEn
         };
         // `1a01` and `1A01` are two keys for TOML and one object here.
         if mappings.iter().any(|known| known.pdo.value == pdo) {
-            let problem = Problem::new(format!("`{place}` stands twice"), "one mapping for each object");
+            let problem = Problem::new(format!("`{place}` occurs twice"), "one mapping for each object");
             reader.refuse(key.span.unwrap_or_default(), problem);
             continue;
         }

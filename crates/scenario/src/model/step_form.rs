@@ -144,7 +144,7 @@ impl StepForm {
             (orders, expect, never) => {
                 let count = orders.len() + usize::from(expect.is_some()) + usize::from(never.is_some());
                 Err(Contradiction::new(format!(
-                    "a step tells one of master, unit, cpu, line, expect or never; this one {count}"
+                    "a step has exactly one of master, unit, cpu, line, expect and never; this one has {count}"
                 )))
             }
         }
@@ -194,7 +194,7 @@ impl<'de> Deserialize<'de> for Step {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         match ScriptStep::deserialize(deserializer)? {
             ScriptStep::Step(step) => Ok(step),
-            ScriptStep::Random(_) => Err(de::Error::custom("`random` is no step of its own")),
+            ScriptStep::Random(_) => Err(de::Error::custom("`random` is not a single step")),
         }
     }
 }

@@ -62,7 +62,7 @@ impl Maker<'_> {
         for (at, name) in names.iter().enumerate() {
             if !is_identifier(name) {
                 let help = "letters, digits and _, such as E001";
-                self.refuse(Part::DeviceNames, format!("`{name}` is no device name"), help);
+                self.refuse(Part::DeviceNames, format!("`{name}` is not a device name"), help);
                 return None;
             }
             if names[..at].iter().any(|other| other.eq_ignore_ascii_case(name)) {

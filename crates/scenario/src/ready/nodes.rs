@@ -39,5 +39,5 @@ fn way_out(ids: &[u16]) -> String {
     let keys = free.map_or_else(String::new, |id| {
         format!("`id_switch = {id}`, or `id_switch = 0` and `alias = {id}`: ")
     });
-    format!("{keys}each unit needs an ID of its own when the master has a program")
+    format!("{keys}each unit needs a different ID if the master has a program")
 }

@@ -104,7 +104,7 @@ impl Maker<'_> {
                 None
             }
             Err(VariableProblem::NoValue { such_as }) => {
-                let message = format!("`{text}` is no value of {name}");
+                let message = format!("`{text}` is not a value of {name}");
                 self.refuse(part, message, format!("at the beginning it is {such_as}"));
                 None
             }
@@ -116,7 +116,7 @@ impl Maker<'_> {
         match controller {
             Controller::Master if self.master.is_none() => {
                 let help = "give it one: `master = { program = \"….st\" }`";
-                self.refuse(part, "the master has no user program of its own", help);
+                self.refuse(part, "the master has no user program", help);
                 None
             }
             Controller::Unit(unit) if unit.position() >= self.units.len() => {

@@ -63,7 +63,7 @@ impl Maker<'_> {
         let moment = match trigger {
             Trigger::At(moment) if *moment < *reached => {
                 let message =
-                    format!("{moment} lies before the step in front of it, which is not before {reached}");
+                    format!("{moment} is before the previous step, which is not earlier than {reached}");
                 return self.refuse(part, message, "steps happen in the order of the file");
             }
             Trigger::At(moment) => *moment,
@@ -72,7 +72,7 @@ impl Maker<'_> {
         };
         *reached = moment;
         if moment > limit {
-            let message = format!("{moment} lies behind the limit of {limit}");
+            let message = format!("{moment} is after the limit of {limit}");
             self.refuse(part, message, "set `limit = \"…\"` higher");
         }
     }

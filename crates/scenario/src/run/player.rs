@@ -124,7 +124,7 @@ impl<'a> Replay<'a> {
                     Err(seen) => seen,
                 };
                 if self.world.now() >= self.limit {
-                    let seen = format!("`when` waits in vain until the limit: {seen}");
+                    let seen = format!("the condition of `when` is not true before the limit: {seen}");
                     return Err(failure(step, self.world.now(), seen));
                 }
                 self.advance(self.limit)?;
@@ -189,7 +189,7 @@ impl<'a> Replay<'a> {
             let judged = wanted.judge(check(condition, &mut self.world));
             judged.map_err(|seen| failure(step, now, seen))?;
             if now >= self.limit {
-                return Err(failure(step, now, format!("`until` waits in vain until the limit: {waiting}")));
+                return Err(failure(step, now, format!("the condition of `until` is not true before the limit: {waiting}")));
             }
             self.advance(self.limit)?;
         }

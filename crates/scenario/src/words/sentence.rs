@@ -156,7 +156,7 @@ impl<T> Misfit<'_, T> {
             likeness(a).total_cmp(&likeness(b))
         });
         let help = nearest.map_or(String::new(), |sentence| format!("did you mean `{}`?", sentence.example));
-        NoSentence { message: format!("`{}` is no sentence that can stand here", self.text), help }
+        NoSentence { message: format!("`{}` is not a valid sentence here", self.text), help }
     }
 }
 

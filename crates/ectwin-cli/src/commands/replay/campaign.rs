@@ -76,7 +76,7 @@ impl Campaign {
             0..=CASES_MAX => Ok(campaign),
             count => Err(Failure::Refused {
                 message: format!("{count} cases are more than the {CASES_MAX} of one campaign"),
-                help: "give fewer seeds; the next campaign goes on behind them".to_owned(),
+                help: "use fewer seeds; the next campaign can continue after them".to_owned(),
             }),
         }
     }

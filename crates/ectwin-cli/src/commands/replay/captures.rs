@@ -27,7 +27,7 @@ impl Captures {
         }
         if cases > 1 {
             let message = format!("--pcap {} is one file, and there are {cases} cases", path.display());
-            let help = "end it with `/`, and each case gets a file of its own in that folder".to_owned();
+            let help = "end it with `/` to write each case to a separate file in that folder".to_owned();
             return Err(Failure::Refused { message, help });
         }
         Ok(Self::File(path.to_owned()))

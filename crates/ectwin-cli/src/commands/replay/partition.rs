@@ -157,7 +157,7 @@ pub(crate) fn from_environment(of: &Variables) -> Result<Shard, String> {
 
 fn number(name: &str, of: &Variables) -> Result<u64, String> {
     let value = of(name).ok_or_else(|| format!("the variable {name} is not set"))?;
-    value.parse().map_err(|_| format!("the variable {name} is `{value}`, which is no number"))
+    value.parse().map_err(|_| format!("the variable {name} is `{value}`, which is not a number"))
 }
 
 fn from_zero(index: u64, count: u64) -> Option<Partition> {

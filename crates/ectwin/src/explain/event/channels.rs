@@ -29,7 +29,7 @@ pub(super) fn master(event: &Event) -> Vec<Fact> {
 pub(super) fn cpu_unit(event: &Event) -> Vec<Fact> {
     // A fault that is not a current error, such as a broken memory, counts.
     let has_error = event.reported_as_current_error || Fault::of_event(event.code).is_some();
-    let error = if has_error { "TRUE as long as the error lasts" } else { "as without the event" };
+    let error = if has_error { "TRUE while the error persists" } else { "as without the event" };
     let mut facts = vec![
         Fact::new("I/O refresh", words::io_refresh(event.io_refresh)),
         Fact::new("program", event.user_program.as_str()),

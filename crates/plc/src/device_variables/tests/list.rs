@@ -88,7 +88,7 @@ fn elements_are_found_by_their_numbers() {
     );
     assert_eq!(find("N1_UINTs_01_M_to_C[x]"), Err(format!("{column}not a number such as 12, -3 or 16#1F")));
     assert_eq!(find("N1_UINTs_09_M_to_C[0]"), Err("column 1: no variable has this name".into()));
-    assert_eq!(find("N1_EtherCAT_Slave_Status[0]"), Err("column 26: the variable is no array".into()));
+    assert_eq!(find("N1_EtherCAT_Slave_Status[0]"), Err("column 26: the variable is not an array".into()));
 }
 
 #[test]

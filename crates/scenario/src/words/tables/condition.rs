@@ -143,7 +143,7 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         "NX Unit Error Status",
         |units| UnitError { units, error: false }),
     row!("{indicator} of {units} is {pattern}", "ERR of unit 1 is double_flash",
-        "what the indicator does",
+        "the pattern of the indicator",
         |indicator, units, pattern| Indicator { indicator, units, pattern }),
     row!("the working counter of {unit} is {word}", "the working counter of unit 1 is 3",
         "of its last process data that came back",

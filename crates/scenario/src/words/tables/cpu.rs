@@ -8,7 +8,7 @@ use crate::words::sentence::{Sentence, row};
 #[rustfmt::skip]
 pub const CPU: &[Sentence<CpuOrder>] = &[
     row!("set {units} to PROGRAM mode", "set unit 1 to PROGRAM mode",
-        "the program stands, the values stay",
+        "the program is stopped, the values are kept",
         |units| SetMode { units, mode: CpuMode::Program }),
     row!("set {units} to RUN mode", "set unit 1 to RUN mode",
         "the program runs",
@@ -20,10 +20,10 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         "the CPU Unit is well again, from its next task period on",
         |units| StartIoRefreshing { units }),
     row!("stop the task of {units}", "stop the task of unit 1",
-        "the primary periodic task stands, with its I/O refresh",
+        "the primary periodic task stops, with its I/O refresh",
         |units| StopTask { units }),
     row!("start the task of {units}", "start the task of unit 1",
-        "the primary periodic task goes on",
+        "the primary periodic task continues",
         |units| StartTask { units }),
     row!("reset the errors of the NX Bus Function Module of {units}", "reset the errors of the NX Bus Function Module of unit 1",
         "and with them those of the unit; with `fail_soft = false` I/O refreshing starts again, unless the cause persists",
@@ -50,6 +50,6 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         "everything that is forced",
         |units| ReleaseAll { units }),
     row!("load {program} into {unit}", "load programs/a-3-3.st into unit 1",
-        "replaces the user program in PROGRAM mode; what is forced stays, and what both programs declare with RETAIN",
+        "replaces the user program in PROGRAM mode; forced values are kept, and variables that both programs declare with RETAIN",
         |program, unit| Load { unit, program }),
 ];

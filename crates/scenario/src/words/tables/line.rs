@@ -8,10 +8,10 @@ use crate::words::sentence::{Sentence, row};
 #[rustfmt::skip]
 pub const LINE: &[Sentence<LineOrder>] = &[
     row!("unplug cable {cable}", "unplug cable 1",
-        "the cable in front of a unit, 1 for the one to the master",
+        "the cable before a unit, 1 for the one to the master",
         |cable| Unplug { cable }),
     row!("plug cable {cable}", "plug cable 1",
-        "the cable in front of a unit, 1 for the one to the master",
+        "the cable before a unit, 1 for the one to the master",
         |cable| Plug { cable }),
     row!("lose {frames}", "lose the next 3 frames",
         "they do not come to the units",
@@ -29,7 +29,7 @@ pub const LINE: &[Sentence<LineOrder>] = &[
         "they end early, so that no unit takes them",
         |frames, length_bytes| Disturb(Disturbance { fault: FrameFault::Cut { length_bytes }, frames })),
     row!("corrupt {frames} on cable {cable}", "corrupt numbers 3 to 9 of the process data frames on cable 1",
-        "a bit error: the unit behind the cable counts an invalid frame, those behind it forwarded errors; nobody takes it",
+        "a bit error: the unit after the cable counts an invalid frame, the units after it count forwarded errors; none of them accepts it",
         |frames, cable| Disturb(Disturbance { fault: FrameFault::Corrupt { cable }, frames })),
     row!("lower the working counter of {frames}", "lower the working counter of all process data frames",
         "by one, in the answer",

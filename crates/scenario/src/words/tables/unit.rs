@@ -32,7 +32,7 @@ pub const UNIT: &[Sentence<UnitOrder>] = &[
         "in force when the unit starts",
         |unit, id| SetIdSwitch { unit, id }),
     row!("spoil word {word} of the SII of {unit}", "spoil word 7 of the SII of unit 1",
-        "flips its bits in the EEPROM; what is loaded at power-on counts from then on",
+        "flips its bits in the EEPROM; values that are loaded at power-on change at the next power-on",
         |word, unit| InvertSiiWord { unit, word }),
     row!("erase the SII of {units}", "erase the SII of unit 1",
         "every byte of the EEPROM is FF; a master reads it at once, the unit finds it at its next start",
@@ -65,6 +65,6 @@ pub const UNIT: &[Sentence<UnitOrder>] = &[
         "the cause of a fault appears",
         |fault, units| InjectFault { units, fault }),
     row!("mend {fault} of {units}", "mend Processing of unit 1",
-        "the cause of a fault disappears; what it has done stays until its recovery",
+        "the cause of a fault disappears; its effect remains until its recovery",
         |fault, units| RemoveFault { units, fault }),
 ];
