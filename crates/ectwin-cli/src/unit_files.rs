@@ -94,9 +94,11 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
             seen_from(span)
         }
         SetupError::ProgramUnreadable { span: None, help, .. } => FileProblem::of_file(&message, help).into(),
-        SetupError::WebAssemblyWrong { .. } => {
-            FileProblem::of_file(&message, "docs/user/wasm-programs.md describes the requirements for a module").into()
-        }
+        SetupError::WebAssemblyWrong { .. } => FileProblem::of_file(
+            &message,
+            "docs/user/wasm-programs.md describes the requirements for a module",
+        )
+        .into(),
         SetupError::ProgramWrong { problems } => FileProblems::of_program(problems),
     }
 }

@@ -33,7 +33,7 @@ fn an_error_in_a_program_is_told_with_its_place() {
     let source = "VAR a : ARRAY[0..3] OF INT; i : INT; END_VAR\ni := i + 1;\na[i] := 1;\n";
     let program = written("index", source);
     let mut running = Running::start(&program);
-    running.wait_for("line 3, column 3: index 4 lies outside 0..3");
+    running.wait_for("line 3, column 3: index 4 is outside 0..3");
 }
 
 #[test]

@@ -38,9 +38,7 @@ impl Loss {
             (Self::Defective(Defect::TooLong), Envelope::Ethernet) => (1, "it is longer than 1,518 bytes"),
             (Self::Defective(Defect::TooLong), Envelope::Udp) => (1, "it is longer than 1,504 bytes"),
             (Self::Defective(Defect::Truncated), _) => (2, "it ends before its EtherCAT length does"),
-            (Self::Defective(Defect::DatagramBeyondEnd), _) => {
-                (3, "a datagram exceeds its EtherCAT length")
-            }
+            (Self::Defective(Defect::DatagramBeyondEnd), _) => (3, "a datagram exceeds its EtherCAT length"),
             (Self::Foreign, _) => (4, "it is not EtherCAT"),
             (Self::LeftAtFarEnd, _) => (5, "it left at the far end of the line"),
             (Self::NoWay, _) => {

@@ -61,15 +61,15 @@ impl fmt::Display for Fault {
         match self {
             Self::DivisionByZero => formatter.write_str("division by zero"),
             Self::IndexOutOfBounds { index, lower, upper } => {
-                write!(formatter, "index {index} lies outside {lower}..{upper}")
+                write!(formatter, "index {index} is outside {lower}..{upper}")
             }
             Self::TooManyElements { asked, available } => {
                 write!(formatter, "{asked} elements were asked for, and {available} are there")
             }
             Self::ArgumentOutOfRange { value, lower, upper } => {
-                write!(formatter, "{value} lies outside {lower} to {upper}")
+                write!(formatter, "{value} is outside {lower} to {upper}")
             }
-            Self::NotConvertible => formatter.write_str("the text is no value of this type"),
+            Self::NotConvertible => formatter.write_str("the text is not a value of this type"),
             Self::TextTooLong { characters, capacity } => {
                 let size_bytes = capacity + 1;
                 write!(

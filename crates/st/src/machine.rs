@@ -400,5 +400,6 @@ impl Machine<'_> {
 
 /// The slot in a value.
 pub(crate) fn slot_of(value: u64) -> Slot {
-    Slot::try_from(value).unwrap_or_else(|_| unreachable!("{value} is no slot: the checker gives slots only"))
+    Slot::try_from(value)
+        .unwrap_or_else(|_| unreachable!("{value} is not a slot: the checker returns only slots"))
 }

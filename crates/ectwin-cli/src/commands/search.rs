@@ -131,7 +131,6 @@ pub(super) fn folder_of(path: &Path) -> &Path {
 fn without_dice(path: &Path) -> Failure {
     Failure::Refused {
         message: format!("{} has no random steps, so every seed is the same", path.display()),
-        help: "add one, such as `{ random = 30, within = \"3s\" }`, before the final expectations"
-            .to_owned(),
+        help: "add one, such as `{ random = 30, within = \"3s\" }`, before the final expectations".to_owned(),
     }
 }

@@ -40,7 +40,7 @@ fn what_comes_from_the_unit_cannot_be_written() {
 #[test]
 fn a_misspelt_device_variable_is_told_with_the_nearest_name() {
     let problems = compile("N1_UDINT_01_C_to_N := 1;").expect_err("misspelt");
-    let expected = "1:1: there is no variable `N1_UDINT_01_C_to_N` (is `N1_UDINT_01_C_to_M` meant?)";
+    let expected = "1:1: there is no variable `N1_UDINT_01_C_to_N` (did you mean `N1_UDINT_01_C_to_M`?)";
     assert_eq!(problems.to_string(), expected);
 }
 

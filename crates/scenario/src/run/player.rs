@@ -189,7 +189,11 @@ impl<'a> Replay<'a> {
             let judged = wanted.judge(check(condition, &mut self.world));
             judged.map_err(|seen| failure(step, now, seen))?;
             if now >= self.limit {
-                return Err(failure(step, now, format!("the condition of `until` is not true before the limit: {waiting}")));
+                return Err(failure(
+                    step,
+                    now,
+                    format!("the condition of `until` is not true before the limit: {waiting}"),
+                ));
             }
             self.advance(self.limit)?;
         }

@@ -102,7 +102,7 @@ impl<'t> Body<'_, 't> {
         let names = names.chain(library::functions().map(|function| function.name.to_owned()));
         let problem = Problem::new(span, format!("there is no function `{name}`"));
         let problem = match nearest(name, names) {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem,
         };
         self.checker.refuse(problem)
@@ -393,7 +393,7 @@ impl<'t> Body<'_, 't> {
         let enables = ["EN", "ENO"].iter().any(|enable| enable.eq_ignore_ascii_case(&name.text));
         let problem = match nearest(&name.text, pins.iter().cloned()) {
             _ if enables => problem.help("EN and ENO are not supported: put the call into an IF"),
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem.help(format!("its pins are {}", pins.join(", "))),
         };
         self.checker.refuse(problem)
@@ -474,7 +474,7 @@ fn no_conversion(from: Elementary, to: Elementary) -> Option<(&'static str, &'st
     const OF_TIME: &str = "use TimeToNanoSec, TimeToSec, NanoSecToTime or SecToTime";
     match (from.class(), to.class()) {
         _ if from == to || (from == Elementary::DateAndTime && to.class() == Class::Date) => None,
-        (Class::Date, _) | (_, Class::Date) => Some(("a date is no number and no duration", OF_DATES)),
+        (Class::Date, _) | (_, Class::Date) => Some(("a date is neither a number nor a duration", OF_DATES)),
         (Class::Time, _) | (_, Class::Time) => Some(("a TIME has no number without a unit", OF_TIME)),
         _ => None,
     }

@@ -135,7 +135,7 @@ impl<'t> Checker<'t> {
     fn unknown<'n>(&mut self, what: &str, name: &Name, known: impl Iterator<Item = &'n Name>) -> Option<()> {
         let problem = Problem::new(name.span, format!("there is no {what} `{}`", name.text));
         self.refuse(match nearest(&name.text, known.map(|known| known.text.clone())) {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem,
         })
     }
@@ -157,7 +157,7 @@ impl<'t> Checker<'t> {
             let (interval_ns, span) = interval.unwrap_or_default();
             let every = interval_ns.checked_div(shortest.unwrap_or(0)).unwrap_or(1).max(1);
             if interval_ns > 0 && every.checked_mul(shortest.unwrap_or(0)) != Some(interval_ns) {
-                let message = "this INTERVAL is no multiple of the shortest one";
+                let message = "this INTERVAL is not a multiple of the shortest one";
                 self.refuse::<()>(Problem::new(span, message));
             }
             self.out.tasks.push(Task { every, programs });

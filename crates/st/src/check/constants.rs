@@ -35,7 +35,7 @@ impl<'c, 't> Constants<'c, 't> {
             _ => self.checker.refuse(
                 Problem::new(
                     expression.span,
-                    "this is no whole number that is known before the program runs",
+                    "this is not a whole number that is known before the program runs",
                 )
                 .help("use a number, or a VAR CONSTANT"),
             ),
@@ -52,7 +52,7 @@ impl<'c, 't> Constants<'c, 't> {
     }
 
     fn refuse_unknown<T>(self, expression: &Expression) -> Option<T> {
-        let message = "this is no duration that is known before the program runs";
+        let message = "this is not a duration that is known before the program runs";
         self.checker.refuse(Problem::new(expression.span, message))
     }
 

@@ -151,10 +151,10 @@ impl<'t> Checker<'t> {
     fn refuse_misplaced(&mut self, section: &VarSection, home: &Home) {
         let message = match (section.kind, home) {
             (VarKind::Input | VarKind::Output | VarKind::InOut, Home::Memory { .. }) => {
-                "a PROGRAM has no inputs and outputs of its own"
+                "a PROGRAM cannot have inputs and outputs"
             }
             (VarKind::Global, Home::Fresh | Home::Instance) => {
-                "VAR_GLOBAL stands outside of functions and blocks"
+                "VAR_GLOBAL is permitted only outside functions and blocks"
             }
             _ => return,
         };
@@ -338,7 +338,7 @@ impl<'t> Checker<'t> {
         let near = super::places::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
         let problem = Problem::new(name.span, format!("there is no global variable `{}`", name.text));
         self.refuse(match near {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem.help("declare it in VAR_GLOBAL"),
         })
     }
@@ -355,7 +355,7 @@ impl<'t> Checker<'t> {
         let near = super::places::nearest(&at.text, paths);
         let problem = Problem::new(at.span, format!("there is no I/O port `{}`", at.text));
         self.refuse(match near {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem.help("the I/O ports are those of the unit's I/O allocation"),
         })
     }

@@ -228,7 +228,7 @@ impl<'c, 't> Body<'c, 't> {
     fn enum_value(&mut self, type_name: &Name, value: &Name, span: Span) -> Option<Value> {
         let shape = self.checker.named_shape(&type_name.text, type_name.span)?;
         let Type::Enum(enumeration) = &shape.type_ else {
-            let message = format!("`{}` is no enumeration", type_name.text);
+            let message = format!("`{}` is not an enumeration", type_name.text);
             return self.checker.refuse(Problem::new(type_name.span, message));
         };
         let found = enumeration.values.iter().find(|(name, _)| name.eq_ignore_ascii_case(&value.text));
@@ -276,7 +276,7 @@ impl<'c, 't> Body<'c, 't> {
             UnaryOperator::Minus => ("-", "a sign is for signed numbers and TIME"),
             UnaryOperator::Plus => ("+", "a sign is for numbers and TIME"),
         };
-        self.checker.refuse(Problem::new(span, format!("there is no {sign} of {kind}")).help(help))
+        self.checker.refuse(Problem::new(span, format!("there is no operator {sign} for {kind}")).help(help))
     }
 
     fn binary(&mut self, operator: BinaryOperator, left: Value, right: Value, span: Span) -> Option<Value> {
@@ -419,14 +419,14 @@ impl<'c, 't> Body<'c, 't> {
         span: Span,
     ) -> Option<Value> {
         let (sign, class) = (sign(operator), classes(&left.kind, &right.kind));
-        let message = format!("there is no {sign} of {} and {}", left.kind, right.kind);
+        let message = format!("there is no operator {sign} for {} and {}", left.kind, right.kind);
         let help = match (operator, class) {
             (BinaryOperator::Add, [None, None]) => "texts are joined by CONCAT(…)",
             (BinaryOperator::And | BinaryOperator::Or | BinaryOperator::Xor, _) => {
                 "it is for BOOL and bit strings: convert integers by …_TO_WORD(…)"
             }
             (_, [Some(Class::BitString), _] | [_, Some(Class::BitString)]) => {
-                "bit strings are no numbers: convert them by …_TO_UINT(…)"
+                "bit strings are not numbers: convert them by …_TO_UINT(…)"
             }
             (_, [Some(Class::Bool), _] | [_, Some(Class::Bool)]) => "a BOOL is compared with TRUE or FALSE",
             _ => "convert one of them",

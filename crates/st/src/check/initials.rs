@@ -50,7 +50,7 @@ impl Checker<'_> {
                 Constants::new(self, scope).write(type_, expression, image)
             }
             (_, other) => {
-                let message = format!("this is no initial value of {type_}");
+                let message = format!("this is not an initial value of {type_}");
                 let help = match type_ {
                     Type::Array(_) => "an array is written [1, 2, 3] or [15(0)]",
                     Type::Struct(_) | Type::Block(_) => "members are written (name := value, …)",
@@ -107,7 +107,7 @@ impl Checker<'_> {
                     super::places::nearest(&name.text, members.iter().map(|member| member.name.clone()));
                 let problem = Problem::new(name.span, format!("there is no member `{}`", name.text));
                 return self.refuse(match near {
-                    Some(near) => problem.help(format!("is `{near}` meant?")),
+                    Some(near) => problem.help(format!("did you mean `{near}`?")),
                     None => problem,
                 });
             };

@@ -357,7 +357,7 @@ impl Body<'_, '_> {
         match elements {
             Some(before) if *before != located.type_ => {
                 let message = format!("the elements are {before} and {}", located.type_);
-                return self.checker.refuse(Problem::new(span, message).help("both have to be of one type"));
+                return self.checker.refuse(Problem::new(span, message).help("both must have the same type"));
             }
             _ => *elements = Some(located.type_.clone()),
         }

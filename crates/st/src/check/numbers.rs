@@ -52,12 +52,12 @@ pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Ele
             Some(converted(value.code, from, target))
         }
         Kind::Type(Type::Elementary(from)) => {
-            let message = format!("{from} does not become {target} by itself");
+            let message = format!("{from} is not converted to {target} implicitly");
             let problem = Problem::new(value.span, message);
             checker.refuse(problem.help(conversion_help(from, target)))
         }
         Kind::Real(_) => {
-            let message = format!("a number with a fraction is no {target}");
+            let message = format!("a number with a fraction is not a value of type {target}");
             checker.refuse(
                 Problem::new(value.span, message).help(format!("use LREAL_TO_{target}(…) or TRUNC(…)")),
             )
@@ -103,12 +103,14 @@ fn integer_of(checker: &mut Checker<'_>, number: i128, target: Elementary, value
     match target.class() {
         Class::Real => Some(Code::Constant(real_bits(target, number as f64))),
         Class::Bool if !fits(target, number) => {
-            let problem = Problem::new(span, format!("{number} is no BOOL"));
+            let problem = Problem::new(span, format!("{number} is not a BOOL"));
             checker.refuse(problem.help("use TRUE or FALSE, which are 1 and 0"))
         }
-        Class::Time => checker.refuse(Problem::new(span, "a number is no TIME").help("use T#10ms")),
-        Class::Date => checker
-            .refuse(Problem::new(span, format!("a number is no {target}")).help("use D#…, TOD#… or DT#…")),
+        Class::Time => checker.refuse(Problem::new(span, "a number is not a TIME").help("use T#10ms")),
+        Class::Date => checker.refuse(
+            Problem::new(span, format!("a number is not a value of type {target}"))
+                .help("use D#…, TOD#… or DT#…"),
+        ),
         _ if fits(target, number) => Some(Code::Constant(number as u64)),
         _ => {
             let (least, greatest) = range(target);

@@ -103,7 +103,7 @@ impl Body<'_, '_> {
         let devices = self.checker.surroundings.globals.iter().map(|global| global.name.clone());
         let problem = Problem::new(span, format!("there is no variable `{name}`"));
         let problem = match nearest(name, own.chain(devices)) {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem.help("declare it in VAR … END_VAR"),
         };
         self.checker.refuse(problem)
@@ -131,7 +131,7 @@ impl Body<'_, '_> {
                 members.iter().filter(|member| visible(member.role)).map(|member| member.name.clone());
             let problem = Problem::new(name.span, format!("{} has no member `{}`", located.type_, name.text));
             let problem = match nearest(&name.text, names) {
-                Some(near) => problem.help(format!("is `{near}` meant?")),
+                Some(near) => problem.help(format!("did you mean `{near}`?")),
                 None => problem,
             };
             return self.checker.refuse(problem);
@@ -227,7 +227,7 @@ impl Body<'_, '_> {
     }
 
     fn outside<T>(&mut self, bound: Bound, index: i128, span: Span) -> Option<T> {
-        let message = format!("index {index} lies outside {}..{}", bound.lower, bound.upper);
+        let message = format!("index {index} is outside {}..{}", bound.lower, bound.upper);
         self.checker.refuse(Problem::new(span, message))
     }
 }

@@ -43,7 +43,7 @@ impl Checker<'_> {
             let depth = own + CALL_LEVELS + self.depth(callee as usize, span, level + 1, graph);
             if depth > DEPTH_MAX && deepest <= DEPTH_MAX {
                 let message =
-                    format!("statements, expressions and calls lie deeper than {DEPTH_MAX} in each other");
+                    format!("statements, expressions and calls are nested more than {DEPTH_MAX} levels deep");
                 self.refuse::<()>(Problem::new(span, message));
             }
             deepest = deepest.max(depth);

@@ -66,7 +66,7 @@ impl Body<'_, '_> {
         if self.loops > 0 {
             return Some(kind);
         }
-        let problem = Problem::new(span, format!("{name} stands in no loop"));
+        let problem = Problem::new(span, format!("{name} is not inside a loop"));
         self.checker.refuse(problem.help("RETURN leaves the program organization unit"))
     }
 
@@ -115,7 +115,7 @@ impl Body<'_, '_> {
         let selector = selector?;
         let Some(elementary) = type_.as_ref().and_then(selectable) else {
             let message = format!(
-                "CASE looks at a whole number, a bit string or an enumeration, not at {}",
+                "the selector of CASE must be a whole number, a bit string or an enumeration, not {}",
                 selector.kind
             );
             return self.checker.refuse(Problem::new(selector.span, message));

@@ -95,7 +95,7 @@ impl<'t> Checker<'t> {
         if taken {
             let message = format!("the name `{}` is taken", name.text);
             self.refuse::<()>(
-                Problem::new(name.span, message).help("each type, function and block has a name of its own"),
+                Problem::new(name.span, message).help("each type, function and block needs a different name"),
             );
         } else {
             self.named.insert(key(&name.text), named);
@@ -211,7 +211,7 @@ impl<'t> Checker<'t> {
             Named::Type(_) | Named::Block(..) => {}
         }
         if self.type_depth == TYPE_DEPTH_MAX {
-            let message = format!("types lie deeper than {TYPE_DEPTH_MAX} in each other");
+            let message = format!("types are nested more than {TYPE_DEPTH_MAX} levels deep");
             return self.refuse(Problem::new(span, message));
         }
         let named = core::mem::replace(named, Named::Resolving);
@@ -253,7 +253,7 @@ impl<'t> Checker<'t> {
         let near = super::places::nearest(name, names.chain(elementary));
         let problem = Problem::new(span, format!("there is no type `{name}`"));
         self.refuse(match near {
-            Some(near) => problem.help(format!("is `{near}` meant?")),
+            Some(near) => problem.help(format!("did you mean `{near}`?")),
             None => problem,
         })
     }
@@ -334,7 +334,7 @@ impl<'t> Checker<'t> {
                 return self.refuse(Problem::new(value_name.span, message));
             }
             let Ok(value) = i32::try_from(next) else {
-                let message = format!("{next} is no DINT, which the values of an enumeration are");
+                let message = format!("{next} is not a DINT, the type of the values of an enumeration");
                 return self.refuse(Problem::new(value_name.span, message));
             };
             values.push((value_name.text.clone(), value.into()));

@@ -76,7 +76,7 @@ impl Machine<'_> {
             Base::ReferenceInInstance(offset) => self.instance + offset,
             Base::Memory | Base::Instance => {
                 unreachable!(
-                    "{base:?} is no reference: the checker makes arrays of any length of references only"
+                    "{base:?} is not a reference: the checker makes arrays of any length only from references"
                 )
             }
         };

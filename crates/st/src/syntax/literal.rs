@@ -43,7 +43,7 @@ pub(crate) fn typed(prefix: &str, text: &str, span: Span) -> Result<Literal, Pro
         return Err(Problem::new(span, format!("`{prefix}` is not an elementary type")).help(help));
     };
     if text.is_empty() {
-        return Err(Problem::new(span, format!("expected a value behind `{prefix}#`")));
+        return Err(Problem::new(span, format!("expected a value after `{prefix}#`")));
     }
     let value = match elementary.class() {
         Class::Real => number::real_of(elementary, text, span).map(TypedValue::Real),
@@ -60,6 +60,7 @@ fn date(elementary: Elementary, text: &str, span: Span) -> Result<Literal, Probl
     };
     match calendar::read(elementary, text) {
         Some(moment) => Ok(Literal::Typed { elementary, value: TypedValue::Integer(moment.into()) }),
-        None => Err(Problem::new(span, format!("`{text}` is no {elementary}")).help(format!("it is {form}"))),
+        None => Err(Problem::new(span, format!("`{text}` is not a value of type {elementary}"))
+            .help(format!("it is {form}"))),
     }
 }

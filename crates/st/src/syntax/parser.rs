@@ -165,7 +165,7 @@ impl<'source> Parser<'source> {
         Err(Failed)
     }
 
-    /// The problem that `what` is missing here: "expected … behind …, found …".
+    /// The problem that `what` is missing here: "expected … after …, found …".
     fn missing(&self, what: &str) -> Problem {
         let span = self.here();
         Problem::new(span, format!("expected {what}, found {}", self.found()))
@@ -261,7 +261,7 @@ impl<'source> Parser<'source> {
             return Err(Failed);
         }
         let end = self.previous().end;
-        let mut problem = Problem::new(Span { start: end, end }, format!("expected `;` behind {what}"));
+        let mut problem = Problem::new(Span { start: end, end }, format!("expected `;` after {what}"));
         problem.help = self.semicolon_help();
         self.fail(problem)
     }

@@ -59,7 +59,9 @@ impl FromStr for SeedRange {
         };
         let range = range.filter(|range| !range.is_empty());
         if range.as_ref().is_some_and(|range| range.end() - range.start() >= SEEDS_MAX) {
-            return Err(format!("expected at most {SEEDS_MAX} seeds; the next campaign can continue after them"));
+            return Err(format!(
+                "expected at most {SEEDS_MAX} seeds; the next campaign can continue after them"
+            ));
         }
         range.map(Self).ok_or_else(|| {
             "expected a number of seeds such as 100, or first and last such as 5..8".to_owned()

@@ -102,16 +102,16 @@ fn magnitude(text: &str, span: Span) -> Result<i128, Problem> {
         Some(10) => 10,
         Some(16) => 16,
         _ => {
-            let message = format!("`{base}` is no base of a number");
+            let message = format!("`{base}` is not a base of a number");
             return Err(Problem::new(span, message).help("the bases are 2, 8, 10 and 16"));
         }
     };
     unsigned(digits, radix).ok_or_else(|| {
         match digits.chars().find(|digit| *digit != '_' && !digit.is_digit(radix)) {
             Some(digit) => {
-                Problem::new(span, format!("`{digit}` is no digit of a number to the base {radix}"))
+                Problem::new(span, format!("`{digit}` is not a digit of a number with base {radix}"))
             }
-            None => Problem::new(span, format!("expected digits behind `{base}#`")),
+            None => Problem::new(span, format!("expected digits after `{base}#`")),
         }
     })
 }

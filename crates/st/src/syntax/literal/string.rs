@@ -19,7 +19,7 @@ pub(crate) fn string(text: &str, span: Span) -> Result<Vec<u8>, Problem> {
             let start = span.start as usize + quote.len_utf8() + inner.len() - behind.len() - 1;
             let shown: String = behind.chars().take(1).collect();
             let fault = Span::from(start..start + 1 + shown.len());
-            return Err(Problem::new(fault, format!("`${shown}` is no escape in a string")).help(HELP));
+            return Err(Problem::new(fault, format!("`${shown}` is not an escape in a string")).help(HELP));
         };
         bytes.push(byte);
         rest = behind.get(length..).unwrap_or_default();

@@ -27,7 +27,7 @@ pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
             return Err(fault(unit_fault(piece.unit)));
         };
         if place < longer_units {
-            return Err(fault(format!("the unit `{}` stands behind one that is not longer", piece.unit)));
+            return Err(fault(format!("the unit `{}` is after one that is not longer", piece.unit)));
         }
         if piece.fraction.is_some() && !piece.rest.is_empty() {
             return Err(fault("only the last unit of a duration may have a fraction".to_owned()));
@@ -47,9 +47,9 @@ pub(super) fn duration(text: &str, span: Span) -> Result<i64, Problem> {
 
 fn unit_fault(unit: &str) -> String {
     if unit.is_empty() {
-        "a duration needs a unit behind each number".to_owned()
+        "a duration needs a unit after each number".to_owned()
     } else {
-        format!("`{unit}` is no unit of a duration")
+        format!("`{unit}` is not a unit of a duration")
     }
 }
 

@@ -17,7 +17,7 @@ impl Parser<'_> {
                 arguments.push(self.argument()?);
             }
         }
-        self.expect(Token::CloseParenthesis, "`,` or `)` behind an argument")?;
+        self.expect(Token::CloseParenthesis, "`,` or `)` after an argument")?;
         Ok(Call { callee: Box::new(callee), arguments, span: self.since(start) })
     }
 

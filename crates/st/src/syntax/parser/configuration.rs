@@ -102,10 +102,10 @@ impl Parser<'_> {
     fn resource(&mut self) -> Parsed<()> {
         self.name("the name of a RESOURCE")?;
         if !self.accept_word("ON") {
-            let problem = self.missing("`ON` and a name behind the name of a RESOURCE");
+            let problem = self.missing("`ON` and a name after the name of a RESOURCE");
             return self.fail(problem);
         }
-        self.name("a name behind ON").map(|_| ())
+        self.name("a name after ON").map(|_| ())
     }
 
     fn skip_variables_of_configurations(&mut self) -> bool {
@@ -124,21 +124,21 @@ impl Parser<'_> {
     fn task(&mut self) -> Parsed<TaskDeclaration> {
         let name = self.name("the name of a TASK")?;
         let mut task = TaskDeclaration { name, interval: None, priority: None };
-        self.expect(Token::OpenParenthesis, "`(` behind the name of a TASK")?;
+        self.expect(Token::OpenParenthesis, "`(` after the name of a TASK")?;
         loop {
             self.task_property(&mut task)?;
             if !self.accept(Token::Comma) {
                 break;
             }
         }
-        self.expect(Token::CloseParenthesis, "`,` or `)` behind a property of a TASK")?;
+        self.expect(Token::CloseParenthesis, "`,` or `)` after a property of a TASK")?;
         self.semicolon("a TASK")?;
         Ok(task)
     }
 
     fn task_property(&mut self, task: &mut TaskDeclaration) -> Parsed<()> {
         let name = self.name("INTERVAL or PRIORITY")?;
-        self.expect(Token::Assign, &format!("`:=` behind {}", name.text))?;
+        self.expect(Token::Assign, &format!("`:=` after {}", name.text))?;
         let value = self.expression()?;
         match task.property(&name.text) {
             Some(property @ None) => {

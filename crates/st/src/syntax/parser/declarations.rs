@@ -153,7 +153,7 @@ impl Parser<'_> {
             return Ok(());
         }
         let name = name.map_or("", |name| name.text.as_str());
-        let mut problem = self.missing(&format!("`:` and a type behind `{name}`"));
+        let mut problem = self.missing(&format!("`:` and a type after `{name}`"));
         if self.token() == Token::Assign {
             problem = problem.help(format!("a variable is declared as `{name} : INT := 5;`"));
         }
@@ -164,9 +164,7 @@ impl Parser<'_> {
     pub(super) fn assign_sign(&mut self) -> bool {
         let here = self.here();
         if self.accept(Token::Equal) {
-            self.tell(
-                Problem::new(here, "expected `:=`, found `=`").help("an initial value stands behind `:=`"),
-            );
+            self.tell(Problem::new(here, "expected `:=`, found `=`").help("an initial value follows `:=`"));
             return true;
         }
         self.accept(Token::Assign)
@@ -188,7 +186,7 @@ impl Parser<'_> {
             }
             _ => {
                 let problem =
-                    self.missing("a path behind AT").help("for example AT IOBus://unit#1/UINTs 01 M to C");
+                    self.missing("a path after AT").help("for example AT IOBus://unit#1/UINTs 01 M to C");
                 return self.fail(problem);
             }
         };
@@ -196,7 +194,7 @@ impl Parser<'_> {
         if owner == Owner::Struct {
             self.tell(Problem::new(word, "a member of a structure has no AT"));
         } else if names > 1 {
-            self.tell(Problem::new(word, "AT stands behind one name, not behind several"));
+            self.tell(Problem::new(word, "AT is permitted after one name, not after several"));
         }
         Ok(path.map(|text| Name { text, span }))
     }

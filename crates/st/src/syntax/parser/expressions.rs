@@ -148,7 +148,7 @@ impl Parser<'_> {
         self.advance();
         let inner = self.inner_expression()?;
         let inner = self.comparison_for_assignment(inner)?;
-        self.expect(Token::CloseParenthesis, "`)` or an operator behind the expression in parentheses")?;
+        self.expect(Token::CloseParenthesis, "`)` or an operator after the expression in parentheses")?;
         Ok(inner)
     }
 
@@ -207,7 +207,7 @@ impl Parser<'_> {
                     Some(Token::Keyword(Keyword::If | Keyword::Elsif | Keyword::While | Keyword::Until))
                 );
                 let what = if is_tested { "a condition" } else { "an expression" };
-                self.missing(&format!("{what} behind `{shown}`"))
+                self.missing(&format!("{what} after `{shown}`"))
             }
         }
     }

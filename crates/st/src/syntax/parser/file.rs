@@ -69,7 +69,7 @@ impl Parser<'_> {
         let here = self.here();
         let text = self.text(here);
         if self.at_configuration() && !self.blocks.is_empty() {
-            let problem = Problem::new(here, "CONFIGURATION stands inside of another declaration");
+            let problem = Problem::new(here, "CONFIGURATION is inside another declaration");
             self.tell(problem.help("is the end of the declaration above it missing?"));
             self.configuration(&mut File::default());
             return true;
@@ -98,8 +98,8 @@ impl Parser<'_> {
             match self.keyword() {
                 Some(word) if word.opens_variables() => {
                     if !pou.body.is_empty() {
-                        let message = format!("{} stands behind statements", word.word());
-                        let help = "sections of variables stand before the first statement";
+                        let message = format!("{} is after statements", word.word());
+                        let help = "sections of variables must be before the first statement";
                         self.tell(Problem::new(self.here(), message).help(help));
                     }
                     pou.sections.push(self.section(word));

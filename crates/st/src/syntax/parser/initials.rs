@@ -23,7 +23,7 @@ impl Parser<'_> {
         while self.accept(Token::Comma) {
             elements.push(self.element()?);
         }
-        self.expect(Token::CloseBracket, "`,` or `]` behind the initial value of an element")?;
+        self.expect(Token::CloseBracket, "`,` or `]` after the initial value of an element")?;
         Ok(Initial::Array { elements, span: self.since(start) })
     }
 
@@ -41,7 +41,7 @@ impl Parser<'_> {
         }
         self.advance();
         let value = self.initial()?;
-        self.expect(Token::CloseParenthesis, "`)` behind the initial value that is repeated")?;
+        self.expect(Token::CloseParenthesis, "`)` after the initial value that is repeated")?;
         Ok(InitialElement { repeat, value })
     }
 
@@ -51,7 +51,7 @@ impl Parser<'_> {
         loop {
             let name = self.name("the name of a member")?;
             if !self.assign_sign() {
-                let problem = self.missing(&format!("`:=` behind the member `{}`", name.text));
+                let problem = self.missing(&format!("`:=` after the member `{}`", name.text));
                 return self.fail(problem);
             }
             members.push((name, self.initial()?));
@@ -59,7 +59,7 @@ impl Parser<'_> {
                 break;
             }
         }
-        self.expect(Token::CloseParenthesis, "`,` or `)` behind the initial value of a member")?;
+        self.expect(Token::CloseParenthesis, "`,` or `)` after the initial value of a member")?;
         Ok(Initial::Struct { members, span: self.since(start) })
     }
 }

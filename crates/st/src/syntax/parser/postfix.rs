@@ -44,7 +44,7 @@ impl Parser<'_> {
             let problem = Problem::new(self.here(), format!("a bit cannot be accessed as `.{bit}`"));
             return self.fail(problem.help(format!("use TestABit({variable}, {bit})")));
         }
-        let member = self.name("the name of a member behind `.`")?;
+        let member = self.name("the name of a member after `.`")?;
         let kind = ExpressionKind::Member { of: Box::new(of), member };
         Ok(Expression { kind, span: self.since(start) })
     }
@@ -56,7 +56,7 @@ impl Parser<'_> {
             indices.push(self.inner_expression()?);
         }
         self.count_operand()?;
-        self.expect(Token::CloseBracket, "`,` or `]` behind an index")?;
+        self.expect(Token::CloseBracket, "`,` or `]` after an index")?;
         let kind = ExpressionKind::Index { of: Box::new(of), indices };
         Ok(Expression { kind, span: self.since(start) })
     }

@@ -178,9 +178,9 @@ impl Parser<'_> {
                     .help(format!("a call is written `{shown}()`, an assignment `{shown} := …`"))
             }
             Token::Colon => {
-                self.missing(&format!("`:=` behind `{shown}`")).help("an assignment is written `:=`")
+                self.missing(&format!("`:=` after `{shown}`")).help("an assignment is written `:=`")
             }
-            _ => self.missing(&format!("`:=` or `(` behind `{shown}`")),
+            _ => self.missing(&format!("`:=` or `(` after `{shown}`")),
         }
     }
 

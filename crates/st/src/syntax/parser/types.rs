@@ -41,7 +41,7 @@ impl Parser<'_> {
 
     fn type_declaration(&mut self) -> Parsed<TypeDeclaration> {
         let name = self.new_name("the name of a type")?;
-        self.expect(Token::Colon, &format!("`:` behind the name of the type `{}`", name.text))?;
+        self.expect(Token::Colon, &format!("`:` after the name of the type `{}`", name.text))?;
         let definition = self.definition()?;
         let is_struct = matches!(definition, TypeDefinition::Struct(_));
         // Other tools write structures without the semicolon that the grammar of the standard requires.
@@ -115,7 +115,7 @@ impl Parser<'_> {
                 break;
             }
         }
-        self.expect(Token::CloseParenthesis, "`,` or `)` behind the value of an enumeration")?;
+        self.expect(Token::CloseParenthesis, "`,` or `)` after the value of an enumeration")?;
         Ok(values)
     }
 
@@ -184,13 +184,13 @@ impl Parser<'_> {
         };
         self.advance();
         let length = self.expression()?;
-        self.expect(close, &format!("{sign} behind the length of STRING"))?;
+        self.expect(close, &format!("{sign} after the length of STRING"))?;
         Ok(TypeKind::String(Some(Box::new(length))))
     }
 
     fn array(&mut self) -> Parsed<TypeKind> {
         self.advance();
-        self.expect(Token::OpenBracket, "`[` and the bounds behind ARRAY")?;
+        self.expect(Token::OpenBracket, "`[` and the bounds after ARRAY")?;
         if self.token() == Token::Star {
             return self.open_array();
         }
@@ -198,8 +198,8 @@ impl Parser<'_> {
         while self.accept(Token::Comma) {
             bounds.push(self.bounds()?);
         }
-        self.expect(Token::CloseBracket, "`,` or `]` behind the bounds of ARRAY")?;
-        self.word(Keyword::Of, "and the type of the elements behind the bounds of ARRAY")?;
+        self.expect(Token::CloseBracket, "`,` or `]` after the bounds of ARRAY")?;
+        self.word(Keyword::Of, "and the type of the elements after the bounds of ARRAY")?;
         let element = Box::new(self.type_name()?);
         Ok(TypeKind::Array { bounds, element })
     }
@@ -214,8 +214,8 @@ impl Parser<'_> {
                 break;
             }
         }
-        self.expect(Token::CloseBracket, "`,` or `]` behind the bounds of ARRAY")?;
-        self.word(Keyword::Of, "and the type of the elements behind the bounds of ARRAY")?;
+        self.expect(Token::CloseBracket, "`,` or `]` after the bounds of ARRAY")?;
+        self.word(Keyword::Of, "and the type of the elements after the bounds of ARRAY")?;
         Ok(TypeKind::OpenArray { dimensions, element: Box::new(self.type_name()?) })
     }
 

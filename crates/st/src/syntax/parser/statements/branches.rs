@@ -18,7 +18,7 @@ impl Parser<'_> {
         }
         let otherwise = self.otherwise();
         while let Some(word) = self.keyword().filter(|word| matches!(word, Keyword::Elsif | Keyword::Else)) {
-            self.tell(Problem::new(self.here(), format!("{} stands behind the ELSE of its IF", word.word())));
+            self.tell(Problem::new(self.here(), format!("{} is after the ELSE of its IF", word.word())));
             self.advance();
             if word == Keyword::Elsif {
                 self.branch("ELSIF");
@@ -57,7 +57,7 @@ impl Parser<'_> {
             self.recover_behind(ending);
             return placeholder(start);
         };
-        self.ending(ending, &format!("behind the condition of {opener}"));
+        self.ending(ending, &format!("after the condition of {opener}"));
         condition
     }
 
@@ -79,7 +79,7 @@ impl Parser<'_> {
         let start = self.here();
         let selector = match self.expression() {
             Ok(selector) => {
-                self.ending(Keyword::Of, "behind the selector of CASE");
+                self.ending(Keyword::Of, "after the selector of CASE");
                 selector
             }
             Err(_) => {
@@ -124,7 +124,7 @@ impl Parser<'_> {
                 Err(failed) => break Err(failed),
             }
             if !self.accept(Token::Comma) {
-                break self.expect(Token::Colon, "`,` or `:` behind a label of CASE").map(|_| ());
+                break self.expect(Token::Colon, "`,` or `:` after a label of CASE").map(|_| ());
             }
         };
         if read.is_err() {

@@ -23,7 +23,7 @@ impl Parser<'_> {
         match &head {
             Ok(head) => {
                 let last = if head.by.is_some() { "step" } else { "end value" };
-                self.ending(Keyword::Do, &format!("behind the {last} of FOR"));
+                self.ending(Keyword::Do, &format!("after the {last} of FOR"));
             }
             Err(_) => self.recover_behind(Keyword::Do),
         }
@@ -41,17 +41,17 @@ impl Parser<'_> {
     fn for_head(&mut self) -> Parsed<ForHead> {
         self.operands = 0;
         if self.token() != Token::Name {
-            self.name("a variable behind FOR")?;
+            self.name("a variable after FOR")?;
         }
         let variable = self.variable_or_call()?;
         let sign = self.here();
         if self.accept(Token::Equal) {
             self.tell_assignment(sign);
         } else {
-            self.expect(Token::Assign, "`:=` behind the variable of FOR")?;
+            self.expect(Token::Assign, "`:=` after the variable of FOR")?;
         }
         let from = self.expression()?;
-        self.word(Keyword::To, "behind the first value of FOR")?;
+        self.word(Keyword::To, "after the first value of FOR")?;
         let to = self.expression()?;
         if self.token() == Token::Name && self.text(self.here()).len() > 2 {
             self.mend(&[Keyword::By]);
@@ -77,7 +77,7 @@ impl Parser<'_> {
     }
 
     fn until(&mut self) -> Parsed<Expression> {
-        self.word(Keyword::Until, "and a condition in front of END_REPEAT")?;
+        self.word(Keyword::Until, "and a condition before END_REPEAT")?;
         let read = self.expression().and_then(|condition| self.comparison_for_assignment(condition));
         let Ok(until) = read else {
             self.recover_behind(Keyword::EndRepeat);
@@ -85,7 +85,10 @@ impl Parser<'_> {
         };
         let here = self.here();
         if self.accept(Token::Semicolon) {
-            self.tell(Problem::new(here, "a `;` stands behind the condition of UNTIL, where none belongs"));
+            self.tell(Problem::new(
+                here,
+                "there is a `;` after the condition of UNTIL, where none is permitted",
+            ));
         }
         Ok(until)
     }
