@@ -76,7 +76,7 @@ fn a_chain_of_calls_is_accepted_as_deep_as_it_can_run_and_refused_beyond() {
                 assert_eq!(result, Ok(()));
                 accepted += 1;
             }
-            Err(problems) => assert!(problems.contains("deeper than"), "{problems}"),
+            Err(problems) => assert!(problems.contains("nested more than"), "{problems}"),
         }
     }
     assert!(accepted >= 5, "{accepted} chains are accepted");
@@ -90,7 +90,7 @@ fn a_chain_of_calls_as_statements() {
         let last = format!("FUNCTION F{length} VAR s : STRING; END_VAR s := CONCAT(s, 'x'); END_FUNCTION\n");
         match run(functions + &last + "PROGRAM Main F0(); END_PROGRAM") {
             Ok(result) => assert_eq!(result, Ok(())),
-            Err(problems) => assert!(length > 200 && problems.contains("deeper than"), "{problems}"),
+            Err(problems) => assert!(length > 200 && problems.contains("nested more than"), "{problems}"),
         }
     }
 }
@@ -113,7 +113,7 @@ fn instances_in_instances() {
         );
         match run(source) {
             Ok(result) => assert_eq!(result, Ok(())),
-            Err(problems) => assert!(problems.contains("in each other"), "{problems}"),
+            Err(problems) => assert!(problems.contains("levels deep"), "{problems}"),
         }
     }
 }

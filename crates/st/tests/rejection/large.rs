@@ -54,7 +54,7 @@ fn declarations_too_deep() {
     expect(&format!("VAR a : ARRAY[0..1] OF INT := {initial}; END_VAR ;"), "nested too deeply");
     let chain = pieces(10_000, |place| format!("T{place} : T{};\n", place + 1));
     let source = format!("TYPE {chain} T10000 : INT; END_TYPE PROGRAM Main VAR x : T0; END_VAR END_PROGRAM");
-    expect(&source, "in each other");
+    expect(&source, "levels deep");
 }
 
 #[test]
@@ -63,12 +63,12 @@ fn chains_of_units_too_deep() {
         format!("FUNCTION_BLOCK B{place} VAR b : B{}; END_VAR b(); END_FUNCTION_BLOCK\n", place + 1)
     });
     let last = "FUNCTION_BLOCK B5000 END_FUNCTION_BLOCK PROGRAM Main VAR b : B0; END_VAR b(); END_PROGRAM";
-    expect(&(blocks + last), "in each other");
+    expect(&(blocks + last), "levels deep");
     let functions = pieces(10_000, |place| {
         format!("FUNCTION F{place} : INT F{place} := F{}(); END_FUNCTION\n", place + 1)
     });
     let last = "FUNCTION F10000 : INT END_FUNCTION PROGRAM Main VAR x : INT; END_VAR x := F0(); END_PROGRAM";
-    expect(&(functions + last), "in each other");
+    expect(&(functions + last), "levels deep");
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn too_many_problems() {
         &format!("PROGRAM Main VAR {names} END_VAR {uses} END_PROGRAM"),
         "there is no variable `varable0`",
     );
-    expect(&with_statements(&"x := TRUE;\n".repeat(80_000)), "BOOL does not become INT");
+    expect(&with_statements(&"x := TRUE;\n".repeat(80_000)), "BOOL is not converted to INT");
     expect(&with_statements(&"x := ;\n".repeat(100_000)), "expected an expression");
     let types = pieces(20_000, |place| format!("v{place} : No_Type_{place}; "));
     expect(&format!("PROGRAM Main VAR {types} END_VAR END_PROGRAM"), "there is no type");
