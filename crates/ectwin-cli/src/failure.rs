@@ -141,7 +141,7 @@ impl Failure {
 
 fn help_to_listen(error: &io::Error) -> Option<String> {
     let help = match error.kind() {
-        io::ErrorKind::AddrInUse => "another program listens there; give another port, such as --modbus 1503",
+        io::ErrorKind::AddrInUse => "another program uses this port; give another one, such as --modbus 1503",
         io::ErrorKind::PermissionDenied => {
             "ports below 1024 need a permission; give another, such as --modbus 1502"
         }

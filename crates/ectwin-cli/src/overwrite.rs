@@ -27,7 +27,7 @@ pub(crate) fn refuse_named(
     output: &Output<'_>,
     named: impl IntoIterator<Item = impl AsRef<Path>>,
 ) -> Result<(), Failure> {
-    refuse_all(std::slice::from_ref(output), named, "which the unit file names")
+    refuse_all(std::slice::from_ref(output), named, "which the unit file uses")
 }
 
 fn refuse_all(

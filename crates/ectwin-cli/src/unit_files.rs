@@ -82,7 +82,7 @@ pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
 fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
     let message = error.to_string();
     let seen_from = |span: &Range<usize>| {
-        let label = "seen from the folder of this file";
+        let label = "relative to the folder of this file";
         FileProblem::at(path, text, span.clone(), &message, label).into()
     };
     match error {

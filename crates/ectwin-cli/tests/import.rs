@@ -75,7 +75,7 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
     for (arguments, fragment) in [
         (&["gone.pcapng", "-o", "x.toml"][..], "cannot read gone.pcapng: No such file"),
         (&["text.pcapng", "-o", "x.toml"], "no pcapng capture"),
-        (&["empty.pcapng", "-o", "x.toml"], "it holds no EtherCAT frame of a master"),
+        (&["empty.pcapng", "-o", "x.toml"], "it contains no EtherCAT frame of a master"),
         (&["captures/live.pcapng", "-o", "old.toml"], "old.toml is there already"),
         (&["captures/live.pcapng", "-o", "no/such/x.toml"], "cannot write no/such"),
         (&["captures/live.pcapng", "-o", "x.toml", "--unit", "gone.toml"], "cannot read gone.toml"),

@@ -29,7 +29,7 @@ impl MemoryFile {
             }
             Some(Err(damage @ MemoryDamage::Damaged(_))) => {
                 let aside = file.set_aside()?;
-                tracing::error!("{}: {damage}; kept as {}", path.display(), aside.display());
+                tracing::error!("{}: {damage}; renamed to {}", path.display(), aside.display());
                 MemoryAtPowerOn::Damaged
             }
         };

@@ -94,7 +94,8 @@ fn web_assembly(
     _variables: &DeviceVariables,
     _budget_statements: u64,
 ) -> Result<Box<dyn Program + Send>, String> {
-    Err("this build runs no WebAssembly; `cargo build --features wasm` makes one that does".to_owned())
+    Err("this build does not support WebAssembly; `cargo build --features wasm` builds one that does"
+        .to_owned())
 }
 
 impl fmt::Display for ProgramFileError {

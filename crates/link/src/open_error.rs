@@ -69,14 +69,14 @@ impl OpenError {
             }
             Self::NoPermission { link, .. } => help_for_permission(link),
             Self::InUse { link: LinkSpec::Udp(_) } => {
-                "end the program that listens there, or take another port: udp:ADDR:PORT".to_owned()
+                "end the program that uses it, or use another port: udp:ADDR:PORT".to_owned()
             }
             Self::InUse { link: LinkSpec::Raw(_) } => {
-                "another ectwin answers on this interface: end it, or take another interface".to_owned()
+                "another ectwin answers on this interface: end it, or use another interface".to_owned()
             }
-            Self::InUse { .. } => "end the program that holds it, or take another name".to_owned(),
+            Self::InUse { .. } => "end the program that uses it, or use another name".to_owned(),
             Self::AddressNotHere { .. } => {
-                "take an address of this machine, 127.0.0.1 for masters on it, 0.0.0.0 for every interface"
+                "use an address of this machine: 127.0.0.1 for masters on it, 0.0.0.0 for every interface"
                     .to_owned()
             }
             Self::Failed { link: LinkSpec::Tap(_), source } if source.kind() == io::ErrorKind::NotFound => {
@@ -94,7 +94,7 @@ fn help_for_permission(link: &LinkSpec) -> String {
     let capability = match link {
         LinkSpec::Raw(_) => "cap_net_raw",
         LinkSpec::Tap(_) => "cap_net_admin",
-        LinkSpec::Udp(_) => return "take a port of 1024 or above".to_owned(),
+        LinkSpec::Udp(_) => return "use a port of 1024 or above".to_owned(),
     };
     format!(
         "give the program the capability by `sudo setcap {capability}+ep \"$(command -v ectwin)\"` (it is needed at \

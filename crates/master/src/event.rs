@@ -92,8 +92,8 @@ impl fmt::Display for Failure {
             Self::TooLong { length_bytes } => {
                 write!(formatter, "{length_bytes} bytes in one datagram, 1486 at most")
             }
-            Self::Lost => formatter.write_str("the frame did not come back"),
-            Self::NoAnswer => formatter.write_str("the slave takes no access"),
+            Self::Lost => formatter.write_str("the frame did not return"),
+            Self::NoAnswer => formatter.write_str("the slave does not accept the access"),
             Self::SiiBusy => formatter.write_str("the SII is busy for too long"),
             Self::Sii(failure) => failure.fmt(formatter),
             Self::Refused(report) => write!(formatter, "the slave refuses the state: {report}"),

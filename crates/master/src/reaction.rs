@@ -28,8 +28,8 @@ impl fmt::Display for ServiceFailure {
         match self {
             Self::NoMailbox => formatter.write_str("the slave has no mailbox"),
             Self::MailboxTooSmall => formatter.write_str("the request does not fit into the mailbox"),
-            Self::NotTaken => formatter.write_str("the mailbox takes no request"),
-            Self::NoReply => formatter.write_str("no reply comes by mailbox"),
+            Self::NotTaken => formatter.write_str("the mailbox does not accept the request"),
+            Self::NoReply => formatter.write_str("there is no reply from the mailbox"),
             Self::Mailbox(code) => write!(formatter, "mailbox error {code}"),
             Self::Abort(code) => write!(formatter, "SDO abort {code}"),
             Self::WrongReply(code) => write!(formatter, "the reply is wrong: SDO abort {code} by the master"),

@@ -195,7 +195,7 @@ fn every_finding_says_what_is_wrong_and_what_helps() {
         "Incorrect TxPDO Mapping Order: 0x1C13:02 assigns 0x1A00 after 0x1A01. Assign the PDOs in ascending order \
          of their indexes, each once.",
         "Illegal I/O Entry Added M to C: I/O entry mapping 0x1A01 (Data Set in 15 UINT Arrays from EtherCAT Master \
-         to CPU Unit) has 6001:01, which it cannot take. Use only entries of 0x6000, subindexes 01 to 28.",
+         to CPU Unit) has 6001:01, which cannot be in it. Use only entries of 0x6000, subindexes 01 to 28.",
         "Incorrect I/O Entry Order M to C: I/O entry mapping 0x1A01 (Data Set in 15 UINT Arrays from EtherCAT \
          Master to CPU Unit) has 6000:02 where 6000:01 comes next. List the entries from subindex 01 in ascending \
          order without a gap.",

@@ -12,7 +12,8 @@ pub(super) fn modbus(text: &str) -> Result<SocketAddr, String> {
 pub(super) fn opcua(text: &str) -> Result<SocketAddr, String> {
     if !cfg!(feature = "opcua") {
         return Err(
-            "this build serves no OPC UA; `cargo build --features opcua` makes one that does".to_owned()
+            "this build does not support OPC UA; `cargo build --features opcua` builds one that does"
+                .to_owned(),
         );
     }
     address(text, 4840)

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
                 args.capture.display(),
                 frames.units()
             ),
-            help: "give the unit files by --unit, if the capture is right".to_owned(),
+            help: "if the capture is correct, give the unit files with --unit".to_owned(),
         });
     }
     for unit in &args.units {
@@ -52,7 +52,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     ))?;
     let (given, seen) = (args.units.len(), frames.units());
     if given > 0 && given != seen {
-        tracing::warn!("the capture shows a line of {seen} units, and {given} are given");
+        tracing::warn!("the capture contains a line of {seen} units, but {given} are given");
     }
     Ok(())
 }
@@ -73,8 +73,8 @@ fn read(path: &Path) -> Result<RecordedFrames, Failure> {
     }
     let frames = RecordedFrames::read(&bytes).map_err(|error| refused(error.to_string()))?;
     match (frames.len(), frames.answers()) {
-        (0, _) => Err(refused("it holds no EtherCAT frame of a master".to_owned())),
-        (_, 0) => Err(refused("it holds no answer to a frame".to_owned())),
+        (0, _) => Err(refused("it contains no EtherCAT frame of a master".to_owned())),
+        (_, 0) => Err(refused("it contains no answer to a frame".to_owned())),
         _ => Ok(frames),
     }
 }

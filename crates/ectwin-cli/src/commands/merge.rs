@@ -128,7 +128,8 @@ fn result_of(line: &[u8]) -> Result<CaseResult, String> {
 }
 
 fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProblem {
-    let help = "each line comes from `ectwin replay --json`; a job that was killed may have left half a line";
+    let help =
+        "each line must be written by `ectwin replay --json`; a killed job may have left an incomplete line";
     let message = format!("this line is not a result: {reason}");
     FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
@@ -168,7 +169,7 @@ impl<'a> Merged<'a> {
             Some(first) if !first.is_that_of(&own) => {
                 let (first, other) = (self.path(first.file), self.path(file));
                 let message = format!("{first} and {other} are not of one campaign");
-                return Err(refused(&message, "run all parts by one version, with the same files and seeds"));
+                return Err(refused(&message, "run all parts with the same version, files and seeds"));
             }
             Some(_) => {}
             None => {
@@ -203,7 +204,10 @@ impl<'a> Merged<'a> {
     /// The places of the results, if none is missing.
     fn complete(self) -> Result<Found, Failure> {
         let Some(Campaign { cases, parts, .. }) = self.campaign else {
-            return Err(refused("there is no result in these files", "each part writes its own by `--json`"));
+            return Err(refused(
+                "there is no result in these files",
+                "each part writes its results with `--json`",
+            ));
         };
         let missing: Vec<u64> =
             (1..).zip(&self.places).filter(|(_, place)| place.file == 0).map(|(case, _)| case).collect();
@@ -227,7 +231,7 @@ fn lacking(missing: &[u64], cases: u64, parts: u64) -> Failure {
         by_part.entry(Partition::of_case(case, parts)).or_default().push(case);
     }
     let told: Vec<String> = by_part.iter().map(|(part, lacks)| of_part(*part, lacks, cases)).collect();
-    refused(&told.join("; "), "run the missing parts again, each by its `--partition`")
+    refused(&told.join("; "), "run the missing parts again, each with its `--partition`")
 }
 
 fn of_part(part: Partition, lacks: &[u64], cases: u64) -> String {

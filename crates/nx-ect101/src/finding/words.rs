@@ -28,11 +28,11 @@ impl Finding {
                 format!("{assignment}:{:02X} assigns {pdo} after {after}", place + 1)
             }
             Fact::IllegalEntry { entry, .. } => {
-                format!("{} has {}, which it cannot take", self.subject(), shown(entry))
+                format!("{} has {}, which cannot be in it", self.subject(), shown(entry))
             }
             Fact::NotNext { entry, wanted, .. } => {
                 let next = EntryAddress { sub: wanted, ..entry };
-                format!("{} has {} where {} comes next", self.subject(), shown(entry), shown(next))
+                format!("{} has {} where {} is expected", self.subject(), shown(entry), shown(next))
             }
             Fact::TooMuchData { size_bytes } => {
                 let whose = if self.side == Side::IoEntry { "I/O entries" } else { "PDO entries" };

@@ -120,7 +120,7 @@ impl Maker<'_> {
                 None
             }
             Controller::Unit(unit) if unit.position() >= self.units.len() => {
-                self.refuse(part, "it names a unit that is not there", line_of(self.units.len()));
+                self.refuse(part, "it refers to a unit that does not exist", line_of(self.units.len()));
                 None
             }
             Controller::Master | Controller::Unit(_) => Some(()),

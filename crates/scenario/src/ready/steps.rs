@@ -148,7 +148,7 @@ impl Maker<'_> {
             return None;
         }
         if !is_there {
-            self.refuse(part, "it names a unit or a cable that is not there", line_of(units));
+            self.refuse(part, "it refers to a unit or a cable that does not exist", line_of(units));
             return None;
         }
         if let Order::Cpu(order) = order { self.check_variables(order, part) } else { Some(()) }
@@ -162,7 +162,7 @@ impl Maker<'_> {
         let units = self.units.len();
         match subject(condition) {
             Subject::Units(set) if !set.exists(units) => {
-                self.refuse(part, "it names a unit that is not there", line_of(units));
+                self.refuse(part, "it refers to a unit that does not exist", line_of(units));
                 return None;
             }
             Subject::Controller(controller) => self.check_controller(controller, part)?,

@@ -147,7 +147,7 @@ impl Maker<'_> {
     fn refuse_unreadable(&mut self, name: &str, reason: &str, part: Part) {
         let builtins = Builtin::ALL.map(Builtin::name).join(", ");
         let message = format!("the program {name} cannot be read: {reason}");
-        self.refuse(part, message, format!("without a file there are {builtins}, or none at all"));
+        self.refuse(part, message, format!("programs without a file are {builtins}, or none"));
     }
 
     /// Reports the problems of a program, each with its position in the program's file.

@@ -81,7 +81,7 @@ impl<'t> Body<'_, 't> {
             Some(Named::Wrong) => None,
             Some(Named::Block(..) | Named::Shape(_) | Named::Type(_) | Named::Resolving) => {
                 self.checker.refuse(
-                    Problem::new(span, format!("`{name}` is a type, and nothing to call"))
+                    Problem::new(span, format!("`{name}` is a type and cannot be called"))
                         .help("declare an instance of the block and call that"),
                 )
             }
@@ -248,7 +248,7 @@ impl<'t> Body<'_, 't> {
                 (None, Put::Slots(pin.type_.slots()))
             }
             (from, into) => {
-                let message = format!("the output `{}` is {from}, and goes into no {into}", pin.name);
+                let message = format!("the output `{}` is {from}, and cannot be stored in {into}", pin.name);
                 return self.checker.refuse(Problem::new(to.span, message));
             }
         };
@@ -279,7 +279,7 @@ impl<'t> Body<'_, 't> {
             own => {
                 let message = format!("`{}` is a variable of {own}, not {}", pin.name, located.type_);
                 let problem = Problem::new(expression.span, message);
-                self.checker.refuse(problem.help("a VAR_IN_OUT takes a variable of exactly its type"))
+                self.checker.refuse(problem.help("a VAR_IN_OUT requires a variable of exactly its type"))
             }
         }
     }
@@ -328,7 +328,8 @@ impl<'t> Body<'_, 't> {
             let (place, value, span) = match argument {
                 Argument::Positional(expression) => {
                     let Some(pin) = pins.get(next) else {
-                        let message = format!("`{name}` has {} pins, and more are given", pins.len());
+                        let message =
+                            format!("`{name}` has {} pins, but more arguments are given", pins.len());
                         return self.checker.refuse(Problem::new(expression.span, message));
                     };
                     next += 1;
@@ -403,8 +404,10 @@ impl<'t> Body<'_, 't> {
         if let Some(unit) = self.unit {
             self.checker.calls.push((unit, callee, span));
         } else {
-            self.checker
-                .refuse::<()>(Problem::new(span, "a function of the program is not known before it runs"));
+            self.checker.refuse::<()>(Problem::new(
+                span,
+                "the result of a function is not known before the program runs",
+            ));
         }
     }
 
@@ -420,7 +423,7 @@ impl<'t> Body<'_, 't> {
             let dint = Type::Elementary(Elementary::Dint);
             return Some(Value::of(dint, value.code, call.span));
         }
-        let message = format!("EnumToNum takes an enumeration, not {}", value.kind);
+        let message = format!("EnumToNum requires an enumeration, not {}", value.kind);
         self.checker.refuse(Problem::new(value.span, message))
     }
 

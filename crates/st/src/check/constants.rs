@@ -80,10 +80,8 @@ impl<'c, 't> Constants<'c, 't> {
                 return Some(());
             }
         }
-        self.checker.refuse(Problem::new(
-            expression.span,
-            "an initial value is known before the program runs: this one is not",
-        ))
+        self.checker
+            .refuse(Problem::new(expression.span, "an initial value must be known before the program runs"))
     }
 
     fn body(&mut self) -> Body<'_, 't> {

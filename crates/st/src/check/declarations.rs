@@ -137,7 +137,7 @@ impl<'t> Checker<'t> {
         }
         self.refuse(
             Problem::new(span, "a function has no function block instances")
-                .help("a function keeps nothing from call to call: make it a FUNCTION_BLOCK"),
+                .help("a function keeps no values between calls: use a FUNCTION_BLOCK"),
         )
     }
 

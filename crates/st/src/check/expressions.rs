@@ -407,7 +407,7 @@ impl<'c, 't> Body<'c, 't> {
         };
         match number.filter(|number| (i128::from(i64::MIN)..=u64::MAX.into()).contains(number)) {
             Some(number) => Some(Value::untyped(Kind::Integer(number), span)),
-            None => self.checker.refuse(Problem::new(span, "the number is greater than every type holds")),
+            None => self.checker.refuse(Problem::new(span, "the number exceeds every type")),
         }
     }
 

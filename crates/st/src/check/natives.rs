@@ -279,12 +279,12 @@ impl Body<'_, '_> {
     ) -> Option<T> {
         let names = Elementary::ALL.iter().filter(|elementary| classes.contains(&elementary.class()));
         let names = names.map(|elementary| elementary.name()).collect::<Vec<_>>();
-        let message = format!("`{}` does not take {kind}", function.name);
-        self.checker.refuse(Problem::new(span, message).help(format!("it takes {}", names.join(", "))))
+        let message = format!("`{}` does not accept {kind}", function.name);
+        self.checker.refuse(Problem::new(span, message).help(format!("it accepts {}", names.join(", "))))
     }
 
     fn refuse_mixture<T>(&mut self, function: &Function, one: &str, other: &str, span: Span) -> Option<T> {
-        let message = format!("`{}` takes values of one type, not {one} and {other}", function.name);
+        let message = format!("`{}` requires values of one type, not {one} and {other}", function.name);
         self.checker.refuse(Problem::new(span, message).help("convert one of them"))
     }
 
@@ -323,7 +323,7 @@ impl Body<'_, '_> {
                         Some(value.code)
                     }
                     other => {
-                        let message = format!("`{}` does not take {other}", pin.name);
+                        let message = format!("`{}` does not accept {other}", pin.name);
                         self.checker.refuse(Problem::new(value.span, message))
                     }
                 }

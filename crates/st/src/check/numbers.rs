@@ -68,12 +68,12 @@ pub(super) fn elementary_of(checker: &mut Checker<'_>, value: Value, target: Ele
             checker.refuse(match type_ {
                 Type::String(_) => problem.help(format!("use STRING_TO_{target}(…)")),
                 Type::Enum(_) => problem.help("use EnumToNum(…)"),
-                Type::Array(_) => problem.help("an element is named by its index: [0]"),
+                Type::Array(_) => problem.help("an element needs an index: [0]"),
                 _ => problem,
             })
         }
         Kind::Nothing => checker
-            .refuse(Problem::new(value.span, "this function gives no result").help("call it as a statement")),
+            .refuse(Problem::new(value.span, "this function has no result").help("call it as a statement")),
     }
 }
 

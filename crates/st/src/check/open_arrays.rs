@@ -25,7 +25,7 @@ impl Body<'_, '_> {
             _ => false,
         };
         let Some(bounds) = bounds.filter(|_| is_own) else {
-            let message = format!("`{}` takes {}, not {}", pin.name, pin.type_, located.type_);
+            let message = format!("`{}` requires {}, not {}", pin.name, pin.type_, located.type_);
             let help = "the elements have exactly the type of its elements";
             return self.checker.refuse(Problem::new(span, message).help(help));
         };

@@ -28,7 +28,7 @@ impl Checker<'_> {
         match graph.depths[unit] {
             Depth::Known(depth) => return depth,
             Depth::InProgress => {
-                let problem = Problem::new(span, "this call comes back to itself");
+                let problem = Problem::new(span, "this call is recursive");
                 self.refuse::<()>(problem.help("no function or block calls itself: use a loop"));
                 return 0;
             }

@@ -139,7 +139,7 @@ impl Body<'_, '_> {
             }
         };
         if to < from {
-            return self.checker.refuse(Problem::new(span, format!("the range {from}..{to} holds no value")));
+            return self.checker.refuse(Problem::new(span, format!("the range {from}..{to} is empty")));
         }
         let taken = before
             .iter()
@@ -163,7 +163,7 @@ impl Body<'_, '_> {
         match code {
             Code::Constant(bits) => Some(integer(elementary, bits)),
             _ => self.checker.refuse(
-                Problem::new(span, "a CASE label is known before the program runs")
+                Problem::new(span, "a CASE label must be known before the program runs")
                     .help("use a number, an enumeration value or a VAR CONSTANT"),
             ),
         }

@@ -170,7 +170,7 @@ impl<'t> Checker<'t> {
             let lower = self.constant_integer(lower, scope)?;
             let upper = self.constant_integer(upper, scope)?;
             if upper < lower {
-                let message = format!("the bounds {lower}..{upper} hold no element");
+                let message = format!("the bounds {lower}..{upper} contain no element");
                 return self.refuse(Problem::new(span, message).help("the lower bound comes first"));
             }
             slots = slots.saturating_mul(upper - lower + 1);
@@ -279,7 +279,7 @@ impl<'t> Checker<'t> {
             let shape = self.shape(&declaration.type_name, &scope)?;
             let shape = self.with_initial(shape, declaration.initial.as_ref(), &scope)?;
             if shape.type_.holds_blocks() {
-                let message = "a structure holds no function block instance";
+                let message = "a structure cannot contain a function block instance";
                 return self.refuse(Problem::new(declaration.type_name.span, message));
             }
             if member(&members, &declaration.name.text).is_some() {

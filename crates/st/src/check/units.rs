@@ -32,7 +32,7 @@ impl<'t> Checker<'t> {
         let is_empty = file.units.is_empty() && file.types.is_empty() && file.globals.is_empty();
         let lacks = match purpose {
             Purpose::Run if !has_program => "there is no PROGRAM in it",
-            Purpose::Judge if is_empty => "there is nothing in it",
+            Purpose::Judge if is_empty => "it is empty",
             _ => return,
         };
         if self.problems.is_empty() {

@@ -65,7 +65,7 @@ impl fmt::Display for TextProblem {
             Self::NoSuchPlace(error) => error.fmt(formatter),
             Self::NotANumber => formatter.write_str("not a number such as 12, -3 or 16#1F"),
             Self::OutOfRange { elementary, least, most } => {
-                write!(formatter, "beyond {elementary}, which has {least} to {most}")
+                write!(formatter, "out of range of {elementary}: {least} to {most}")
             }
             Self::NotABool => formatter.write_str("not TRUE or FALSE"),
             Self::NotATime => formatter.write_str("not a duration such as T#1.5ms"),

@@ -20,7 +20,7 @@ pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<Place> {
         Fact::UnitStatusNotAssigned => whole_assignment(file, direction, "0x1A00 is missing"),
         Fact::NotAssignable { place, .. } => assigned(file, direction, place, "not one of its PDOs"),
         Fact::NotAscending { place, after, .. } => {
-            assigned(file, direction, place, &format!("comes before {after}"))
+            assigned(file, direction, place, &format!("must be before {after}"))
         }
         Fact::TxPdosTooLong { .. } => whole_assignment(file, direction, "too long together"),
         Fact::BeyondMaximum { place, maximum, .. } => {
@@ -30,7 +30,7 @@ pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<Place> {
             entry(file, finding, place, &format!("not an entry of {wanted} that exists"))
         }
         Fact::NotNext { place, wanted, .. } => {
-            entry(file, finding, place, &format!("subindex {wanted} comes next"))
+            entry(file, finding, place, &format!("expected subindex {wanted}"))
         }
         Fact::TooMuchData { .. } => sizes(file, finding),
         Fact::OneSided { amounts } | Fact::Unequal { amounts } => differences(file, direction, &amounts),

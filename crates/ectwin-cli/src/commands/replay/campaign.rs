@@ -211,7 +211,7 @@ fn load(
         load_capture(&mut scenario, &folder.join(&name), fingerprint).map_err(|reason| {
             let at = text.find(&name).unwrap_or_default();
             let help =
-                "a capture by `ectwin run --pcap` or `ectwin replay --pcap`, seen from this file's folder";
+                "a capture from `ectwin run --pcap` or `ectwin replay --pcap`, relative to this file's folder";
             FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)
         })?;
     }

@@ -144,7 +144,7 @@ pub(crate) fn from_environment(of: &Variables) -> Result<Shard, String> {
             return Err(format!("none of the variables {} is set", names.join(", ")));
         }
         [first, second, ..] => {
-            return Err(format!("{} and {} both name a part", first.index, second.index));
+            return Err(format!("both {} and {} define a part", first.index, second.index));
         }
     };
     let index = number(source.index, of)?;

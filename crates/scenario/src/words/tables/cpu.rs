@@ -29,7 +29,7 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         "and with them those of the unit; with `fail_soft = false` I/O refreshing starts again, unless the cause persists",
         |units| ResetNxBusErrors { units }),
     row!("cycle the power of the CPU Rack of {units}", "cycle the power of the CPU Rack of unit 1",
-        "CPU Unit and unit, off and on at once; RETAIN variables and the non-volatile memory stay",
+        "power of CPU Unit and unit off, and on again immediately; RETAIN variables and the non-volatile memory are kept",
         |units| CycleRackPower { units }),
     row!("set the inputs of {unit} to {bytes}", "set the inputs of unit 1 to 01 02 03",
         "data to the master from the first byte on, unless the program writes them",

@@ -38,7 +38,7 @@ pub(super) fn integer_of(elementary: Elementary, text: &str, span: Span) -> Resu
     }
     let (negative, digits) = sign(text);
     if !digits.contains('#') && digits.contains(['.', 'e', 'E']) {
-        return Err(Problem::new(span, format!("{elementary} takes whole numbers, not `{text}`")));
+        return Err(Problem::new(span, format!("{elementary} requires whole numbers, not `{text}`")));
     }
     let magnitude = magnitude(digits, span)?;
     let value = if negative { -magnitude } else { magnitude };

@@ -115,8 +115,7 @@ impl Parser<'_> {
         let mut problem = self.missing_behind(&format!("`{}` {place}", word.word()));
         let (before, here) = (self.previous(), self.here());
         if self.pragmas.iter().any(|pragma| before.end <= pragma.start && pragma.end <= here.start) {
-            problem =
-                problem.help("text in `{…}` is a pragma and is ignored; blocks are written with words");
+            problem = problem.help("text in `{…}` is a pragma and is ignored; blocks are written with words");
         }
         let operators = [Keyword::And, Keyword::Or, Keyword::Xor, Keyword::Mod];
         let is_name = self.token() == Token::Name;
