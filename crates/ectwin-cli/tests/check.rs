@@ -125,7 +125,7 @@ fn people_see_the_place_the_event_the_correction_and_the_exchange() {
     let fragments = [
         "392E0000 Incorrect RxPDO Mapping Order (rule sm_order)",
         "check-people.toml:6:22]",
-        "comes before 0x1602",
+        "must be before 0x1602",
         "Assign the PDOs in ascending order",
         "not an entry of 0x6000 that exists",
         "4 I/O entries",

@@ -197,7 +197,7 @@ fn every_finding_says_what_is_wrong_and_what_helps() {
         "Illegal I/O Entry Added M to C: I/O entry mapping 0x1A01 (Data Set in 15 UINT Arrays from EtherCAT Master \
          to CPU Unit) has 6001:01, which cannot be in it. Use only entries of 0x6000, subindexes 01 to 28.",
         "Incorrect I/O Entry Order M to C: I/O entry mapping 0x1A01 (Data Set in 15 UINT Arrays from EtherCAT \
-         Master to CPU Unit) has 6000:02 where 6000:01 comes next. List the entries from subindex 01 in ascending \
+         Master to CPU Unit) has 6000:02 where 6000:01 is expected. List the entries from subindex 01 in ascending \
          order without a gap.",
     ];
     assert_eq!(verdict.findings.iter().map(words).collect::<Vec<_>>(), expected);

@@ -72,7 +72,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "no unit has the device variable",
             "",
         ),
-        ("{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }", "beyond UINT", "is UINT"),
+        ("{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }", "out of range of UINT", "is UINT"),
         (
             "{ cpu = \"force N1_UINTs_01_C_to_M to 1\" }",
             "not a list of 15 elements",
