@@ -59,7 +59,7 @@ fn without_unit_files_there_are_as_many_units_as_have_answered() {
     let told =
         bench.ectwin(&["import", "captures/live.pcapng", "-o", "one.toml", "--unit", "units/unit.toml"]);
     assert_eq!(told.code, Some(0));
-    assert!(told.stderr.contains("the capture shows a line of 3 units, and 1 are given"), "{}", told.stderr);
+    assert!(told.stderr.contains("the capture contains a line of 3 units, but 1 are given"), "{}", told.stderr);
 }
 
 #[test]
@@ -157,7 +157,7 @@ fn a_capture_of_more_units_than_there_can_be_makes_no_scenario_of_them() {
         std::fs::write(bench.folder.join("line.pcapng"), [section, ethernet, sent, back].concat()).unwrap();
         let ended = bench.ectwin(&["import", "line.pcapng", "-o", &format!("of-{units}.toml")]);
         assert_eq!(ended.code, Some(code), "{units}: {}{}", ended.stdout, ended.stderr);
-        let says = ended.stderr.contains(&format!("shows a line of {units} units; 1000 are the most"));
+        let says = ended.stderr.contains(&format!("contains a line of {units} units; at most 1000"));
         assert_eq!(says, code == 2, "{}", ended.stderr);
     }
 }

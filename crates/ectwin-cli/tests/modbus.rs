@@ -113,5 +113,5 @@ fn a_port_that_is_taken_ends_the_command_like_a_link_that_cannot_be_opened() {
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(3), "{told}");
     assert!(told.contains(&format!("Modbus TCP cannot be served at 127.0.0.1:{port}")), "{told}");
-    assert!(told.contains("help: another program listens there"), "{told}");
+    assert!(told.contains("help: another program uses this port"), "{told}");
 }

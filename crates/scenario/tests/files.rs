@@ -115,7 +115,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "break",
         ),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
-        ("{ at = \"61s\", line = \"be quiet\" }", "behind the limit of 1m", "limit"),
+        ("{ at = \"61s\", line = \"be quiet\" }", "after the limit of 1m", "limit"),
         ("{ lines = \"be quiet\" }", "unknown key `lines`", "did you mean `line`?"),
     ];
     for (text, message, help) in cases {
@@ -185,7 +185,7 @@ line 7, column 5: unknown key `expct`
 `jitter` or `random`; did you mean `expect`?
 line 7, column 23: `at` is an integer
   expected a duration such as \"1.5ms\"
-line 8, column 12: `restrat unit 1` is no sentence that can stand here
+line 8, column 12: `restrat unit 1` is not a valid sentence here
   did you mean `restart unit 1`?
 line 9, column 14: unknown key `unit.restrat`
   expected `restart`, `cycle_power`, `power_off`, `power_on`, `reset_errors`, `clear_event_log`, `set_id_switch`, \

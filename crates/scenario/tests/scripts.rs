@@ -128,7 +128,7 @@ fn what_is_wrong_with_a_script_is_told_with_the_number_of_the_step() {
                 trigger: Trigger::At(Duration::from_secs(61)),
                 ..Step::at_once(Order::Line(LineOrder::BeQuiet))
             },
-            "lies behind the limit of 60s",
+            "is after the limit of 60s",
         ),
         (
             Step {

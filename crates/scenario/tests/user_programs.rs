@@ -75,7 +75,7 @@ fn the_masters_program_is_checked_against_the_entries_that_the_steps_map() {
 fn what_is_wrong_with_the_master_is_told() {
     for (master, message) in [
         ("program = \"no.st\"", "the program no.st cannot be read: no such file"),
-        ("program = \"m.st\", device_names = [\"E 1\"]", "`E 1` is no device name"),
+        ("program = \"m.st\", device_names = [\"E 1\"]", "`E 1` is not a device name"),
         ("program = \"m.st\", device_names = [\"A\", \"B\"]", "2 device names for 1 units"),
         ("program = \"m.st\", task_period = \"0ms\"", "no CPU Unit has a task period of 0s"),
         ("program = \"m.st\", task_period = \"1.3ms\"", "no CPU Unit has a task period of 1.3ms"),
