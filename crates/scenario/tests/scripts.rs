@@ -121,7 +121,7 @@ fn what_is_wrong_with_a_script_is_told_with_the_number_of_the_step() {
             order(MasterOrder::UseMailboxCounter { counter: 8 }),
             "step 3: expected a mailbox counter from 0 to 7",
         ),
-        (order(MasterOrder::SetOutputs { unit: unit_2, at: 0, bytes: [1].into() }), "not there"),
+        (order(MasterOrder::SetOutputs { unit: unit_2, at: 0, bytes: [1].into() }), "does not exist"),
         (order(MasterOrder::SetOutputs { unit: UnitNumber::at(0), at: 0, bytes: nothing }), "expected bytes"),
         (
             Step {
@@ -170,8 +170,8 @@ fn steps_are_tables_of_the_same_keys_in_json_and_toml() {
         (r#"{ "expect": { "master_idle": {} }, "within": "1ms", "for": "1ms" }"#, "contradict"),
         (r#"{ "repeat": 3, "line": { "be_quiet": {} } }"#, "`repeat` and `every` belong together"),
         (r#"{ "random": 3 }"#, "needs the time"),
-        (r#"{ "after": "1ms" }"#, "this one 0"),
-        (r#"{ "line": { "be_quiet": {} }, "never": { "master_idle": {} } }"#, "this one 2"),
+        (r#"{ "after": "1ms" }"#, "this one has 0"),
+        (r#"{ "line": { "be_quiet": {} }, "never": { "master_idle": {} } }"#, "this one has 2"),
         (r#"{ "lines": {} }"#, "unknown field `lines`"),
         (r#"{ "at": "5", "line": { "be_quiet": {} } }"#, "not a duration"),
     ] {

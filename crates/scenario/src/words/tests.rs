@@ -41,8 +41,8 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
     );
     assert!(problem("unit 1 has recorded 8500").contains("an event code of eight hexadecimal digits"));
     assert!(problem("unit one is in OP").contains("is not a valid sentence here / did you mean"));
-    assert!(problem("unit 0 is in OP").contains("is no sentence"), "units count from 1");
-    assert!(problem("").contains("is no sentence"));
+    assert!(problem("unit 0 is in OP").contains("is not a valid sentence"), "units count from 1");
+    assert!(problem("").contains("is not a valid sentence"));
 }
 
 #[test]

@@ -29,8 +29,8 @@ fn values_are_written_as_in_structured_text() {
 #[test]
 fn what_is_wrong_is_told_with_its_place_and_limits() {
     let uint = |text: &str| single(Elementary::Uint, text).expect_err("wrong");
-    assert_eq!(uint("65536"), "column 1: beyond UINT, which has 0 to 65535");
-    assert_eq!(uint(" -1"), "column 2: beyond UINT, which has 0 to 65535");
+    assert_eq!(uint("65536"), "column 1: out of range of UINT: 0 to 65535");
+    assert_eq!(uint(" -1"), "column 2: out of range of UINT: 0 to 65535");
     assert_eq!(uint("INT#5"), "column 1: not of the type UINT");
     for text in ["", "_1", "1_", "1__2", "16#", "16#G", "2#2", "1.5", "--1", "+-1", "8#+7", "x", "5 6", "ä"]
     {
@@ -38,7 +38,7 @@ fn what_is_wrong_is_told_with_its_place_and_limits() {
     }
     assert_eq!(single(Elementary::Bool, "2"), Err("column 1: not TRUE or FALSE".into()));
     assert_eq!(single(Elementary::Time, "5"), Err("column 1: not a duration such as T#1.5ms".into()));
-    assert_eq!(single(Elementary::Sint, "128"), Err("column 1: beyond SINT, which has -128 to 127".into()));
+    assert_eq!(single(Elementary::Sint, "128"), Err("column 1: out of range of SINT: -128 to 127".into()));
     let list = |text: &str| UINTS.parse(text).expect_err("wrong").to_string();
     assert_eq!(
         list("1, 2, 3"),
@@ -49,7 +49,7 @@ fn what_is_wrong_is_told_with_its_place_and_limits() {
     assert_eq!(list("[65535(0)]"), "column 2: 65535 elements for an array of 3");
     assert_eq!(list("[1, x, 3]"), "column 5: not a number such as 12, -3 or 16#1F");
     assert_eq!(list("[1, x(0)]"), "column 5: not a number such as 12, -3 or 16#1F");
-    assert_eq!(list("[1, 2(70000)]"), "column 7: beyond UINT, which has 0 to 65535");
+    assert_eq!(list("[1, 2(70000)]"), "column 7: out of range of UINT: 0 to 65535");
 }
 
 proptest! {
