@@ -62,7 +62,7 @@ impl core::error::Error for NotACapture {}
 /// Reads the packets of a capture, in the order of the file.
 ///
 /// [`NotACapture`]: the defect and its position.
-/// [`NotACapture`]: what is wrong, and where.
+/// [`NotACapture`]: the defect and its position.
 pub fn read_packets(bytes: &[u8]) -> Result<Vec<Packet>, NotACapture> {
     packets(bytes)?.collect()
 }

@@ -1,4 +1,4 @@
-//! Parts that unit models share, each driven by the tables of the model.
+//! Parts shared by unit models, each driven by the tables of the model.
 
 pub mod exchange;
 pub mod indicators;

@@ -1,4 +1,4 @@
-//! The terminal as the crates above see it: without events, faults and switches. The controller itself drives RUN and the
+//! The terminal for the crates above: without events, faults and switches. The controller itself drives RUN and the
 //! indicators of the ports.
 
 use core::fmt::Debug;
@@ -22,7 +22,7 @@ use crate::wiring::Wiring;
 /// The model.
 pub static MODEL: DigitalModel = DigitalModel;
 
-/// What of the model is the same for all terminals.
+/// The values that are the same for all terminals.
 #[derive(Clone, Copy, Debug)]
 pub struct DigitalModel;
 

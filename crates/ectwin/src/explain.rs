@@ -63,7 +63,7 @@ pub fn explain(text: &str) -> Result<Vec<Explanation>, Unexplained> {
     }
 }
 
-/// What the rest of a text means as this kind; none if it is something else, or not as definite as a number.
+/// The meaning of the rest of a text as this kind; none if it has another meaning, or is not as definite as a number.
 fn of_kind(kind: &Kind, rest: &str) -> Option<Result<Vec<Explanation>, Unexplained>> {
     match meant_by(rest) {
         Ok(meanings) => {

@@ -250,7 +250,7 @@ impl Esc {
         }
     }
 
-    /// A good frame arrives at a closed port that has a link: in auto-close mode its loop opens.
+    /// A valid frame arrives at a closed port that has a link: in auto-close mode its loop opens.
     pub fn frame_at_closed_port(&mut self, port: Port) {
         if self.ports.frame_arrives(port, &mut self.memory) {
             self.ports_changed = true;

@@ -66,7 +66,7 @@ const PDI_WATCHDOG_OK: u16 = 1 << 1;
 pub(crate) struct Ports {
     status: [PortStatus; 2],
     /// In auto-close mode a loop that has no link, or lost it, remains closed until DL control is written while
-    /// there is a link, or a good frame arrives.
+    /// there is a link, or a valid frame arrives.
     latched_closed: [bool; 2],
 }
 
@@ -105,7 +105,7 @@ impl Ports {
         self.update(memory)
     }
 
-    /// A good frame arrives at a closed port. Returns whether that opens its loop.
+    /// A valid frame arrives at a closed port. Returns whether that opens its loop.
     pub(crate) fn frame_arrives(&mut self, port: Port, memory: &mut Memory) -> bool {
         if loop_mode(memory, port) != LOOP_AUTO_CLOSE || !self.status(port).link {
             return false;

@@ -5,7 +5,7 @@ use time::Duration;
 /// The information from the unit to the CPU Unit, sent with the data M to C.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct UnitHeader {
-    /// The status word of the unit: of an EtherCAT slave unit its EtherCAT Slave Status, NX object 6003:01
+    /// The status word of the unit: for an EtherCAT slave unit its EtherCAT Slave Status, NX object 6003:01
     /// ([`crate::SlaveStatus`]).
     pub status: u16,
     /// NX Unit I/O Data Active Status: the unit refreshes, its I/O data can be used for control.

@@ -1,4 +1,4 @@
-//! Process images between two threads: wait-free on both sides, never torn.
+//! Process images between two threads: wait-free on both sides, always consistent.
 
 /// A process image and its header.
 #[derive(Clone, Debug)]

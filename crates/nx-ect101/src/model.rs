@@ -1,4 +1,4 @@
-//! The unit as the house sees it: the words of the model, and the view that knows no model.
+//! The unit for the crates above: the words of the model, and the view that is independent of models.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ use crate::unit_file::{self, UnitFile};
 /// The model.
 pub static MODEL: NxEct101Model = NxEct101Model;
 
-/// What of the model is the same for all units.
+/// The values that are the same for all units.
 #[derive(Clone, Copy, Debug)]
 pub struct NxEct101Model;
 

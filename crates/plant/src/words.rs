@@ -1,16 +1,16 @@
-//! Words that mean something to at least one model.
+//! Words with a meaning in at least one model.
 
 use unit_model::{EventCode, EventInfo};
 
 use crate::registry::models;
 
-/// The event with this code, of the first model that has it.
+/// The event with this code, from the first model that has it.
 #[must_use]
 pub fn event(code: EventCode) -> Option<EventInfo> {
     models().iter().find_map(|model| model.event(code))
 }
 
-/// Whether a model has a fault of this name.
+/// Whether a model has a fault with this name.
 #[must_use]
 pub fn has_fault(name: &str) -> bool {
     models().iter().any(|model| model.faults().contains(&name))

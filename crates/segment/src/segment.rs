@@ -227,7 +227,7 @@ impl Segment {
         FrameFate::Returned
     }
 
-    /// A good frame at a closed port: in auto-close mode the loop opens, for the next frame.
+    /// A valid frame at a closed port: in auto-close mode the loop opens, for the next frame.
     fn arrive_at_closed_port(&mut self, position: usize, port: Port) {
         if let Some(esc) = self.escs.get_mut(position) {
             esc.frame_at_closed_port(port);

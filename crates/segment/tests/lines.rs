@@ -81,7 +81,7 @@ fn a_port_that_is_held_open_without_a_cable_loses_the_frame() {
     assert_eq!(count(&mut line), 2, "the write was processed before the frame was lost");
 }
 
-/// Loop setting of both ports, as DL control has it.
+/// Loop setting of both ports, as in DL control.
 const AUTO: u8 = 0b00;
 const AUTO_CLOSE: u8 = 0b01;
 const CLOSED: u8 = 0b11;

@@ -1,4 +1,4 @@
-//! Events of units: code, level, log, and errors that exist.
+//! Events of units: code, level, log, and current errors.
 
 use core::fmt;
 
@@ -49,7 +49,7 @@ pub struct EventInfo {
     pub level: EventLevel,
 }
 
-/// An error that exists.
+/// A current error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CurrentError {
     /// Its event.

@@ -1,8 +1,8 @@
-//! What a unit model gives to the house: its name and its words ([`Model`]), and a view of its units that knows no
-//! model ([`ModelUnit`]).
+//! The interface of a unit model: its name and its words ([`Model`]), and a view of its units that is independent of
+//! the model ([`ModelUnit`]).
 //!
-//! Whoever runs a line holds `Box<dyn ModelUnit>`: faults, events, indicators and switches are looked up by their names
-//! and codes, and [`Model`] lists them. A model that has none of something leaves the method out.
+//! Code that runs a line holds `Box<dyn ModelUnit>`: faults, events, indicators and switches are looked up by their names
+//! and codes, and [`Model`] lists them. A model without one of these does not implement the method.
 
 mod event;
 mod model;

@@ -1,4 +1,4 @@
-//! A unit model: its name, and the words that it knows.
+//! A unit model: its name, and its words.
 
 use crate::event::{EventCode, EventInfo};
 
@@ -22,7 +22,7 @@ pub trait Model: Sync {
         &[]
     }
 
-    /// The names of the switches that a hand can set.
+    /// The names of the switches that can be set by hand.
     fn switches(&self) -> &'static [&'static str] {
         &[]
     }

@@ -1,9 +1,9 @@
-//! What the slave stack and the line around a unit show, for its indicators.
+//! The state of the slave stack and the line, for the indicators of a unit.
 
 use coe_kit::indicators::PortCondition;
 use wire::{AlStatus, AlStatusCode};
 
-/// What a slave shows.
+/// The visible state of a slave.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SlaveView {
     /// State and error indication, as the master reads them.

@@ -1,4 +1,4 @@
-//! A unit as the house sees it, whatever its model.
+//! A unit for the crates above, independent of its model.
 
 use core::any::Any;
 use core::fmt::{self, Debug};
@@ -10,7 +10,7 @@ use crate::event::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChange
 use crate::model::Model;
 use crate::slave_view::SlaveView;
 
-/// A unit under power. The slave stack works with [`Unit`]; this is the other side, which no master sees.
+/// A unit with power. The slave stack uses [`Unit`]; this is the internal side, which is not visible to masters.
 pub trait ModelUnit: Unit + Any + Debug + Send {
     /// The model, with its words.
     fn model(&self) -> &'static dyn Model;
@@ -18,7 +18,7 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
     /// Whether the process data of each direction can be used.
     fn data_valid(&self) -> DataValid;
 
-    /// Takes the oldest event that has occurred and was not taken yet. A unit keeps a bounded number of them.
+    /// Takes the oldest event that has not been taken yet. A unit keeps a bounded number of them.
     fn take_event(&mut self) -> Option<EventCode> {
         None
     }
@@ -33,12 +33,12 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
         0
     }
 
-    /// Whether the diagnosis history has messages that no master has acknowledged.
+    /// Whether the diagnosis history has messages that have not been acknowledged.
     fn has_new_messages(&self) -> bool {
         false
     }
 
-    /// A user resets the errors. An error whose cause still exists occurs again.
+    /// A user resets the errors. An error whose cause persists occurs again.
     fn reset_errors(&mut self) {}
 
     /// A user changes the level of an event, in force from the next start of the unit on.
@@ -55,7 +55,7 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
     /// The cause of a fault appears.
     ///
     /// # Errors
-    /// The model has no fault of this name.
+    /// The model has no fault with this name.
     fn inject(&mut self, _fault: &str) -> Result<(), NotThere> {
         Err(NotThere)
     }
@@ -63,44 +63,44 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
     /// The cause of a fault disappears.
     ///
     /// # Errors
-    /// The model has no fault of this name.
+    /// The model has no fault with this name.
     fn remove(&mut self, _fault: &str) -> Result<(), NotThere> {
         Err(NotThere)
     }
 
-    /// A hand sets a switch.
+    /// Sets a switch.
     ///
     /// # Errors
-    /// The model has no switch of this name, or the switch has no such position.
+    /// The model has no switch with this name, or the switch has no such position.
     fn set_switch(&mut self, _switch: &str, _position: u16) -> Result<(), NotThere> {
         Err(NotThere)
     }
 
-    /// What an indicator does while the unit has power; none if the model has no indicator of this name.
+    /// The pattern of an indicator while the unit has power; none if the model has no indicator with this name.
     fn indicator(&self, _name: &str, _slave: &SlaveView) -> Option<Pattern> {
         None
     }
 
-    /// Takes over what has changed in the EEPROM, of which the wire has written `sii_words_written` words since
-    /// power-on. Whether the non-volatile memory has to be stored now.
+    /// Copies the changes of the EEPROM, to which the master has written `sii_words_written` words since
+    /// power-on. Returns whether the non-volatile memory must be stored now.
     fn take_memory_change(&mut self, _sii_image: &[u8], _sii_words_written: u32) -> bool {
         false
     }
 
-    /// Writes the non-volatile memory in place of what `bytes` holds.
+    /// Writes the non-volatile memory to `bytes`, replacing their contents.
     fn encode_memory(&self, bytes: &mut Vec<u8>) {
         bytes.clear();
     }
 }
 
 impl dyn ModelUnit {
-    /// The unit as one of this model, for whoever knows the model.
+    /// The unit as its model's type, for code that knows the model.
     #[must_use]
     pub fn as_model<M: ModelUnit>(&self) -> Option<&M> {
         (self as &dyn Any).downcast_ref()
     }
 
-    /// The same, to be changed.
+    /// The same, for changes.
     pub fn as_model_mut<M: ModelUnit>(&mut self) -> Option<&mut M> {
         (self as &mut dyn Any).downcast_mut()
     }
@@ -115,7 +115,7 @@ pub struct DataValid {
     pub inputs: bool,
 }
 
-/// The model has nothing of this name.
+/// The model has no item with this name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NotThere;
 

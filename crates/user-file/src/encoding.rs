@@ -1,9 +1,9 @@
-//! Which character sets a text that is not UTF-8 may be in.
+//! The possible character sets of a text that is not UTF-8.
 
 #[cfg(feature = "encodings")]
 mod by_letters;
 
-/// The names of the likely character sets, as `iconv` takes them, the likeliest first; none if it is not known.
+/// The names of the likely character sets, as `iconv` accepts them, the most likely first; none if it is unknown.
 #[cfg(feature = "encodings")]
 pub(crate) fn guessed(bytes: &[u8]) -> Vec<&'static str> {
     by_letters::guessed(bytes).map_or_else(|| vec![by_statistics(bytes)], <[_]>::to_vec)
@@ -15,7 +15,7 @@ pub(crate) const fn guessed(_bytes: &[u8]) -> Vec<&'static str> {
     Vec::new()
 }
 
-/// What the frequencies of letters say. They need a text of some length.
+/// The result of letter frequencies, which needs a text of some length.
 #[cfg(feature = "encodings")]
 fn by_statistics(bytes: &[u8]) -> &'static str {
     use chardetng::{EncodingDetector, Iso2022JpDetection, Utf8Detection};
@@ -23,7 +23,7 @@ fn by_statistics(bytes: &[u8]) -> &'static str {
     let mut detector = EncodingDetector::new(Iso2022JpDetection::Deny);
     detector.feed(bytes, true);
     match detector.guess(None, Utf8Detection::Deny).name() {
-        // Latin-1 with letters in place of control characters: no file says which of the two it is.
+        // Latin-1 with letters in place of control characters: files do not distinguish the two.
         "windows-1252" => by_letters::LATIN,
         other => other,
     }

@@ -22,9 +22,9 @@ pub struct FileError {
     pub expected: String,
     /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// The way out; empty if the message says it.
+    /// The remedy; empty if the message contains it.
     pub help: String,
-    /// How many names are expected.
+    /// The number of expected names.
     pub(crate) names: usize,
 }
 
@@ -137,9 +137,9 @@ pub struct Problem {
     pub expected: String,
     /// The valid name nearest to the word in the file, if one is near.
     pub nearest: Option<String>,
-    /// The way out; empty if the message says it.
+    /// The remedy; empty if the message contains it.
     pub help: String,
-    /// How many names are expected.
+    /// The number of expected names.
     pub(crate) names: usize,
 }
 
@@ -156,7 +156,7 @@ impl Problem {
         }
     }
 
-    /// A problem with a way out.
+    /// A problem with a remedy.
     #[must_use]
     pub fn with_help(self, help: impl Into<String>) -> Self {
         Self { help: help.into(), ..self }

@@ -1,17 +1,17 @@
-//! The keys that a type has in files, as serde knows them.
+//! The keys of a type in files, from serde.
 
 use core::fmt;
 
 use serde::de::{self, DeserializeOwned, Deserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
-/// The names of the fields of a struct; none of another type.
+/// The names of the fields of a struct; none for another type.
 #[must_use]
 pub fn field_names<T: DeserializeOwned>() -> &'static [&'static str] {
     T::deserialize(Asked).err().map(|Names(names)| names).unwrap_or_default()
 }
 
-/// Is asked for a value, and answers with the names that it was asked by.
+/// A deserializer that returns the names with which it was called.
 struct Asked;
 
 #[derive(Debug)]

@@ -183,8 +183,8 @@ fn is_sii(bytes: &[u8]) -> bool {
         && rest.starts_with(&[sii_checksum(configuration), 0])
 }
 
-/// A program begins with a declaration, behind comments and pragmas. Statements alone could be anything, unless they
-/// follow a comment that no other file of ours begins with.
+/// A program begins with a declaration, after comments and pragmas. Statements alone could be anything, unless they
+/// follow a comment with which no other kind of file begins.
 fn is_structured_text(file: &Sample<'_>) -> bool {
     let start = file.start();
     let rest = without_comments(start);
@@ -216,7 +216,7 @@ fn begins_with_declaration(text: &str) -> bool {
     !is_key && WORDS.iter().any(|known| known.eq_ignore_ascii_case(word))
 }
 
-/// The text behind the comments and pragmas of Structured Text that it begins with.
+/// The text after its initial comments and pragmas of Structured Text.
 fn without_comments(text: &str) -> &str {
     const COMMENTS: [(&str, &str); 4] = [("(*", "*)"), ("/*", "*/"), ("//", "\n"), ("{", "}")];
     let mut rest = text.trim_start();

@@ -38,13 +38,13 @@ impl<T> Mistakes<T> {
         self.kept.is_empty()
     }
 
-    /// How many there are.
+    /// Their number.
     #[must_use]
     pub const fn count(&self) -> usize {
         self.kept.len() + self.more
     }
 
-    /// The first ones, and how many more there are.
+    /// The first ones, and the number of others.
     #[must_use]
     pub fn into_parts(self) -> (Vec<T>, usize) {
         (self.kept.into_iter().map(|(_, mistake)| mistake).collect(), self.more)

@@ -61,7 +61,7 @@ impl Reader<'_> {
         self.errors.note(span.start, || FileError::new(text, span, problem()));
     }
 
-    /// How many things are refused so far.
+    /// Number of mistakes so far.
     #[must_use]
     pub const fn refused(&self) -> usize {
         self.errors.count()
@@ -84,7 +84,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Refuses `section` if it lacks `key`; `expected` shows how to write it.
+    /// Refuses `section` without `key`; `expected` shows how to write it.
     pub fn require(&mut self, section: &Section<'_, '_>, key: &str, expected: &str) {
         if section.get(key).is_none() {
             let start = section.span.start;
@@ -169,7 +169,7 @@ pub struct Section<'d, 'i> {
 }
 
 impl<'d, 'i> Section<'d, 'i> {
-    /// `value` as a table whose keys are named behind `place`; none when it is no table.
+    /// `value` as a table whose keys follow `place` in messages; none if it is not a table.
     #[must_use]
     pub fn of(place: &str, value: &'d Value<'i>) -> Option<Self> {
         let table = value.get_ref().as_table()?;

@@ -35,7 +35,7 @@ fn not_utf8(bytes: &[u8], wrong: usize, wanted: Wanted) -> Refusal {
     not_utf8_but(&encoding::guessed(bytes), &format!(": byte 0x{byte:02X} in line {line}"))
 }
 
-/// Refuses a text in another character set: perhaps one of these, the likeliest first.
+/// Refuses a text in another character set: perhaps one of these, the most likely first.
 fn not_utf8_but(encodings: &[&str], place: &str) -> Refusal {
     let Some(likeliest) = encodings.first() else {
         return Refusal::new(format!("this text is not UTF-8{place}"), "save it as UTF-8");

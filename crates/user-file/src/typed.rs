@@ -1,4 +1,4 @@
-//! Values of types that serde reads. Everything that is wrong in such a value is refused, not only the first thing.
+//! Values of types that serde reads. All mistakes in such a value are reported, not only the first one.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -19,7 +19,7 @@ use crate::reader::{Reader, Section, Value, wrong_type};
 use crate::words::shown;
 
 impl Reader<'_> {
-    /// `value` as a `T`; none when something in it is refused.
+    /// `value` as a `T`; none if a part of it is refused.
     pub fn typed<T: DeserializeOwned>(&mut self, place: &str, value: &Value<'_>) -> Option<T> {
         let mut findings = Findings { reader: self, refused: BTreeSet::new() };
         for _ in 0..PASSES_MAX {
@@ -29,7 +29,7 @@ impl Reader<'_> {
             if findings.refused.is_empty() {
                 return read.ok();
             }
-            // A refused part ends the reading of what it is in. Without it, the parts behind it are read too.
+            // A refused part ends the reading of the value around it. When it is left out, the parts after it are read too.
             if findings.refused.len() == known {
                 break;
             }
@@ -38,10 +38,10 @@ impl Reader<'_> {
     }
 }
 
-/// How often one value is read: as many of its parts are refused at most, and unknown keys besides.
+/// Maximum number of times that one value is read: this limits its refused parts, in addition to unknown keys.
 const PASSES_MAX: usize = 2 * MISTAKES_MAX;
 
-/// What is wrong in one value so far.
+/// The mistakes in one value so far.
 struct Findings<'r, 't> {
     reader: &'r mut Reader<'t>,
     /// First and last byte of the keys and values that are left out from now on.
@@ -67,12 +67,12 @@ impl Findings<'_, '_> {
         }
     }
 
-    /// Refuses the value at `span`, unless what is wrong in it is refused already.
+    /// Refuses the value at `span`, unless its mistake has already been reported.
     fn refuse(&mut self, place: &str, span: Range<usize>, wrong: Wrong) -> Wrong {
         let problem = match wrong {
             Wrong::Refused => return Wrong::Refused,
             Wrong::Incomplete => None,
-            // What is missing may be one of the refused parts.
+            // The missing part may be one of the refused parts.
             Wrong::Missing(_) | Wrong::Length { .. } if !self.refused.is_empty() => None,
             Wrong::Missing(name) => Some(Problem::new(format!("`{place}.{name}` is missing"), "")),
             Wrong::Length { count, expected } => {
@@ -90,22 +90,22 @@ impl Findings<'_, '_> {
     }
 }
 
-/// Why a value is not read.
+/// Why a value cannot be read.
 #[derive(Debug)]
 enum Wrong {
-    /// What is wrong is refused, and nothing of it is read again.
+    /// The mistake has been reported, and this part is not read again.
     Refused,
-    /// It needs something that is refused.
+    /// It needs a part that has been refused.
     Incomplete,
     /// A key is missing.
     Missing(&'static str),
     /// A list has too few elements, or too many.
     Length { count: usize, expected: String },
-    /// It is something else than expected.
+    /// It differs from the expected type.
     Other { found: String, expected: String },
-    /// What its type says.
+    /// The message of its type.
     Words(String),
-    /// What this reader says.
+    /// The message of this reader.
     Problem(Box<Problem>),
 }
 
@@ -161,7 +161,7 @@ impl<'f, 'r, 't, 'd, 'i> Part<'f, 'r, 't, 'd, 'i> {
         self.read(|part| seed.deserialize(part))
     }
 
-    /// What `read` makes of it; what is wrong is refused at its place.
+    /// The result of `read`; a mistake is reported at its place.
     fn read<T>(self, read: impl FnOnce(Part<'_, 'r, 't, 'd, 'i>) -> Result<T, Wrong>) -> Result<T, Wrong> {
         let Self { findings, place, value } = self;
         if findings.is_refused(&value.span()) {
@@ -171,7 +171,7 @@ impl<'f, 'r, 't, 'd, 'i> Part<'f, 'r, 't, 'd, 'i> {
         read(part).map_err(|wrong| findings.refuse(&place, value.span(), wrong))
     }
 
-    /// The keys of a table; `names` are those that it may have, none for any.
+    /// The keys of a table; `names` are the permitted ones, none if all are permitted.
     fn keys<'de, V: Visitor<'de>>(
         self,
         names: Option<&'static [&'static str]>,
@@ -333,7 +333,7 @@ impl<'de, 'd, 'i: 'd, E: Iterator<Item = (usize, &'d Value<'i>)>> SeqAccess<'de>
     }
 }
 
-/// The variant of an enum that a table names by its key.
+/// The variant of an enum, given by the key of a table.
 struct Variant<'f, 'r, 't, 'd, 'i> {
     name: &'d str,
     part: Part<'f, 'r, 't, 'd, 'i>,

@@ -1,4 +1,4 @@
-//! Values of types that serde reads: everything that is wrong in one is told, with its place and the nearest name.
+//! Values of types that serde reads: all mistakes are reported, with their places and the nearest names.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 

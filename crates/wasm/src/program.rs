@@ -30,7 +30,7 @@ impl WasmProgram {
     /// Reads and checks a module in binary form for a CPU Unit that has these variables.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Its defect.
     pub fn load(octets: &[u8], variables: &DeviceVariables) -> Result<Self, WasmError> {
         let image = Image::read(octets)?;
         let budget_statements = STATEMENT_BUDGET_DEFAULT;

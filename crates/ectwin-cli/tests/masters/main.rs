@@ -173,7 +173,7 @@ fn pysoem_exchanges_four_entries_where_only_four_match() {
     .run();
 }
 
-/// The script also shows that one search is not enough, and its function `ready_units` is the advice of the page.
+/// The script also shows that one search is not sufficient; the page recommends its function `ready_units`.
 #[test]
 fn pysoem_waits_for_units_that_are_not_ready() {
     let page = read("docs/user/test-your-master.md");
@@ -185,7 +185,7 @@ fn pysoem_waits_for_units_that_are_not_ready() {
         units: &["../tests/masters/units/start-up.toml"; 2],
         script: "start_up.py",
         arguments: &["2"],
-        // A request for PRE-OP that a unit did not take.
+        // A request for PRE-OP that a unit did not accept.
         visible: &["ecat.reg.alctrl.ctrl == 0x02 && ecat.cnt == 0 && eth.src[0] & 2"],
     }
     .run();

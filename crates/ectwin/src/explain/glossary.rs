@@ -22,7 +22,7 @@ pub(super) fn words() -> impl Iterator<Item = (&'static str, &'static str)> {
     ROWS.iter().flat_map(|row| split(row.words).map(|word| (word, row.words)))
 }
 
-/// The words of each row as the glossary has them.
+/// The words of each row, as in the glossary.
 pub(super) fn rows_of_words() -> impl Iterator<Item = &'static str> {
     ROWS.iter().map(|row| row.words)
 }

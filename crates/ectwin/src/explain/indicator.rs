@@ -18,7 +18,7 @@ pub(super) fn explanation(name: &'static str) -> Option<Explanation> {
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 
-/// What can be seen of each indicator, in the usual spellings, with the indicator: `TS green`, `red ERR LED flickering`.
+/// The possible observations of each indicator, in the usual spellings, with the indicator: `TS green`, `red ERR LED flickering`.
 pub(super) fn lights() -> impl Iterator<Item = (String, &'static str)> {
     Indicator::all().iter().flat_map(|indicator| {
         let statuses = indicator.status.iter().flat_map(seen).collect::<Vec<_>>();

@@ -2,7 +2,7 @@
 
 use super::Subject;
 
-/// The words of a kind, and what they include.
+/// The words of a kind, and the included meanings.
 pub(super) struct Kind {
     words: &'static str,
     pub(super) includes: fn(&Subject) -> bool,
@@ -12,7 +12,7 @@ const fn kind(words: &'static str, includes: fn(&Subject) -> bool) -> Kind {
     Kind { words, includes }
 }
 
-/// Longer words before their beginnings.
+/// Longer words come before words that they begin with.
 #[rustfmt::skip]
 const KINDS: &[Kind] = &[
     kind("nx object", is_nx_object),
@@ -47,7 +47,7 @@ const fn is_nx_object(subject: &Subject) -> bool {
     matches!(subject, Subject::NxObject(_) | Subject::NxEntry(..))
 }
 
-/// The kind and the rest of `text`; none if it begins with no kind. A number may follow at once: `NX6000:01`.
+/// The kind and the rest of `text`; none if it does not begin with a kind. A number may follow directly: `NX6000:01`.
 pub(super) fn split(text: &str) -> Option<(&'static Kind, &str)> {
     let text = text.trim();
     KINDS.iter().find_map(|kind| {

@@ -178,7 +178,7 @@ fn every_indicator_and_pattern_is_explained_by_its_name() {
     assert_eq!(subjects("L/A").len(), 2, "IN and OUT");
 }
 
-/// With `led` beside the name, before and after it, with the pattern, and without.
+/// With `led` next to the name, before and after it, with the pattern, and without.
 #[test]
 fn every_light_of_every_indicator_is_explained() {
     for indicator in nx_ect101::Indicator::all() {
@@ -231,7 +231,7 @@ fn every_function_and_block_of_structured_text_is_explained() {
     assert!(told("ResetNXBError").contains("Execute: BOOL"));
 }
 
-/// Whatever an explanation is headed by can be asked for in the same words.
+/// Every heading of an explanation is itself explained.
 #[test]
 fn every_heading_is_explained_by_its_own_words() {
     let codes = AlStatusCode::TABLE.iter().map(|row| Subject::AlStatus(row.code));

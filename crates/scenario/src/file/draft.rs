@@ -1,4 +1,4 @@
-//! A script of a file. The places of its parts are noted beside.
+//! A script from a file, with the places of its parts.
 
 use time::Duration;
 use user_file::{Section, Value, field_names, wrong_type};
@@ -11,10 +11,10 @@ use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
 use crate::ready::{Draft, is_unit};
 
 impl FileReader<'_, '_> {
-    /// The script with the words of its steps; what is wrong is left out of it.
+    /// The script with the words of its steps; wrong parts are left out.
     pub(super) fn draft(&mut self, file: &Section<'_, '_>) -> Draft {
         let mut script = self.whole(file);
-        // Without `units`, an unknown key may be what they were meant to be.
+        // Without `units`, an unknown key may be a misspelt `units`.
         let are_units_known = file.get("units").is_some() || self.reader.refused() == 0;
         let refused = self.reader.refused();
         script.master = self.reader.section(file, "master").and_then(|master| self.master(&master));
@@ -24,7 +24,7 @@ impl FileReader<'_, '_> {
         Draft { script, written: core::mem::take(&mut self.written), is_whole }
     }
 
-    /// What the file says of the whole.
+    /// The general part of the file.
     fn whole(&mut self, file: &Section<'_, '_>) -> Script {
         self.reader.only(file, field_names::<Script>());
         self.reader.require(file, "title", "`title = \"…\"`, what the scenario shows");
@@ -39,7 +39,7 @@ impl FileReader<'_, '_> {
         script
     }
 
-    /// A limit that cannot be read limits nothing.
+    /// A limit that cannot be read is not applied.
     fn limit(&mut self, file: &Section<'_, '_>, default: Duration) -> Duration {
         let absent = if file.get("limit").is_none() { default } else { Duration::from_nanos(u64::MAX) };
         self.value(file, "limit", values::duration).unwrap_or(absent)

@@ -1,4 +1,4 @@
-//! What is read of a scenario file so far; what is wrong with it is in the reader of all files.
+//! The parts of a scenario file read so far; the common file reader collects its mistakes.
 
 use user_file::{DeValue, LineNumbers, Located, Problem, Reader, Section, Value};
 
@@ -19,7 +19,7 @@ impl<'r, 't> FileReader<'r, 't> {
         Self { reader, lines: LineNumbers::of(text), places: Places::default(), written: Vec::new() }
     }
 
-    /// The value of `key` by `read`; none when it is left out or refused.
+    /// The value of `key`, read with `read`; none if it is left out or refused.
     pub(super) fn value<T>(
         &mut self,
         section: &Section<'_, '_>,
@@ -30,7 +30,7 @@ impl<'r, 't> FileReader<'r, 't> {
     }
 }
 
-/// The place of a value; empty when it is left out.
+/// The place of a value; empty if it is left out.
 pub(super) fn span_of(section: &Section<'_, '_>, key: &str) -> Span {
     section.get(key).map(Value::span).unwrap_or_default()
 }

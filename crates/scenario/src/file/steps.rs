@@ -17,7 +17,7 @@ pub(super) struct StepReading {
     pub(super) written: Written,
 }
 
-/// A step; none if something is wrong with it.
+/// A step; none if it has a mistake.
 pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<'_>) -> Option<StepReading> {
     let refused = file.reader.refused();
     let Some(step) = Section::of("", value) else {
@@ -72,7 +72,7 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
 struct PartReader<'p, 'r, 't, 'd, 'i> {
     file: &'p mut FileReader<'r, 't>,
     step: &'p Section<'d, 'i>,
-    /// Where the order stands, and its words.
+    /// The place of the order, and its words.
     order: Option<(Span, String)>,
 }
 
@@ -85,7 +85,7 @@ impl PartReader<'_, '_, '_, '_, '_> {
         self.file.value(self.step, key, values::number)
     }
 
-    /// The order of the step, or what it expects. A typed value has the words of its sentence.
+    /// The order of the step, or its expectation. A typed value gets the words of its sentence.
     fn order<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
         let value: T = self.said(key)?;
         let written = self.step.get(key)?;

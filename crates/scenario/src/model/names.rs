@@ -60,7 +60,7 @@ impl IndicatorName {
     /// All of them.
     const ALL: [Self; 6] = [Self::Run, Self::Err, Self::LinkIn, Self::LinkOut, Self::TsGreen, Self::TsRed];
 
-    /// Its spelling, which is the name that models give it.
+    /// Its spelling, which is its name in the models.
     pub(crate) const fn as_str(self) -> &'static str {
         match self {
             Self::Run => "RUN",

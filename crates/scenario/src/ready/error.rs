@@ -93,13 +93,13 @@ pub struct ScenarioErrors {
 }
 
 impl ScenarioErrors {
-    /// Of a file.
+    /// Those of a file.
     pub(crate) fn of_file(errors: FileErrors) -> Self {
         let more = errors.more();
         Self { list: errors.into_iter().map(ScenarioError::in_file).collect(), more }
     }
 
-    /// Of a script that is no file, in the order of its parts.
+    /// Those of a script that is not a file, in the order of its parts.
     pub(super) fn of_script(problems: Vec<Problem>) -> Self {
         let mut mistakes = Mistakes::default();
         for Problem { part, message, help } in problems {

@@ -23,7 +23,7 @@ struct Origin<'a> {
     program: Option<Vec<String>>,
 }
 
-/// Whether a table of a scenario file is a unit. What is wrong is refused by `reader`.
+/// Whether a table of a scenario file is a valid unit. `reader` collects the mistakes.
 pub(crate) fn is_unit(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> bool {
     let refused = reader.refused();
     UnitFile::read(reader, table).is_some() && reader.refused() == refused

@@ -1,6 +1,6 @@
-//! The character set of a text with few letters beside ASCII: comments with a unit, a name, a word or two.
+//! The character set of a text with few non-ASCII letters: comments with a unit, a name, a word or two.
 //!
-//! Statistics of letters fail there, so each word is looked at: kana and kanji of Shift-JIS, or single letters and signs
+//! Letter statistics fail there, so each word is examined: kana and kanji of Shift-JIS, or single letters and signs
 //! of Latin-1 between ASCII.
 
 use core::ops::RangeInclusive;
@@ -10,10 +10,10 @@ use encoding_rs::SHIFT_JIS as DECODER;
 pub(super) const LATIN: &str = "Latin-1";
 const SHIFT_JIS: &str = "Shift_JIS";
 
-/// Most bytes beside ASCII of a text that can be Latin-1 by its letters.
+/// Maximum number of non-ASCII bytes of a text that is recognized as Latin-1 by its letters.
 const FEW_BYTES: usize = 24;
 
-/// The likely character sets, the likeliest first; none if the letters do not say.
+/// The likely character sets, the most likely first; none if the letters are not conclusive.
 pub(super) fn guessed(bytes: &[u8]) -> Option<&'static [&'static str]> {
     match (japanese(bytes), is_latin(bytes)) {
         (Japanese::Surely, _) | (Japanese::Kanji, false) => Some(&[SHIFT_JIS]),
@@ -23,7 +23,7 @@ pub(super) fn guessed(bytes: &[u8]) -> Option<&'static [&'static str]> {
     }
 }
 
-/// How much of a text in Shift-JIS looks Japanese.
+/// How much of a text in Shift-JIS resembles Japanese.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Japanese {
     /// It is none, or all of it can be letters of other character sets.
@@ -55,10 +55,10 @@ const fn is_japanese(character: char) -> bool {
         || matches!(character, '\u{2010}'..='\u{2312}' | '\u{2460}'..='\u{266F}' | '\u{D7}' | '\u{B0}' | '\u{B1}')
 }
 
-/// Characters of Shift-JIS beside ASCII, one behind the other.
+/// Non-ASCII characters of Shift-JIS, one after the other.
 struct Word {
     characters: usize,
-    /// The first byte and, of a character of two bytes, the second one.
+    /// The first byte and, for a character of two bytes, the second one.
     first: (u8, Option<u8>),
     /// One of them begins with a byte that is a control character in Latin-1.
     has_low_lead: bool,
@@ -107,7 +107,7 @@ fn words(bytes: &[u8]) -> impl Iterator<Item = Word> {
     })
 }
 
-/// Whether all that is not ASCII can be a few letters of Western languages and signs of units.
+/// Whether all non-ASCII bytes can be a few letters of Western languages and signs of units.
 fn is_latin(bytes: &[u8]) -> bool {
     let letter_at = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_alphabetic);
     let mut beyond_ascii = 0;
@@ -137,7 +137,7 @@ const fn is_letter(byte: u8) -> bool {
     byte >= 0xC0 && byte != 0xD7 && byte != 0xF7
 }
 
-/// A sign is not inside a word, except for the apostrophe; `letters`: before it and behind it.
+/// A sign is not inside a word, except for the apostrophe; `letters`: before and after it.
 const fn is_sign(byte: u8, letters: (bool, bool)) -> bool {
     const APOSTROPHE: u8 = 0x92;
     match byte {

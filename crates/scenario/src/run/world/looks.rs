@@ -99,7 +99,7 @@ impl World {
         self.master.working_counter(at)
     }
 
-    /// What an indicator does; none if the unit has no indicator of this name.
+    /// The pattern of an indicator; none if the unit has no indicator with this name.
     pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Option<Pattern> {
         let name = name.as_str();
         if self.is_off(at) {

@@ -16,7 +16,7 @@ use crate::run::master::Master;
 
 /// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
-/// The switch that gives a unit its ID.
+/// The switch that sets the ID of a unit.
 const ID_SWITCH: &str = "ID";
 
 impl World {
