@@ -59,7 +59,11 @@ fn without_unit_files_there_are_as_many_units_as_have_answered() {
     let told =
         bench.ectwin(&["import", "captures/live.pcapng", "-o", "one.toml", "--unit", "units/unit.toml"]);
     assert_eq!(told.code, Some(0));
-    assert!(told.stderr.contains("the capture contains a line of 3 units, but 1 are given"), "{}", told.stderr);
+    assert!(
+        told.stderr.contains("the capture contains a line of 3 units, but 1 are given"),
+        "{}",
+        told.stderr
+    );
 }
 
 #[test]

@@ -47,8 +47,8 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ line = \"lose the next 3\" }", "found the end", "lose {frames}"),
         ("{ at = \"20\", line = \"be quiet\" }", "not a duration", "units s, ms, us, ns"),
         ("{ at = \"5ms\", after = \"5ms\", line = \"be quiet\" }", "one of at, after and when", ""),
-        ("{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }", "this one 2", "one of master, unit"),
-        ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "no sentence", "did you mean"),
+        ("{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }", "this one has 2", "one of master, unit"),
+        ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "not a valid sentence", "did you mean"),
         ("{ master = \"behave\", until = \"unit 1 is in OP\" }", "`until` to `expect` and `never`", ""),
         ("{ after = \"1ms\" }", "this one 0", ""),
         ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
@@ -72,7 +72,11 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "no unit has the device variable",
             "",
         ),
-        ("{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }", "out of range of UINT", "is UINT"),
+        (
+            "{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }",
+            "out of range of UINT",
+            "is UINT",
+        ),
         (
             "{ cpu = \"force N1_UINTs_01_C_to_M to 1\" }",
             "not a list of 15 elements",
@@ -91,7 +95,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"program variable x of unit 2 is 1\" }", "refers to a unit", "1 unit"),
         (
             "{ expect = \"program variable x of the master is 1\" }",
-            "no user program of its own",
+            "no user program",
             "master = {",
         ),
         ("{ never = \"user-defined error 0 at the master\" }", "from 1 to 40000", ""),

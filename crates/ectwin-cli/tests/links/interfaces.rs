@@ -125,7 +125,11 @@ fn destroyed_frames_are_warned_of_once_a_kind_and_counted() {
         master.read::<1>(0);
         let log = twin.end();
         assert_eq!(count(&log, "a datagram exceeds its EtherCAT length; further ones"), 1, "{log}");
-        assert_eq!(count(&log, "3 frames were destroyed in all, each because a datagram exceeds"), 1, "{log}");
+        assert_eq!(
+            count(&log, "3 frames were destroyed in all, each because a datagram exceeds"),
+            1,
+            "{log}"
+        );
         assert_eq!(count(&log, "it ends within the Ethernet or the EtherCAT header"), 1, "{log}");
         assert_eq!(count(&log, "destroyed=4 "), 1, "{log}");
     });
