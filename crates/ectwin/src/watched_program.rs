@@ -169,7 +169,7 @@ impl Watch {
         let ends_warning = core::mem::replace(&mut self.is_wrong, !wrong.is_empty());
         match (loaded.is_empty() && wrong.is_empty(), ends_warning) {
             (true, true) => tracing::warn!("{name} is correct again, and is the program that runs"),
-            (true, false) => tracing::debug!("{name} was written, and is the same"),
+            (true, false) => tracing::debug!("{name} was saved without changes"),
             (false, _) => {}
         }
         for (words, positions) in wrong {

@@ -78,7 +78,7 @@ fn elements_are_found_by_their_numbers() {
     assert_eq!(find("K1_Table[3]"), Err("column 10: element 3 of an array of 3, counted from 0".into()));
     assert_eq!(find("K1_Table[x]"), Err("column 10: not a number such as 12, -3 or 16#1F".into()));
     assert_eq!(find("K1_Chair[0]"), Err("column 1: no variable has this name".into()));
-    assert_eq!(find("K1_Status[0]"), Err("column 11: the variable is no array".into()));
+    assert_eq!(find("K1_Status[0]"), Err("column 11: the variable is not an array".into()));
 }
 
 #[test]
