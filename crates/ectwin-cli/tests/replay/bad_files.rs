@@ -8,7 +8,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "unknown-sentence",
         r#"{ unit = "restrat unit 1" }"#,
-        &["`restrat unit 1` is no sentence", "did you mean `restart unit 1`?", ":2:20]"],
+        &["`restrat unit 1` is not a valid sentence", "did you mean `restart unit 1`?", ":2:20]"],
     ),
     (
         "incomplete-sentence",
