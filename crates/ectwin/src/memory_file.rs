@@ -24,7 +24,7 @@ impl MemoryFile {
             None => MemoryAtPowerOn::Factory,
             Some(Ok(bytes)) => MemoryAtPowerOn::Stored(bytes),
             Some(Err(MemoryDamage::NoMemory)) => {
-                let words = "it is there, and is not the memory of a unit; it is left as it is";
+                let words = "it exists, but it is not the memory of a unit; it is not changed";
                 return Err(io::Error::new(io::ErrorKind::InvalidData, words));
             }
             Some(Err(damage @ MemoryDamage::Damaged(_))) => {
