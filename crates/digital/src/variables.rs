@@ -14,6 +14,8 @@ use crate::settings::TerminalSettings;
 const UNIT_NUMBER: u8 = 1;
 /// The series whose entries belong together in both directions.
 const SERIES: &str = "Channel";
+/// Modbus address of channel 1. The CPU Unit has discrete inputs of its own below it.
+const MODBUS_BASE: u16 = 1_000;
 
 /// The variables of a terminal with this name.
 pub(crate) fn variable_table(name: &str, settings: &TerminalSettings) -> VariableTable {
@@ -29,8 +31,8 @@ pub(crate) fn variable_table(name: &str, settings: &TerminalSettings) -> Variabl
     VariableTable::new(unit, outputs.chain(inputs).collect())
 }
 
-/// A BOOL for each channel. Its Modbus address is its number from 0: discrete inputs are outputs of the master, coils
-/// its inputs.
+/// A BOOL for each channel. Its Modbus address is its number from 0 after [`MODBUS_BASE`]: outputs of the master are
+/// discrete inputs, its inputs are coils.
 fn channels<'a>(
     name: &'a str,
     kind: &'a str,
@@ -48,7 +50,7 @@ fn channels<'a>(
             access,
             place: Place::bit(area, bit.into()),
             series: Some(Series { name: SERIES, number }),
-            modbus: Some(ModbusAddress::at(bit.into())),
+            modbus: Some(ModbusAddress::at(MODBUS_BASE + u16::from(bit))),
             nx_object: None,
             pdo_entry: None,
         }

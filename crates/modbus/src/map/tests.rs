@@ -189,3 +189,21 @@ fn single_bits_are_discrete_inputs_and_coils_and_are_forced_by_registers_of_one_
     let register = map.registers(Table::HoldingRegisters, Addresses::one(5_001)).expect("a register")[0];
     assert_eq!((register.greatest, register.length_bytes, register.writing), (1, 1, Writing::Forces));
 }
+
+/// The largest units of the models, by their files.
+const LARGEST: [&str; 2] = [
+    "model = \"digital\"\noutputs = 64\ninputs = 64\n",
+    "model = \"nx-ect101\"\n[io_allocation]\nm_to_c = { uints = 40, bytes = 10, udint = 32 }\n\
+     c_to_m = { uints = 40, bytes = 10, udint = 32 }\n",
+];
+
+/// The addresses of a model must not be those of the CPU Unit itself.
+#[test]
+fn no_address_of_any_model_has_two_meanings() {
+    for text in LARGEST {
+        let file = plant::UnitFile::parse(text).unwrap_or_else(|errors| panic!("{errors}"));
+        let map = ModbusMap::of(file.variables());
+        meanings(file.variables());
+        assert_eq!(map.rows().len(), file.variables().iter().count(), "every variable has addresses");
+    }
+}
