@@ -82,6 +82,39 @@ fn frames_refresh_and_cpu_unit_allocate_nothing() {
     assert_eq!(twin.unit(0).state(), AlState::Op);
 }
 
+/// A line that is long enough for the index of its segment. Addresses and mappings change, of one unit and of all.
+#[test]
+fn a_line_whose_addresses_change_allocates_nothing() {
+    let setups = (0..20).map(|_| Setup::from_toml(UNIT).expect("the unit file is good"));
+    let mut twin = Twin::power_on(setups);
+    let fmmu = |logical: u8| [logical, 0, 0, 0, 4, 0, 0, 7, 0xA0, 0x13, 0, 2, 1, 0, 0, 0];
+    let eighth = 7u16.wrapping_neg();
+    let frames = [
+        FrameBuilder::new().physical(Command::Apwr, eighth, 0x0010, &[7, 0]).finish(),
+        FrameBuilder::new().physical(Command::Fpwr, 7, 0x0600, &fmmu(28)).finish(),
+        FrameBuilder::new().physical(Command::Fprd, 7, 0x0130, &[0; 2]).finish(),
+        FrameBuilder::new().logical(Command::Lrw, 28, &[1; 4]).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0600, &fmmu(0)).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0103, &[1]).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0200, &[0xFF; 2]).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0010, &[1, 0]).finish(),
+        FrameBuilder::new().physical(Command::Bwr, 0, 0x0600, &[0; 16]).finish(),
+    ];
+    let mut buffer = [0; 1518];
+    let mut counters = [0; 9];
+    let counted = measure(|| {
+        for _ in 0..20 {
+            for (frame, counter) in frames.iter().zip(&mut counters) {
+                send(&mut twin, frame, &mut buffer);
+                *counter += u32::from(buffer[frame.len() - 2]);
+                twin.run_for(Duration::from_micros(200));
+            }
+        }
+    });
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
+    assert_eq!(counters, [1, 1, 1, 2, 20, 20, 20, 20, 20].map(|units| 20 * units));
+}
+
 #[test]
 fn sdos_allocate_nothing() {
     let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
@@ -127,6 +160,21 @@ fn an_esc_reset_allocates_nothing() {
     assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
     assert_eq!(twin.unit(0).state(), AlState::Init);
     twin.run_for(Duration::from_secs(1));
+    to_op(&mut twin);
+}
+
+/// A restart from outside, and a cycle of the power.
+#[test]
+fn a_restart_allocates_nothing() {
+    let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
+    to_op(&mut twin);
+    let counted = measure(|| {
+        twin.unit(0).restart();
+        twin.run_for(Duration::from_secs(20));
+        twin.unit(0).cycle_power();
+        twin.run_for(Duration::from_secs(20));
+    });
+    assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
     to_op(&mut twin);
 }
 

@@ -19,12 +19,14 @@ const USE_ALIAS: u8 = 1;
 const RESET_READBACK: [u8; 3] = [0, 1, 2];
 
 impl Esc {
-    /// Closes a valid frame: its writes take effect.
+    /// Closes a valid frame: its writes take effect. Returns whether registers are among them.
     #[inline]
-    pub fn end_of_frame(&mut self, passage: &Passage) {
+    pub fn end_of_frame(&mut self, passage: &Passage) -> bool {
+        let registers_written = self.hot.registers_written;
         if self.awaits_end_of_frame() {
             self.commit(passage);
         }
+        registers_written
     }
 
     fn commit(&mut self, passage: &Passage) {
@@ -113,7 +115,7 @@ impl Esc {
         let now = passage.arrival;
         let has = |effect| effects.contains(effect);
         if has(Effect::DlControl) && self.ports.dl_control_written(&mut self.memory) {
-            self.ports_changed = true;
+            self.changes.ports = true;
             self.ecat_events |= EcatEvents::DL_STATUS;
         }
         if has(Effect::Watchdog) {
@@ -154,9 +156,12 @@ impl Esc {
     }
 
     pub(crate) fn update_addresses(&mut self) {
-        self.hot.station_address = self.memory.u16(at::STATION_ADDRESS);
+        let station_address = self.memory.u16(at::STATION_ADDRESS);
         let uses_alias = self.memory.u8(at::DL_CONTROL + 3) & USE_ALIAS != 0;
-        self.hot.answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
+        let answering_alias = uses_alias.then(|| self.memory.u16(at::STATION_ALIAS));
+        let before = (self.hot.station_address, self.hot.answering_alias);
+        self.changes.addresses |= before != (station_address, answering_alias);
+        (self.hot.station_address, self.hot.answering_alias) = (station_address, answering_alias);
     }
 
     fn write_sync_managers(&mut self, offset: u16, data: &[u8], first: u16) {
@@ -210,7 +215,8 @@ impl Esc {
             let mut bytes = [0; FMMU_BYTES];
             bytes.copy_from_slice(self.memory.slice(at::FMMU + n * FMMU_BYTES as u16, FMMU_BYTES));
             let fmmu = Fmmu::from_bytes(&bytes);
-            self.fmmus[usize::from(n & 0x0F)] = fmmu;
+            let before = core::mem::replace(&mut self.fmmus[usize::from(n & 0x0F)], fmmu);
+            self.changes.mappings |= before != fmmu;
             if !fmmu.active {
                 continue;
             }

@@ -1,5 +1,7 @@
 //! The controller: its parts, power-on, and what the ECAT side and the PDI side share.
 
+use core::ops::Range;
+
 use arrayvec::ArrayVec;
 use time::Instant;
 
@@ -24,8 +26,7 @@ const FEATURES_LINK: u16 = 0x00C0;
 #[derive(Clone, Debug)]
 pub struct Esc {
     pub(crate) hot: Hot,
-    /// A loop has opened or closed since [`Esc::take_ports_changed`].
-    pub(crate) ports_changed: bool,
+    pub(crate) changes: Changes,
 
     pub(crate) protection: Protection,
     pub(crate) memory: Memory,
@@ -47,6 +48,17 @@ pub struct Esc {
     pub(crate) reset_progress: u8,
     pub(crate) reset_requested: bool,
     pub(crate) config: EscConfig,
+}
+
+/// What has changed of that which decides where frames go, and which datagrams address an ESC.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Changes {
+    /// A loop has opened or closed, or a cable was plugged or unplugged.
+    pub ports: bool,
+    /// It answers to other station addresses.
+    pub addresses: bool,
+    /// Its FMMUs map other bytes.
+    pub mappings: bool,
 }
 
 /// The values that every datagram needs, in one cache line, so that passing an ESC that is not addressed costs little.
@@ -163,7 +175,7 @@ impl Esc {
     fn start(config: EscConfig, memory: Memory, sii: Sii, shadow: Box<Shadow>, now: Instant) -> Self {
         let mut esc = Self {
             hot: Hot::AT_POWER_ON,
-            ports_changed: true,
+            changes: Changes { ports: true, addresses: true, mappings: true },
             protection: Protection::default(),
             fmmus: [Fmmu::default(); FMMUS_MAX],
             sync_managers: [SyncManager::default(); SYNC_MANAGERS_MAX],
@@ -245,7 +257,7 @@ impl Esc {
     /// A cable is plugged into or pulled out of a port.
     pub fn set_link(&mut self, port: Port, link: bool) {
         if self.ports.set_link(port, link, &mut self.memory) {
-            self.ports_changed = true;
+            self.changes.ports = true;
             self.raise_ecat_event(EcatEvents::DL_STATUS);
         }
     }
@@ -253,15 +265,36 @@ impl Esc {
     /// A valid frame arrives at a closed port that has a link: in auto-close mode its loop opens.
     pub fn frame_at_closed_port(&mut self, port: Port) {
         if self.ports.frame_arrives(port, &mut self.memory) {
-            self.ports_changed = true;
+            self.changes.ports = true;
             self.raise_ecat_event(EcatEvents::DL_STATUS);
         }
     }
 
-    /// Whether the path of frames may have changed.
+    /// Takes what has changed for frames since the last call; after power-on and reset everything has.
     #[inline]
-    pub fn take_ports_changed(&mut self) -> bool {
-        core::mem::take(&mut self.ports_changed)
+    pub fn take_changes(&mut self) -> Changes {
+        core::mem::take(&mut self.changes)
+    }
+
+    /// The station addresses that it answers to.
+    pub fn answering_addresses(&self) -> impl Iterator<Item = u16> + use<> {
+        let Hot { station_address, answering_alias, .. } = self.hot;
+        core::iter::once(station_address).chain(answering_alias.filter(|alias| *alias != station_address))
+    }
+
+    /// The logical bytes that each FMMU maps.
+    pub fn mapped_bytes(&self) -> impl Iterator<Item = Range<u64>> + '_ {
+        let maps = |fmmu: &&Fmmu| fmmu.active && (fmmu.read || fmmu.write);
+        self.fmmus.iter().filter(maps).map(|fmmu| {
+            let start = u64::from(fmmu.logical_start);
+            start..start + u64::from(fmmu.length_bytes)
+        })
+    }
+
+    /// The number of its FMMUs.
+    #[must_use]
+    pub const fn fmmu_count(&self) -> u8 {
+        self.config.fmmu_count
     }
 
     /// A frame arrived with an error: counted as invalid at the port where it first arrived.

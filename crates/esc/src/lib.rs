@@ -25,7 +25,7 @@ mod watchdog;
 
 pub use config::{EscConfig, PortKind, SiiTiming, SyncManagerWrites};
 pub use ecat::Access;
-pub use esc::Esc;
+pub use esc::{Changes, Esc};
 pub use events::{AlEvents, EcatEvents};
 pub use fmmu::Fmmu;
 pub use passage::Passage;

@@ -5,8 +5,10 @@
 
 mod activity;
 mod datagram;
+mod index;
 mod positions;
 mod segment;
+mod waiting;
 
 pub use activity::PortActivity;
 pub use positions::Positions;

@@ -12,6 +12,21 @@ pub struct Positions {
     filled: Box<[u64]>,
 }
 
+/// Some positions of one word.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Word {
+    number: usize,
+    members: u64,
+}
+
+impl Word {
+    /// No position yet of the word of this one.
+    #[inline]
+    pub(crate) const fn at(position: usize) -> Self {
+        Self { number: position / WORD, members: 0 }
+    }
+}
+
 impl Positions {
     /// The empty set of positions below `length`.
     #[must_use]
@@ -33,17 +48,26 @@ impl Positions {
     /// Adds a position; one beyond the length is left out.
     #[inline]
     pub fn insert(&mut self, position: usize) {
-        self.insert_word(position / WORD, 1 << (position % WORD));
+        self.insert_word(Word { number: position / WORD, members: 1 << (position % WORD) });
     }
 
-    /// Adds a word of positions, the first one at `word * 64`.
+    /// Adds a position to those that are gathered for one word; if it is of another word, these are inserted first.
     #[inline]
-    fn insert_word(&mut self, word: usize, positions: u64) {
-        if let Some(bits) = self.words.get_mut(word)
-            && positions != 0
+    pub(crate) fn gather(&mut self, gathered: &mut Word, position: usize) {
+        if position / WORD != gathered.number {
+            self.insert_word(core::mem::replace(gathered, Word::at(position)));
+        }
+        gathered.members |= 1 << (position % WORD);
+    }
+
+    /// Adds the positions of a word.
+    #[inline]
+    pub(crate) fn insert_word(&mut self, Word { number, members }: Word) {
+        if let Some(word) = self.words.get_mut(number)
+            && members != 0
         {
-            *bits |= positions;
-            self.filled[word / WORD] |= 1 << (word % WORD);
+            *word |= members;
+            self.filled[number / WORD] |= 1 << (number % WORD);
         }
     }
 
@@ -57,6 +81,14 @@ impl Positions {
                 self.filled[word / WORD] &= !(1 << (word % WORD));
             }
         }
+    }
+
+    /// Whether a position is a member.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, position: usize) -> bool {
+        let word = self.words.get(position / WORD).copied().unwrap_or_default();
+        word >> (position % WORD) & 1 != 0
     }
 
     /// The first member from `from` on.
@@ -93,11 +125,21 @@ impl Positions {
         })
     }
 
+    /// Takes all members out.
+    pub fn clear(&mut self) {
+        let mut from = 0;
+        while let Some(word) = self.next_filled(from) {
+            self.words[word] = 0;
+            from = word + 1;
+        }
+        self.filled.fill(0);
+    }
+
     /// Moves all members of `others` here, which is empty then. Both are of one line.
     pub fn take_all(&mut self, others: &mut Self) {
         let mut from = 0;
         while let Some(word) = others.next_filled(from) {
-            self.insert_word(word, core::mem::take(&mut others.words[word]));
+            self.insert_word(Word { number: word, members: core::mem::take(&mut others.words[word]) });
             from = word + 1;
         }
         others.filled.fill(0);
@@ -140,6 +182,7 @@ mod tests {
                 prop_assert_eq!(positions.is_empty(), model.is_empty());
             }
             prop_assert!(positions.iter().eq(model.iter().copied()));
+            prop_assert_eq!(positions.contains(from), model.contains(&from));
             prop_assert_eq!(positions.next(from), model.range(from..).next().copied());
             let mut more = Positions::new(9_000);
             others.iter().for_each(|position| more.insert(*position));
@@ -147,6 +190,8 @@ mod tests {
             model.extend(others);
             prop_assert!(more.is_empty() && more.iter().next().is_none());
             prop_assert!(positions.iter().eq(model.iter().copied()));
+            positions.clear();
+            prop_assert!(positions.is_empty() && (0..9_000).all(|position| !positions.contains(position)));
         }
     }
 }

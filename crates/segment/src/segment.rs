@@ -1,12 +1,16 @@
 //! The line: which ESCs a frame reaches, and its fate.
 
-use esc::{Esc, LoopState, Passage, Port};
+use core::ops::Range;
+
+use esc::{Esc, LoopState, Port};
 use time::{Duration, Instant};
 use wire::{Defect, FrameKind, Layout, mark_source_address};
 
 use crate::activity::{Activity, PortActivity};
-use crate::datagram::pass;
+use crate::datagram::Stretch;
+use crate::index::Index;
 use crate::positions::Positions;
+use crate::waiting::Waiting;
 
 /// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of magnitude of a real ESC.
 const HOP: Duration = Duration::from_nanos(500);
@@ -30,6 +34,8 @@ pub struct Segment {
     escs: Vec<Esc>,
     way: Way,
     activity: Activity,
+    index: Index,
+    waiting: Waiting,
     /// ESCs at which something took effect at the end of a frame, since [`Segment::take_touched`].
     touched: Positions,
     overlong_frames: u64,
@@ -64,10 +70,16 @@ impl Segment {
             esc.set_link(Port::In, true);
             esc.set_link(Port::Out, position < last);
         }
-        let (activity, touched) = (Activity::new(escs.len()), Positions::new(escs.len()));
-        let way = Way { reach: 0, cables: 0, end: WayEnd::Lost };
-        let mut segment = Self { escs, way, activity, touched, overlong_frames: 0 };
-        segment.follow_ports();
+        let mut segment = Self {
+            way: Way { reach: 0, cables: 0, end: WayEnd::Lost },
+            activity: Activity::new(escs.len()),
+            index: Index::new(&escs),
+            waiting: Waiting::new(escs.len()),
+            touched: Positions::new(escs.len()),
+            overlong_frames: 0,
+            escs,
+        };
+        segment.settle();
         segment
     }
 
@@ -92,6 +104,7 @@ impl Segment {
     /// The ESC at a position, for its application.
     #[must_use]
     pub fn esc_mut(&mut self, position: usize) -> Option<&mut Esc> {
+        self.index.has_changed(position);
         self.escs.get_mut(position)
     }
 
@@ -110,13 +123,13 @@ impl Segment {
     /// Plugs or pulls the cable in front of the ESC at `position`; 0 is the cable to the master, the
     /// number of ESCs is the cable from the far end to the master's second port.
     pub fn set_cable(&mut self, position: usize, plugged: bool) {
-        if let Some(esc) = self.escs.get_mut(position) {
+        if let Some(esc) = self.esc_mut(position) {
             esc.set_link(Port::In, plugged);
         }
-        if let Some(esc) = position.checked_sub(1).and_then(|before| self.escs.get_mut(before)) {
+        if let Some(esc) = position.checked_sub(1).and_then(|before| self.esc_mut(before)) {
             esc.set_link(Port::Out, plugged);
         }
-        self.follow_ports();
+        self.settle();
     }
 
     /// The inputs of the L/A indicator for a port of the ESC at `position`; none beyond the line. A cable
@@ -140,6 +153,7 @@ impl Segment {
 
     /// A frame arrives from the master at `now`, from its destination address on, without FCS.
     pub fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.settle();
         let way = self.way;
         let kind = FrameKind::of(frame);
         if way.reach == 0 || !matches!(kind, FrameKind::NotEtherCat) {
@@ -180,6 +194,7 @@ impl Segment {
     /// before the error accept the frame; the ESC at `position` counts it as invalid, those after it as
     /// forwarded error, and none of these accepts it. It does not return: its FCS is wrong.
     pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], position: usize) -> FrameFate {
+        self.settle();
         let reach = self.way.reach;
         self.activity.on_way(now);
         if let FrameKind::Datagrams(layout) = FrameKind::of(frame) {
@@ -198,6 +213,7 @@ impl Segment {
     /// until it reaches a closed port 0; there it is marked as circulating, and destroyed if it was already
     /// marked. A closed port 1 destroys it.
     pub fn frame_at_far_end(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.settle();
         let far_cable = self.escs.len();
         if !self.escs.last().is_some_and(|esc| esc.port(Port::Out).link) {
             return FrameFate::Destroyed;
@@ -229,46 +245,25 @@ impl Segment {
 
     /// A valid frame at a closed port: in auto-close mode the loop opens, for the next frame.
     fn arrive_at_closed_port(&mut self, position: usize, port: Port) {
-        if let Some(esc) = self.escs.get_mut(position) {
+        if let Some(esc) = self.esc_mut(position) {
             esc.frame_at_closed_port(port);
         }
-        self.follow_changed_ports();
+        self.settle();
     }
 
     /// Datagram by datagram along the line: the ESCs share nothing but the datagram, so the result is the same
     /// as ESC by ESC.
-    fn pass_datagrams(
-        &mut self,
-        positions: core::ops::Range<usize>,
-        now: Instant,
-        frame: &mut [u8],
-        layout: &Layout,
-    ) {
+    fn pass_datagrams(&mut self, positions: Range<usize>, now: Instant, frame: &mut [u8], layout: &Layout) {
         let first = positions.start;
-        let escs = self.escs.get_mut(positions).unwrap_or_default();
-        let mut waits = false;
+        let Some(escs) = self.escs.get_mut(positions) else { return };
+        let (index, waiting) = (&mut self.index, &mut self.waiting);
+        let mut stretch = Stretch { first, escs, index, waiting, now, hop: HOP };
         for mut datagram in layout.datagrams(frame) {
-            waits |= pass(escs, &mut datagram, now, HOP);
+            stretch.pass(&mut datagram);
             datagram.close();
         }
-        if !waits {
-            return;
-        }
-        let mut ports_changed = false;
-        let turn = now + HOP * escs.len().saturating_sub(1) as u64 + TURN;
-        let mut back = HOP * escs.len().saturating_sub(1) as u64;
-        let mut arrival = now;
-        for (position, esc) in (first..).zip(escs) {
-            if esc.awaits_end_of_frame() {
-                esc.end_of_frame(&Passage { arrival, returned_out: turn + back });
-                ports_changed |= esc.take_ports_changed();
-                self.touched.insert(position);
-            }
-            arrival += HOP;
-            back = back - HOP;
-        }
-        if ports_changed {
-            self.follow_ports();
+        if stretch.end_of_frame(TURN, &mut self.touched) {
+            self.settle();
         }
     }
 
@@ -303,17 +298,15 @@ impl Segment {
 
     /// Recalculates the path of frames after an ESC was reset.
     pub fn follow_changed_ports(&mut self) {
-        let changed = self.escs.iter_mut().fold(false, |changed, esc| esc.take_ports_changed() | changed);
-        if changed {
-            self.take_new_way();
-        }
+        self.settle();
     }
 
-    fn follow_ports(&mut self) {
-        self.take_new_way();
-        self.escs.iter_mut().for_each(|esc| {
-            esc.take_ports_changed();
-        });
+    /// Follows up what was done to ESCs.
+    #[inline]
+    fn settle(&mut self) {
+        if self.index.settle(&mut self.escs) {
+            self.take_new_way();
+        }
     }
 
     fn take_new_way(&mut self) {
