@@ -6,32 +6,9 @@ use wire::{AlStatusCode, ObjectIndex, SubIndex};
 
 use crate::data_sets::{DataSet, Direction};
 use crate::events::{Event, EventCode, EventLevel};
-use crate::rules::{RuleEvents, RuleId};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 use crate::settings::EventLevels;
 use crate::unit_file::EntryAddress;
-
-/// The kind of settings of a finding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Side {
-    /// I/O entries, which the CPU Unit allocates.
-    IoEntry,
-    /// PDO entries, which the master maps.
-    PdoEntry,
-    /// The PDOs that the master assigns to the SyncManagers.
-    Assignment,
-}
-
-impl Side {
-    /// Its name in data for programs.
-    #[must_use]
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::IoEntry => "io_entry",
-            Self::PdoEntry => "pdo_entry",
-            Self::Assignment => "assignment",
-        }
-    }
-}
 
 /// A rule that is violated. Its message and its correction are made on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,8 @@ mod nx_objects;
 mod nx_server;
 pub mod pdo_settings;
 pub mod performance;
+mod rule;
+mod rule_kind;
 mod rules;
 mod settings;
 mod slave_settings;
@@ -45,7 +47,7 @@ pub use events::{
 };
 pub use exchange::ExchangePlan;
 pub use fault::Fault;
-pub use finding::{Amount, Fact, Finding, Side};
+pub use finding::{Amount, Fact, Finding};
 pub use indicators::{
     Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition, pattern_source,
 };
@@ -57,7 +59,9 @@ pub use messages::MESSAGE_BYTES;
 pub use model::MODEL;
 pub use nx_bus::SlaveStatus;
 pub use nx_objects::{NxAccess, NxEntry, NxObject};
-pub use rules::{Moment, RULES, Rule, RuleEvents, RuleId};
+pub use rule::Rule;
+pub use rule_kind::{Moment, RuleEvents, RuleId, Side};
+pub use rules::RULES;
 pub use settings::{EventLevels, LevelNotChangeable, NewestAcknowledged, UnitSettings};
 pub use slave_settings::{OutputsRule, SlaveSettings};
 pub use status::{MINOR_FAULT_BIT, NxUnitStatus, OBSERVATION_BIT, SLAVE_STATUS_BITS, StatusBit};

@@ -95,12 +95,6 @@ impl NonVolatileMemory {
         self.sii_image.get(IDENTITY).and_then(|bytes| bytes.try_into().ok())
     }
 
-    /// Maximum length in bytes of a memory with full logs: for code that allocates room.
-    #[must_use]
-    pub fn encoded_bytes_max(&self) -> usize {
-        codec::encoded_bytes_max(self.sii_image.len())
-    }
-
     /// Prepares the memory for a start with these settings: a new serial number in the unit file is written to
     /// the SII, and the effective ID to the station alias, SII word 4. Returns whether anything has changed.
     pub(crate) fn start(&mut self, settings: &UnitSettings, explicit_device_id: u16) -> bool {

@@ -2,6 +2,7 @@
 
 mod checks;
 mod diagnosis;
+mod kept_memory;
 mod memory;
 mod nx_bus_side;
 mod reported;
@@ -30,7 +31,7 @@ use crate::rules;
 use crate::settings::UnitSettings;
 use crate::status::NxUnitStatus;
 
-use memory::KeptMemory;
+use kept_memory::KeptMemory;
 use reported::Reported;
 use task_watch::TaskWatch;
 

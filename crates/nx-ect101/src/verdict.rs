@@ -8,7 +8,8 @@ use crate::data_sets::{DataSet, Direction};
 use crate::exchange::ExchangePlan;
 use crate::finding::Finding;
 use crate::pdo_settings;
-use crate::rules::{self, RuleId};
+use crate::rule_kind::RuleId;
+use crate::rules;
 use crate::unit_file::UnitFile;
 
 /// The settings of the CPU Unit and of the master for one unit.

@@ -2,8 +2,9 @@
 
 use wire::ObjectIndex;
 
-use super::{Amount, Fact, Finding, Side};
+use super::{Amount, Fact, Finding};
 use crate::data_sets::{Assignment, DataSet, DataSetKind, Direction, Limits};
+use crate::rule_kind::Side;
 use crate::unit_file::EntryAddress;
 
 impl Finding {

@@ -62,6 +62,13 @@ impl fmt::Display for Damage {
 impl core::error::Error for Damage {}
 
 impl NonVolatileMemory {
+    /// Maximum length in bytes of a memory with full logs: for code that allocates room.
+    #[must_use]
+    pub fn encoded_bytes_max(&self) -> usize {
+        let records_max = SYSTEM_RECORDS_MAX + ACCESS_RECORDS_MAX;
+        HEAD_BYTES + self.sii_image.len() + LOG_HEAD_BYTES + records_max * RECORD_BYTES_MAX + CHECKSUM_BYTES
+    }
+
     /// Writes the memory to `bytes`, replacing their contents.
     pub fn encode_into(&self, bytes: &mut Vec<u8>) {
         bytes.clear();
@@ -106,12 +113,6 @@ impl NonVolatileMemory {
         }
         reader.memory().filter(|_| reader.0.is_empty()).ok_or(Damage::Contents)
     }
-}
-
-/// The maximum length of a memory with an EEPROM of this length.
-pub(super) const fn encoded_bytes_max(sii_bytes: usize) -> usize {
-    let records_max = SYSTEM_RECORDS_MAX + ACCESS_RECORDS_MAX;
-    HEAD_BYTES + sii_bytes + LOG_HEAD_BYTES + records_max * RECORD_BYTES_MAX + CHECKSUM_BYTES
 }
 
 fn put_log(log: &ErrorLog, bytes: &mut Vec<u8>) {

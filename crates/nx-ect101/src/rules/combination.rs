@@ -7,11 +7,12 @@
 
 use coe_kit::pdo::PdoSettings;
 
-use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::amounts::{self, different};
 use crate::data_sets::Direction;
-use crate::finding::{Fact, Finding, Side};
+use crate::finding::{Fact, Finding};
+use crate::rule::{Check, Rule};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 
 /// Data Size Mismatched between PDO Entry and I/O Entry.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x3917_0000, 0x3916_0000);

@@ -7,10 +7,11 @@
 
 use coe_kit::pdo::PdoSettings;
 
-use super::{Check, Rule, RuleEvents, RuleId};
 use crate::data_sets::{DataSet, Direction, Limits, StatusPdo};
-use crate::finding::{Fact, Finding, FindingPlace, Side};
+use crate::finding::{Fact, Finding, FindingPlace};
 use crate::pdo_settings::{assigned_entries, data_bytes, is_assignable, size_bytes};
+use crate::rule::{Check, Rule};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 
 /// RxPDO Mapping Error and TxPDO Mapping Error.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x350A_0000, 0x3509_0000);

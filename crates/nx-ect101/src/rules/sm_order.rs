@@ -5,10 +5,11 @@
 
 use coe_kit::pdo::PdoSettings;
 
-use super::{Check, Rule, RuleEvents, RuleId};
 use crate::data_sets::Direction;
-use crate::finding::{Fact, Finding, FindingPlace, Side};
+use crate::finding::{Fact, Finding, FindingPlace};
 use crate::pdo_settings::is_assignable;
+use crate::rule::{Check, Rule};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 
 /// Incorrect RxPDO Mapping Order and Incorrect TxPDO Mapping Order.
 const ASSIGNMENT: RuleEvents = RuleEvents::at_safe_op(Side::Assignment, 0x392E_0000, 0x392F_0000);

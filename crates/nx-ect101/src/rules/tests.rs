@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::*;
 use crate::events::Event;
+use crate::rule_kind::{Moment, RuleId};
 
 #[test]
 fn every_rule_has_its_file_and_every_file_its_rule() {

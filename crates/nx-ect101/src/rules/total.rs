@@ -6,11 +6,12 @@
 
 use coe_kit::pdo::PdoSettings;
 
-use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::data_sets::{Direction, Limits};
-use crate::finding::{Fact, Finding, FindingPlace, Side};
+use crate::finding::{Fact, Finding, FindingPlace};
 use crate::pdo_settings::data_bytes;
+use crate::rule::{Check, Rule};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 
 /// I/O Entry Data Capacity Exceeded.
 const IO: RuleEvents = RuleEvents::at_power_on(Side::IoEntry, 0x391D_0000, 0x391C_0000);

@@ -6,11 +6,12 @@
 
 use coe_kit::pdo::PdoSettings;
 
-use super::{Check, Rule, RuleEvents, RuleId};
 use crate::allocation::IoAllocation;
 use crate::data_sets::DataSet;
-use crate::finding::{Fact, Finding, FindingPlace, Side};
+use crate::finding::{Fact, Finding, FindingPlace};
 use crate::pdo_settings::assigned_entries;
+use crate::rule::{Check, Rule};
+use crate::rule_kind::{RuleEvents, RuleId, Side};
 use crate::unit_file::EntryAddress;
 
 /// Illegal I/O Entry Added.

@@ -1,93 +1,7 @@
-//! The data of the unit that are kept without power, and when they must be stored.
+//! The non-volatile memory of the unit, for the crates above.
 
-use crate::diagnosis::Diagnosis;
-use crate::fault::Fault;
-use crate::identification::Identification;
-use crate::memory::{IDENTITY_BYTES, MemoryAtPowerOn, NonVolatileMemory};
-use crate::settings::UnitSettings;
+use crate::memory::NonVolatileMemory;
 use crate::unit::NxEct101;
-
-/// The memory of a unit with power.
-#[derive(Debug)]
-pub(super) struct KeptMemory {
-    contents: NonVolatileMemory,
-    /// It differs from the stored memory.
-    is_unsaved: bool,
-    /// The count of EEPROM writes by the master that `contents` includes.
-    sii_words_seen: u32,
-    /// Vendor, product and revision of the unit, as its SII must contain them.
-    identity: Option<[u8; IDENTITY_BYTES]>,
-    /// The SII matched the unit when the unit started.
-    sii_is_own: bool,
-}
-
-impl KeptMemory {
-    /// Reads the memory and samples the ID.
-    pub(super) fn power_on(settings: &UnitSettings, memory: MemoryAtPowerOn) -> (Self, Identification) {
-        let factory = NonVolatileMemory::factory(settings);
-        let identity = factory.identity();
-        let (contents, is_unsaved) = match memory {
-            MemoryAtPowerOn::Stored(contents) => (*contents, false),
-            MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => (factory, true),
-        };
-        let mut kept = Self { contents, is_unsaved, sii_words_seen: 0, identity, sii_is_own: true };
-        let identification = kept.start(settings);
-        (kept, identification)
-    }
-
-    /// Restarts: values that a master has set in the EEPROM apply now, and the values of the unit are written to it.
-    pub(super) fn restart(
-        &mut self,
-        settings: &UnitSettings,
-        mut identification: Identification,
-        sii_image: &mut [u8],
-    ) -> Identification {
-        self.take_over(&mut identification, Some(sii_image));
-        let identification = self.start(settings);
-        if sii_image.len() == self.contents.sii_image().len() {
-            sii_image.copy_from_slice(self.contents.sii_image());
-        }
-        identification
-    }
-
-    fn start(&mut self, settings: &UnitSettings) -> Identification {
-        let identification = Identification::at_power_on(settings.id_switch, self.contents.software_id());
-        self.is_unsaved |= self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
-        self.sii_is_own = self.contents.identity() == self.identity;
-        identification
-    }
-
-    /// Copies the software ID, and the EEPROM if the master has written it.
-    fn take_over(&mut self, identification: &mut Identification, sii_image: Option<&[u8]>) {
-        if let Some(image) = sii_image {
-            self.is_unsaved |= image != self.contents.sii_image();
-            if let Some(alias) = self.contents.follow_sii(image) {
-                identification.take_alias_of_sii(alias);
-            }
-        }
-        if identification.software() != self.contents.software_id() {
-            self.contents.set_software_id(identification.software());
-            self.is_unsaved = true;
-        }
-    }
-
-    /// Whether the SII that was loaded at the start contains vendor, product and revision of this unit.
-    pub(super) const fn sii_is_own(&self) -> bool {
-        self.sii_is_own
-    }
-
-    pub(super) const fn contents(&self) -> &NonVolatileMemory {
-        &self.contents
-    }
-
-    /// Copies the logs, if they have changed.
-    fn take_over_log(&mut self, diagnosis: &mut Diagnosis) {
-        if diagnosis.take_log_change() {
-            self.contents.error_log_mut().clone_from(diagnosis.log());
-            self.is_unsaved = true;
-        }
-    }
-}
 
 impl NxEct101 {
     /// The non-volatile memory.
@@ -101,12 +15,8 @@ impl NxEct101 {
     /// [`NxEct101::memory`] must be stored now: never while it is broken. Changes until then are stored with
     /// the first call after that.
     pub fn take_memory_change(&mut self, sii_image: &[u8], sii_words_written: u32) -> bool {
-        let memory = &mut self.memory;
-        let written = sii_words_written != memory.sii_words_seen;
-        memory.sii_words_seen = sii_words_written;
-        memory.take_over(&mut self.objects.identification, written.then_some(sii_image));
-        memory.take_over_log(&mut self.objects.diagnosis);
-        let is_broken = self.objects.diagnosis.found().any(|fault| fault == Fault::NonVolatileMemory);
-        !is_broken && core::mem::take(&mut memory.is_unsaved)
+        let objects = &mut self.objects;
+        let sii = (sii_image, sii_words_written);
+        self.memory.take_change(&mut objects.identification, &mut objects.diagnosis, sii)
     }
 }
