@@ -1,5 +1,7 @@
 //! The rules for files, checked automatically: lengths, words, links, purposes.
 
+use std::collections::BTreeMap;
+
 use crate::metadata;
 use crate::outcome::{Outcome, report};
 use crate::sources::{self, Source};
@@ -38,7 +40,9 @@ const EMPTY_NAMES: &[&str] = &["utils.rs", "util.rs", "helpers.rs", "helper.rs",
 /// Runs all checks.
 pub(crate) fn check() -> Outcome {
     let mut findings = purposes()?;
-    for source in &sources::read()? {
+    let sources = sources::read()?;
+    findings.extend(decision_numbers(&sources));
+    for source in &sources {
         findings.extend(length(source));
         findings.extend(name(source));
         findings.extend(words(source, WORDS));
@@ -59,6 +63,23 @@ fn purposes() -> Result<Vec<String>, String> {
         (!sentence).then(|| format!("{}: needs a description: one sentence with its full stop", package.name))
     };
     Ok(metadata::read()?.packages.iter().filter_map(without).collect())
+}
+
+/// Each ADR has a number that no other has, and its title has it too.
+fn decision_numbers(sources: &[Source]) -> Vec<String> {
+    let mut findings = Vec::new();
+    let mut paths = BTreeMap::new();
+    for source in sources {
+        let Some(file) = source.path.strip_prefix("docs/adr/") else { continue };
+        let number = file.split('-').next().unwrap_or_default();
+        if !source.text.starts_with(&format!("# {number}: ")) {
+            findings.push(format!("{}: its title begins with `# {number}: `", source.path));
+        }
+        if let Some(other) = paths.insert(number, &source.path) {
+            findings.push(format!("{}: {other} has the number {number} too", source.path));
+        }
+    }
+    findings
 }
 
 fn length(source: &Source) -> Option<String> {
@@ -131,6 +152,19 @@ mod tests {
             Vec::<String>::new()
         );
         assert_eq!(dead_links(&page("[a](../no-such-file.md)")).len(), 1);
+    }
+
+    #[test]
+    fn an_adr_has_a_number_of_its_own() {
+        let adr = |path: &str, title: &str| source(&format!("docs/adr/{path}.md"), &format!("# {title}\n"));
+        let right = [adr("0001-a", "0001: a"), adr("0002-b", "0002: b"), source("docs/page.md", "# Page")];
+        assert_eq!(decision_numbers(&right), Vec::<String>::new());
+        let twice = [adr("0001-a", "0001: a"), adr("0001-b", "0001: b")];
+        assert_eq!(
+            decision_numbers(&twice),
+            ["docs/adr/0001-b.md: docs/adr/0001-a.md has the number 0001 too"]
+        );
+        assert_eq!(decision_numbers(&[adr("0003-c", "0004: c")]).len(), 1);
     }
 
     #[test]
