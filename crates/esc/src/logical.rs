@@ -44,7 +44,8 @@ impl Esc {
     }
 
     /// If several FMMUs map the same bit, the lowest-numbered one has priority, so it is applied last.
-    #[inline]
+    // Called from several places; a call costs a tenth of the time of 100 units in one datagram.
+    #[inline(always)]
     fn read_mapped(&mut self, datagram: Span, data: &mut [u8], now: Instant) -> bool {
         let mut any = false;
         for n in (0..self.read_mappings.len()).rev() {
@@ -99,7 +100,8 @@ impl Esc {
         true
     }
 
-    #[inline]
+    // See `read_mapped`.
+    #[inline(always)]
     fn write_mapped(&mut self, datagram: Span, data: &[u8], now: Instant) -> bool {
         let mut any = false;
         for n in 0..self.write_mappings.len() {

@@ -109,6 +109,22 @@ fn untouched(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// One unit of a line, by its station address: the cost of the others.
+fn configured_address(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("FPRD 2 bytes of the last unit");
+    for units in [1, 100, 1_000, 10_000] {
+        let mut fprd = FrameBuilder::new().physical(Command::Fprd, 0x1234, 0x0130, &[0; 2]).finish();
+        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
+            let mut segment = line(units, 6, 6);
+            let last = (units as u16 - 1).wrapping_neg();
+            let address = FrameBuilder::new().physical(Command::Apwr, last, 0x0010, &[0x34, 0x12]);
+            segment.frame(Instant::ZERO, &mut address.finish());
+            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut fprd)));
+        });
+    }
+    group.finish();
+}
+
 /// What masters send in each cycle to synchronise the clocks: the first unit is read, all others are written.
 fn system_time(criterion: &mut Criterion) {
     let mut frmw = FrameBuilder::new().physical(Command::Frmw, 0, 0x0910, &[0; 8]).finish();
@@ -130,5 +146,14 @@ fn live_registers(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, full_unit, hundred_units, broadcast, untouched, system_time, live_registers);
+criterion_group!(
+    benches,
+    full_unit,
+    hundred_units,
+    broadcast,
+    untouched,
+    configured_address,
+    system_time,
+    live_registers
+);
 criterion_main!(benches);
