@@ -35,7 +35,7 @@ fn every_unit_file_of_ours_satisfies_the_rules() {
         let output = ectwin(&["check", path.to_str().unwrap()]);
         let told = String::from_utf8(output.stdout).unwrap();
         assert_eq!(output.status.code(), Some(0), "{told}");
-        assert!(told.contains("the setting rules are satisfied"), "{told}");
+        assert!(told.contains("the setting rules are satisfied") || told.contains("no problems"), "{told}");
     }
 }
 

@@ -87,6 +87,8 @@ fn refuse_keys_of_others(reader: &mut Reader<'_>, table: &Section<'_, '_>, model
 
 #[cfg(test)]
 mod tests {
+    use plc::VariableAccess;
+
     use super::*;
 
     fn messages(text: &str) -> Vec<String> {
@@ -105,6 +107,26 @@ mod tests {
             let file = UnitFile::parse(text).unwrap_or_else(|errors| panic!("{errors}"));
             assert_eq!((file.section().model().name(), file.name()), (model, name));
         }
+    }
+
+    #[test]
+    fn no_two_variables_of_the_largest_terminal_share_a_modbus_address() {
+        let file =
+            UnitFile::parse("model = \"digital\"\nname = \"K7\"\noutputs = 64\ninputs = 64").expect("a unit");
+        let mut taken = std::collections::BTreeSet::new();
+        for (_, variable) in file.variables().iter() {
+            let Some(address) = variable.modbus else { continue };
+            let is_read_only = variable.access == VariableAccess::ReadOnly;
+            for element in 0..variable.variable_type.elements.unwrap_or(1) {
+                assert!(taken.insert((is_read_only, address.first + element)), "{}", variable.name);
+            }
+            if let Some(forced) = address.forced {
+                assert!(taken.insert((false, forced)), "{}", variable.name);
+            }
+        }
+        assert!(
+            file.variables().find("K7_Output_64").is_some() && file.variables().find("K7_Input_64").is_some()
+        );
     }
 
     #[test]

@@ -4,6 +4,7 @@ mod error;
 mod files;
 mod maker;
 mod master;
+mod model_words;
 mod nodes;
 mod problem;
 mod reach;

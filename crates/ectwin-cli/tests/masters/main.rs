@@ -10,6 +10,7 @@ mod import;
 mod modbus;
 mod programs;
 mod run;
+mod terminals;
 
 use run::Run;
 

@@ -9,6 +9,9 @@ use super::numbers::Hex;
 use super::spelling::text;
 use super::units::{UnitNumber, UnitSet};
 
+/// The name of the switch that gives a unit its ID.
+pub(crate) const ID_SWITCH: &str = "ID";
+
 /// An action on a unit by hand.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -151,7 +151,11 @@ impl Maker<'_> {
             self.refuse(part, "it refers to a unit or a cable that does not exist", line_of(units));
             return None;
         }
-        if let Order::Cpu(order) = order { self.check_variables(order, part) } else { Some(()) }
+        match order {
+            Order::Cpu(order) => self.check_variables(order, part),
+            Order::Unit(order) => self.check_words_of_order(order, part),
+            Order::Master(_) | Order::Line(_) | Order::Expect(_) => Some(()),
+        }
     }
 
     fn condition(&mut self, condition: &mut Condition, part: Part, ground: Ground) -> Option<()> {
@@ -174,6 +178,7 @@ impl Maker<'_> {
             }
             Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture => {}
         }
+        self.check_words_of_condition(condition, part)?;
         self.resolve(condition, part)
     }
 

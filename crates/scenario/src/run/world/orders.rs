@@ -11,13 +11,11 @@ use wire::AlStatusCode;
 
 use super::World;
 use super::cpus::Cpu;
-use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, LineOrder, UnitOrder, UnitSet};
+use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, UnitOrder, UnitSet};
 use crate::run::master::Master;
 
 /// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
-/// The switch that sets the ID of a unit.
-const ID_SWITCH: &str = "ID";
 
 impl World {
     pub(crate) fn master_mut(&mut self) -> &mut Master {
