@@ -1,6 +1,6 @@
 //! The path of a frame: ports, cables, broken frames, times.
 
-use esc::{Esc, EscConfig, Port};
+use esc::{Esc, EscConfig, LoopState, Port};
 use segment::{FrameFate, Segment};
 use time::Instant;
 use wire::{Command, FrameBuilder, returned_datagrams};
@@ -97,6 +97,15 @@ fn with_loops_after_loss(port: Port, port_in: u8, port_out: u8) -> Segment {
     line
 }
 
+fn loop_state(line: &Segment, port: Port) -> Option<LoopState> {
+    line.esc(0).map(|esc| esc.port(port).loop_state)
+}
+
+/// Too short, too long, and with a datagram beyond its end.
+fn defective_frames() -> [Vec<u8>; 3] {
+    [vec![0; 13], vec![0; 1600], beyond_end()]
+}
+
 fn beyond_end() -> Vec<u8> {
     let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0, &[0]).finish();
     frame[14..16].copy_from_slice(&[0xFF, 0x17]);
@@ -132,8 +141,9 @@ fn an_auto_close_loop_of_port_in_opens_again_by_a_frame() {
 #[test]
 fn only_a_good_frame_and_only_a_cable_open_an_auto_close_loop() {
     let mut line = with_loops_after_loss(Port::In, AUTO_CLOSE, AUTO);
-    for mut frame in [vec![0; 40], beyond_end()] {
+    for mut frame in defective_frames() {
         assert_eq!(line.frame(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+        assert_eq!(loop_state(&line, Port::In), Some(LoopState::Closed), "{} bytes", frame.len());
     }
     let mut foreign = vec![0; 60];
     foreign[12..14].copy_from_slice(&[0x08, 0x00]);
@@ -179,6 +189,10 @@ fn an_auto_close_loop_of_port_out_opens_again_by_a_frame_from_the_far_end() {
     write(&mut line, 0, 0x0101, &[AUTO_CLOSE << 2]);
     line.set_cable(1, false);
     line.set_cable(1, true);
+    for mut frame in defective_frames() {
+        assert_eq!(line.frame_at_far_end(Instant::ZERO, &mut frame), FrameFate::Destroyed);
+        assert_eq!(loop_state(&line, Port::Out), Some(LoopState::Closed), "{} bytes", frame.len());
+    }
     let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0000, &[0]).finish();
     assert_eq!(
         line.frame_at_far_end(Instant::ZERO, &mut frame),
