@@ -157,3 +157,50 @@ fn difference(seen: &Returned, captured: &Returned) -> Option<(Aspect, String)> 
         format!("{name}: from byte {place} on {}, captured {}", part(&seen.data), part(&captured.data));
     Some((Aspect::Data, words))
 }
+
+#[cfg(test)]
+mod tests {
+    use wire::{FrameBuilder, returned_datagrams};
+
+    use super::*;
+
+    const DL_STATUS: u16 = 0x0110;
+    const AL_CONTROL: u16 = 0x0120;
+
+    fn read(offset: u16, data: u8) -> Vec<Returned> {
+        returned_datagrams(&FrameBuilder::new().physical(Command::Fprd, 1, offset, &[data]).finish())
+    }
+
+    fn process_data(data: u8, working_counter: u16) -> Vec<Returned> {
+        let frame = FrameBuilder::new().logical(Command::Lrw, 0x0001_0000, &[data]).finish();
+        returned_datagrams(&frame).into_iter().map(|seen| Returned { working_counter, ..seen }).collect()
+    }
+
+    #[test]
+    fn a_kind_is_an_aspect_of_a_command_at_a_place() {
+        let mut differences = Differences::default();
+        let nothing = Vec::new();
+        for (seen, captured) in [
+            (read(DL_STATUS, 1), read(DL_STATUS, 2)),
+            (read(AL_CONTROL, 1), read(AL_CONTROL, 2)),
+            (read(AL_CONTROL, 3), read(AL_CONTROL, 2)),
+            (read(AL_CONTROL, 2), read(AL_CONTROL, 2)),
+            (nothing, read(AL_CONTROL, 2)),
+            (process_data(1, 3), process_data(1, 0)),
+            // Process data depend on the phase of the CPU Unit.
+            (process_data(1, 3), process_data(2, 3)),
+        ] {
+            differences.compare(0, &seen, &captured);
+        }
+        let kinds = differences.kinds();
+        let kinds = kinds.iter().map(|kind| (kind.count, kind.aspect, kind.mnemonic(), kind.place));
+        let fprd = || Some("FPRD".to_owned());
+        let expected = [
+            (2, Aspect::Data, fprd(), Some("AL control")),
+            (1, Aspect::Data, fprd(), Some("DL status")),
+            (1, Aspect::Datagrams, None, None),
+            (1, Aspect::WorkingCounter, Some("LRW".to_owned()), Some("process data")),
+        ];
+        assert_eq!(kinds.collect::<Vec<_>>(), expected);
+    }
+}
