@@ -60,7 +60,9 @@ fn a_second_user_is_refused_with_the_place_while_the_first_one_runs() {
 fn a_second_user_that_is_refused_leaves_its_capture_as_it_is() {
     let folder = folder_of("second-capture");
     fs::write(folder.join("one.toml"), UNIT).unwrap();
-    fs::write(folder.join("old.pcapng"), "the capture of yesterday").unwrap();
+    // Longer than what a run without frames writes.
+    let yesterday = "the capture of yesterday".repeat(1_000);
+    fs::write(folder.join("old.pcapng"), &yesterday).unwrap();
     symlink("linked.pcapng", folder.join("link.pcapng")).unwrap();
     let first = Started::new(&folder, "", &run(&["one.toml"], &free_link())).ready();
     for capture in ["old.pcapng", "new.pcapng"] {
@@ -68,7 +70,7 @@ fn a_second_user_that_is_refused_leaves_its_capture_as_it_is() {
         let refused = ended(&folder, "", &[&run(&["one.toml"], &link)[..], &["--pcap", capture]].concat());
         assert_refused(&refused, "another unit keeps its memory there");
     }
-    assert_eq!(fs::read_to_string(folder.join("old.pcapng")).unwrap(), "the capture of yesterday");
+    assert_eq!(fs::read_to_string(folder.join("old.pcapng")).unwrap(), yesterday);
     assert!(!folder.join("new.pcapng").exists());
     assert_eq!(first.interrupt().code, Some(0));
     for capture in ["old.pcapng", "new.pcapng", "link.pcapng"] {
