@@ -68,7 +68,7 @@ fn model(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> Option<&'static dy
     if table.get(MODEL).is_none() {
         let names: Vec<String> =
             models().iter().map(|model| format!("`model = \"{}\"`", model.name())).collect();
-        reader.refuse(0..0, Problem::new("`model` is missing", names.join(" or ")));
+        reader.require(table, MODEL, &names.join(" or "));
     }
     reader.value(table, MODEL, |place, value| values::choice(place, value, &choices)).map(|model| model.value)
 }

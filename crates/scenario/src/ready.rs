@@ -56,6 +56,9 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
     let ground = if is_whole && maker.problems.is_empty() { Ground::Firm } else { Ground::Missing };
     if script.cycle.is_zero() {
         maker.refuse(Part::Cycle, "a cycle of 0 never ends", "such as `cycle = \"1ms\"`");
+    } else if let Some(phase) = script.cycle_phase.filter(|phase| *phase >= script.cycle) {
+        let message = format!("a phase of {phase} is beyond the cycle of {}", script.cycle);
+        maker.refuse(Part::CyclePhase, message, "`cycle_phase` is less than `cycle`");
     }
     let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);
     let Maker { units, master, programs, problems, .. } = maker;

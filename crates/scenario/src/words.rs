@@ -10,6 +10,7 @@ mod value;
 pub use place::Place;
 pub(crate) use sentence::try_read;
 pub use sentence::{NoSentence, Sentence, read, row_of};
+pub(crate) use spoken::mistake;
 pub use spoken::{Say, Spoken};
 pub use tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 pub use value::Value;

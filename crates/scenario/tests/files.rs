@@ -52,7 +52,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "this one has 2",
             "one of master, unit",
         ),
-        ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "not a valid sentence", "did you mean"),
+        ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "not a valid sentence", "scenario-reference.md"),
         ("{ master = \"behave\", until = \"unit 1 is in OP\" }", "`until` to `expect` and `never`", ""),
         ("{ after = \"1ms\" }", "this one has 0", ""),
         ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
@@ -73,8 +73,8 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"variable N2_UINTs_01_M_to_C is 01\" }", "no unit has the device variable", "named N1"),
         (
             "{ expect = \"variable N1_UINTs_01_M_to_C[15] has the value 1\" }",
-            "no unit has the device variable",
-            "",
+            "N1_UINTs_01_M_to_C[15]: element 15 of an array of 15, counted from 0",
+            "N1_UINTs_01_M_to_C is ARRAY[0..14] OF UINT",
         ),
         (
             "{ expect = \"variable N1_UINTs_01_M_to_C[0] has the value 65536\" }",
@@ -120,6 +120,24 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ),
         ("{ at = \"2h\", line = \"be quiet\" }", "not a duration", ""),
         ("{ at = \"61s\", line = \"be quiet\" }", "after the limit of 1m", "limit"),
+        ("{ master = \"unplug cable 1\" }", "of another key", "this sentence belongs to `line`"),
+        ("{ line = \"take unit 1 to OP\" }", "of another key", "this sentence belongs to `master`"),
+        ("{ unit = \"stop I/O refreshing of unit 1\" }", "of another key", "this sentence belongs to `cpu`"),
+        ("{ cpu = \"restart unit 1\" }", "of another key", "this sentence belongs to `unit`"),
+        (
+            "{ line = \"unit 1 is in OP\" }",
+            "of another key",
+            "belongs to `expect`, `never`, `when` or `until`",
+        ),
+        ("{ expect = \"take unit 1 to OP\" }", "of another key", "this sentence belongs to `master`"),
+        (
+            "{ expect = \"unit 1 has error 85000000\" }",
+            "expected `the`, found `error`",
+            "`{units} has the error {event}`",
+        ),
+        ("{ expect = \"unit 1 records 85000000\" }", "found `records`", "`{units} has recorded {event}`"),
+        ("{ master = \"make tea for everyone\" }", "not a valid sentence", "scenario-reference.md"),
+        ("{ expect = \"unit 1 has recorded 85000001\" }", "one of `ectwin list events`", "85000000"),
         ("{ lines = \"be quiet\" }", "unknown key `lines`", "did you mean `line`?"),
     ];
     for (text, message, help) in cases {
@@ -127,6 +145,17 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         let limit = message.replace("1m", "60s");
         assert!(errors.contains(&limit) && errors.contains(help), "{text}\n{errors}");
     }
+}
+
+#[test]
+fn the_phase_of_the_cycle_is_less_than_the_cycle() {
+    let steps = "steps = [{ line = \"be quiet\" }]";
+    let file = |phase: &str| format!("title = \"t\"\ncycle = \"2ms\"\ncycle_phase = \"{phase}\"\n{steps}");
+    let wrong = errors(&file("2ms"));
+    for part in ["line 3, column 15", "a phase of 2ms is beyond the cycle of 2ms", "less than `cycle`"] {
+        assert!(wrong.contains(part), "{part}:\n{wrong}");
+    }
+    assert!(Scenario::parse(&file("1999us"), |_| Err(String::new())).is_ok());
 }
 
 #[test]

@@ -18,12 +18,13 @@ fn with_udint(title: &str, unit_file: &str) -> ScenarioBuilder {
     scenario.master("let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1A03 1BFE")
 }
 
+fn read(name: &str, files: &[(&str, &str)]) -> Result<String, String> {
+    let file = files.iter().find(|(known, _)| *known == name);
+    file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "no such file".to_owned())
+}
+
 fn errors(text: &str, files: &[(&str, &str)]) -> Vec<String> {
-    let read = |name: &str| {
-        let file = files.iter().find(|(known, _)| *known == name);
-        file.map(|(_, text)| (*text).to_owned()).ok_or_else(|| "no such file".to_owned())
-    };
-    match Scenario::parse(text, read) {
+    match Scenario::parse(text, |name| read(name, files)) {
         Ok(_) => Vec::new(),
         Err(errors) => errors.iter().map(|error| format!("{} / {}", error.message, error.help)).collect(),
     }
@@ -51,6 +52,34 @@ fn another_program_than_that_of_the_unit_file_is_seen_from_the_scenario() {
                 steps = [{ expect = \"program variable x of unit 1 is 5\" }]";
     let unit = "model = \"nx-ect101\"\n[cpu]\nprogram = \"wrong.st\"\n";
     assert_eq!(errors(text, &[("units/a.toml", unit), ("own.st", "VAR x : INT; END_VAR x := 5;")]), [""; 0]);
+}
+
+#[test]
+fn a_condition_takes_the_constants_of_structured_text() {
+    let program = "VAR i : INT := 5; u : UINT := 255; b : BOOL; r : REAL := 1.5; a : ARRAY[0..2] OF INT := [1, 2, 3]; END_VAR";
+    let file = |condition: &str| {
+        format!(
+            "title = \"t\"\nunits = [{{ file = \"a.toml\", program = \"p.st\" }}]\n\
+             steps = [{{ at = \"10ms\", expect = \"program variable {condition}\" }}]"
+        )
+    };
+    let files: &[(&str, &str)] = &[("a.toml", "model = \"nx-ect101\"\n"), ("p.st", program)];
+    for condition in [
+        "i of unit 1 is INT#5",
+        "u of unit 1 is 16#FF",
+        "b of unit 1 is 0",
+        "r of unit 1 is REAL#1.5",
+        "a of unit 1 is [1,2,3]",
+    ] {
+        let scenario = Scenario::parse(&file(condition), |path| read(path, files)).expect("right");
+        assert_eq!(scenario.replay(1, Recording::new(false, false)).failure, None, "{condition}");
+    }
+    for condition in
+        ["i of unit 1 is DINT#5", "u of unit 1 is -1", "a of unit 1 is [1, 2]", "b of unit 1 is 2"]
+    {
+        let errors = errors(&file(condition), files);
+        assert!(errors.len() == 1 && errors[0].contains("is no value of"), "{condition}: {errors:?}");
+    }
 }
 
 #[test]

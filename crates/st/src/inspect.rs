@@ -1,10 +1,14 @@
 //! Values of a program's variables by their names, for tests, panels and traces.
 
+mod constant;
+#[cfg(test)]
+mod tests;
+
 use core::fmt::Write;
 
 use crate::code::Slot;
 use crate::elementary::{Class, Elementary};
-use crate::library::{text_of, value_of};
+use crate::library::text_of;
 use crate::program::{Instance, Owner};
 use crate::types::{Role, Type, member};
 
@@ -19,12 +23,14 @@ impl Instance {
         Some(text)
     }
 
-    /// Sets a variable of an elementary type, in the notation of [`Instance::value`]. False if there is no such
-    /// variable, or the text is not a value of its type.
+    /// Sets a variable to a constant of Structured Text, such as `16#FF`, `INT#5`, `'text'`, `[1, 2, 3(0)]` or
+    /// `(x := 1, y := 2)`, with all elements and members; what [`Instance::value`] returns is such a constant too,
+    /// except for texts with `$` or `'`. False, and nothing is set, if there is no such variable, or the text is
+    /// not a value of its type.
     pub fn set(&mut self, path: &str, text: &str) -> bool {
-        let Some((Type::Elementary(elementary), slot)) = self.find(path) else { return false };
-        let Some(bits) = value_of(elementary, text) else { return false };
-        self.memory.set(slot, bits);
+        let Some((type_, slot)) = self.find(path) else { return false };
+        let Some(image) = constant::read(&type_, text) else { return false };
+        self.memory.slice_mut(slot, type_.slots()).copy_from_slice(&image);
         true
     }
 

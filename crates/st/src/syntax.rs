@@ -22,3 +22,8 @@ pub(crate) fn parse_from(source: &str, start: usize) -> (File, Vec<Problem>) {
 pub(crate) fn parse(source: &str) -> (File, Vec<Problem>) {
     parse_from(source, 0)
 }
+
+/// Reads the initial value that the whole text is.
+pub(crate) fn parse_initial(source: &str) -> Option<ast::Initial> {
+    parser::Parser::new(source, 0).whole_initial()
+}

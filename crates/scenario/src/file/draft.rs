@@ -34,6 +34,7 @@ impl FileReader<'_, '_> {
         script.limit = self.limit(file, script.limit);
         self.places.cycle = span_of(file, "cycle");
         script.cycle = self.value(file, "cycle", values::duration).unwrap_or(script.cycle);
+        self.places.cycle_phase = span_of(file, "cycle_phase");
         script.cycle_phase = self.value(file, "cycle_phase", values::duration);
         script.capture = self.value(file, "capture", values::text);
         script

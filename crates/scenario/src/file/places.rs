@@ -11,6 +11,7 @@ pub(super) type Span = Range<usize>;
 #[derive(Default)]
 pub(super) struct Places {
     pub(super) cycle: Span,
+    pub(super) cycle_phase: Span,
     pub(super) units: Vec<Span>,
     pub(super) master: MasterPlaces,
     pub(super) steps: Vec<StepPlaces>,
@@ -42,6 +43,7 @@ impl Places {
         match part {
             Part::Script => 0..0,
             Part::Cycle => self.cycle.clone(),
+            Part::CyclePhase => self.cycle_phase.clone(),
             Part::Unit(at) => self.units.get(at).cloned().unwrap_or_default(),
             Part::MasterProgram => self.master.program.clone(),
             Part::DeviceNames => self.master.device_names.clone(),

@@ -8,7 +8,7 @@ use super::reader::{FileReader, span_of};
 use super::values;
 use crate::model::{ScriptStep, StepForm};
 use crate::ready::Written;
-use crate::words::{NoSentence, Spoken, try_read};
+use crate::words::{NoSentence, Spoken, mistake, try_read};
 
 /// A step of a file.
 pub(super) struct StepReading {
@@ -103,7 +103,7 @@ impl PartReader<'_, '_, '_, '_, '_> {
                 Ok(value) => Some(value),
                 Err(misfit) => {
                     reader.refuse_by(value.span(), || {
-                        let NoSentence { message, help } = misfit.words();
+                        let NoSentence { message, help } = mistake(text, &misfit);
                         Problem::new(message, "").with_help(help)
                     });
                     None

@@ -144,7 +144,7 @@ impl StepForm {
             (orders, expect, never) => {
                 let count = orders.len() + usize::from(expect.is_some()) + usize::from(never.is_some());
                 Err(Contradiction::new(format!(
-                    "a step has exactly one of master, unit, cpu, line, expect and never; this one has {count}"
+                    "a step has exactly one of master, unit, cpu, line, expect, never and random; this one has {count}"
                 )))
             }
         }

@@ -104,9 +104,12 @@ impl ScenarioErrors {
         let mut mistakes = Mistakes::default();
         for Problem { part, message, help } in problems {
             let (order, place) = match part {
-                Part::Script | Part::Cycle | Part::MasterProgram | Part::DeviceNames | Part::TaskPeriod => {
-                    (0, ErrorPlace::Script)
-                }
+                Part::Script
+                | Part::Cycle
+                | Part::CyclePhase
+                | Part::MasterProgram
+                | Part::DeviceNames
+                | Part::TaskPeriod => (0, ErrorPlace::Script),
                 Part::Unit(at) => (1 + at, ErrorPlace::Unit(at + 1)),
                 Part::Step(at, _) => (usize::MAX / 2 + at, ErrorPlace::Step(at + 1)),
             };

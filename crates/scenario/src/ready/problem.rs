@@ -14,6 +14,7 @@ pub(crate) struct Problem {
 pub(crate) enum Part {
     Script,
     Cycle,
+    CyclePhase,
     Unit(usize),
     MasterProgram,
     DeviceNames,

@@ -1,6 +1,6 @@
 //! Names and values of variables in steps: whether they exist and have the correct type.
 
-use plc::{DeviceVariables, Target, ValueTextError, VariableAccess};
+use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess};
 
 use super::maker::Maker;
 use super::problem::Part;
@@ -55,11 +55,25 @@ impl Maker<'_> {
         let find = |(at, variables): (usize, &DeviceVariables)| Some((at, variables.find_target(name).ok()?));
         let found = self.variables.iter().enumerate().find_map(find);
         if found.is_none() {
+            if let Some((problem, help)) = self.wrong_element(name) {
+                self.refuse(part, format!("{name}: {problem}"), help);
+                return None;
+            }
             let units = self.units.iter().map(|unit| unit.file.name());
             let help = format!("the units are named {}", units.collect::<Vec<_>>().join(", "));
             self.refuse(part, format!("no unit has the device variable {name}"), help);
         }
         found
+    }
+
+    /// The mistake in the index of a variable that exists, and the type of the variable.
+    fn wrong_element(&self, name: &str) -> Option<(TextProblem, String)> {
+        let (array, _) = name.split_once('[')?;
+        self.variables.iter().find_map(|variables| {
+            let ValueTextError { problem, .. } = variables.find_target(name).err()?;
+            let whole = variables.type_of(variables.find_target(array).ok()?).ok()?;
+            Some((problem, format!("{array} is {whole}")))
+        })
     }
 
     fn check_writable(&mut self, name: &str, part: Part) -> Option<()> {
@@ -138,16 +152,12 @@ enum VariableProblem {
 }
 
 /// A value of a variable in the notation of the program, so that texts can be compared: `5`, `16#1F`, `T#20ms`,
-/// `[0, 1]`. Only values of elementary types are checked for validity.
+/// `[0, 1]`.
 fn canonical_value(program: &st::Instance, name: &str, text: &str) -> Result<String, VariableProblem> {
     let initial = program.value(name).ok_or(VariableProblem::NoSuchVariable)?;
     let mut trial = program.clone();
-    if trial.set(name, text) {
-        return trial.value(name).ok_or(VariableProblem::NoSuchVariable);
-    }
-    if trial.set(name, &initial) {
-        Err(VariableProblem::NoValue { such_as: initial })
-    } else {
-        Ok(text.to_owned())
+    match trial.set(name, text).then(|| trial.value(name)).flatten() {
+        Some(value) => Ok(value),
+        None => Err(VariableProblem::NoValue { such_as: initial }),
     }
 }

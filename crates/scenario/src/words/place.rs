@@ -85,7 +85,11 @@ const PLACES: &[Place] = &[
     place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),
     place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
     place("numbers", "PDO numbers such as 1601 1602, hexadecimal", numbers),
-    place("event", "an event code of eight hexadecimal digits such as 85000000", |words| one(words, event)),
+    place(
+        "event",
+        "an event code of eight hexadecimal digits such as 85000000, one of `ectwin list events`",
+        |words| one(words, event),
+    ),
     place("fault", "a fault of a unit such as Processing (the reference lists them)", |words| {
         one(words, fault)
     }),

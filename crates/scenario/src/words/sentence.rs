@@ -75,21 +75,15 @@ pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
 /// The same; the message of a mistake is made only on request.
 pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result<T, Misfit<'a, T>> {
     let words: Vec<&str> = text.split_whitespace().collect();
-    let mut furthest = None;
-    let mut furthest_reached = 0;
     for sentence in table {
-        match fit(sentence.pattern, &words) {
-            Ok(values) => match (sentence.build)(&values) {
+        if let Ok(values) = fit(sentence.pattern, &words) {
+            match (sentence.build)(&values) {
                 Some(value) => return Ok(value),
                 None => panic!("`{}` has other places than its value", sentence.pattern),
-            },
-            Err((reached, problem)) if reached > furthest_reached => {
-                (furthest, furthest_reached) = (Some((sentence, problem)), reached);
             }
-            Err(_) => {}
         }
     }
-    Err(Misfit { table, text, furthest })
+    Err(Misfit { table, text })
 }
 
 /// The row that reads a sentence.
@@ -134,13 +128,11 @@ fn place(part: &str) -> Option<&str> {
 pub(crate) struct Misfit<'a, T> {
     table: &'a [Sentence<T>],
     text: &'a str,
-    /// The row that matches furthest, and the mistake there; none: no word matches.
-    furthest: Option<(&'a Sentence<T>, Problem<'a>)>,
 }
 
 impl<T> Misfit<'_, T> {
     pub(crate) fn words(&self) -> NoSentence {
-        match &self.furthest {
+        match self.furthest() {
             Some((Sentence { pattern, example, .. }, problem)) => NoSentence {
                 message: problem.to_string(),
                 help: format!("the sentence is `{pattern}`, such as `{example}`"),
@@ -149,15 +141,55 @@ impl<T> Misfit<'_, T> {
         }
     }
 
-    /// No part of the text matches: the example with the nearest words.
+    /// The row that matches furthest, the nearest of several, and the mistake there; none: no word matches.
+    fn furthest(&self) -> Option<(&Sentence<T>, Problem<'_>)> {
+        let words: Vec<&str> = self.text.split_whitespace().collect();
+        let misfits = self.table.iter().filter_map(|row| Some((row, fit(row.pattern, &words).err()?)));
+        let mut furthest: Option<(usize, f64, &Sentence<T>, Problem<'_>)> = None;
+        for (row, (reached, problem)) in misfits.filter(|(_, (reached, _))| *reached > 0) {
+            let likeness = likeness(row, self.text);
+            let is_further = |(other, other_likeness, _, _): &(usize, f64, _, _)| {
+                (reached, likeness) > (*other, *other_likeness)
+            };
+            if furthest.as_ref().is_none_or(is_further) {
+                furthest = Some((reached, likeness, row, problem));
+            }
+        }
+        furthest.map(|(_, _, row, problem)| (row, problem))
+    }
+
+    /// No part of the text matches: the example with the nearest words, if it is near.
     fn nearest(&self) -> NoSentence {
-        let nearest = self.table.iter().max_by(|a, b| {
-            let likeness = |sentence: &Sentence<T>| strsim::jaro_winkler(sentence.example, self.text);
-            likeness(a).total_cmp(&likeness(b))
-        });
-        let help = nearest.map_or(String::new(), |sentence| format!("did you mean `{}`?", sentence.example));
+        let scored = self.table.iter().map(|sentence| (likeness(sentence, self.text), sentence));
+        let nearest = scored.max_by(|(a, _), (b, _)| a.total_cmp(b));
+        let near = nearest.filter(|(likeness, _)| *likeness >= NEAR);
+        let help = near.map_or_else(
+            || "docs/user/scenario-reference.md has the sentences of every key".to_owned(),
+            |(_, sentence)| format!("did you mean `{}`?", sentence.example),
+        );
         NoSentence { message: format!("`{}` is not a valid sentence here", self.text), help }
     }
+}
+
+/// A sentence is near a text from this likeness on: two words of three are alike.
+const NEAR: f64 = 0.6;
+
+/// Number of words of a text that are compared: more than any sentence has words.
+const WORDS_COMPARED: usize = 32;
+
+/// Two words are alike from this likeness on.
+const ALIKE: f64 = 0.85;
+
+/// How alike the words of a sentence's example and of a text are, without numbers: from 0 to 1, where 1 is the same
+/// words.
+fn likeness<T>(sentence: &Sentence<T>, text: &str) -> f64 {
+    let is_no_number = |word: &&str| !word.starts_with(|first: char| first.is_ascii_digit());
+    let example: Vec<&str> = sentence.example.split_whitespace().filter(is_no_number).collect();
+    let words: Vec<&str> = text.split_whitespace().filter(is_no_number).take(WORDS_COMPARED).collect();
+    let best =
+        |word: &&str| example.iter().map(|known| strsim::jaro_winkler(word, known)).fold(0.0, f64::max);
+    let alike: f64 = words.iter().map(best).filter(|likeness| *likeness >= ALIKE).sum();
+    2.0 * alike / (words.len() + example.len()) as f64
 }
 
 /// The mistake at the position where a pattern stops matching.

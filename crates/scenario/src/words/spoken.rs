@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use super::sentence::{NoSentence, Sentence, read, say};
+use super::sentence::{Misfit, NoSentence, Sentence, row_of, say, try_read};
 use super::tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
 
@@ -16,13 +16,36 @@ pub trait Spoken: Clone + fmt::Debug + 'static {
     /// # Errors
     /// It is not one of [`Self::SENTENCES`].
     fn from_sentence(text: &str) -> Result<Self, NoSentence> {
-        read(Self::SENTENCES, text)
+        try_read(Self::SENTENCES, text).map_err(|misfit| mistake(text, &misfit))
     }
 
     /// The sentence of the value.
     fn sentence(&self) -> String {
         say(Self::SENTENCES, self).unwrap_or_else(|| format!("{self:?}"))
     }
+}
+
+/// The mistake in a text that is not a sentence of its key: another key has it, or the nearest sentence of its own.
+pub(crate) fn mistake<T>(text: &str, misfit: &Misfit<'_, T>) -> NoSentence {
+    match keys_of(text) {
+        Some(keys) => NoSentence {
+            message: format!("`{text}` is a sentence of another key"),
+            help: format!("this sentence belongs to {keys}"),
+        },
+        None => misfit.words(),
+    }
+}
+
+/// The keys that have this sentence.
+fn keys_of(text: &str) -> Option<&'static str> {
+    let keys = [
+        (row_of(MASTER, text).is_some(), "`master`"),
+        (row_of(UNIT, text).is_some(), "`unit`"),
+        (row_of(CPU, text).is_some(), "`cpu`"),
+        (row_of(LINE, text).is_some(), "`line`"),
+        (row_of(CONDITIONS, text).is_some(), "`expect`, `never`, `when` or `until`"),
+    ];
+    keys.into_iter().find(|(has_it, _)| *has_it).map(|(_, keys)| keys)
 }
 
 /// A source of a typed value: the value itself, or its sentence.

@@ -5,6 +5,12 @@ use super::super::token::Token;
 use super::{Parsed, Parser};
 
 impl Parser<'_> {
+    /// The initial value that the whole source is; none if there is a problem.
+    pub(in crate::syntax) fn whole_initial(mut self) -> Option<Initial> {
+        let initial = self.initial().ok()?;
+        (self.token() == Token::End && self.problems.is_empty()).then_some(initial)
+    }
+
     /// An initial value: of one variable, `[…]` of an array, or `(x := 1)` of a structure.
     pub(super) fn initial(&mut self) -> Parsed<Initial> {
         let is_struct = self.token() == Token::OpenParenthesis
