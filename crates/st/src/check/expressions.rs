@@ -10,6 +10,7 @@ use super::scope::{Located, Scope, Symbol, key};
 use super::{Checker, Origin};
 use crate::code::{Base, Code, Place, Slot};
 use crate::elementary::{Class, Elementary};
+use crate::fault::Fault;
 use crate::operators::{self, Binary, Unary};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{
@@ -367,6 +368,11 @@ impl<'c, 't> Body<'c, 't> {
         span: Span,
     ) -> Option<Value> {
         let result = if is_comparison(operator) { Elementary::Bool } else { elementary };
+        if let Code::Constant(divisor) = right
+            && operators::binary(operator, elementary, 1, divisor) == Err(Fault::DivisionByZero)
+        {
+            return self.checker.refuse(Problem::new(span, Fault::DivisionByZero.to_string()));
+        }
         let code = match (operator, elementary, left, right) {
             (_, _, Code::Constant(a), Code::Constant(b)) => {
                 match operators::binary(operator, elementary, a, b) {

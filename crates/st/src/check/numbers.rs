@@ -2,9 +2,10 @@
 
 use super::Checker;
 use super::expressions::{Kind, Value};
-use crate::code::{Code, Put};
+use crate::code::{Base, Code, Put};
 use crate::convert::{convert, fits, natural, widens};
 use crate::elementary::{Class, Elementary};
+use crate::fault::Fault;
 use crate::problem::Problem;
 use crate::types::Type;
 use crate::value::{range, real, real_bits};
@@ -23,7 +24,11 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
             let code = elementary_of(checker, value, *elementary)?;
             Some(Fitting { code, put: Put::Value })
         }
-        (Kind::Type(Type::String(_)), Type::String(capacity)) => {
+        (Kind::Type(Type::String(characters)), Type::String(capacity)) => {
+            if characters > capacity && is_text_literal(checker, &value.code) {
+                let problem = Fault::TextTooLong { characters: usize::from(*characters), capacity: *capacity };
+                return checker.refuse(Problem::new(value.span, problem.to_string()));
+            }
             Some(Fitting { code: value.code, put: Put::Text(*capacity) })
         }
         (Kind::Type(type_), _) if type_ == target => match target {
@@ -41,6 +46,11 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
             checker.refuse(Problem::new(value.span, message))
         }
     }
+}
+
+/// Whether a text is known before the program runs.
+fn is_text_literal(checker: &Checker<'_>, code: &Code) -> bool {
+    matches!(code, Code::Address(place) if place.base == Base::Memory && checker.is_literal(place.offset))
 }
 
 /// Converts a value to an elementary type.
