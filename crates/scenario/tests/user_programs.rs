@@ -78,7 +78,7 @@ fn a_condition_takes_the_constants_of_structured_text() {
         ["i of unit 1 is DINT#5", "u of unit 1 is -1", "a of unit 1 is [1, 2]", "b of unit 1 is 2"]
     {
         let errors = errors(&file(condition), files);
-        assert!(errors.len() == 1 && errors[0].contains("is no value of"), "{condition}: {errors:?}");
+        assert!(errors.len() == 1 && errors[0].contains("is not a value of"), "{condition}: {errors:?}");
     }
 }
 

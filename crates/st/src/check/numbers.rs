@@ -26,7 +26,8 @@ pub(super) fn coerce(checker: &mut Checker<'_>, value: Value, target: &Type) -> 
         }
         (Kind::Type(Type::String(characters)), Type::String(capacity)) => {
             if characters > capacity && is_text_literal(checker, &value.code) {
-                let problem = Fault::TextTooLong { characters: usize::from(*characters), capacity: *capacity };
+                let problem =
+                    Fault::TextTooLong { characters: usize::from(*characters), capacity: *capacity };
                 return checker.refuse(Problem::new(value.span, problem.to_string()));
             }
             Some(Fitting { code: value.code, put: Put::Text(*capacity) })
