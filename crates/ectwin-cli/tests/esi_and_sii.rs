@@ -36,7 +36,7 @@ fn unit(file: PathBuf) -> Unit {
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         output.stdout
     };
-    let mut twin = Twin::from_toml("model = \"nx-ect101\"").unwrap();
+    let mut twin = Twin::from_toml(&std::fs::read_to_string(&file).unwrap()).unwrap();
     let mut frame = FrameBuilder::new().physical(wire::Command::Aprd, 0, 0x0000, &[0; 10]).finish();
     twin.frame(&mut frame);
     Unit {
@@ -70,6 +70,11 @@ impl Unit {
         self.categories().into_iter().find(|(each, _)| *each == number).expect("the category exists").1
     }
 
+    /// The rows of a category; none if it is missing.
+    fn rows(&self, number: u16) -> &[u8] {
+        self.categories().into_iter().find(|(each, _)| *each == number).map_or(&[], |(_, rows)| rows)
+    }
+
     fn string(&self, number: u8) -> String {
         let mut strings = &self.category(10)[1..];
         for _ in 1..number {
@@ -84,8 +89,8 @@ fn find<'a>(node: Node<'a, 'a>, name: &str) -> Node<'a, 'a> {
 }
 
 /// The element with the protocols; another element with this name, in Info, has time-outs.
-fn mailbox<'a>(device: Node<'a, 'a>) -> Node<'a, 'a> {
-    device.children().find(|node| node.has_tag_name("Mailbox")).expect("the device has a mailbox")
+fn mailbox<'a>(device: Node<'a, 'a>) -> Option<Node<'a, 'a>> {
+    device.children().find(|node| node.has_tag_name("Mailbox"))
 }
 
 fn text<'a>(node: Node<'a, 'a>, name: &str) -> &'a str {
@@ -105,6 +110,21 @@ fn with_each(check: impl Fn(&Unit, Node<'_, '_>)) {
         let document = Document::parse(&unit.esi).unwrap();
         check(&unit, find(document.root(), "Device"));
     }
+}
+
+/// Checks the units with a mailbox, and those without one; there are both.
+fn with_each_kind(with: impl Fn(&Unit, Node<'_, '_>, Node<'_, '_>), without: impl Fn(&Unit, Node<'_, '_>)) {
+    let mut counts = [0, 0];
+    for unit in units() {
+        let document = Document::parse(&unit.esi).unwrap();
+        let device = find(document.root(), "Device");
+        let has_mailbox = mailbox(device).map(|mailbox| with(&unit, device, mailbox)).is_some();
+        if !has_mailbox {
+            without(&unit, device);
+        }
+        counts[usize::from(has_mailbox)] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
 }
 
 /// CRC-8 of reference 4.2, bit by bit.
@@ -127,21 +147,26 @@ fn identity_is_the_same_in_both_files() {
         let kind = find(device, "Type");
         let vendor = number(text(device.document().root_element(), "Id"));
         let esi = [vendor, attribute(kind, "ProductCode"), attribute(kind, "RevisionNo")];
-        assert_eq!(esi, [0x83, 0x17C, 0x10000]);
+        if mailbox(device).is_some() {
+            assert_eq!(esi, [0x83, 0x17C, 0x10000], "the NX-ECT101");
+        }
         assert_eq!([0x08, 0x0A, 0x0C].map(|address| unit.double_word(address)), esi);
     });
 }
 
-/// C024: CoE and nothing else.
+/// C024: CoE and nothing else, or no mailbox.
 #[test]
 fn protocols_are_those_of_the_mailbox_element() {
     let bits = [("AoE", 1), ("EoE", 2), ("CoE", 4), ("FoE", 8), ("SoE", 16), ("VoE", 32)];
-    with_each(|unit, device| {
-        let mailbox = mailbox(device);
-        let told = bits.iter().filter(|(name, _)| mailbox.children().any(|child| child.has_tag_name(*name)));
-        assert_eq!(told.map(|(_, bit)| bit).sum::<u16>(), unit.word(0x1C));
-        assert_eq!(unit.word(0x1C), 4);
-    });
+    with_each_kind(
+        |unit, _, mailbox| {
+            let has = |name: &str| mailbox.children().any(|child| child.has_tag_name(name));
+            let named = bits.iter().filter(|(name, _)| has(name));
+            assert_eq!(named.map(|(_, bit)| bit).sum::<u16>(), unit.word(0x1C));
+            assert_eq!(unit.word(0x1C), 4);
+        },
+        |unit, _| assert_eq!(unit.word(0x1C), 0),
+    );
 }
 
 /// C025
@@ -174,10 +199,10 @@ fn categories_agree_with_the_elements() {
             other => panic!("{other:?}"),
         };
         let usages: Vec<u8> = device.children().filter(|node| node.has_tag_name("Fmmu")).map(usage).collect();
-        assert_eq!(unit.category(40)[..usages.len()], usages);
+        assert_eq!(unit.rows(40)[..usages.len()], usages);
         let managers: Vec<_> = device.children().filter(|node| node.has_tag_name("Sm")).collect();
-        assert_eq!(unit.category(41).len(), 8 * managers.len());
-        for (row, node) in unit.category(41).chunks(8).zip(managers) {
+        assert_eq!(unit.rows(41).len(), 8 * managers.len());
+        for (row, node) in unit.rows(41).chunks(8).zip(managers) {
             let word = |at: usize| u32::from(u16::from_le_bytes([row[at], row[at + 1]]));
             let found = [word(0), word(2), u32::from(row[4]), u32::from(row[6] & 1)];
             let names = ["StartAddress", "DefaultSize", "ControlByte", "Enable"];
@@ -186,6 +211,10 @@ fn categories_agree_with_the_elements() {
         let general = unit.category(30);
         assert_eq!(general.len(), 32);
         assert_eq!(unit.string(general[2]), find(device, "Type").text().unwrap());
+        if mailbox(device).is_none() {
+            assert_eq!(general[5], 0, "no CoE without a mailbox");
+            return;
+        }
         let attributes = ["SdoInfo", "PdoAssign", "PdoConfig", "PdoUpload", "CompleteAccess"];
         let coe = find(device, "CoE");
         let set = |name: &str| u8::from(matches!(coe.attribute(name), Some("1" | "true")));
@@ -199,8 +228,10 @@ fn categories_agree_with_the_elements() {
 fn the_controller_has_as_many_fmmus_and_sync_managers_as_the_esi_asks_for() {
     with_each(|unit, device| {
         let count = |name: &str| device.children().filter(|node| node.has_tag_name(name)).count();
-        assert!(count("Fmmu") <= usize::from(unit.registers[4]) && count("Fmmu") > 0);
-        assert!(count("Sm") <= usize::from(unit.registers[5]) && count("Sm") > 0);
+        assert!(count("Fmmu") <= usize::from(unit.registers[4]));
+        assert!(count("Sm") <= usize::from(unit.registers[5]));
+        let has_process_data = count("RxPdo") + count("TxPdo") > 0;
+        assert_eq!([count("Fmmu") > 0, count("Sm") > 0], [has_process_data; 2], "a coupler has none");
     });
 }
 
@@ -228,16 +259,20 @@ fn the_esi_has_what_a_configurator_needs() {
         let groups = find(device.document().root(), "Groups");
         assert!(groups.descendants().any(|node| node.text() == Some(text(device, "GroupType"))));
         assert!(attribute(find(device, "Type"), "RevisionNo") > 0);
-        assert!(matches!(mailbox(device).attribute("DataLinkLayer"), Some("1" | "true")));
+        let data_link_layer = mailbox(device).map(|mailbox| mailbox.attribute("DataLinkLayer"));
+        assert!(matches!(data_link_layer, None | Some(Some("1" | "true"))));
     });
 }
 
 /// C035: the walk over the categories reaches the end, and finds them in the usual order.
 #[test]
 fn categories_end_where_their_lengths_say() {
-    with_each(|unit, _| {
+    with_each(|unit, device| {
         let numbers: Vec<u16> = unit.categories().iter().map(|(number, _)| *number).collect();
-        assert_eq!(numbers, [10, 30, 40, 41, 50, 51]);
+        let elements = [(40, "Fmmu"), (41, "Sm"), (50, "TxPdo"), (51, "RxPdo")];
+        let has = |name: &str| device.children().any(|node| node.has_tag_name(name));
+        let of_elements = elements.into_iter().filter(|(_, name)| has(name)).map(|(number, _)| number);
+        assert_eq!(numbers, [10, 30].into_iter().chain(of_elements).collect::<Vec<_>>());
         let strings = unit.category(10);
         assert!((1..=strings[0]).all(|number| !unit.string(number).is_empty()));
     });
@@ -246,15 +281,17 @@ fn categories_end_where_their_lengths_say() {
 /// C036
 #[test]
 fn mailbox_words_are_the_first_sync_managers() {
-    with_each(|unit, _| {
+    let of_mailbox = |unit: &Unit| [0x18, 0x19, 0x1A, 0x1B].map(|address| unit.word(address));
+    let with = |unit: &Unit, _: Node<'_, '_>, _: Node<'_, '_>| {
         let rows: Vec<u16> = unit.category(41)[..16]
             .chunks(8)
             .flat_map(|row| [u16::from_le_bytes([row[0], row[1]]), u16::from_le_bytes([row[2], row[3]])])
             .collect();
-        assert_eq!([0x18, 0x19, 0x1A, 0x1B].map(|address| unit.word(address)).to_vec(), rows);
+        assert_eq!(of_mailbox(unit).to_vec(), rows);
         assert_eq!(unit.category(41)[7], 1, "mailbox out");
         assert_eq!(unit.category(41)[15], 2, "mailbox in");
-    });
+    };
+    with_each_kind(with, |unit, _| assert_eq!(of_mailbox(unit), [0; 4]));
 }
 
 /// C037: no model has BOOT.

