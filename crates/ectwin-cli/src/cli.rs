@@ -27,7 +27,7 @@ pub(crate) enum Command {
     /// Run a unit with a real master (ethercrab) in this process; needs no root and no network
     #[cfg(feature = "ethercrab")]
     Demo,
-    /// Emulate units, in chain order, until SIGINT or SIGTERM
+    /// Emulate units, in chain order, until SIGINT, SIGTERM or SIGHUP
     Run(RunArgs),
     /// Check I/O allocation and PDO setting of a unit file against the setting rules
     Check(CheckArgs),

@@ -26,6 +26,8 @@ pub(crate) fn start_logging(verbose: u8) {
         .with_env_filter(filter)
         .with_writer(io::stderr)
         .with_ansi(colour_on_stderr())
+        // A line that cannot be written is lost, and does not end the thread that logs it.
+        .log_internal_errors(false)
         .init();
 }
 

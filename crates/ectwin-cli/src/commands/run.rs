@@ -1,15 +1,13 @@
 //! `ectwin run FILE… --link LINK`.
 
 mod servers;
+mod signals;
 
 use std::fs::File;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
 
 use ectwin::{ChangesLost, Ended, ModbusServer, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
-use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
@@ -18,8 +16,10 @@ use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, unit_files};
 
-/// Emulates the units until SIGINT, SIGTERM or the end of the link.
+/// Emulates the units until SIGINT, SIGTERM, SIGHUP or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
+    // Before anything that takes time: without it the signal would end the command.
+    let reset_errors = signals::reset_errors().map_err(Failure::LinkLost)?;
     if let Some(path) = &args.pcap {
         output::refuse_stdout("--pcap", path, "the line `ready` is there")?;
     }
@@ -36,12 +36,14 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let capture = args.pcap.as_deref().map(OutputFile::open).transpose()?;
     privileges::give_up(&files(args, &setups));
 
+    // What is open from here on is closed in order. Until then a signal ends the command: it may wait for the
+    // reader of a pipe.
+    let stop = signals::stop().map_err(Failure::LinkLost)?;
     let setups = with_storage(args, setups)?;
     let clock = Clock::start();
-    let stop = flag_of(&[SIGINT, SIGTERM]).map_err(Failure::LinkLost)?;
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on_for_run(setups.into_iter().map(with_system_time));
-    twin.reset_errors_on(flag_of(&[SIGUSR1]).map_err(Failure::LinkLost)?);
+    twin.reset_errors_on(reset_errors);
     let modbus = listener.map(|listener| servers::serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
@@ -109,15 +111,6 @@ fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Resu
     let name = path.display().to_string();
     Recorder::start(capture, &name, &link.to_string(), clock)
         .map_err(|source| Failure::Unwritable { path, source })
-}
-
-/// A flag that these signals set.
-fn flag_of(signals: &[i32]) -> std::io::Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
-    for &signal in signals {
-        signal_hook::flag::register(signal, Arc::clone(&flag))?;
-    }
-    Ok(flag)
 }
 
 fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {

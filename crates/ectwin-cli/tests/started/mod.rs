@@ -88,7 +88,8 @@ impl Started {
         self.wait()
     }
 
-    fn wait(mut self) -> Ended {
+    /// Waits for its end.
+    pub(crate) fn wait(mut self) -> Ended {
         let mut stderr = String::new();
         self.stderr.read_to_string(&mut stderr).unwrap();
         Ended { code: self.child.wait().unwrap().code(), stderr }

@@ -1,0 +1,39 @@
+//! The signals that a running command obeys.
+
+use std::fs;
+use std::io;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
+
+/// Set when the command has to end. A closed terminal (SIGHUP) ends it too, but not if `nohup` has started it.
+pub(super) fn stop() -> io::Result<Arc<AtomicBool>> {
+    let signals = [SIGINT, SIGTERM, SIGHUP];
+    flag_of(signals.into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP)))
+}
+
+/// Set when the errors of all CPU Units have to be reset.
+pub(super) fn reset_errors() -> io::Result<Arc<AtomicBool>> {
+    flag_of([SIGUSR1])
+}
+
+/// A flag that these signals set.
+fn flag_of(signals: impl IntoIterator<Item = i32>) -> io::Result<Arc<AtomicBool>> {
+    let flag = Arc::new(AtomicBool::new(false));
+    for signal in signals {
+        signal_hook::flag::register(signal, Arc::clone(&flag))?;
+    }
+    Ok(flag)
+}
+
+/// Whether this process was started with the signal ignored. On a system that does not show this, it was not.
+fn is_ignored(signal: i32) -> bool {
+    fs::read_to_string("/proc/self/status").is_ok_and(|status| ignores(&status, signal))
+}
+
+fn ignores(status: &str, signal: i32) -> bool {
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    mask.is_some_and(|mask| mask >> (signal - 1) & 1 == 1)
+}
