@@ -4,6 +4,9 @@ use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
+use rustix::fs::{FlockOperation, flock};
+use rustix::io::Errno;
+
 use crate::failure::Failure;
 use crate::output::{ResultOut, is_stdout};
 
@@ -31,6 +34,8 @@ impl OutputFile {
         };
         let path = path.to_owned();
         match opened {
+            // A file that another command writes is not removed, even if it was made here.
+            Ok((file, _)) if is_written_by_another(&file) => Err(in_use(&path)),
             Ok((file, made)) => Ok(Self { path, file, made: Made(made) }),
             Err(source) => Err(Failure::Unwritable { path, source }),
         }
@@ -39,10 +44,23 @@ impl OutputFile {
     /// Empties the file for its new contents: nothing can refuse the command any more.
     pub(crate) fn begin(mut self) -> Result<File, Failure> {
         self.made.0 = None;
-        let is_regular = self.file.metadata().is_ok_and(|metadata| metadata.is_file());
-        let emptied = if is_regular { self.file.set_len(0) } else { Ok(()) };
+        let emptied = if is_regular(&self.file) { self.file.set_len(0) } else { Ok(()) };
         emptied.map(|()| self.file).map_err(|source| Failure::Unwritable { path: self.path, source })
     }
+}
+
+fn is_regular(file: &File) -> bool {
+    file.metadata().is_ok_and(|metadata| metadata.is_file())
+}
+
+/// Locks a regular file as long as it is open. A file system without locks does not refuse anything.
+fn is_written_by_another(file: &File) -> bool {
+    is_regular(file) && flock(file, FlockOperation::NonBlockingLockExclusive) == Err(Errno::WOULDBLOCK)
+}
+
+fn in_use(path: &Path) -> Failure {
+    let message = format!("cannot write {}: another ectwin writes it at this time", path.display());
+    Failure::Refused { message, help: "give another file; nothing has been written".to_owned() }
 }
 
 /// The output of a command that can be stdout too.

@@ -158,3 +158,28 @@ fn an_output_beside_the_files_of_a_unit_is_written() {
         assert!(folder.join(output).exists());
     }
 }
+
+#[test]
+fn a_capture_that_another_run_writes_is_refused_until_that_run_ends() {
+    let folder = inputs("capture");
+    fs::write(folder.join("plain.toml"), "model = \"nx-ect101\"\n").unwrap();
+    symlink("frames.pcapng", folder.join("link.pcapng")).unwrap();
+    let links = [free_link(), free_link()];
+    let run = |link, capture| ["run", "plain.toml", "--link", link, "--pcap", capture];
+    let first = Started::new(&folder, "", &run(&links[0], "frames.pcapng")).ready();
+    for arguments in [
+        &run(&links[1], "frames.pcapng")[..],
+        &run(&links[1], "link.pcapng"),
+        &["replay", "scenario.toml", "--json", "frames.pcapng"],
+    ] {
+        let refused = Started::new(&folder, "", arguments).try_ready().err();
+        let refused = refused.unwrap_or_else(|| panic!("{arguments:?} is ready"));
+        assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.stderr);
+        assert!(refused.stderr.contains("another ectwin writes it"), "{}", refused.stderr);
+    }
+    assert_eq!(first.interrupt().code, Some(0));
+    let second = Started::new(&folder, "", &run(&links[1], "link.pcapng")).ready();
+    assert_eq!(second.interrupt().code, Some(0));
+    let block_type = fs::read(folder.join("frames.pcapng")).unwrap()[..4].to_vec();
+    assert_eq!(block_type, [0x0A, 0x0D, 0x0D, 0x0A]);
+}
