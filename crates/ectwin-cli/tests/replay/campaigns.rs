@@ -207,7 +207,7 @@ fn merge_stops_where_lines_are_no_results() {
     bench.put("many.jsonl", &"x\n".repeat(10_000_000));
     bench.put("long.jsonl", &"x".repeat(20_000_000));
     let told = |files: &[&str]| bench.ectwin(&[&["merge"], files].concat()).stderr;
-    let problems = |text: &str| text.matches("this line is no result").count();
+    let problems = |text: &str| text.matches("this line is not a result").count();
     let [twenty, more, many] = ["20.jsonl", "21.jsonl", "many.jsonl"].map(|file| told(&[file]));
     assert_eq!([problems(&twenty), problems(&more), problems(&many)], [20; 3]);
     assert!(twenty.contains("20.jsonl:20:1]") && !twenty.contains("stopped"), "{twenty}");
