@@ -5,6 +5,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use ectwin::ChangesLost;
 use ectwin::explain::Unexplained;
 use ectwin::user_files::Unreadable;
 use link::OpenError;
@@ -33,6 +34,8 @@ pub(crate) enum Failure {
     FolderUnreadable { path: PathBuf, source: io::Error },
     /// A file cannot be written.
     Unwritable { path: PathBuf, source: io::Error },
+    /// The last changes of a memory could not be stored until the end.
+    ChangesLost(ChangesLost),
     /// The link cannot be opened.
     Link(OpenError),
     /// Modbus TCP cannot be served there.
@@ -65,6 +68,8 @@ impl Failure {
 
     fn exit_code(&self) -> u8 {
         match self {
+            // Whatever the reason was: the units have run.
+            Self::ChangesLost(_) => 2,
             _ if self.source().is_some_and(descriptors::are_exhausted) => 3,
             Self::Unexplained(_)
             | Self::ProgramWrong(_)
@@ -90,6 +95,7 @@ impl Failure {
             Self::Unreadable { source, .. } => source.refused_by_system(),
             Self::FolderUnreadable { source, .. }
             | Self::Unwritable { source, .. }
+            | Self::ChangesLost(ChangesLost { source, .. })
             | Self::Modbus { source, .. }
             | Self::Link(OpenError::Failed { source, .. })
             | Self::LinkLost(source) => Some(source),
@@ -123,7 +129,9 @@ impl Failure {
                 let help = "check the path and its permissions".to_owned();
                 (format!("cannot read {}: {source}", path.display()), Some(help))
             }
-            Self::Unwritable { path, source } => (format!("cannot write {}: {source}", path.display()), None),
+            Self::Unwritable { path, source } | Self::ChangesLost(ChangesLost { path, source }) => {
+                (format!("cannot write {}: {source}", path.display()), None)
+            }
             Self::Link(error) => (error.to_string(), Some(error.help())),
             Self::Modbus { address, source } => {
                 (format!("Modbus TCP cannot be served at {address}: {source}"), help_to_listen(source))

@@ -8,11 +8,13 @@ mod started;
 
 use std::fs;
 use std::io::{Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::net::{TcpListener, TcpStream, UdpSocket};
 use std::path::Path;
 use std::time::Duration;
 
+use rustix::process::{Pid, Resource, Rlimit, prlimit};
 use started::{Started, folder_of, free_link};
+use wire::{Command, FrameBuilder};
 
 const UNIT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../units/nx-ect101.toml");
 /// With fewer, even the program's libraries cannot be loaded.
@@ -80,4 +82,31 @@ fn at_any_number_of_descriptors_there_is_a_message_or_a_server_that_goes_on() {
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     assert!(ended.stderr.matches("too few open files").count() <= 3, "a line a second: {}", ended.stderr);
     assert!(!ended.stderr.contains("panicked"), "{}", ended.stderr);
+}
+
+/// A master's write of a word of the EEPROM, as an EtherCAT datagram in UDP.
+fn eeprom_write() -> Vec<u8> {
+    const ETHERNET_HEADER_BYTES: usize = 14;
+    let write = [0x01, 0x02, 0xF0, 0x03, 0, 0, 0xFE, 0xCA];
+    let frame = FrameBuilder::new().physical(Command::Apwr, 0, 0x0502, &write).finish();
+    frame[ETHERNET_HEADER_BYTES..].to_vec()
+}
+
+/// The units have run: it is no failure of the start.
+#[test]
+fn changes_that_were_lost_for_want_of_descriptors_end_with_2() {
+    let folder = folder_of("lost");
+    let unit = "model = \"nx-ect101\"\nstart_up = \"0ms\"\nstorage = \"N1.nvm\"\n";
+    fs::write(folder.join("unit.toml"), unit).unwrap();
+    let link = free_link();
+    let mut started = Started::new(&folder, "", &["run", "unit.toml", "--link", &link]).ready();
+    // All of them are in use: stdin, stdout and stderr.
+    let none_left = Rlimit { current: Some(3), maximum: Some(3) };
+    prlimit(Pid::from_raw(started.id().parse().unwrap()), Resource::Nofile, none_left).unwrap();
+    let master = UdpSocket::bind("127.0.0.1:0").unwrap();
+    master.send_to(&eeprom_write(), link.trim_start_matches("udp:")).unwrap();
+    started.wait_for("N1.nvm: not stored: Too many open files");
+    let ended = started.interrupt();
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(ended.stderr.contains("help: allow this process more open files"), "{}", ended.stderr);
 }

@@ -62,7 +62,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
 /// Each loss has already been logged.
 fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
     match lost.into_iter().next() {
-        Some(ChangesLost { path, source }) => Err(Failure::Unwritable { path, source }),
+        Some(lost) => Err(Failure::ChangesLost(lost)),
         None => Ok(()),
     }
 }
