@@ -182,6 +182,7 @@ fn a_replay_that_is_refused_changes_no_output() {
     let bench = campaign("refused-outputs");
     bench.put("kept.jsonl", "lines");
     bench.put("kept.xml", "report");
+    bench.put("kept.pcapng", "frames");
     for outputs in [
         ["--json", "kept.jsonl", "--junit", "no/report.xml"],
         ["--json", "no/lines.jsonl", "--junit", "kept.xml"],
@@ -190,12 +191,36 @@ fn a_replay_that_is_refused_changes_no_output() {
         ["--json", "kept.jsonl", "--pcap", "kept.xml/"],
         ["--junit", "new.xml", "--pcap", "kept.xml/"],
     ] {
-        let ended = bench.ectwin(&[&["replay", "s"], &outputs[..]].concat());
-        assert!(ended.code.is_some_and(|code| code > 1), "{outputs:?}: {}", ended.stderr);
-        assert_eq!((bench.text("kept.jsonl"), bench.text("kept.xml")), ("lines".into(), "report".into()));
-        let is_there = |file: &&str| bench.folder.join(file).exists();
-        assert_eq!(["new.jsonl", "new.xml"].iter().find(|file| is_there(file)), None, "{outputs:?}");
+        assert_changes_nothing(&bench, "s", &outputs);
     }
+    // Of one case the capture is one file.
+    let case = "s/1-right.toml";
+    for outputs in [
+        ["--json", "kept.jsonl", "--junit", "kept.xml", "--pcap", "no/frames.pcapng"],
+        ["--json", "new.jsonl", "--junit", "new.xml", "--pcap", "no/frames.pcapng"],
+        ["--json", "no/lines.jsonl", "--junit", "kept.xml", "--pcap", "kept.pcapng"],
+        ["--json", "kept.jsonl", "--junit", "no/report.xml", "--pcap", "new.pcapng"],
+    ] {
+        assert_changes_nothing(&bench, case, &outputs);
+    }
+    let accepted = ["replay", case, "--json", "kept.jsonl", "--pcap", "kept.pcapng"];
+    assert_eq!(bench.ectwin(&accepted).code, Some(0));
+    let frames = std::fs::read(bench.folder.join("kept.pcapng")).unwrap();
+    assert_eq!(frames[..4], [0x0A, 0x0D, 0x0D, 0x0A]);
+}
+
+/// Replays with outputs of which one is refused.
+fn assert_changes_nothing(bench: &Bench, files: &str, outputs: &[&str]) {
+    let ended = bench.ectwin(&[&["replay", files], outputs].concat());
+    assert!(ended.code.is_some_and(|code| code > 1), "{outputs:?}: {}", ended.stderr);
+    let kept = ["kept.jsonl", "kept.xml", "kept.pcapng"].map(|file| bench.text(file));
+    assert_eq!(kept, ["lines", "report", "frames"], "{outputs:?}");
+    let is_there = |file: &&str| bench.folder.join(file).exists();
+    assert_eq!(
+        ["new.jsonl", "new.xml", "new.pcapng"].iter().find(|file| is_there(file)),
+        None,
+        "{outputs:?}"
+    );
 }
 
 #[test]

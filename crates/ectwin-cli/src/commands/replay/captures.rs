@@ -1,25 +1,28 @@
 //! The files for captures: one case to a file, several to a folder.
 
 use std::fs;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use super::result::CaseResult;
 use crate::failure::Failure;
 use crate::output;
+use crate::output_file::LaterOutput;
 use crate::overwrite::{self, Output};
 
 /// The target of the captures.
 pub(super) enum Captures {
     /// Captures are not requested.
     None,
-    /// The one case.
-    File(PathBuf),
+    /// The one case. The file is open until its capture is written, and keeps its old contents until then.
+    File { path: PathBuf, file: Option<LaterOutput> },
     /// Each case to a separate file, named after its number, scenario and seed. A scenario may replay one of them.
     Folder { folder: PathBuf, inputs: Vec<PathBuf> },
 }
 
 impl Captures {
-    /// A path that ends with `/`, or is a folder, is a folder; otherwise it is a file, and there must be only one case.
+    /// A path that ends with `/`, or is a folder, is a folder; otherwise it is a file, which is opened, and there must be
+    /// only one case.
     pub(super) fn choose(path: Option<&Path>, cases: usize, inputs: &[PathBuf]) -> Result<Self, Failure> {
         let Some(path) = path else { return Ok(Self::None) };
         if path.is_dir() || path.as_os_str().as_encoded_bytes().ends_with(b"/") {
@@ -30,7 +33,7 @@ impl Captures {
             let help = "end it with `/` to write each case to a separate file in that folder".to_owned();
             return Err(Failure::Refused { message, help });
         }
-        Ok(Self::File(path.to_owned()))
+        Ok(Self::File { path: path.to_owned(), file: Some(LaterOutput::open(path)?) })
     }
 
     /// Makes the folder, if they go to one.
@@ -40,17 +43,21 @@ impl Captures {
     }
 
     /// Writes the capture of a case.
-    pub(super) fn write(&self, result: &CaseResult, capture: Option<&[u8]>) -> Result<(), Failure> {
-        let path = match (self, capture) {
-            (Self::None, _) | (_, None) => return Ok(()),
-            (Self::File(path), _) => path.clone(),
-            (Self::Folder { folder, inputs }, _) => {
-                let path = folder.join(file_name(result));
-                overwrite::refuse(&[Output { option: "--pcap", path: &path }], inputs)?;
-                path
+    pub(super) fn write(&mut self, result: &CaseResult, capture: &[u8]) -> Result<(), Failure> {
+        match self {
+            Self::None => Ok(()),
+            Self::File { path, file } => {
+                let Some(file) = file.take() else { return Ok(()) };
+                let mut to = file.begin()?;
+                let written = to.write_all(capture).and_then(|()| to.flush());
+                written.map_err(|source| Failure::Unwritable { path: path.clone(), source })
             }
-        };
-        output::write(Some(&path), capture.unwrap_or_default())
+            Self::Folder { folder, inputs } => {
+                let path = folder.join(file_name(result));
+                overwrite::refuse(&[Output { option: "--pcap", path: &path }], inputs.iter())?;
+                output::write(Some(&path), capture)
+            }
+        }
     }
 }
 

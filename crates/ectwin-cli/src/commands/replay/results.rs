@@ -38,7 +38,9 @@ impl Results {
     pub(super) fn take(&mut self, ended: Ended) -> Result<(), Failure> {
         let Ended { result, trace, capture } = ended;
         self.people.print_text(&story::case(&result, trace.as_deref()))?;
-        self.captures.write(&result, capture.as_deref())?;
+        if let Some(capture) = capture {
+            self.captures.write(&result, &capture)?;
+        }
         if let Some((path, lines)) = &mut self.lines {
             let line = output::json_line(&result)? + "\n";
             let written = lines.write_all(line.as_bytes()).and_then(|()| lines.flush());
