@@ -6,8 +6,9 @@ use time::Duration;
 
 use super::value::Value;
 use read::{
-    bytes, choice, controller, entries, entry, event, fault, frames, indicator, limited, number, numbers,
-    one, pattern, percent, position, state, transition, unit, units, user_error,
+    bytes, choice, controller, entries, entry, event, fault, fitting_entries, fitting_numbers, frames,
+    indicator, limited, number, numbers, one, pattern, percent, position, state, transition, unit, units,
+    user_error,
 };
 
 /// A kind of place.
@@ -83,8 +84,18 @@ const PLACES: &[Place] = &[
     }),
     place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
     place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),
-    place("entries", "entries such as 7000:01..06 or 7000:01 7000:02", entries),
-    place("numbers", "PDO numbers such as 1601 1602, hexadecimal", numbers),
+    Place {
+        name: "entries",
+        meaning: "at most 254 entries such as 7000:01..06 or 7000:01 7000:02",
+        read: entries,
+        fitting: fitting_entries,
+    },
+    Place {
+        name: "numbers",
+        meaning: "at most 254 PDO numbers such as 1601 1602, hexadecimal",
+        read: numbers,
+        fitting: fitting_numbers,
+    },
     place(
         "event",
         "an event code of eight hexadecimal digits such as 85000000, one of `ectwin list events`",

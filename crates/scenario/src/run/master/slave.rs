@@ -184,7 +184,7 @@ impl Slave {
     fn write_list(&self, index: u16, elements: Vec<Vec<u8>>) -> Vec<Operation> {
         let download = |sub, value: &[u8]| self.download(Entry { index, sub }, value);
         let count = elements.len() as u8;
-        let elements = (1..).zip(&elements).map(|(sub, element)| download(sub, element));
+        let elements = (1..=u8::MAX).zip(&elements).map(|(sub, element)| download(sub, element));
         let operations = core::iter::once(download(0, &[0])).chain(elements).chain([download(0, &[count])]);
         operations.flatten().collect()
     }

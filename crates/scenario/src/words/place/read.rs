@@ -6,6 +6,9 @@ use crate::model::{
 };
 use crate::words::value::Value;
 
+/// Maximum number of elements of a mapping or assignment object: subindices 01 to FE (ETG.1000.6).
+const ELEMENTS_MAX: usize = 254;
+
 pub(super) fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
     read(words.first()?).map(|value| (value, 1))
 }
@@ -70,7 +73,12 @@ pub(super) fn bytes(words: &[&str]) -> Option<(Value, usize)> {
 
 pub(super) fn numbers(words: &[&str]) -> Option<(Value, usize)> {
     let numbers = all(words, |word| hexadecimal(word, 4).map(|number| Hex(number as u16)))?;
-    Some((Value::Numbers(numbers), words.len()))
+    (numbers.len() <= ELEMENTS_MAX).then_some((Value::Numbers(numbers), words.len()))
+}
+
+/// Number of words at the start that are PDO numbers for which the object has subindices.
+pub(super) fn fitting_numbers(words: &[&str]) -> usize {
+    words.iter().take(ELEMENTS_MAX).take_while(|word| hexadecimal(word, 4).is_some()).count()
 }
 
 pub(super) fn entry(word: &str) -> Option<Value> {
@@ -78,15 +86,28 @@ pub(super) fn entry(word: &str) -> Option<Value> {
 }
 
 pub(super) fn entries(words: &[&str]) -> Option<(Value, usize)> {
-    let lists = all(words, |word| match word.split_once("..") {
-        None => word.parse().ok().map(|entry: Entry| vec![entry]),
-        Some((first, last)) => {
-            let Entry { index, sub: first } = first.parse().ok()?;
-            let last = hexadecimal(last, 2)? as u8;
-            (first <= last).then(|| (first..=last).map(|sub| Entry { index, sub }).collect())
-        }
-    })?;
-    Some((Value::Entries(lists.concat()), words.len()))
+    let entries = all(words, range)?.concat();
+    (entries.len() <= ELEMENTS_MAX).then_some((Value::Entries(entries), words.len()))
+}
+
+/// Number of words at the start that are entries for which the object has subindices.
+pub(super) fn fitting_entries(words: &[&str]) -> usize {
+    let counts = words.iter().map_while(|word| range(word).map(|entries| entries.len()));
+    let sums = counts.scan(0, |sum, count| {
+        *sum += count;
+        Some(*sum)
+    });
+    sums.take_while(|sum| *sum <= ELEMENTS_MAX).count()
+}
+
+/// An entry, or entries that follow each other.
+fn range(word: &str) -> Option<Vec<Entry>> {
+    let Some((first, last)) = word.split_once("..") else {
+        return word.parse().ok().map(|entry: Entry| vec![entry]);
+    };
+    let Entry { index, sub: first } = first.parse().ok()?;
+    let last = hexadecimal(last, 2)? as u8;
+    (first <= last).then(|| (first..=last).map(|sub| Entry { index, sub }).collect())
 }
 
 /// An event of a model.
