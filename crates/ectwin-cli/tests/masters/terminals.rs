@@ -5,7 +5,7 @@ use crate::run::Run;
 #[test]
 fn pysoem_takes_a_line_of_terminals_and_an_nx_ect101_to_op() {
     Run {
-        test: "pysoem_takes_a_line_of_terminals_and_an_nx_ect101_to_op",
+        test: "terminals::pysoem_takes_a_line_of_terminals_and_an_nx_ect101_to_op",
         units: &[
             "digital-coupler.toml",
             "digital-8-outputs.toml",

@@ -209,10 +209,10 @@ mod tests {
     fn what_names_no_part_is_refused() {
         let cases: &[(&[(&str, &str)], &str)] = &[
             (&[], "none of the variables"),
-            (&[("CI_NODE_INDEX", "1"), ("TEST_SHARD_INDEX", "0")], "both name a part"),
+            (&[("CI_NODE_INDEX", "1"), ("TEST_SHARD_INDEX", "0")], "define a part"),
             (&[("JOB_COMPLETION_INDEX", "0")], "ECTWIN_SHARDS is not set"),
             (&[("TEST_SHARD_INDEX", "3"), ("TEST_TOTAL_SHARDS", "3")], "contradict"),
-            (&[("CI_NODE_INDEX", "one"), ("CI_NODE_TOTAL", "3")], "no number"),
+            (&[("CI_NODE_INDEX", "one"), ("CI_NODE_TOTAL", "3")], "which is not a number"),
             (
                 &[
                     ("SLURM_ARRAY_TASK_ID", "1"),
