@@ -5,7 +5,7 @@
 //! avoid.
 
 use std::io::Read;
-use std::process::{Child, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::outcome::Ending;
@@ -23,21 +23,26 @@ pub(crate) fn check() -> Ending {
     if !has_cargo("deny") {
         return skip("advisories", "cargo-deny is not installed").into();
     }
-    match fetch() {
+    match fetch(fetch_command(), FETCH_TIME) {
         Ok(()) => cargo(&["deny", "--log-level", "error", "check", "advisories"]).into(),
         Err(reason) => Ending::NotHere(format!("the index of advisories cannot be had: {reason}")),
     }
 }
 
-fn fetch() -> Result<(), String> {
+fn fetch_command() -> Command {
     let mut command = command("cargo");
     command.args(["deny", "--log-level", "error", "fetch", "db"]);
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     // Git must not prompt for a password.
     command.env("GIT_TERMINAL_PROMPT", "0");
+    command
+}
+
+/// Runs the command that fetches the index. Fails with the reason, or after `limit`.
+fn fetch(mut command: Command, limit: Duration) -> Result<(), String> {
+    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let mut child = command.spawn().map_err(|error| error.to_string())?;
-    if !ends_in_time(&mut child)? {
-        return Err(format!("no answer within {} s", FETCH_TIME.as_secs()));
+    if !ends_in_time(&mut child, limit)? {
+        return Err(format!("no answer within {} s", limit.as_secs()));
     }
     let mut told = String::new();
     if let Some(stderr) = &mut child.stderr {
@@ -51,9 +56,9 @@ fn fetch() -> Result<(), String> {
 }
 
 /// Waits for the child; one that takes too long is ended.
-fn ends_in_time(child: &mut Child) -> Result<bool, String> {
+fn ends_in_time(child: &mut Child, limit: Duration) -> Result<bool, String> {
     let start = Instant::now();
-    while start.elapsed() < FETCH_TIME {
+    while start.elapsed() < limit {
         if child.try_wait().map_err(|error| error.to_string())?.is_some() {
             return Ok(true);
         }
@@ -79,5 +84,37 @@ mod tests {
         assert_eq!(reason(told).as_deref(), Some("could not resolve host"));
         assert_eq!(reason(&"x".repeat(1_000)).map(|reason| reason.len()), Some(REASON_CHARACTERS));
         assert_eq!(reason(" \n"), None);
+    }
+
+    fn shell(script: &str) -> Command {
+        let mut shell = Command::new("sh");
+        shell.args(["-c", script]);
+        shell
+    }
+
+    #[test]
+    fn a_fetch_that_fails_has_its_reason_or_its_exit_status() {
+        assert_eq!(fetch(shell("echo progress >&2"), FETCH_TIME), Ok(()));
+        let failed = fetch(shell("echo 'error: failed to fetch\n\n    no host' >&2; exit 1"), FETCH_TIME);
+        assert_eq!(failed, Err("no host".to_owned()));
+        assert_eq!(fetch(shell("exit 3"), FETCH_TIME), Err("exit status: 3".to_owned()));
+        assert!(fetch(Command::new("/no-such-folder/cargo"), FETCH_TIME).is_err());
+    }
+
+    #[test]
+    fn a_fetch_without_an_answer_is_ended_at_the_limit() {
+        let endless = || shell("exec tail -f /dev/null");
+        assert_eq!(fetch(endless(), Duration::ZERO), Err("no answer within 0 s".to_owned()));
+        let mut child = endless().stdin(Stdio::null()).spawn().expect("a shell");
+        assert_eq!(ends_in_time(&mut child, Duration::ZERO), Ok(false));
+        let status = child.try_wait().expect("a child");
+        assert!(status.is_some_and(|status| !status.success()), "it was ended: {status:?}");
+    }
+
+    #[test]
+    fn the_fetch_asks_nobody_for_a_password() {
+        let command = fetch_command();
+        let prompt = command.get_envs().find(|(name, _)| *name == "GIT_TERMINAL_PROMPT");
+        assert_eq!(prompt.and_then(|(_, value)| value), Some("0".as_ref()));
     }
 }
