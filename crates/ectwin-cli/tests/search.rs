@@ -30,6 +30,23 @@ fn what_holds_is_told_with_runs_and_virtual_time() {
 }
 
 #[test]
+fn after_the_last_seed_the_search_continues_with_seed_0() {
+    let bench = Bench::new("search-last-seed");
+    bench.put("never.toml", NEVER_AN_ERROR);
+    let last = u64::MAX.to_string();
+    let ended = bench.ectwin(&["search", "never.toml", "--runs", "100", "--seed", &last, "-o", "found.toml"]);
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
+    bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
+    let lasted = |runs: &str| {
+        let ended = bench.ectwin(&["search", "holds.toml", "--runs", runs, "--seed", &last]);
+        let told = ended.stdout.split_once(" on, ").map(|(_, told)| told.to_owned());
+        told.unwrap_or_default()
+    };
+    assert_ne!(lasted("1"), lasted("3"));
+    assert!(!lasted("1").starts_with("0s"), "{}", lasted("1"));
+}
+
+#[test]
 fn a_failure_is_cut_down_to_a_file_that_replay_repeats() {
     let bench = Bench::new("search-finds");
     bench.put("never.toml", NEVER_AN_ERROR);

@@ -37,7 +37,8 @@ pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
 /// The first seed that fails, reduced, and the virtual time of all replays up to it.
 fn search(scenario: &Scenario, text: &str, args: &SearchArgs) -> (Option<Found>, Duration) {
     let mut lasted = Duration::ZERO;
-    for seed in args.seed..args.seed.saturating_add(args.runs.get()) {
+    for run in 0..args.runs.get() {
+        let seed = args.seed.wrapping_add(run);
         let report = scenario.replay(seed, Recording::new(false, false));
         lasted = lasted + report.lasted;
         if report.failure.is_some() {
