@@ -1,7 +1,5 @@
 //! A line of units of several models with ethercrab as its master, in one process.
 
-#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
-
 use std::time::Duration;
 
 use ectwin::{AlState, Setup, Twin};

@@ -6,12 +6,15 @@ use super::maker::Maker;
 use super::problem::Part;
 use crate::model::{Condition, ID_SWITCH, UnitOrder, UnitSet};
 
+/// Whether a model knows a word.
+type IsKnown = Box<dyn Fn(&dyn Model) -> bool>;
+
 /// A word that the model of each unit has to know.
 struct Needed {
     units: UnitSet,
     /// What it is, such as `fault Processing`.
     words: String,
-    is_known: Box<dyn Fn(&dyn Model) -> bool>,
+    is_known: IsKnown,
 }
 
 impl Maker<'_> {
