@@ -31,10 +31,15 @@ pub fn of_section(section: &PdoSection) -> PdoSettings {
     settings
 }
 
-/// The entry at `address` with the length of its object.
+/// The entry at `address` with the length of its object. In the object of a data set every subindex has the length of an
+/// entry, also one that does not exist: it counts as the master declares it.
 #[must_use]
 pub fn entry_at(address: EntryAddress) -> PdoEntry {
-    PdoEntry::of_table(&object_table(), address)
+    let EntryAddress { index, sub } = address;
+    match DataSet::all().iter().find(|set| set.pdo_entry == index) {
+        Some(set) => PdoEntry { index, sub, bit_length: set.entry_bytes * 8 },
+        None => PdoEntry::of_table(&object_table(), address),
+    }
 }
 
 /// The entries of a data set, if its PDO is assigned; else none.
