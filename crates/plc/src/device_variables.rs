@@ -1,7 +1,7 @@
 //! Device variables: those that the unit gives as a table, and those that the CPU Unit adds (manual, 6-1-2 and A-3-3).
 //!
 //! [`DeviceVariables`] is the list, made at power-on. [`crate::Io`] reads, writes and forces by the
-//! [`VariableId`](variables::VariableId) that was looked up in it once; none of this allocates.
+//! [`variables::VariableId`] that was looked up in it once; none of this allocates.
 
 mod access;
 mod list;
