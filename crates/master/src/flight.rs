@@ -27,6 +27,8 @@ pub(crate) enum Sender {
 pub(crate) struct Part {
     pub(crate) sender: Sender,
     pub(crate) command: Command,
+    /// The address field of a broadcast as it was sent; of other commands it is not used.
+    pub(crate) broadcast_address: u16,
     pub(crate) length_bytes: usize,
 }
 
@@ -36,6 +38,14 @@ impl Part {
         datagram.header.command == self.command
             && datagram.header.index == index
             && datagram.data.len() == self.length_bytes
+            && self.can_have_counted(datagram)
+    }
+
+    /// Each slave on the way of a broadcast adds 1 to its address field (reference 1.4), so no more of them can have
+    /// counted.
+    fn can_have_counted(&self, datagram: &DatagramView<'_>) -> bool {
+        let passed = datagram.header.address.wrapping_sub(self.broadcast_address);
+        !matches!(self.command, Command::Brd | Command::Bwr) || datagram.working_counter <= passed
     }
 }
 

@@ -31,20 +31,22 @@ impl Load {
 
     pub(crate) fn access(&mut self, sender: Sender, address: Address, access: &Access<'_>) {
         access.add_to(&mut self.builder, address);
-        let command = address.command(access).0;
-        self.parts.push(Part { sender, command, length_bytes: access.length_bytes() });
+        let (command, field) = address.command(access);
+        let length_bytes = access.length_bytes();
+        self.parts.push(Part { sender, command, broadcast_address: field, length_bytes });
     }
 
     pub(crate) fn datagram(&mut self, sender: Sender, command: Command, fields: (u16, u16), data: &[u8]) {
         self.builder.add(command, fields.0, fields.1, data);
-        self.parts.push(Part { sender, command, length_bytes: data.len() });
+        self.parts.push(Part { sender, command, broadcast_address: fields.0, length_bytes: data.len() });
     }
 
     /// Adds the next frame of process data.
     pub(crate) fn process_data(&mut self, process_data: &mut ProcessData) {
         for number in process_data.load(&mut self.builder) {
             if let Some((command, length_bytes)) = process_data.shape(number) {
-                self.parts.push(Part { sender: Sender::Cycle(number), command, length_bytes });
+                let sender = Sender::Cycle(number);
+                self.parts.push(Part { sender, command, broadcast_address: 0, length_bytes });
             }
         }
     }
