@@ -2,7 +2,7 @@
 
 use device::OutputsBeforeOp;
 use time::Duration;
-use unit_keys::{CommonKeys, OutputsRule, Shape, Timing};
+use unit_model::keys::{self, CommonKeys, OutputsRule, Shape, Timing};
 use user_file::{DeValue, FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
 
 use crate::channels::Channels;
@@ -21,7 +21,7 @@ const START_UP: Duration = Duration::ZERO;
 
 /// The keys at the top of a file.
 pub(crate) fn all_keys() -> Vec<&'static str> {
-    ["model"].into_iter().chain(KEYS).chain(unit_keys::KEYS).chain(["cpu"]).collect()
+    ["model"].into_iter().chain(KEYS).chain(keys::KEYS).chain(["cpu"]).collect()
 }
 
 /// The contents of a terminal's unit file.

@@ -1,10 +1,11 @@
-//! The interface of a unit model: its name and its words ([`Model`]), and a view of its units that is independent of
-//! the model ([`ModelUnit`]).
+//! The interface of a unit model: its name and its words ([`Model`]), the keys of every unit file ([`keys`]), and a view
+//! of its units that is independent of the model ([`ModelUnit`]).
 //!
 //! Code that runs a line holds `Box<dyn ModelUnit>`: faults, events, indicators and switches are looked up by their names
 //! and codes, and [`Model`] lists them. A model without one of these does not implement the method.
 
 mod event;
+pub mod keys;
 mod model;
 mod section;
 mod slave_view;

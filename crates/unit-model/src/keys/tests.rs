@@ -5,7 +5,7 @@ use time::Duration;
 use user_file::{FileErrors, Wanted, read_toml};
 use wire::{AlState, AlStatusCode};
 
-use crate::{CommonKeys, KEYS, OutputsRule, Shape, Timing};
+use super::{CommonKeys, KEYS, OutputsRule, Shape, Timing};
 
 const TERMINAL: Shape = Shape { mailbox: false, boot: false };
 const EVERYTHING: Shape = Shape { mailbox: true, boot: true };

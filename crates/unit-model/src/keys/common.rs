@@ -4,9 +4,9 @@ use device::StartUp;
 use time::Duration;
 use user_file::{Located, Reader, Section, values};
 
-use crate::slave::{Shape, SlaveKeys};
-use crate::times;
-use crate::timing::{self, Timing};
+use super::slave::{Shape, SlaveKeys};
+use super::times;
+use super::timing::{self, Timing};
 
 /// The keys and sections of every model, in addition to `model`, `storage` and `cpu`.
 pub const KEYS: [&str; 10] = [

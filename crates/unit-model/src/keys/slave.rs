@@ -5,8 +5,8 @@ use time::Duration;
 use user_file::{DeValue, Reader, Section, values, wrong_type};
 use wire::{AlState, AlStatusCode};
 
-use crate::times::time;
-use crate::timing::Timing;
+use super::times::time;
+use super::timing::Timing;
 
 const OUTPUTS_RULES: [(&str, OutputsRule); 2] =
     [("required", OutputsRule::Required), ("not-required", OutputsRule::NotRequired)];
