@@ -3,7 +3,7 @@
 use device::OutputsBeforeOp;
 use time::Duration;
 use unit_model::keys::{self, CommonKeys, OutputsRule, Shape, Timing};
-use user_file::{DeValue, FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
+use user_file::{DeValue, FileErrors, Located, Problem, Reader, Section, Wanted, read_toml, values};
 
 use crate::channels::Channels;
 use crate::description::timeouts;
@@ -63,7 +63,7 @@ impl UnitFile {
         let common = CommonKeys::read(reader, file, SHAPE);
         let settings = |timing| TerminalSettings { inputs, outputs, ports, ..of_common(&common, timing) };
         Self {
-            settings: settings(common.timing),
+            settings: settings(common.timing.value),
             fast: settings(Timing::Fast),
             names_refresh_phase: common.refresh_phase.is_some(),
             name: common.name.as_ref().map_or_else(|| "K1".into(), |name| name.value.clone()),
@@ -74,7 +74,7 @@ impl UnitFile {
 /// The settings of the keys that every model has.
 fn of_common(common: &CommonKeys, timing: Timing) -> TerminalSettings {
     let slave = &common.slave;
-    let common = &CommonKeys { timing, ..common.clone() };
+    let common = &CommonKeys { timing: Located::left_out(timing), ..common.clone() };
     TerminalSettings {
         serial: common.serial.as_ref().map_or(1, |serial| serial.value),
         alias: common.alias.as_ref().map_or(0, |alias| alias.value),

@@ -1,18 +1,18 @@
 //! The description of the unit for the slave stack.
 
 use device::{
-    AbortProfile, Area, Buffers, Condition, Conduct, DataDirection, DataLength, DeviceConfig, EscConfig,
-    MailboxAreas, MailboxConfig, OutputsBeforeOp, ProcessDataConfig, RefusedInOp, Requirement, SiiTiming,
-    SmIndex, SyncManagerWrites, SyncMode, TransitionTimes, condition,
+    AbortProfile, Area, Buffers, Condition, DataDirection, DataLength, DeviceConfig, EscConfig, MailboxAreas,
+    MailboxConfig, OutputsBeforeOp, ProcessDataConfig, RefusedInOp, Requirement, SmIndex, SyncManagerWrites,
+    SyncMode, condition,
 };
 use time::Duration;
+use unit_model::keys::{OutputsRule, SlaveKeys, Timing};
 use wire::AlStatusCode;
 
 use crate::description::{description, timeouts};
 use crate::layout;
 use crate::settings::UnitSettings;
-use crate::slave_settings::{OutputsRule, SlaveSettings};
-use crate::timing::Timing;
+use crate::timing::sdo_response;
 
 /// A byte of an EEPROM that has never been written.
 const ERASED: u8 = 0xFF;
@@ -47,7 +47,7 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
             sync_manager_count: 8,
             ram_kib: 8,
             distributed_clocks: true,
-            sii: sii_timing(slave, timing),
+            sii: slave.sii_timing(timing),
             sync_manager_writes: SyncManagerWrites::OnlyWhileDisabled,
             ..EscConfig::default()
         },
@@ -68,7 +68,7 @@ pub fn device_config_with(settings: &UnitSettings, sii_image: Vec<u8>) -> Device
         outputs_before_op: outputs_before_op(slave.outputs_before_op),
         // Manual, 8-3-4: the state is kept when the error occurs.
         refused_in_op: RefusedInOp::StayInOp,
-        conduct: conduct(slave, timing),
+        conduct: slave.conduct(timing),
         ..DeviceConfig::default()
     }
 }
@@ -85,42 +85,25 @@ fn process_data() -> [ProcessDataConfig; 2] {
     ]
 }
 
-fn outputs_before_op(rule: OutputsRule) -> OutputsBeforeOp {
+fn outputs_before_op(rule: Option<OutputsRule>) -> OutputsBeforeOp {
     match rule {
-        OutputsRule::Required => {
+        Some(OutputsRule::Required) | None => {
             OutputsBeforeOp::Within(Duration::from_millis(timeouts().safe_op_op_ms.into()))
         }
-        OutputsRule::NotRequired => OutputsBeforeOp::NotRequired,
+        Some(OutputsRule::NotRequired) => OutputsBeforeOp::NotRequired,
     }
 }
 
-/// With `fast`, all times are zero; refusals are kept.
-fn conduct(slave: &SlaveSettings, timing: Timing) -> Conduct {
-    let conduct = slave.conduct.clone();
+fn mailbox_time(slave: &SlaveKeys, timing: Timing) -> Duration {
     match timing {
-        Timing::Exact => conduct,
-        Timing::Fast => Conduct { transition_times: TransitionTimes::default(), ..conduct },
-    }
-}
-
-fn sii_timing(slave: &SlaveSettings, timing: Timing) -> SiiTiming {
-    if timing == Timing::Fast || slave.sii_time.is_zero() {
-        SiiTiming::Immediate
-    } else {
-        SiiTiming::Busy(slave.sii_time)
-    }
-}
-
-fn mailbox_time(slave: &SlaveSettings, timing: Timing) -> Duration {
-    match (timing, slave.mailbox_time) {
-        (Timing::Exact, Some(time)) => time,
-        _ => timing.sdo_response(),
+        Timing::Exact => slave.mailbox_time.unwrap_or(sdo_response()),
+        Timing::Fast => Duration::ZERO,
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use device::{Device, Unit};
+    use device::{Device, SiiTiming, Unit};
     use time::Instant;
     use wire::AlState;
 
@@ -170,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_blank_eeprom_is_erased_whatever_it_held() {
-        let slave = crate::SlaveSettings { is_sii_blank: true, ..crate::SlaveSettings::default() };
+        let slave = SlaveKeys { is_sii_blank: true, ..SlaveKeys::default() };
         let config = device_config_with(&UnitSettings { slave, ..UnitSettings::default() }, vec![1, 2, 3]);
         assert_eq!(config.sii_image, [0xFF; 3]);
     }

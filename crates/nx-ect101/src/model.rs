@@ -7,6 +7,7 @@ use coe_kit::indicators::Pattern;
 use esi::{DeviceDescription, NamedBit};
 use objects::ObjectTable;
 use time::Duration;
+use unit_model::keys::Timing;
 use unit_model::{
     CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable, MemoryDamage,
     Model, ModelUnit, NotThere, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection,
@@ -23,7 +24,7 @@ use crate::memory::{Damage, MemoryAtPowerOn, NonVolatileMemory};
 use crate::named_bits::NAMED_BITS;
 use crate::settings::UnitSettings;
 use crate::tables::object_table;
-use crate::timing::Timing;
+use crate::timing::slave_period;
 use crate::unit::NxEct101;
 use crate::unit_file::{self, UnitFile};
 
@@ -133,7 +134,7 @@ impl UnitSection for UnitFile {
     }
 
     fn refresh_period(&self) -> Option<Duration> {
-        Some(self.timing.value.slave_period(self.io_allocation().total_bytes()))
+        Some(slave_period(self.timing.value, self.io_allocation().total_bytes()))
     }
 
     fn check_memory(&self, bytes: &[u8]) -> Result<(), MemoryDamage> {

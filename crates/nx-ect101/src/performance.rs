@@ -10,7 +10,7 @@ use crate::timing;
 pub struct IoResponse {
     /// T_master, the master's cycle time.
     pub master: Duration,
-    /// T_slave, the processing time of the unit: [`crate::Timing::slave_period`].
+    /// T_slave, the processing time of the unit: [`crate::slave_period`].
     pub slave: Duration,
     /// T_cpu, the task period of the CPU Unit.
     pub cpu: Duration,
@@ -47,7 +47,7 @@ pub fn sdo_response_time(master: Duration, response_bytes: u64) -> Duration {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Timing;
+    use unit_model::keys::Timing;
 
     #[test]
     fn worked_examples_of_the_io_response_time() {
@@ -60,7 +60,7 @@ mod tests {
         for (master_us, cpu_us, io_bytes, slaves, frame_bytes, result_ns) in examples {
             let response = IoResponse {
                 master: Duration::from_micros(master_us),
-                slave: Timing::Exact.slave_period(io_bytes),
+                slave: timing::slave_period(Timing::Exact, io_bytes),
                 cpu: Duration::from_micros(cpu_us),
                 transmission: transmission_time(slaves, frame_bytes),
             };

@@ -3,12 +3,12 @@
 use device::StartUp;
 use time::Duration;
 pub use unit_model::LevelNotChangeable;
+use unit_model::keys::{SlaveKeys, Timing};
 
 use crate::allocation::IoAllocation;
 use crate::events::{Event, EventCode, EventLevel};
 use crate::identification::Identification;
-use crate::slave_settings::SlaveSettings;
-use crate::timing::Timing;
+use crate::timing::start_up;
 use crate::unit_file::UnitFile;
 use crate::unit_information::UnitInformation;
 
@@ -27,7 +27,7 @@ pub struct UnitSettings {
     /// Whether the times of the manual are simulated.
     pub timing: Timing,
     /// Its behaviour as an EtherCAT slave.
-    pub slave: SlaveSettings,
+    pub slave: SlaveKeys,
     /// From power-on to the first step of the unit, at the first power-on and at later starts.
     pub start_up: StartUp,
     /// From the first step of the unit to its first refresh.
@@ -111,7 +111,7 @@ impl UnitSettings {
             information: file.information.clone(),
             timing: file.timing.value,
             slave: file.slave.clone(),
-            start_up: file.timing.value.start_up(file.start_up.as_ref().map(|start_up| start_up.value)),
+            start_up: start_up(file.timing.value, file.start_up.as_ref().map(|named| named.value)),
             refresh_phase: file.refresh_phase.as_ref().map_or(Duration::ZERO, |phase| phase.value),
             io_allocation: file.io_allocation(),
             event_levels: EventLevels::from_unit_file(file),
@@ -136,8 +136,8 @@ impl Default for UnitSettings {
             software_id: 0,
             information: UnitInformation::default(),
             timing: Timing::Exact,
-            slave: SlaveSettings::default(),
-            start_up: Timing::Exact.start_up(None),
+            slave: SlaveKeys::default(),
+            start_up: start_up(Timing::Exact, None),
             refresh_phase: Duration::ZERO,
             io_allocation: IoAllocation::factory(),
             event_levels: EventLevels::default(),

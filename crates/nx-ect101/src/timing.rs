@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use device::StartUp;
 use serde::Deserialize;
 use time::Duration;
+use unit_model::keys::Timing;
 
 use crate::tables;
 
@@ -30,50 +31,21 @@ struct SlaveRow {
     period_us: u64,
 }
 
-/// Whether the unit simulates the times of the manual.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Timing {
-    /// T_slave by size, SDO responses after 2 ms.
-    #[default]
-    Exact,
-    /// SDO responses immediately, T_slave at its minimum.
-    Fast,
+/// T_slave, the time between two refreshes (Free-Run), for `total_bytes` of I/O data between CPU Unit and
+/// unit: both directions and the EtherCAT Slave Status (manual, 7-9-1). With `fast` it is at its minimum.
+#[must_use]
+pub fn slave_period(timing: Timing, total_bytes: usize) -> Duration {
+    let total_bytes = if timing == Timing::Fast { 0 } else { total_bytes };
+    let holds = |row: &&SlaveRow| row.max_bytes.is_none_or(|max_bytes| total_bytes <= max_bytes);
+    match TIMES.t_slave.iter().find(holds) {
+        Some(row) => Duration::from_micros(row.period_us),
+        None => panic!("tables/timing.toml: the last row of t_slave has no max_bytes"),
+    }
 }
 
-impl Timing {
-    /// T_slave, the time between two refreshes (Free-Run), for `total_bytes` of I/O data between CPU Unit and
-    /// unit: both directions and the EtherCAT Slave Status (manual, 7-9-1).
-    #[must_use]
-    pub fn slave_period(self, total_bytes: usize) -> Duration {
-        let total_bytes = if self == Self::Fast { 0 } else { total_bytes };
-        let holds = |row: &&SlaveRow| row.max_bytes.is_none_or(|max_bytes| total_bytes <= max_bytes);
-        match TIMES.t_slave.iter().find(holds) {
-            Some(row) => Duration::from_micros(row.period_us),
-            None => panic!("tables/timing.toml: the last row of t_slave has no max_bytes"),
-        }
-    }
-
-    /// The start-up time in a unit file, or that of the model. Without such a time the unit has been powered
-    /// for a long time when it is first powered on, so that a master finds it ready.
-    #[must_use]
-    pub fn start_up(self, named: Option<Duration>) -> StartUp {
-        match self {
-            Self::Exact => {
-                let again = named.unwrap_or(Duration::from_millis(TIMES.start_up_ms));
-                StartUp { first: named.unwrap_or(Duration::ZERO), again }
-            }
-            Self::Fast => StartUp::default(),
-        }
-    }
-
-    /// Time from an SDO request to its complete response (manual, 7-9-2).
-    #[must_use]
-    pub fn sdo_response(self) -> Duration {
-        match self {
-            Self::Exact => sdo_response(),
-            Self::Fast => Duration::ZERO,
-        }
-    }
+/// The start-up time in a unit file, or that of the model.
+pub(crate) fn start_up(timing: Timing, named: Option<Duration>) -> StartUp {
+    timing.start_up(named, Duration::from_millis(TIMES.start_up_ms))
 }
 
 /// From the receipt of an SDO request to its response.
@@ -107,14 +79,14 @@ mod tests {
             [(0, 1000), (362, 1000), (800, 1000), (801, 1500), (1600, 1500), (1601, 2000), (2402, 2000)];
         for (total_bytes, period_us) in cases {
             let period = Duration::from_micros(period_us);
-            assert_eq!(Timing::Exact.slave_period(total_bytes), period, "{total_bytes} bytes");
+            assert_eq!(slave_period(Timing::Exact, total_bytes), period, "{total_bytes} bytes");
         }
     }
 
     #[test]
-    fn fast_waits_for_nothing_and_still_refreshes_every_millisecond() {
-        assert_eq!(Timing::Fast.slave_period(2402), Duration::from_millis(1));
-        assert_eq!(Timing::Fast.sdo_response(), Duration::ZERO);
-        assert_eq!(Timing::Exact.sdo_response(), Duration::from_millis(2));
+    fn fast_still_refreshes_every_millisecond() {
+        assert_eq!(slave_period(Timing::Fast, 2402), Duration::from_millis(1));
+        assert_eq!(start_up(Timing::Fast, None), StartUp::default());
+        assert_eq!(sdo_response(), Duration::from_millis(2));
     }
 }

@@ -30,6 +30,7 @@ use crate::pdo_settings;
 use crate::rules;
 use crate::settings::UnitSettings;
 use crate::status::NxUnitStatus;
+use crate::timing::slave_period;
 
 use kept_memory::KeptMemory;
 use reported::Reported;
@@ -95,7 +96,7 @@ impl NxEct101 {
             diagnosis.see_before_start(Fault::NonVolatileMemory);
         }
         diagnosis.start(settings.event_levels, settings.newest_acknowledged);
-        let period = settings.timing.slave_period(settings.io_allocation.total_bytes());
+        let period = slave_period(settings.timing, settings.io_allocation.total_bytes());
         let m_to_c_layout = settings.io_allocation.layout(Direction::MToC);
         let c_to_m_layout = settings.io_allocation.layout(Direction::CToM);
         let (bus, cpu_end) = nx_bus::connect(m_to_c_layout.size_bytes(), c_to_m_layout.size_bytes());

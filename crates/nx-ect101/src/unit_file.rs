@@ -8,21 +8,18 @@ mod entries;
 mod information;
 mod keys;
 mod sections;
-mod slave;
 #[cfg(test)]
 mod tests;
-mod times;
 
 use std::path::PathBuf;
 
 use time::Duration;
+use unit_model::keys::{SlaveKeys, Timing};
 use user_file::{Reader, Section, Wanted, read_toml};
 use variables::VariableTable;
 
 use crate::allocation::IoAllocation;
 use crate::events::{EventCode, EventLevel};
-use crate::slave_settings::SlaveSettings;
-use crate::timing::Timing;
 use crate::unit_information::UnitInformation;
 use crate::variables::variable_table;
 
@@ -68,7 +65,7 @@ pub struct UnitFile {
     /// Whether the times of the manual are simulated; exact if left out.
     pub timing: Located<Timing>,
     /// Its behaviour as an EtherCAT slave; if left out, it follows the standard and is fast.
-    pub slave: SlaveSettings,
+    pub slave: SlaveKeys,
     /// Start-up time, 0 s to 60 s; that of the model if left out.
     pub start_up: Option<Located<Duration>>,
     /// From the first step of the unit to its first refresh, 0 s to 2 ms; if left out, it is taken from a

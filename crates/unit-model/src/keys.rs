@@ -9,7 +9,7 @@ mod times;
 mod timing;
 
 pub use common::{CommonKeys, KEYS};
-pub use slave::{OutputsRule, Shape, SlaveKeys};
+pub use slave::{OutputsRule, Shape, SlaveKeys, refuse_keys, times_keys, transition_keys};
 pub use timing::Timing;
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use core::ops::Range;
 
-/// A value and its place in the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A value and its place in the file. The default was left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Located<T> {
     /// The value.
     pub value: T,

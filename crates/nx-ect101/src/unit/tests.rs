@@ -1,6 +1,7 @@
 //! The unit between a master's SyncManagers and a CPU Unit's NX bus, without either.
 
 use device::{PortLinks, RefreshCause};
+use unit_model::keys::Timing;
 use wire::{ObjectIndex, SubIndex};
 
 use super::*;
@@ -10,7 +11,7 @@ use crate::data_sets::DataSetKind;
 use crate::events::{EventCode, EventLevel};
 use crate::pdo_settings::tests::set;
 use crate::settings::{EventLevels, NewestAcknowledged};
-use crate::timing::Timing;
+use crate::timing::start_up;
 use crate::unit_file::UnitFile;
 use crate::unit_information::UnitInformation;
 
@@ -184,7 +185,7 @@ fn a_unit_file_sets_up_a_unit() {
         software_id: 0,
         information: UnitInformation::default(),
         timing: Timing::Fast,
-        start_up: Timing::Fast.start_up(None),
+        start_up: start_up(Timing::Fast, None),
         refresh_phase: Duration::ZERO,
         io_allocation,
         event_levels,

@@ -1,10 +1,12 @@
 //! The keys of the unit file, section by section: those that the reader accepts and [`keys`] lists.
 
-use device::TRANSITIONS;
-use wire::AlState;
+use unit_model::keys::{Shape, refuse_keys, times_keys, transition_keys};
 
 use crate::data_sets::{DataSet, DataSetKind};
 use crate::events::{Event, EventCode};
+
+/// The unit has a mailbox and no BOOT.
+pub(super) const SHAPE: Shape = Shape { mailbox: true, boot: false };
 
 /// Keys and sections of the file itself.
 pub(super) const UNIT: [&str; 23] = [
@@ -38,24 +40,11 @@ pub(crate) const fn top_keys() -> &'static [&'static str] {
     &UNIT
 }
 
-pub(super) const TIMES: [&str; 3] = ["transitions", "sii", "mailbox"];
-pub(super) const REFUSED_STATES: [(&str, AlState); 4] =
-    [("init", AlState::Init), ("pre_op", AlState::PreOp), ("safe_op", AlState::SafeOp), ("op", AlState::Op)];
-pub(super) const ACKNOWLEDGE: &str = "acknowledge";
 pub(super) const IO_ALLOCATION: [&str; 2] = ["m_to_c", "c_to_m"];
 pub(super) const DATA_SETS: [(&str, DataSetKind); 3] =
     [("uints", DataSetKind::Uints), ("bytes", DataSetKind::Bytes), ("udint", DataSetKind::Udint)];
 pub(super) const PDO: [&str; 2] = ["assign", "mapping"];
 pub(super) const ASSIGN: [&str; 2] = ["rx", "tx"];
-
-/// The transitions of a unit without BOOT, by the standard's letters.
-pub(super) fn transitions() -> Vec<&'static str> {
-    TRANSITIONS.iter().filter(|row| !row.needs_boot()).map(|row| row.letters).collect()
-}
-
-pub(super) fn refuse() -> Vec<&'static str> {
-    REFUSED_STATES.iter().map(|(key, _)| *key).chain([ACKNOWLEDGE]).collect()
-}
 
 /// The mapping objects whose entries a master may set, ascending.
 pub(super) fn mappings() -> Vec<String> {
@@ -76,9 +65,9 @@ pub fn keys() -> Vec<String> {
     let owned = |keys: &[&str]| keys.iter().map(|key| (*key).to_owned()).collect::<Vec<_>>();
     let data_sets = || DATA_SETS.iter().map(|(key, _)| (*key).to_owned()).collect();
     let sections: [(&str, Vec<String>); 10] = [
-        ("times", owned(&TIMES)),
-        ("times.transitions", owned(&transitions())),
-        ("refuse", owned(&refuse())),
+        ("times", owned(times_keys(SHAPE))),
+        ("times.transitions", owned(&transition_keys(SHAPE))),
+        ("refuse", owned(&refuse_keys(SHAPE))),
         ("io_allocation", owned(&IO_ALLOCATION)),
         ("io_allocation.m_to_c", data_sets()),
         ("io_allocation.c_to_m", data_sets()),

@@ -1,13 +1,13 @@
 //! The sections of a unit file, key by key.
 
+use unit_model::keys::CommonKeys;
 use user_file::{DeValue, Located, Problem, Reader, Section, Value, values, wrong_type};
 use wire::ObjectIndex;
 
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
-use super::{ChangedLevel, Model, UnitFile, information, keys, slave, times};
+use super::{ChangedLevel, Model, UnitFile, information, keys};
 use crate::data_sets::DataSet;
 use crate::events::EventLevel;
-use crate::timing::Timing;
 
 /// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
 const UNIT_NUMBER_MAX: u64 = 32;
@@ -21,36 +21,25 @@ pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Un
     let unit_number = reader.value(file, "unit_number", |place, value| {
         values::integer(place, value, 1..=UNIT_NUMBER_MAX, "1 to 32, which CPU Units have")
     });
-    let serial = reader.value(file, "serial", |place, value| {
-        values::integer(place, value, 0..=u32::MAX.into(), "0 to 4294967295")
-    });
     let id_switch = reader
         .value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
-    let alias =
-        reader.value(file, "alias", |place, value| values::integer(place, value, 1..=0xFFFF, "1 to 65535"));
-    let timing = reader.value(file, "timing", |place, value| {
-        values::choice(place, value, &[("exact", Timing::Exact), ("fast", Timing::Fast)])
-    });
-    let start_up = reader.value(file, "start_up", times::start_up);
-    let refresh_phase = reader.value(file, "refresh_phase", times::refresh_phase);
-    let slave = slave::slave(reader, file);
-    let name = reader.value(file, "name", values::identifier);
+    let common = CommonKeys::read(reader, file, keys::SHAPE);
     let storage = reader.value(file, "storage", values::path);
     let io_allocation = io_allocation(reader, file);
     let pdo = pdo(reader, file);
     let event_levels = event_levels(reader, file);
     Some(UnitFile {
         model: model?,
-        name: name.unwrap_or_else(|| Located::left_out("N1".into())),
+        name: common.name.unwrap_or_else(|| Located::left_out("N1".into())),
         unit_number: unit_number.unwrap_or(Located::left_out(1)),
-        serial: serial.unwrap_or(Located::left_out(1)),
+        serial: common.serial.unwrap_or(Located::left_out(1)),
         id_switch: id_switch.unwrap_or(Located::left_out(0x01)),
-        alias,
+        alias: common.alias,
         information: information::information(reader, file),
-        timing: timing.unwrap_or(Located::left_out(Timing::Exact)),
-        start_up,
-        refresh_phase,
-        slave,
+        timing: common.timing,
+        start_up: common.start_up,
+        refresh_phase: common.refresh_phase,
+        slave: common.slave,
         storage,
         io_allocation,
         pdo,

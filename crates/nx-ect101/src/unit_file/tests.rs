@@ -1,9 +1,9 @@
 use proptest::prelude::*;
+use unit_model::keys::OutputsRule;
 use wire::{AlState, AlStatusCode};
 
 use super::*;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
-use crate::slave_settings::OutputsRule;
 use crate::unit_information::{UnitVersion, VersionText};
 
 const FACTORY: &str = include_str!("../../../../units/nx-ect101.toml");
@@ -74,7 +74,7 @@ fn a_file_with_every_key_reads_as_written() {
     };
     assert_eq!(file.information, information);
     assert_eq!(file.timing.value, Timing::Exact);
-    assert_eq!(file.slave.outputs_before_op, OutputsRule::NotRequired);
+    assert_eq!(file.slave.outputs_before_op, Some(OutputsRule::NotRequired));
     let ms = Duration::from_millis;
     let times = &file.slave.conduct.transition_times;
     let transition = |from, to| times.of(from, to);

@@ -77,7 +77,7 @@ fn the_cpu_units_see_the_cables() {
     let mut network = Network::power_on(units, Instant::ZERO);
     let mut now = Instant::ZERO;
     let mut links = |network: &mut Network<NxEct101>| {
-        now += settings.timing.slave_period(0);
+        now += nx_ect101::slave_period(settings.timing, 0);
         network.poll(now);
         [&mut first_bus, &mut second_bus].map(|bus| {
             let status = SlaveStatus::from_bits(bus.m_to_c.newest().header.status);

@@ -100,7 +100,14 @@ pub(super) fn suits(operator: Binary, class: Class) -> bool {
         Binary::Modulo => matches!(class, Class::Signed | Class::Unsigned),
         Binary::Power => class == Class::Real,
         Binary::And | Binary::Or | Binary::Xor => matches!(class, Class::Bool | Class::BitString),
-        _ => true,
+        Binary::Equal
+        | Binary::NotEqual
+        | Binary::Less
+        | Binary::LessOrEqual
+        | Binary::Greater
+        | Binary::GreaterOrEqual
+        | Binary::MultiplyTime
+        | Binary::DivideTime => true,
     }
 }
 

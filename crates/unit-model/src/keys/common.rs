@@ -32,7 +32,7 @@ pub struct CommonKeys {
     /// Configured station alias, or the ID that is set by software: 1 to 65535.
     pub alias: Option<Located<u16>>,
     /// Exact or fast; exact if left out.
-    pub timing: Timing,
+    pub timing: Located<Timing>,
     /// Start-up time, 0 s to 60 s; that of the model if left out.
     pub start_up: Option<Located<Duration>>,
     /// From the first step of the unit to its first refresh, 0 s to 2 ms.
@@ -54,23 +54,16 @@ impl CommonKeys {
                 .value(file, "alias", |place, value| values::integer(place, value, 1..=0xFFFF, "1 to 65535")),
             timing: reader
                 .value(file, "timing", |place, value| values::choice(place, value, &timing::WORDS))
-                .map_or(Timing::default(), |timing| timing.value),
+                .unwrap_or_default(),
             start_up: reader.value(file, "start_up", times::start_up),
             refresh_phase: reader.value(file, "refresh_phase", times::refresh_phase),
             slave: SlaveKeys::read(reader, file, shape),
         }
     }
 
-    /// The start-up time in the file, or that of the model. Without such a time the unit has been powered for a
-    /// long time when it is first powered on, so that a master finds it ready.
+    /// The start-up time in the file, or that of the model ([`Timing::start_up`]).
     #[must_use]
     pub fn start_up(&self, of_model: Duration) -> StartUp {
-        let named = self.start_up.as_ref().map(|start_up| start_up.value);
-        match self.timing {
-            Timing::Exact => {
-                StartUp { first: named.unwrap_or(Duration::ZERO), again: named.unwrap_or(of_model) }
-            }
-            Timing::Fast => StartUp::default(),
-        }
+        self.timing.value.start_up(self.start_up.as_ref().map(|start_up| start_up.value), of_model)
     }
 }

@@ -87,13 +87,34 @@ impl SlaveKeys {
 
     fn read_times(&mut self, reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape) {
         let Some(section) = reader.section(file, "times") else { return };
-        let keys: &[&str] =
-            if shape.mailbox { &["transitions", "sii", "mailbox"] } else { &["transitions", "sii"] };
-        reader.only(&section, keys);
+        reader.only(&section, times_keys(shape));
         self.conduct.transition_times = transitions(reader, &section, shape);
         self.sii_time = reader.value(&section, "sii", time).map_or(Duration::ZERO, |time| time.value);
         self.mailbox_time = reader.value(&section, "mailbox", time).map(|time| time.value);
     }
+}
+
+/// The keys of `[times]`.
+#[must_use]
+pub const fn times_keys(shape: Shape) -> &'static [&'static str] {
+    if shape.mailbox { &["transitions", "sii", "mailbox"] } else { &["transitions", "sii"] }
+}
+
+/// The keys of `[times.transitions]`: the transitions by the letters of the standard.
+#[must_use]
+pub fn transition_keys(shape: Shape) -> Vec<&'static str> {
+    let has_it = |row: &&Transition| shape.boot || !row.needs_boot();
+    TRANSITIONS.iter().filter(has_it).map(|row| row.letters).collect()
+}
+
+/// The keys of `[refuse]`.
+#[must_use]
+pub fn refuse_keys(shape: Shape) -> Vec<&'static str> {
+    refused_states(shape).map(|(key, _)| *key).chain([ACKNOWLEDGE]).collect()
+}
+
+fn refused_states(shape: Shape) -> impl Iterator<Item = &'static (&'static str, AlState)> {
+    REFUSED_STATES.iter().filter(move |(_, state)| shape.boot || *state != AlState::Boot)
 }
 
 /// One time for all transitions, or a table of times for some of them.
@@ -113,8 +134,7 @@ fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>, shape: Shape) -
     }
     let mut each = TransitionTimes::default();
     let Some(section) = reader.section(times, KEY) else { return each };
-    let has_it = |row: &&Transition| shape.boot || !row.needs_boot();
-    let letters: Vec<&str> = TRANSITIONS.iter().filter(has_it).map(|row| row.letters).collect();
+    let letters = transition_keys(shape);
     reader.only(&section, &letters);
     for letters in letters {
         if let Some(time) = reader.value(&section, letters, time) {
@@ -126,11 +146,9 @@ fn transitions(reader: &mut Reader<'_>, times: &Section<'_, '_>, shape: Shape) -
 
 fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape, conduct: &mut Conduct) {
     let Some(section) = reader.section(file, "refuse") else { return };
-    let states = REFUSED_STATES.iter().filter(|(_, state)| shape.boot || *state != AlState::Boot);
-    let keys: Vec<&str> = states.clone().map(|(key, _)| *key).chain([ACKNOWLEDGE]).collect();
-    reader.only(&section, &keys);
+    reader.only(&section, &refuse_keys(shape));
     let mut refusals = Refusals::default();
-    for (key, state) in states {
+    for (key, state) in refused_states(shape) {
         let code = reader.value(&section, key, |place, value| {
             values::integer(place, value, 1..=0xFFFF, "an AL status code, 0x0001 to 0xFFFF")
         });

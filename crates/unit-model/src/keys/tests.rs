@@ -63,14 +63,14 @@ fn a_fast_unit_has_no_times_and_refuses_the_same() {
     let text = "start_up = \"50ms\"\ntimes = { transitions = \"5ms\", sii = \"1ms\" }\nrefuse = { op = 1 }\n";
     let (exact, fast) = (keys(text), keys(&format!("timing = \"fast\"\n{text}")));
     let of = |keys: &CommonKeys| {
-        let conduct = keys.slave.conduct(keys.timing);
+        let conduct = keys.slave.conduct(keys.timing.value);
         let transition = conduct.transition_times.of(AlState::PreOp, AlState::SafeOp);
-        (transition, keys.slave.sii_timing(keys.timing), conduct.refusals.of(AlState::Op))
+        (transition, keys.slave.sii_timing(keys.timing.value), conduct.refusals.of(AlState::Op))
     };
     let (ms, refused) = (Duration::from_millis, Some(AlStatusCode(1)));
     assert_eq!(of(&exact), (ms(5), SiiTiming::Busy(ms(1)), refused));
     assert_eq!(of(&fast), (ms(0), SiiTiming::Immediate, refused));
-    assert_eq!((fast.timing, fast.start_up(ms(300)).again), (Timing::Fast, ms(0)));
+    assert_eq!((fast.timing.value, fast.start_up(ms(300)).again), (Timing::Fast, ms(0)));
 }
 
 /// Keys for features that a model does not have are unknown.
