@@ -215,6 +215,8 @@ pub(crate) struct NativeCall {
 pub(crate) enum NativeArgument {
     /// One argument: the value; for a STRING the slot at which it begins.
     Value(Code),
+    /// One argument: an integer of the type ULINT where every integer type is accepted.
+    Ulint(Code),
     /// One argument: the position of a variable of one slot, to be read and written; or of a STRING or enumeration.
     Reference(Place),
     /// Three arguments: the position of an element, the number of elements from it on, the number of slots of

@@ -9,8 +9,8 @@ pub enum Fault {
     DivisionByZero,
     /// An index outside the bounds of its array.
     IndexOutOfBounds {
-        /// The index.
-        index: i64,
+        /// The index, of any integer type.
+        index: i128,
         /// The first index of the array.
         lower: i64,
         /// The last.
@@ -25,12 +25,17 @@ pub enum Fault {
     },
     /// A bit, a position or a number that the library function does not accept.
     ArgumentOutOfRange {
-        /// The argument.
-        value: i64,
+        /// The argument, of any integer type.
+        value: i128,
         /// The minimum.
         lower: i64,
         /// The maximum.
         upper: i64,
+    },
+    /// A number of elements or of bits that is less than zero.
+    NegativeNumber {
+        /// The argument.
+        value: i128,
     },
     /// A text that is not a value of the type.
     NotConvertible,
@@ -69,6 +74,7 @@ impl fmt::Display for Fault {
             Self::ArgumentOutOfRange { value, lower, upper } => {
                 write!(formatter, "{value} is outside {lower} to {upper}")
             }
+            Self::NegativeNumber { value } => write!(formatter, "{value} is negative, and 0 is the least"),
             Self::NotConvertible => formatter.write_str("the text is not a value of this type"),
             Self::TextTooLong { characters, capacity } => {
                 let size_bytes = capacity + 1;

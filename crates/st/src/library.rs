@@ -132,6 +132,8 @@ pub(crate) struct Call<'c, 'm> {
     pub(crate) arguments: &'c [u64],
     /// The type of the generic pins.
     pub(crate) elementary: Elementary,
+    /// The arguments that are ULINTs, a bit for each: all others of an integer type are LINTs in their bits.
+    pub(crate) ulints: u64,
     /// The position of a STRING result, and the maximum number of characters there.
     pub(crate) text: (Slot, u16),
 }
@@ -142,13 +144,25 @@ impl Call<'_, '_> {
         self.arguments[place]
     }
 
+    /// The argument at `place`, of whatever integer type.
+    fn integer(&self, place: usize) -> i128 {
+        let is_ulint = self.ulints >> place & 1 != 0;
+        value::integer(if is_ulint { Elementary::Ulint } else { Elementary::Lint }, self.bits(place))
+    }
+
     /// The argument at `place`, an integer, if it is between the two limits.
     fn number(&self, place: usize, lower: i64, upper: i64) -> Result<u32, Fault> {
-        let value = self.bits(place) as i64;
+        let value = self.integer(place);
         match u32::try_from(value) {
-            Ok(number) if (lower..=upper).contains(&value) => Ok(number),
+            Ok(number) if (lower.into()..=upper.into()).contains(&value) => Ok(number),
             _ => Err(Fault::ArgumentOutOfRange { value, lower, upper }),
         }
+    }
+
+    /// The argument at `place`, an integer that counts something: 0 or more, without a limit.
+    fn count(&self, place: usize) -> Result<u64, Fault> {
+        let value = self.integer(place);
+        u64::try_from(value).map_err(|_| Fault::NegativeNumber { value })
     }
 
     /// The argument at `place`, of the type of the generic pins, as a number.

@@ -20,6 +20,7 @@ pub(crate) use budget::Budget;
 
 /// Maximum number of argument slots of a call.
 pub(crate) const ARGUMENTS_MAX: usize = 64;
+const _: () = assert!(ARGUMENTS_MAX <= u64::BITS as usize, "a call marks its ULINTs by bits");
 
 /// Number of steps that cost as much as a statement: operators and variables that are evaluated, labels of CASE
 /// that are compared.
@@ -344,9 +345,14 @@ impl Machine<'_> {
 
     fn call_native(&mut self, call: &NativeCall) -> Result<u64, Fault> {
         let mut arguments = ArrayVec::<u64, ARGUMENTS_MAX>::new();
+        let mut ulints = 0;
         for argument in &call.arguments {
             match argument {
                 NativeArgument::Value(code) => arguments.push(self.value(code)?),
+                NativeArgument::Ulint(code) => {
+                    ulints |= 1 << arguments.len();
+                    arguments.push(self.value(code)?);
+                }
                 NativeArgument::Reference(place) => arguments.push(self.slot(place)?.into()),
                 NativeArgument::Elements { place, element_slots, in_array } => {
                     let (slot, behind) = self.elements(place)?;
@@ -360,7 +366,7 @@ impl Machine<'_> {
             }
         }
         let (elementary, text) = (call.elementary, call.text);
-        (call.native.0.run)(&mut Call { machine: self, arguments: &arguments, elementary, text })
+        (call.native.0.run)(&mut Call { machine: self, arguments: &arguments, elementary, ulints, text })
     }
 
     fn call_block(&mut self, call: &BlockCall) -> Result<(), Fault> {

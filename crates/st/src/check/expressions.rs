@@ -17,7 +17,7 @@ use crate::syntax::ast::{
     BinaryOperator, Expression, ExpressionKind, Literal, Name, TypedValue, UnaryOperator,
 };
 use crate::types::{Type, string_slots};
-use crate::value::{real_bits, wrap};
+use crate::value::{integer, real_bits, wrap};
 
 /// The context of a unit while it is checked.
 pub(super) struct Body<'c, 't> {
@@ -84,6 +84,16 @@ impl Value {
         Self { kind, code: Code::Constant(0), span }
     }
 
+    /// The number of a negative constant, with or without a type.
+    pub(super) fn negative_constant(&self) -> Option<i128> {
+        let number = match (&self.kind, &self.code) {
+            (Kind::Integer(number), _) => *number,
+            (Kind::Type(Type::Elementary(elementary)), Code::Constant(bits)) => integer(*elementary, *bits),
+            _ => return None,
+        };
+        (number < 0).then_some(number)
+    }
+
     fn type_if_elementary(&self) -> Option<Elementary> {
         match &self.kind {
             Kind::Type(type_) => type_.elementary(),
@@ -143,7 +153,7 @@ impl<'c, 't> Body<'c, 't> {
             ExpressionKind::EnumValue { type_name, value } => self.enum_value(type_name, value, span),
             ExpressionKind::Unary { operator, operand } => {
                 let operand = self.expression_wanted(operand, wanted)?;
-                self.unary(*operator, operand, span)
+                self.unary(*operator, operand, wanted, span)
             }
             ExpressionKind::Binary { .. } => self.chain(expression, wanted),
             ExpressionKind::Call(call) => self.call(call, wanted),
@@ -174,7 +184,7 @@ impl<'c, 't> Body<'c, 't> {
 
     /// A condition: a BOOL.
     pub(super) fn condition(&mut self, expression: &Expression) -> Option<Code> {
-        let value = self.expression(expression)?;
+        let value = self.expression_for(expression, &Type::BOOL)?;
         if matches!(value.kind, Kind::Type(Type::BOOL) | Kind::Integer(0 | 1)) {
             return elementary_of(self.checker, value, Elementary::Bool);
         }
@@ -242,9 +252,16 @@ impl<'c, 't> Body<'c, 't> {
         Some(Value::of(shape.type_.clone(), Code::Constant(*number as u64), span))
     }
 
-    fn unary(&mut self, operator: UnaryOperator, operand: Value, span: Span) -> Option<Value> {
+    fn unary(
+        &mut self,
+        operator: UnaryOperator,
+        operand: Value,
+        wanted: Option<Elementary>,
+        span: Span,
+    ) -> Option<Value> {
         let negated = operator == UnaryOperator::Minus;
         match (&operand.kind, operator) {
+            (Kind::Integer(number), UnaryOperator::Not) => self.complement(*number, operand, wanted, span),
             (Kind::Integer(number), UnaryOperator::Minus | UnaryOperator::Plus) => {
                 Some(Value::untyped(Kind::Integer(if negated { -number } else { *number }), span))
             }
@@ -269,6 +286,26 @@ impl<'c, 't> Body<'c, 't> {
             }
             (kind, _) => self.refuse_unary(operator, kind, span),
         }
+    }
+
+    /// NOT of a number without a type: how many bits it has depends on the type that the context requires.
+    fn complement(
+        &mut self,
+        number: i128,
+        operand: Value,
+        wanted: Option<Elementary>,
+        span: Span,
+    ) -> Option<Value> {
+        let Some(elementary) =
+            wanted.filter(|wanted| matches!(wanted.class(), Class::Bool | Class::BitString))
+        else {
+            let message =
+                format!("NOT {number} has no type: the number may be a BOOL or a bit string of any width");
+            let help = format!("give the number its type, such as WORD#{number} or BOOL#0");
+            return self.checker.refuse(Problem::new(span, message).help(help));
+        };
+        let code = elementary_of(self.checker, operand, elementary)?;
+        Some(unary(Unary::Not, elementary, code, span))
     }
 
     fn refuse_unary(&mut self, operator: UnaryOperator, kind: &Kind, span: Span) -> Option<Value> {

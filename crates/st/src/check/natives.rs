@@ -297,12 +297,32 @@ impl Body<'_, '_> {
     ) -> Option<NativeArgument> {
         match looked {
             Looked::Default(bits) => Some(NativeArgument::Value(Code::Constant(bits))),
-            Looked::Value(value) => self.native_input(pin, value, generic).map(NativeArgument::Value),
+            Looked::Value(value) => match pin.takes {
+                Takes::Any(classes) => self.native_of_any(pin, value, classes),
+                _ => self.native_input(pin, value, generic).map(NativeArgument::Value),
+            },
             Looked::Variable(located, span) => match pin.takes {
                 Takes::Elements { .. } => self.native_elements(located, span, elements),
                 Takes::Reference => Some(NativeArgument::Any(located.place)),
                 _ => Some(NativeArgument::Reference(located.place)),
             },
+        }
+    }
+
+    /// The argument of a pin that takes every type of these classes: its bits, and whether they are a ULINT.
+    fn native_of_any(&mut self, pin: &Pin, value: Value, classes: &[Class]) -> Option<NativeArgument> {
+        let value = self.typed(value);
+        match &value.kind {
+            Kind::Type(Type::Elementary(Elementary::Ulint)) if classes.contains(&Class::Unsigned) => {
+                Some(NativeArgument::Ulint(value.code))
+            }
+            Kind::Type(Type::Elementary(elementary)) if classes.contains(&elementary.class()) => {
+                Some(NativeArgument::Value(value.code))
+            }
+            other => {
+                let message = format!("`{}` does not accept {other}", pin.name);
+                self.checker.refuse(Problem::new(value.span, message))
+            }
         }
     }
 
@@ -315,18 +335,6 @@ impl Body<'_, '_> {
             }
             (Takes::GenericOrText(_), Generic::Text) if matches!(value.kind, Kind::Type(Type::String(_))) => {
                 Some(value.code)
-            }
-            (Takes::Any(classes), _) => {
-                let value = self.typed(value);
-                match &value.kind {
-                    Kind::Type(Type::Elementary(elementary)) if classes.contains(&elementary.class()) => {
-                        Some(value.code)
-                    }
-                    other => {
-                        let message = format!("`{}` does not accept {other}", pin.name);
-                        self.checker.refuse(Problem::new(value.span, message))
-                    }
-                }
             }
             (_, Generic::Elementary(elementary)) => operand_of(self.checker, value, elementary),
             (_, Generic::Text) => {

@@ -1,6 +1,6 @@
 //! Statements.
 
-use super::expressions::{Body, Kind};
+use super::expressions::{Body, Kind, Value};
 use super::numbers::{coerce, elementary_of, operand_of};
 use super::scope::Located;
 use crate::code::{Assign, Case, CaseArm, Code, For, Statement, StatementKind};
@@ -192,13 +192,24 @@ impl Body<'_, '_> {
         let from = elementary_of(self.checker, from??, elementary)?;
         let to = elementary_of(self.checker, to??, elementary)?;
         let by = match by {
-            Some(by) => elementary_of(self.checker, by?, elementary)?,
+            Some(by) => self.step(by?, elementary)?,
             None => Code::Constant(1),
         };
         if matches!(by, Code::Constant(0)) {
             return self.checker.refuse(Problem::new(span, "the step of FOR is zero"));
         }
         Some(StatementKind::For(For { variable: target.place, elementary, from, to, by, body }))
+    }
+
+    /// The step of FOR. A negative constant would become a large step of an unsigned variable, and the loop would
+    /// not run.
+    fn step(&mut self, by: Value, elementary: Elementary) -> Option<Code> {
+        let Some(step) = by.negative_constant().filter(|_| elementary.class() == Class::Unsigned) else {
+            return elementary_of(self.checker, by, elementary);
+        };
+        let message =
+            format!("the step {step} is negative, and FOR counts in {elementary}, which is unsigned");
+        self.checker.refuse(Problem::new(by.span, message).help("count down in a signed type, such as DINT"))
     }
 }
 

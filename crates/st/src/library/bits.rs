@@ -18,10 +18,10 @@ const WORD: Elementary = Elementary::Word;
 
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
-    row("SHL", SHIFT, ResultType::Generic, "In shifted left by Num bits, filled with zeros; all zeros if Num is its width or more", shift_left),
-    row("SHR", SHIFT, ResultType::Generic, "In shifted right by Num bits, filled with zeros; all zeros if Num is its width or more", shift_right),
-    row("ROL", SHIFT, ResultType::Generic, "In rotated left by Num bits", |call| { let by = turn(call)?; Ok(turned_left(call, by)) }),
-    row("ROR", SHIFT, ResultType::Generic, "In rotated right by Num bits",
+    row("SHL", SHIFT, ResultType::Generic, "In shifted left by Num bits, filled with zeros; any Num from 0, and all zeros from its width on", shift_left),
+    row("SHR", SHIFT, ResultType::Generic, "In shifted right by Num bits, filled with zeros; any Num from 0, and all zeros from its width on", shift_right),
+    row("ROL", SHIFT, ResultType::Generic, "In rotated left by Num bits; any Num from 0", |call| { let by = turn(call)?; Ok(turned_left(call, by)) }),
+    row("ROR", SHIFT, ResultType::Generic, "In rotated right by Num bits; any Num from 0",
         |call| { let by = turn(call)?; Ok(turned_left(call, call.elementary.bits() - by)) }),
     row("TestABit", &[pin("In", Takes::Generic(BIT_STRINGS)), pin("Pos", Takes::Any(INTEGERS))], BOOL,
         "bit Pos of In, from 0; a bit that does not exist is a fault", |call| { let at = position(call)?; Ok(call.bits(0) >> at & 1) }),
@@ -45,18 +45,24 @@ pub(super) const FUNCTIONS: &[Function] = &[
 ];
 
 fn shift_left(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
-    let by = call.number(1, 0, u32::MAX.into())?;
+    let by = distance(call)?;
     Ok(wrap(call.elementary, call.bits(0).checked_shl(by).unwrap_or(0)))
 }
 
 fn shift_right(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
-    let by = call.number(1, 0, u32::MAX.into())?;
+    let by = distance(call)?;
     Ok(call.bits(0).checked_shr(by).unwrap_or(0))
+}
+
+/// The number of bits of a shift; one that is far more than any width is as good as the width.
+fn distance(call: &Call<'_, '_>) -> Result<u32, Fault> {
+    Ok(u32::try_from(call.count(1)?).unwrap_or(u32::MAX))
 }
 
 /// By this number of bits less than a full rotation.
 fn turn(call: &Call<'_, '_>) -> Result<u32, Fault> {
-    Ok(call.number(1, 0, u32::MAX.into())? % call.elementary.bits())
+    // The remainder is less than the width, so that it fits.
+    Ok((call.count(1)? % u64::from(call.elementary.bits())) as u32)
 }
 
 fn turned_left(call: &Call<'_, '_>, by: u32) -> u64 {

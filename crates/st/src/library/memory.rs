@@ -43,11 +43,11 @@ impl Elements {
 
     /// The requested number, if there are that many.
     fn asked(self, call: &Call<'_, '_>, place: usize) -> Result<u32, Fault> {
-        let asked = call.number(place, 0, u32::MAX.into())?;
-        if asked > self.count {
-            return Err(Fault::TooManyElements { asked: asked.into(), available: self.count.into() });
+        let asked = call.count(place)?;
+        match u32::try_from(asked) {
+            Ok(number) if number <= self.count => Ok(number),
+            _ => Err(Fault::TooManyElements { asked, available: self.count.into() }),
         }
-        Ok(asked)
     }
 }
 

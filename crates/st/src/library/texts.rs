@@ -1,8 +1,9 @@
 //! Texts: IEC 61131-3, table 34, and a few of the manufacturer. A character is one byte; the first has position 1.
 //!
 //! Characters beyond the end of a text are ignored: a length beyond the end is cut at the end, a position after
-//! the end finds nothing. A negative number is a fault, and so is position 0, except for INSERT, where it is
-//! the position before the first character. A result that is longer than any STRING is a fault.
+//! the end finds nothing. A length is 0 to 1985, the characters of the longest STRING, a position 1 to 1985, for
+//! INSERT 0 to 1985, where 0 is the position before the first character: another number is a fault. A result that
+//! is longer than any STRING is a fault.
 
 use super::table::{INTEGERS, pin, row, row_of_many};
 use super::{Call, Function, Pin, ResultType, Takes};
@@ -21,16 +22,16 @@ const COUNT: ResultType = ResultType::Fixed(Elementary::Uint);
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
     row("LEN", IN, COUNT, "the number of characters of In", |call| Ok(call.machine.memory.text_length(call.slot(0)) as u64)),
-    row("LEFT", IN_LENGTH, ResultType::Text, "the first L characters", |call| give(call, left)),
-    row("RIGHT", IN_LENGTH, ResultType::Text, "the last L characters", |call| give(call, right)),
-    row("MID", IN_LENGTH_POSITION, ResultType::Text, "L characters beginning at position P", |call| give(call, middle)),
+    row("LEFT", IN_LENGTH, ResultType::Text, "the first L characters; L is 0 to 1985", |call| give(call, left)),
+    row("RIGHT", IN_LENGTH, ResultType::Text, "the last L characters; L is 0 to 1985", |call| give(call, right)),
+    row("MID", IN_LENGTH_POSITION, ResultType::Text, "L characters beginning at position P; L is 0 to 1985, P is 1 to 1985", |call| give(call, middle)),
     row_of_many("CONCAT", TWO, ResultType::TextOfAll, "the texts one after the other", |call| give(call, concatenated)),
     row("INSERT", &[pin("In1", Takes::Text), pin("In2", Takes::Text), pin("P", Takes::Any(INTEGERS))],
-        ResultType::TextOfAll, "In1 with In2 inserted after position P; 0 means before the first character", |call| give(call, inserted)),
-    row("DELETE", IN_LENGTH_POSITION, ResultType::Text, "In without L characters beginning at position P", |call| give(call, deleted)),
+        ResultType::TextOfAll, "In1 with In2 inserted after position P, which is 0 to 1985; 0 means before the first character", |call| give(call, inserted)),
+    row("DELETE", IN_LENGTH_POSITION, ResultType::Text, "In without L characters beginning at position P; L is 0 to 1985, P is 1 to 1985", |call| give(call, deleted)),
     row("REPLACE", &[pin("In1", Takes::Text), pin("In2", Takes::Text),
         pin("L", Takes::Any(INTEGERS)), pin("P", Takes::Any(INTEGERS))],
-        ResultType::TextOfAll, "In1 with In2 in place of L characters beginning at position P", |call| give(call, replaced)),
+        ResultType::TextOfAll, "In1 with In2 in place of L characters beginning at position P; L is 0 to 1985, P is 1 to 1985", |call| give(call, replaced)),
     row("FIND", TWO, COUNT, "the first position of In2 in In1; 0 if there is none, or if In2 is empty", find),
     row("ToUCase", IN, ResultType::Text, "In with the letters a to z in upper case",
         |call| give(call, |call| { let mut text = call.text(0)?; text.make_ascii_uppercase(); Ok(text) })),

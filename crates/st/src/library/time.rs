@@ -70,7 +70,7 @@ fn seconds_to_time(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (lower, upper) = (i64::MIN / NS_PER_S, i64::MAX / NS_PER_S);
     match value.checked_mul(NS_PER_S) {
         Some(duration_ns) => Ok(duration_ns as u64),
-        None => Err(Fault::ArgumentOutOfRange { value, lower, upper }),
+        None => Err(Fault::ArgumentOutOfRange { value: value.into(), lower, upper }),
     }
 }
 
@@ -84,5 +84,5 @@ fn moment(call: &mut Call<'_, '_>, elementary: Elementary) -> Result<u64, Fault>
     if (0..=upper).contains(&value) {
         return Ok(value.unsigned_abs() * NS_PER_S.unsigned_abs());
     }
-    Err(Fault::ArgumentOutOfRange { value, lower: 0, upper })
+    Err(Fault::ArgumentOutOfRange { value: value.into(), lower: 0, upper })
 }

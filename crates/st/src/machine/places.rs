@@ -92,7 +92,6 @@ impl Machine<'_> {
             return Ok((index - i128::from(lower)) as u32);
         }
         self.at = dimension.span;
-        let index = i64::try_from(index).unwrap_or(i64::MAX);
         Err(Fault::IndexOutOfBounds { index, lower, upper })
     }
 }

@@ -78,6 +78,8 @@ proptest! {
         let elementary = generic(function, kind);
         let mut all = Vec::new();
         for (pin, given) in function.pins.iter().zip(given) {
+            let ulint = matches!(pin.takes, Takes::Any(classes) if of_class(classes, given.1) == Elementary::Ulint);
+            bench.ulints |= u64::from(ulint) << all.len();
             all.extend(arguments(&mut bench, pin.takes, elementary, given));
         }
         let result = bench.call(function.name, elementary, &all);

@@ -19,11 +19,13 @@ const RESULT: Slot = 3 * TEXT_SLOTS;
 pub(super) struct Bench {
     pub(super) memory: Memory,
     pub(super) budget: u64,
+    /// The arguments that are ULINTs, as in a [`Call`].
+    pub(super) ulints: u64,
 }
 
 impl Bench {
     pub(super) fn new() -> Self {
-        Self { memory: Memory::new(vec![0; 4 * TEXT_SLOTS as usize]), budget: u64::MAX }
+        Self { memory: Memory::new(vec![0; 4 * TEXT_SLOTS as usize]), budget: u64::MAX, ulints: 0 }
     }
 
     pub(super) fn call(
@@ -54,9 +56,10 @@ impl Bench {
             instance: 0,
             at: Span::default(),
         };
+        let ulints = self.ulints;
         let text = (RESULT, STRING_CHARACTERS_MAX as u16);
         let run = function(name).unwrap_or_else(|| panic!("no function {name}")).0.run;
-        run(&mut Call { machine: &mut machine, arguments, elementary, text })
+        run(&mut Call { machine: &mut machine, arguments, elementary, ulints, text })
     }
 
     /// Stores a text in the memory, as an argument.

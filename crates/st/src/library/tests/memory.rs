@@ -70,11 +70,19 @@ fn copies_cost_budget_by_their_size() {
 
 #[test]
 fn a_negative_size_is_a_fault() {
-    let fault = Fault::ArgumentOutOfRange { value: -1, lower: 0, upper: u32::MAX.into() };
+    let fault = Fault::NegativeNumber { value: -1 };
     for name in ["MemCopy", "AryMove", "SetBlock"] {
         let arguments = [0, 10, 1, 20, 10, 1, (-1_i64) as u64];
         assert_eq!(Bench::new().call(name, Bool, &arguments), Err(fault), "{name}");
     }
+}
+
+#[test]
+fn a_size_beyond_every_array_is_a_fault_with_its_number() {
+    let mut bench = Bench::new();
+    bench.ulints = 1 << 6;
+    let fault = Fault::TooManyElements { asked: u64::MAX, available: 10 };
+    assert_eq!(bench.call("MemCopy", Bool, &[0, 10, 1, 20, 10, 1, u64::MAX]), Err(fault));
 }
 
 #[test]

@@ -26,8 +26,8 @@ fn codes_outside_their_range_are_a_fault() {
         ("SetInfo", 60_001, 40_001, 60_000),
         ("ResetAlarm", 40_001, 0, 40_000),
     ] {
-        let fault = Fault::ArgumentOutOfRange { value: code, lower, upper };
-        assert_eq!(call(name, Bool, &[code as u64, 0, 0]), Err(fault), "{name}({code})");
+        let fault = Fault::ArgumentOutOfRange { value: code.into(), lower, upper };
+        assert_eq!(call(name, Bool, &[code, 0, 0]), Err(fault), "{name}({code})");
     }
 }
 
@@ -51,7 +51,7 @@ fn durations_and_numbers() {
     }
     assert_eq!(call("DIVTIME", Time, &[1, 0]), Err(Fault::DivisionByZero));
     let (lower, upper) = (-9_223_372_036, 9_223_372_036);
-    let fault = Fault::ArgumentOutOfRange { value: upper + 1, lower, upper };
+    let fault = Fault::ArgumentOutOfRange { value: (upper + 1).into(), lower, upper };
     assert_eq!(call("SecToTime", Time, &[(upper + 1) as u64]), Err(fault));
     assert_eq!(call("SecToTime", Time, &[upper as u64]), Ok(9_223_372_036_000_000_000));
 }
