@@ -54,6 +54,13 @@ pub(crate) struct Place {
     pub(crate) indices: Vec<Element>,
 }
 
+impl Place {
+    /// A variable with a fixed position.
+    pub(crate) const fn in_memory(slot: Slot) -> Self {
+        Self { base: Base::Memory, offset: slot, indices: Vec::new() }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Base {
     /// The start of the memory.
@@ -181,7 +188,9 @@ pub(crate) struct For {
 pub(crate) struct FunctionCall {
     pub(crate) unit: u32,
     pub(crate) inputs: Vec<(Slot, Code, Put)>,
-    /// Taken from the function's variables after its execution.
+    /// Outputs that are copied after its execution, because a later call would overwrite them.
+    pub(crate) kept: Vec<SlotCopy>,
+    /// Taken from the function's variables, or from the copies, after its execution.
     pub(crate) outputs: Vec<Assign>,
     /// The result: its slot and how it is returned.
     pub(crate) result: FunctionResult,
@@ -192,12 +201,16 @@ pub(crate) enum FunctionResult {
     None,
     /// The value in this slot.
     Value(Slot),
-    /// This number of slots, copied to a separate position of the caller: a later call would overwrite them.
-    Copied {
-        from: Slot,
-        to: Slot,
-        slots: u32,
-    },
+    /// Slots, copied to a separate position of the caller: a later call would overwrite them.
+    Copied(SlotCopy),
+}
+
+/// A number of slots that are copied.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SlotCopy {
+    pub(crate) from: Slot,
+    pub(crate) to: Slot,
+    pub(crate) slots: u32,
 }
 
 /// A call of a function of the library.
@@ -233,6 +246,8 @@ pub(crate) struct BlockCall {
     pub(crate) instance: Place,
     /// Offset in the instance, and the value stored there.
     pub(crate) inputs: Vec<(u32, Code, Put)>,
+    /// Outputs that are copied after its execution, from their offsets in the instance.
+    pub(crate) kept: Vec<SlotCopy>,
     /// Offset in the instance, whether it is negated, and its target; a conversion is explicit in `convert`.
     pub(crate) outputs: Vec<BlockOutput>,
 }
@@ -240,6 +255,8 @@ pub(crate) struct BlockCall {
 #[derive(Clone, Debug)]
 pub(crate) struct BlockOutput {
     pub(crate) offset: u32,
+    /// The position of its copy, if it is copied.
+    pub(crate) kept: Option<Slot>,
     pub(crate) convert: Option<(Elementary, Elementary)>,
     pub(crate) negated: bool,
     pub(crate) to: Place,

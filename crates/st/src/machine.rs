@@ -154,10 +154,7 @@ impl Machine<'_> {
     fn put(&mut self, to: Slot, value: u64, put: Put) -> Result<(), Fault> {
         match put {
             Put::Value => self.memory.set(to, value),
-            Put::Slots(slots) => {
-                self.step(STEPS_FOR_SLOT * u64::from(slots))?;
-                self.memory.copy(slot_of(value), to, slots);
-            }
+            Put::Slots(slots) => self.copy(SlotCopy { from: slot_of(value), to, slots })?,
             Put::Text(capacity) => self.put_text(to, slot_of(value), capacity)?,
             Put::Any { layout } => {
                 self.memory.set(to, value);
@@ -319,11 +316,15 @@ impl Machine<'_> {
         self.body(&units[call.unit as usize].body)?;
         self.at = at;
         let result = self.result(call.result)?;
+        for copy in &call.kept {
+            self.copy(*copy)?;
+        }
         let mut values = ArrayVec::<u64, ARGUMENTS_MAX>::new();
         for output in &call.outputs {
             values.push(self.value(&output.value)?);
         }
-        // An index of an output's target may call the same function again: its elementary values have been read by now.
+        // An index of an output's target may call the same function again: its elementary values have been read by
+        // now, and all others copied.
         for (output, value) in call.outputs.iter().zip(values) {
             let to = self.slot(&output.to)?;
             self.put(to, value, output.put)?;
@@ -335,12 +336,17 @@ impl Machine<'_> {
         Ok(match result {
             FunctionResult::None => 0,
             FunctionResult::Value(slot) => self.memory.get(slot),
-            FunctionResult::Copied { from, to, slots } => {
-                self.step(STEPS_FOR_SLOT * u64::from(slots))?;
-                self.memory.copy(from, to, slots);
-                to.into()
+            FunctionResult::Copied(copy) => {
+                self.copy(copy)?;
+                copy.to.into()
             }
         })
+    }
+
+    fn copy(&mut self, SlotCopy { from, to, slots }: SlotCopy) -> Result<(), Fault> {
+        self.step(STEPS_FOR_SLOT * u64::from(slots))?;
+        self.memory.copy(from, to, slots);
+        Ok(())
     }
 
     fn call_native(&mut self, call: &NativeCall) -> Result<u64, Fault> {
@@ -386,8 +392,11 @@ impl Machine<'_> {
             self.at = at;
         }
         ran?;
+        for copy in &call.kept {
+            self.copy(SlotCopy { from: instance + copy.from, ..*copy })?;
+        }
         for output in &call.outputs {
-            let value = self.block_output(instance + output.offset, output);
+            let value = self.block_output(output.kept.unwrap_or(instance + output.offset), output);
             let to = self.slot(&output.to)?;
             self.put(to, value, output.put)?;
         }

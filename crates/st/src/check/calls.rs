@@ -9,7 +9,7 @@ use super::places::nearest;
 use super::scope::{Located, Symbol, key};
 use super::{Named, Signature};
 use crate::code::{
-    Assign, Base, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, StatementKind,
+    Assign, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, SlotCopy, StatementKind,
 };
 use crate::convert::widens;
 use crate::elementary::{Class, Elementary};
@@ -136,22 +136,41 @@ impl<'t> Body<'_, 't> {
     fn call_function(&mut self, signature: &Signature, call: &Call) -> Option<Value> {
         self.note_call(signature.unit, call.span);
         let given = self.assign_pins(&signature.name, &signature.pins, call)?;
-        let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+        let (mut inputs, mut outputs, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        let mut targets_call = false;
         for (pin, given) in signature.pins.iter().zip(given) {
             match given {
                 Some(Given::Input(expression)) => {
                     inputs.extend(self.pin_input(pin, expression)?);
                 }
                 Some(Given::Output { to, negated, span }) => {
-                    outputs.push(self.function_output(pin, to, negated, span)?);
+                    let calls = self.checker.calls.len();
+                    outputs.push((pin, self.function_output(pin, to, negated, span)?));
+                    targets_call |= self.checker.calls.len() > calls;
                 }
                 None => self.required(pin, &signature.name, call.span)?,
             }
         }
         self.limit_arguments(inputs.len().max(outputs.len()), call.span)?;
+        // An index may call the same function, which overwrites its outputs.
+        if targets_call {
+            for (pin, output) in outputs.iter_mut().filter(|(_, output)| output.put != Put::Value) {
+                let copy = self.keep(pin, call.span)?;
+                output.value = Code::Address(Place::in_memory(copy.to));
+                kept.push(copy);
+            }
+        }
+        let outputs = outputs.into_iter().map(|(_, output)| output).collect();
         let (kind, result) = self.function_result(signature, call.span)?;
-        let code = Code::Call(Box::new(FunctionCall { unit: signature.unit, inputs, outputs, result }));
+        let code = Code::Call(Box::new(FunctionCall { unit: signature.unit, inputs, kept, outputs, result }));
         Some(Value { kind, code, span: call.span })
+    }
+
+    /// A copy of an output, for a call in which an index of a target could change it.
+    fn keep(&mut self, pin: &Member, span: Span) -> Option<SlotCopy> {
+        let slots = pin.type_.slots();
+        let to = self.checker.allocate(&vec![0; slots as usize], span)?;
+        Some(SlotCopy { from: pin.offset, to, slots })
     }
 
     fn limit_arguments(&mut self, count: usize, span: Span) -> Option<()> {
@@ -171,7 +190,7 @@ impl<'t> Body<'_, 't> {
             _ => {
                 let slots = type_.slots();
                 let to = self.checker.allocate(&vec![0; slots as usize], span)?;
-                FunctionResult::Copied { from: *slot, to, slots }
+                FunctionResult::Copied(SlotCopy { from: *slot, to, slots })
             }
         };
         Some((Kind::Type(type_.clone()), result))
@@ -185,9 +204,8 @@ impl<'t> Body<'_, 't> {
         span: Span,
     ) -> Option<Assign> {
         let target = self.target(to)?;
-        let place = Place { base: Base::Memory, offset: pin.offset, indices: Vec::new() };
         let located = Located {
-            place,
+            place: Place::in_memory(pin.offset),
             type_: pin.type_.clone(),
             access: super::scope::Access::Write,
             is_element: false,
@@ -208,20 +226,32 @@ impl<'t> Body<'_, 't> {
         self.checker.written(&instance, call.callee.span)?;
         let pins = block.members.iter().filter(|pin| pin.role != Role::Internal).cloned().collect::<Vec<_>>();
         let given = self.assign_pins(&block.name, &pins, call)?;
-        let (mut inputs, mut outputs) = (Vec::new(), Vec::new());
+        let (mut inputs, mut outputs, mut kept) = (Vec::new(), Vec::new(), Vec::new());
+        let mut targets_call = false;
         for (pin, given) in pins.iter().zip(given) {
             match given {
                 Some(Given::Input(expression)) => {
                     inputs.extend(self.pin_input(pin, expression)?);
                 }
                 Some(Given::Output { to, negated, span }) => {
-                    outputs.push(self.block_output(pin, to, negated, span)?);
+                    let calls = self.checker.calls.len();
+                    outputs.push((pin, self.block_output(pin, to, negated, span)?));
+                    targets_call |= self.checker.calls.len() > calls;
                 }
                 None => self.required(pin, &block.name, call.span)?,
             }
         }
         self.limit_arguments(inputs.len(), call.span)?;
-        let call = BlockCall { unit: block.unit, instance: instance.place, inputs, outputs };
+        // A function in an index may execute the same instance.
+        if targets_call {
+            for (pin, output) in &mut outputs {
+                let copy = self.keep(pin, call.span)?;
+                output.kept = Some(copy.to);
+                kept.push(copy);
+            }
+        }
+        let outputs = outputs.into_iter().map(|(_, output)| output).collect();
+        let call = BlockCall { unit: block.unit, instance: instance.place, inputs, kept, outputs };
         Some(StatementKind::CallBlock(call))
     }
 
@@ -252,7 +282,7 @@ impl<'t> Body<'_, 't> {
                 return self.checker.refuse(Problem::new(to.span, message));
             }
         };
-        Some(BlockOutput { offset: pin.offset, convert, negated, to: target.place, put })
+        Some(BlockOutput { offset: pin.offset, kept: None, convert, negated, to: target.place, put })
     }
 
     fn negatable(&mut self, type_: &Type, span: Span) -> Option<()> {
