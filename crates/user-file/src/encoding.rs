@@ -6,7 +6,10 @@ mod by_letters;
 /// The names of the likely character sets, as `iconv` accepts them, the most likely first; none if it is unknown.
 #[cfg(feature = "encodings")]
 pub(crate) fn guessed(bytes: &[u8]) -> Vec<&'static str> {
-    by_letters::guessed(bytes).map_or_else(|| vec![by_statistics(bytes)], <[_]>::to_vec)
+    match by_letters::guessed(bytes) {
+        Some(names) => names.to_vec(),
+        None => by_letters::with_half_width_kana(bytes, by_statistics(bytes)),
+    }
 }
 
 /// Not known: this build does not detect it.

@@ -3,6 +3,7 @@
 use wire::{SII_CONFIGURATION_BYTES, sii_checksum};
 
 use crate::sample::Sample;
+use crate::structured_text;
 
 /// The kind of file that a command requires.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,7 +156,7 @@ const KINDS: &[Kind] = &[
     },
     Kind {
         name: "a program in Structured Text",
-        is: is_structured_text,
+        is: |file| structured_text::begins(file.start()),
         wanted_as: Some(Wanted::Program),
         help: "`ectwin st check FILE` reads it",
     },
@@ -181,50 +182,6 @@ fn is_sii(bytes: &[u8]) -> bool {
     bytes.len() >= SII_HEADER_BYTES
         && bytes.len().is_multiple_of(2)
         && rest.starts_with(&[sii_checksum(configuration), 0])
-}
-
-/// A program begins with a declaration, after comments and pragmas. Statements alone could be anything, unless they
-/// follow a comment with which no other kind of file begins.
-fn is_structured_text(file: &Sample<'_>) -> bool {
-    let start = file.start();
-    let rest = without_comments(start);
-    begins_with_declaration(rest)
-        || start.starts_with("(*")
-        || (["//", "/*"].iter().any(|mark| start.starts_with(mark)) && rest.contains(":="))
-}
-
-fn begins_with_declaration(text: &str) -> bool {
-    const WORDS: [&str; 13] = [
-        "PROGRAM",
-        "FUNCTION_BLOCK",
-        "FUNCTION",
-        "TYPE",
-        "VAR",
-        "VAR_GLOBAL",
-        "VAR_EXTERNAL",
-        "VAR_INPUT",
-        "VAR_OUTPUT",
-        "VAR_IN_OUT",
-        "VAR_TEMP",
-        "CONFIGURATION",
-        "INTERFACE",
-    ];
-    let is_letter = |character: char| character.is_ascii_alphanumeric() || character == '_';
-    let (word, rest) = text.split_at(text.find(|character| !is_letter(character)).unwrap_or(text.len()));
-    // `type = 3` and `type.x = 3` are TOML.
-    let is_key = rest.trim_start().starts_with(['=', '.']);
-    !is_key && WORDS.iter().any(|known| known.eq_ignore_ascii_case(word))
-}
-
-/// The text after its initial comments and pragmas of Structured Text.
-fn without_comments(text: &str) -> &str {
-    const COMMENTS: [(&str, &str); 4] = [("(*", "*)"), ("/*", "*/"), ("//", "\n"), ("{", "}")];
-    let mut rest = text.trim_start();
-    while let Some((begin, end)) = COMMENTS.iter().find(|(begin, _)| rest.starts_with(begin)) {
-        let inside = rest.get(begin.len()..).unwrap_or_default();
-        rest = inside.split_once(end).map_or("", |(_, behind)| behind.trim_start());
-    }
-    rest
 }
 
 #[cfg(test)]
@@ -298,26 +255,13 @@ mod tests {
     }
 
     #[test]
-    fn structured_text_is_known_by_its_first_declaration_or_comment() {
-        for text in [
-            "VAR R : NX_ReadObj; END_VAR R(Execute := TRUE);",
-            "VAR s : STRING := 'a'; END_VAR",
-            "(* counts\n   pulses *)\nVAR x : INT; END_VAR",
-            "// counts pulses\n// since 2024\nPROGRAM Main",
-            "\u{feff}/* counts */ (* twice *)\r\n{attribute 'x := 1'}\nfunction_block B",
-            "(* statements *) x = y",
-            "// statements\nx := 1;",
-            "(* without an end",
-            "TYPE\n",
-            "VAR_INPUT a : INT := 1; END_VAR",
-        ] {
-            for wanted in [Wanted::UnitFile, Wanted::Scenario] {
-                let refusal = of_another_kind(text.as_bytes(), "a", wanted);
-                let message = refusal.map(|refusal| refusal.message);
-                assert_eq!(message.as_deref(), Some("this is a program in Structured Text"), "{text}");
-            }
-            assert_eq!(of_another_kind(text.as_bytes(), "a", Wanted::Program), None, "{text}");
+    fn structured_text_is_refused_as_a_unit_file_and_as_a_scenario() {
+        for wanted in [Wanted::UnitFile, Wanted::Scenario] {
+            let refusal = of_another_kind("\u{feff}Main.count[3] := 4;".as_bytes(), "a", wanted);
+            let message = refusal.map(|refusal| refusal.message);
+            assert_eq!(message.as_deref(), Some("this is a program in Structured Text"));
         }
+        assert_eq!(of_another_kind(b"Main.count[3] := 4;", "a", Wanted::Program), None);
     }
 
     #[test]
@@ -332,7 +276,7 @@ mod tests {
             ("type = 3", Wanted::UnitFile),
             ("VAR.x = 3", Wanted::UnitFile),
             ("// a sketch\nint main() {}", Wanted::UnitFile),
-            ("{ a = 1 } x := 1;", Wanted::UnitFile),
+            ("model := \"nx-ect101\"\n# a; b\n", Wanted::UnitFile),
             ("variable = 1", Wanted::Scenario),
         ] {
             assert_eq!(of_another_kind(text.as_bytes(), "a", wanted), None, "{text}");

@@ -15,6 +15,7 @@ mod located;
 mod mistakes;
 mod reader;
 mod sample;
+mod structured_text;
 mod text;
 mod typed;
 pub mod values;

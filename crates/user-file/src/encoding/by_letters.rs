@@ -23,6 +23,28 @@ pub(super) fn guessed(bytes: &[u8]) -> Option<&'static [&'static str]> {
     }
 }
 
+/// The result of the statistics, and Shift-JIS if the text can be words of half-width kana, the more likely first.
+pub(super) fn with_half_width_kana(bytes: &[u8], by_statistics: &'static str) -> Vec<&'static str> {
+    if japanese(bytes) != Japanese::HalfWidth {
+        return vec![by_statistics];
+    }
+    // No language of Latin script has words of such letters alone; kana of the first rows are no letters elsewhere.
+    let are_kana =
+        LATIN_SCRIPTS.contains(&by_statistics) || bytes.iter().any(|byte| FIRST_ROWS.contains(byte));
+    match are_kana && !TWO_BYTES.contains(&by_statistics) {
+        true => vec![SHIFT_JIS, by_statistics],
+        false => vec![by_statistics, SHIFT_JIS],
+    }
+}
+
+/// Character sets whose non-ASCII letters stand between ASCII letters.
+const LATIN_SCRIPTS: [&str; 7] =
+    [LATIN, "windows-1250", "windows-1254", "windows-1257", "windows-1258", "ISO-8859-2", "ISO-8859-4"];
+/// Character sets with two bytes for a character.
+const TWO_BYTES: [&str; 6] = ["GBK", "gb18030", "Big5", "EUC-JP", "EUC-KR", SHIFT_JIS];
+/// The half-width kana from ｱ to ｿ.
+const FIRST_ROWS: RangeInclusive<u8> = 0xB1..=0xBF;
+
 /// How much of a text in Shift-JIS resembles Japanese.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Japanese {
@@ -216,6 +238,25 @@ mod tests {
         ] {
             assert_eq!(super::guessed(&written(encoding, line)), None, "{line} in {}", encoding.name());
         }
+    }
+
+    #[test]
+    fn shift_jis_is_named_for_short_texts_of_half_width_kana() {
+        for line in ["(* ｶｳﾝﾀ *)", "// ﾎﾟﾝﾌﾟ", "(* ｲﾝﾀｰﾛｯｸ *)", "(* ﾓｰﾀ *)", "x := 1; // ﾘｾｯﾄ", "// ﾃｽﾄ ﾃｽﾄ"]
+        {
+            let names = guessed(&written(DECODER, line));
+            assert!(names.contains(&SHIFT_JIS), "{line}: {names:?}");
+        }
+        // Two kana can be a character of two bytes; of an odd number of them one is left.
+        assert_eq!(guessed(&written(DECODER, "// ﾃｽﾄ")).first(), Some(&SHIFT_JIS));
+        let statistics = ["windows-1250", "windows-1251", "GBK"];
+        for (line, expected) in
+            [("// ﾎﾟﾝﾌﾟ", [SHIFT_JIS, "windows-1251", "GBK"]), ("// ｱﾝﾌﾟ", [SHIFT_JIS, SHIFT_JIS, "GBK"])]
+        {
+            let first = statistics.map(|name| with_half_width_kana(&written(DECODER, line), name)[0]);
+            assert_eq!(first, expected, "{line}");
+        }
+        assert_eq!(guessed(&written(WINDOWS_1251, "// СЧЁТЧИК")).first(), Some(&"windows-1251"));
     }
 
     fn written(encoding: &'static Encoding, text: &str) -> Vec<u8> {
