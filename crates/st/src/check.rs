@@ -18,6 +18,7 @@ mod scope;
 mod statements;
 mod types;
 mod units;
+mod unknown_names;
 
 use std::collections::HashMap;
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use super::expressions::{Body, Kind, Value};
 use super::numbers::{Fitting, coerce, converted};
-use super::places::nearest;
 use super::scope::{Located, Symbol, key};
+use super::unknown_names::nearest;
 use super::{Named, Signature};
 use crate::code::{
     Assign, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, SlotCopy, StatementKind,
@@ -39,6 +39,9 @@ impl<'t> Body<'_, 't> {
             |symbol| matches!(&symbol, Symbol::Variable(located) if matches!(located.type_, Type::Block(_))),
         ) {
             return self.refuse_block_value(call);
+        }
+        if matches!(self.symbol(name), Some(Symbol::Wrong)) {
+            return None;
         }
         if let Some(signature) = self.function(name, call.callee.span)? {
             return self.call_function(&signature, call);
@@ -121,6 +124,7 @@ impl<'t> Body<'_, 't> {
         let located = match &callee.kind {
             ExpressionKind::Name(name) => match self.symbol(name) {
                 Some(Symbol::Variable(located)) if matches!(located.type_, Type::Block(_)) => located,
+                Some(Symbol::Wrong) => return None,
                 // The result variable of a function has its name, and a function cannot call itself.
                 _ => return Some(None),
             },

@@ -1,8 +1,8 @@
 //! Which PROGRAMs run, and when: according to a CONFIGURATION, or all of them in each scan.
 
 use super::constants::Constants;
-use super::places::nearest;
 use super::scope::{Scope, key};
+use super::unknown_names::nearest;
 use super::{Checker, Origin, Pending};
 use crate::problem::{Problem, Span};
 use crate::program::Task;

@@ -335,7 +335,7 @@ impl<'t> Checker<'t> {
             return given;
         }
         let devices = self.surroundings.globals.iter().map(|global| global.name.clone());
-        let near = super::places::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
+        let near = super::unknown_names::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
         let problem = Problem::new(name.span, format!("there is no global variable `{}`", name.text));
         self.refuse(match near {
             Some(near) => problem.help(format!("did you mean `{near}`?")),
@@ -352,7 +352,7 @@ impl<'t> Checker<'t> {
             return self.device(place);
         }
         let paths = globals.iter().filter_map(|global| global.at.clone());
-        let near = super::places::nearest(&at.text, paths);
+        let near = super::unknown_names::nearest(&at.text, paths);
         let problem = Problem::new(at.span, format!("there is no I/O port `{}`", at.text));
         self.refuse(match near {
             Some(near) => problem.help(format!("did you mean `{near}`?")),

@@ -103,8 +103,10 @@ impl Checker<'_> {
     ) -> Option<()> {
         for (name, initial) in given {
             let Some(member) = member(members, &name.text).filter(|member| member.role != Role::InOut) else {
-                let near =
-                    super::places::nearest(&name.text, members.iter().map(|member| member.name.clone()));
+                let near = super::unknown_names::nearest(
+                    &name.text,
+                    members.iter().map(|member| member.name.clone()),
+                );
                 let problem = Problem::new(name.span, format!("there is no member `{}`", name.text));
                 return self.refuse(match near {
                     Some(near) => problem.help(format!("did you mean `{near}`?")),

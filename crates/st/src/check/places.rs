@@ -3,23 +3,13 @@
 use super::Checker;
 use super::expressions::{Body, Kind};
 use super::scope::{Access, Located, Symbol, key};
+use super::unknown_names::{nearest, remedy};
 use crate::code::{Code, Dimension, Element, Extent};
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Expression, ExpressionKind, Name};
 use crate::types::{Array, Bound, Role, Type, member};
 use crate::value::integer;
-
-/// The minimum similarity of two names for a suggestion.
-const LIKENESS: f64 = 0.8;
-
-/// The name that is nearest to a misspelt one.
-pub(super) fn nearest(name: &str, candidates: impl Iterator<Item = String>) -> Option<String> {
-    let wanted = key(name);
-    let scored = candidates.map(|candidate| (strsim::jaro_winkler(&wanted, &key(&candidate)), candidate));
-    let best = scored.max_by(|left, right| left.0.total_cmp(&right.0).then_with(|| right.1.cmp(&left.1)));
-    best.filter(|(score, _)| *score >= LIKENESS).map(|(_, candidate)| candidate)
-}
 
 /// The elementary values of a type, one after the other; none for a type that also has others.
 pub(super) fn flatten(type_: &Type) -> Option<Vec<(u32, Elementary)>> {
@@ -100,13 +90,8 @@ impl Body<'_, '_> {
 
     pub(super) fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
         let own = self.scope.symbols.keys().chain(self.checker.globals.keys()).cloned();
-        let devices = self.checker.surroundings.globals.iter().map(|global| global.name.clone());
-        let problem = Problem::new(span, format!("there is no variable `{name}`"));
-        let problem = match nearest(name, own.chain(devices)) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem.help("declare it in VAR … END_VAR"),
-        };
-        self.checker.refuse(problem)
+        let remedy = remedy(name, own, self.checker.surroundings.globals);
+        self.checker.refuse(Problem::new(span, format!("there is no variable `{name}`")).help(remedy))
     }
 
     fn member(&mut self, of: &Expression, name: &Name) -> Option<Located> {

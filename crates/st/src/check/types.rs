@@ -250,7 +250,7 @@ impl<'t> Checker<'t> {
         let names = types.map(|(name, _)| name.clone());
         let elementary =
             crate::elementary::Elementary::ALL.iter().map(|elementary| elementary.name().to_owned());
-        let near = super::places::nearest(name, names.chain(elementary));
+        let near = super::unknown_names::nearest(name, names.chain(elementary));
         let problem = Problem::new(span, format!("there is no type `{name}`"));
         self.refuse(match near {
             Some(near) => problem.help(format!("did you mean `{near}`?")),

@@ -12,13 +12,23 @@ use crate::calendar;
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 
-/// The prefixes of the standard's literals that the language does not support.
-const UNSUPPORTED: [&str; 10] =
-    ["LT", "LTIME", "LD", "LDATE", "LTOD", "LTIME_OF_DAY", "LDT", "LDATE_AND_TIME", "WSTRING", "WCHAR"];
+/// The prefixes of the standard's literals that the language does not support, and how such a value is written.
+const UNSUPPORTED: [(&str, &str); 10] = [
+    ("LT", "T#…"),
+    ("LTIME", "T#…"),
+    ("LD", "D#…"),
+    ("LDATE", "D#…"),
+    ("LTOD", "TOD#…"),
+    ("LTIME_OF_DAY", "TOD#…"),
+    ("LDT", "DT#…"),
+    ("LDATE_AND_TIME", "DT#…"),
+    ("WSTRING", "'…'"),
+    ("WCHAR", "'…'"),
+];
 
-/// Whether `prefix` belongs to a literal that the language does not support, such as LTIME.
-pub(crate) fn is_unsupported(prefix: &str) -> bool {
-    UNSUPPORTED.iter().any(|known| known.eq_ignore_ascii_case(prefix))
+/// The literals to use in place of those with `prefix`, if the language does not support these.
+pub(crate) fn instead_of(prefix: &str) -> Option<&'static str> {
+    UNSUPPORTED.iter().find(|(known, _)| known.eq_ignore_ascii_case(prefix)).map(|(_, instead)| *instead)
 }
 
 /// Whether `prefix` begins a literal, and not an enumeration value.

@@ -176,9 +176,9 @@ impl Parser<'_> {
             return Ok(Expression { span: self.since(span), ..literal });
         }
         let is_word = rest.starts_with(|first: char| first.is_alphabetic() || first == '_');
-        if literal::is_unsupported(prefix) && !is_word {
+        if let Some(instead) = literal::instead_of(prefix).filter(|_| !is_word) {
             let message = format!("{} literals are not supported", prefix.to_ascii_uppercase());
-            return self.fail(Problem::new(span, message));
+            return self.fail(Problem::new(span, message).help(format!("write {instead}")));
         }
         if is_word && !literal::is_literal_prefix(prefix) {
             self.advance();

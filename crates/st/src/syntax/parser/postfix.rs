@@ -2,7 +2,7 @@
 
 use super::super::ast::{Expression, ExpressionKind};
 use super::super::token::Token;
-use super::{Parsed, Parser};
+use super::{Parsed, Parser, spelling};
 use crate::problem::{Problem, Span};
 
 impl Parser<'_> {
@@ -21,14 +21,14 @@ impl Parser<'_> {
                     return self.nothing_behind_a_call(Expression { kind: ExpressionKind::Call(call), span });
                 }
                 Token::Caret => {
-                    let mut problem = Problem::new(self.here(), "pointers are not supported");
-                    if matches!(
+                    let problem = Problem::new(self.here(), "pointers are not supported");
+                    let is_power = matches!(
                         self.peek(1),
                         Token::Integer | Token::Real | Token::Name | Token::OpenParenthesis
-                    ) {
-                        problem = problem.help("a power is written `**`");
-                    }
-                    return self.fail(problem);
+                    );
+                    let help =
+                        if is_power { "a power is written `**`" } else { spelling::INSTEAD_OF_A_POINTER };
+                    return self.fail(problem.help(help));
                 }
                 _ => return Ok(whole),
             };

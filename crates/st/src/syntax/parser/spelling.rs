@@ -40,6 +40,9 @@ pub(super) fn is_type_word(text: &str) -> bool {
     is_type && !text.eq_ignore_ascii_case("DT")
 }
 
+/// The remedy for a pointer.
+pub(super) const INSTEAD_OF_A_POINTER: &str = "pass the variable to the function or block as VAR_IN_OUT";
+
 /// Whether `text` begins the type of a pointer.
 pub(super) fn is_pointer(text: &str) -> bool {
     ["POINTER", "REF_TO", "REFERENCE"].iter().any(|word| word.eq_ignore_ascii_case(text))

@@ -162,7 +162,8 @@ impl Parser<'_> {
         let text = self.text(span);
         let is_behind_a_pointer = matches!(self.peek(1), Token::Name | Token::Keyword(Keyword::To));
         if spelling::is_pointer(text) && is_behind_a_pointer {
-            return self.fail(Problem::new(span, format!("{} is not supported", text.to_ascii_uppercase())));
+            let problem = Problem::new(span, format!("{} is not supported", text.to_ascii_uppercase()));
+            return self.fail(problem.help(spelling::INSTEAD_OF_A_POINTER));
         }
         self.advance();
         if text.eq_ignore_ascii_case("STRING") {
@@ -170,7 +171,9 @@ impl Parser<'_> {
         }
         let Some(elementary) = Elementary::named(text) else { return Ok(TypeKind::Named(text.to_owned())) };
         if self.token() == Token::OpenParenthesis {
-            return self.fail(Problem::new(self.here(), "subranges are not supported"));
+            let problem = Problem::new(self.here(), "subranges are not supported");
+            return self
+                .fail(problem.help(format!("declare it as {elementary}, and limit its values by LIMIT(…)")));
         }
         Ok(TypeKind::Elementary(elementary))
     }
