@@ -6,15 +6,18 @@ use std::os::fd::AsFd;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use time::Duration;
 
+use crate::wake_event::WakeEvent;
+
 /// Waits in the kernel until a non-blocking descriptor has bytes, and receives them. Uses `ppoll` rather than a
-/// receive time-out, which counts in ticks of up to 10 ms. There is no receive attempt before it: on one core
+/// receive time-out, which counts in ticks of up to 10 ms. `wake` ends the wait. There is no receive attempt before it: on one core
 /// that call would keep the master from running.
 pub(crate) fn receive_from(
     descriptor: &impl AsFd,
+    wake: &WakeEvent,
     wait: Duration,
     mut receive: impl FnMut() -> io::Result<usize>,
 ) -> io::Result<Option<usize>> {
-    if wait.is_zero() || readable(descriptor, wait)? { unless_none_there(receive()) } else { Ok(None) }
+    if wait.is_zero() || readable(descriptor, wake, wait)? { unless_none_there(receive()) } else { Ok(None) }
 }
 
 fn unless_none_there(received: io::Result<usize>) -> io::Result<Option<usize>> {
@@ -27,14 +30,20 @@ fn unless_none_there(received: io::Result<usize>) -> io::Result<Option<usize>> {
     }
 }
 
-fn readable(descriptor: &impl AsFd, wait: Duration) -> io::Result<bool> {
+fn readable(descriptor: &impl AsFd, wake: &WakeEvent, wait: Duration) -> io::Result<bool> {
     let nanos = wait.as_nanos();
     let timeout = Timespec {
         tv_sec: i64::try_from(nanos / 1_000_000_000).unwrap_or(i64::MAX),
         tv_nsec: (nanos % 1_000_000_000).try_into().unwrap_or(0),
     };
-    match poll(&mut [PollFd::new(descriptor, PollFlags::IN)], Some(&timeout)) {
-        Ok(ready) => Ok(ready > 0),
+    let mut ends = [PollFd::new(descriptor, PollFlags::IN), PollFd::new(wake, PollFlags::IN)];
+    match poll(&mut ends, Some(&timeout)) {
+        Ok(_) => {
+            if !ends[1].revents().is_empty() {
+                wake.clear();
+            }
+            Ok(!ends[0].revents().is_empty())
+        }
         // A signal: the caller checks its stop flag.
         Err(rustix::io::Errno::INTR) => Ok(false),
         Err(error) => Err(error.into()),

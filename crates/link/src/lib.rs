@@ -29,6 +29,9 @@ mod spec;
 mod tap;
 #[cfg(feature = "media")]
 mod udp;
+mod wake;
+#[cfg(feature = "media")]
+mod wake_event;
 
 pub use clock::Clock;
 #[cfg(feature = "media")]
@@ -39,3 +42,4 @@ pub use port::{Envelope, FRAME_BUFFER_BYTES, FramePort};
 pub use recorder::{Medium, Recorder, Recording};
 pub use runner::{FrameFate, Observer, Responder, Seen, Statistics};
 pub use spec::{DEFAULT_UDP_PORT, LinkSpec, NotALink};
+pub use wake::wakes_thread;

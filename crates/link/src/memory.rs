@@ -2,6 +2,7 @@
 
 use std::io;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::task::{Wake, Waker};
 
 use time::Duration;
 
@@ -44,6 +45,10 @@ impl FramePort for MemoryPort {
     fn send(&mut self, frame: &[u8]) -> io::Result<()> {
         self.outgoing.put(frame)
     }
+
+    fn waker(&self) -> Waker {
+        Waker::from(Arc::clone(&self.incoming))
+    }
 }
 
 /// One direction: a ring of buffers, allocated once.
@@ -57,6 +62,8 @@ struct Ring {
     first: usize,
     count: usize,
     closed: bool,
+    /// The next wait of the receiver ends at once.
+    woken: bool,
 }
 
 #[derive(Clone)]
@@ -68,7 +75,8 @@ struct Slot {
 impl Lane {
     fn new() -> Self {
         let frames = vec![Slot { length_bytes: 0, bytes: [0; FRAME_BUFFER_BYTES] }; CAPACITY_FRAMES];
-        let ring = Ring { frames: frames.into_boxed_slice(), first: 0, count: 0, closed: false };
+        let ring =
+            Ring { frames: frames.into_boxed_slice(), first: 0, count: 0, closed: false, woken: false };
         Self { ring: Mutex::new(ring), arrived: Condvar::new() }
     }
 
@@ -89,13 +97,25 @@ impl Lane {
     }
 
     fn take(&self, buffer: &mut [u8], wait: std::time::Duration) -> io::Result<Option<usize>> {
-        let empty_and_open = |ring: &mut Ring| ring.count == 0 && !ring.closed;
-        let waited = self.arrived.wait_timeout_while(self.lock(), wait, empty_and_open);
+        let nothing_happens = |ring: &mut Ring| ring.count == 0 && !ring.closed && !ring.woken;
+        let waited = self.arrived.wait_timeout_while(self.lock(), wait, nothing_happens);
         let (mut ring, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        ring.woken = false;
         match ring.pop(buffer) {
             None if ring.closed => Err(io::ErrorKind::UnexpectedEof.into()),
             received => Ok(received),
         }
+    }
+}
+
+impl Wake for Lane {
+    fn wake(self: Arc<Self>) {
+        self.wake_by_ref();
+    }
+
+    fn wake_by_ref(self: &Arc<Self>) {
+        self.lock().woken = true;
+        self.arrived.notify_one();
     }
 }
 
@@ -136,6 +156,7 @@ mod tests {
     use super::*;
 
     const SOON: Duration = Duration::from_secs(10);
+    const NEVER: Duration = Duration::from_secs(100_000);
 
     #[test]
     fn what_one_end_sends_the_other_receives_in_order() {
@@ -157,6 +178,18 @@ mod tests {
         let waiting = std::thread::spawn(move || other.receive(&mut [0; FRAME_BUFFER_BYTES], SOON).unwrap());
         one.send(&[1, 2, 3]).unwrap();
         assert_eq!(waiting.join().unwrap(), Some(3));
+    }
+
+    #[test]
+    fn a_wait_or_the_next_one_is_ended_by_the_waker() {
+        let (_one, mut other) = pair();
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        let waker = other.waker();
+        waker.wake_by_ref();
+        assert_eq!(other.receive(&mut buffer, NEVER).unwrap(), None);
+        let waiting = std::thread::spawn(move || other.receive(&mut buffer, NEVER).unwrap());
+        waker.wake();
+        assert_eq!(waiting.join().unwrap(), None);
     }
 
     #[test]

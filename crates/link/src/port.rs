@@ -1,6 +1,7 @@
 //! Source and destination of frames.
 
 use std::io;
+use std::task::Waker;
 
 use time::Duration;
 
@@ -62,6 +63,12 @@ pub trait FramePort: Send {
     fn dropped(&self) -> u64 {
         0
     }
+
+    /// Lets another thread end a wait in [`FramePort::receive`], the present or else the next one. To be called on the
+    /// thread that receives. A port that cannot be woken only waits to the end.
+    fn waker(&self) -> Waker {
+        Waker::noop().clone()
+    }
 }
 
 impl<P: FramePort + ?Sized> FramePort for Box<P> {
@@ -91,5 +98,9 @@ impl<P: FramePort + ?Sized> FramePort for Box<P> {
 
     fn dropped(&self) -> u64 {
         (**self).dropped()
+    }
+
+    fn waker(&self) -> Waker {
+        (**self).waker()
     }
 }

@@ -8,10 +8,12 @@ mod vlan;
 
 use std::io;
 use std::sync::Arc;
+use std::task::Waker;
 
 use time::Duration;
 
 use crate::descriptor::receive_from;
+use crate::wake_event::WakeEvent;
 use crate::{FramePort, LinkSpec, OpenError};
 use bell::Bell;
 use interface::{Interface, Watch};
@@ -23,6 +25,7 @@ pub(crate) struct RawPort {
     socket: PacketSocket,
     interface: Arc<Interface>,
     bell: Option<Bell>,
+    wake: WakeEvent,
     _watch: Option<Watch>,
 }
 
@@ -37,9 +40,10 @@ impl RawPort {
             // The bell is set up first: changes from here on ring it.
             let bell = Bell::new()?;
             let socket = PacketSocket::new()?;
-            Ok((bell, Interface::bind(interface, socket.try_clone()?)?, socket))
+            let wake = WakeEvent::new()?;
+            Ok((bell, Interface::bind(interface, socket.try_clone()?)?, socket, wake))
         };
-        let (bell, bound, socket) =
+        let (bell, bound, socket, wake) =
             open().map_err(|error| OpenError::of(LinkSpec::Raw(name.to_owned()), error))?;
         if interface.is_loopback() {
             return Err(OpenError::Loopback { name: name.to_owned() });
@@ -50,7 +54,7 @@ impl RawPort {
             tracing::warn!("{name} has no carrier: the cable to the master is pulled");
         }
         let interface = Arc::new(bound);
-        Ok(Self { name: name.to_owned(), socket, interface, bell: Some(bell), _watch: None })
+        Ok(Self { name: name.to_owned(), socket, interface, bell: Some(bell), wake, _watch: None })
     }
 }
 
@@ -63,7 +67,7 @@ impl FramePort for RawPort {
     }
 
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
-        match receive_from(&self.socket, wait, || self.socket.receive(buffer)) {
+        match receive_from(&self.socket, &self.wake, wait, || self.socket.receive(buffer)) {
             // The interface is down or was removed.
             Err(error) if error.kind() == io::ErrorKind::NetworkDown => {
                 self.interface.look();
@@ -94,5 +98,9 @@ impl FramePort for RawPort {
 
     fn dropped(&self) -> u64 {
         self.interface.dropped()
+    }
+
+    fn waker(&self) -> Waker {
+        self.wake.waker()
     }
 }

@@ -26,6 +26,9 @@ pub trait Responder {
     /// The time at which [`Responder::poll`] must be called next without a frame; [`Instant::NEVER`]: no call needed.
     fn deadline(&self) -> Instant;
 
+    /// Called in each turn of the loop: other threads may have requests.
+    fn attend(&mut self) {}
+
     /// The cable to the master has lost its carrier, or has it again. At the start it has a carrier.
     fn carrier(&mut self, _present: bool) {}
 
@@ -46,6 +49,10 @@ impl<R: Responder + ?Sized> Responder for &mut R {
 
     fn deadline(&self) -> Instant {
         (**self).deadline()
+    }
+
+    fn attend(&mut self) {
+        (**self).attend();
     }
 
     fn carrier(&mut self, present: bool) {
@@ -153,6 +160,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
     }
 
     fn turn(&mut self, buffers: &mut Buffers) -> io::Result<()> {
+        self.responder.attend();
         let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
         let received = self.port.receive(&mut buffers.frame, wait)?;
         // Before the frame that arrived over the cable.

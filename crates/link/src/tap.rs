@@ -1,23 +1,27 @@
 //! A TAP interface: the master opens it like a network card, and this process is the cable.
 
 use std::io;
+use std::task::Waker;
 
 use time::Duration;
 use tun_rs::{DeviceBuilder, Layer, SyncDevice};
 
 use crate::descriptor::{may_be_ethercat, receive_from};
+use crate::wake_event::WakeEvent;
 use crate::{FramePort, LinkSpec, OpenError};
 
 /// This process's end of a TAP interface. The interface is removed with it unless it existed before.
 pub(crate) struct TapPort {
     name: String,
     device: SyncDevice,
+    wake: WakeEvent,
 }
 
 impl TapPort {
     pub(crate) fn open(name: &str) -> Result<Self, OpenError> {
-        let device = make(name).map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))?;
-        Ok(Self { name: name.to_owned(), device })
+        let opened = WakeEvent::new().and_then(|wake| Ok((make(name)?, wake)));
+        let (device, wake) = opened.map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))?;
+        Ok(Self { name: name.to_owned(), device, wake })
     }
 }
 
@@ -47,7 +51,7 @@ impl TapPort {
 
 impl FramePort for TapPort {
     fn receive(&mut self, buffer: &mut [u8], wait: Duration) -> io::Result<Option<usize>> {
-        let received = receive_from(&self.device, wait, || self.device.recv(buffer));
+        let received = receive_from(&self.device, &self.wake, wait, || self.device.recv(buffer));
         let received = received.map_err(|error| self.lost(error))?;
         // The kernel sends IPv6 and ARP on the new interface first.
         Ok(received.filter(|length_bytes| buffer.get(..*length_bytes).is_some_and(may_be_ethercat)))
@@ -59,5 +63,9 @@ impl FramePort for TapPort {
 
     fn link(&self) -> Option<LinkSpec> {
         Some(LinkSpec::Tap(self.name.clone()))
+    }
+
+    fn waker(&self) -> Waker {
+        self.wake.waker()
     }
 }

@@ -2,12 +2,14 @@
 
 use std::io;
 use std::net::{SocketAddr, UdpSocket};
+use std::task::Waker;
 
 use socket2::SockRef;
 use time::Duration;
 
 use crate::descriptor::receive_from;
 use crate::filter::{ANSWER_TOS, NO_ANSWERS};
+use crate::wake_event::WakeEvent;
 use crate::{Envelope, FramePort, LinkSpec, OpenError};
 
 /// The Ethernet header with which the segment sees the UDP payload: broadcast, from an address without a
@@ -24,6 +26,7 @@ pub(crate) struct UdpPort {
     /// With the actual port.
     address: SocketAddr,
     master: Option<SocketAddr>,
+    wake: WakeEvent,
 }
 
 impl UdpPort {
@@ -33,7 +36,7 @@ impl UdpPort {
             socket.set_nonblocking(true)?;
             mark_answers(&socket, address)?;
             let address = socket.local_addr()?;
-            Ok(Self { socket, address, master: None })
+            Ok(Self { socket, address, master: None, wake: WakeEvent::new()? })
         };
         open().map_err(|error| OpenError::of(LinkSpec::Udp(address), error))
     }
@@ -53,8 +56,8 @@ impl FramePort for UdpPort {
             return Err(io::ErrorKind::InvalidInput.into());
         };
         *header = HEADER;
-        let Self { socket, address, master } = self;
-        let received = receive_from(&*socket, wait, || {
+        let Self { socket, address, master, wake } = self;
+        let received = receive_from(&*socket, wake, wait, || {
             let (length_bytes, sender) = socket.recv_from(payload)?;
             if sender == *address {
                 // Forged: this unit sends nothing to itself.
@@ -80,6 +83,10 @@ impl FramePort for UdpPort {
     fn envelope(&self) -> Envelope {
         Envelope::Udp
     }
+
+    fn waker(&self) -> Waker {
+        self.wake.waker()
+    }
 }
 
 #[cfg(test)]
@@ -88,6 +95,7 @@ mod tests {
     use crate::FRAME_BUFFER_BYTES;
 
     const SOON: Duration = Duration::from_secs(10);
+    const NEVER: Duration = Duration::from_secs(100_000);
 
     fn loopback() -> (UdpPort, SocketAddr) {
         let port = UdpPort::open("127.0.0.1:0".parse().unwrap()).unwrap();
@@ -172,6 +180,22 @@ mod tests {
             assert_eq!(received, Some(HEADER.len() + length_bytes.min(room_bytes)), "{length_bytes}");
             assert_eq!(buffer[..HEADER.len()], HEADER);
         }
+    }
+
+    #[test]
+    fn a_wait_or_the_next_one_is_ended_by_the_waker() {
+        let (mut unit, address) = loopback();
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        let waker = unit.waker();
+        waker.wake_by_ref();
+        assert_eq!(unit.receive(&mut buffer, NEVER).unwrap(), None);
+        // Used once, it ends one wait: this one ends with a frame.
+        let master = UdpSocket::bind("127.0.0.1:0").unwrap();
+        master.send_to(&[1; 46], address).unwrap();
+        assert_eq!(unit.receive(&mut buffer, NEVER).unwrap(), Some(60));
+        let waiting = std::thread::spawn(move || unit.receive(&mut buffer, NEVER).unwrap());
+        waker.wake();
+        assert_eq!(waiting.join().unwrap(), None);
     }
 
     #[test]
