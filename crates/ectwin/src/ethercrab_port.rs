@@ -1,12 +1,11 @@
 //! A link to an ethercrab master in the same process: no socket, no root.
 
 use std::io;
-use std::sync::Arc;
-use std::task::{Wake, Waker};
-use std::thread::{self, Thread};
+use std::task::Waker;
+use std::thread;
 
 use ethercrab::{PduRx, PduTx};
-use link::FramePort;
+use link::{FramePort, wakes_thread};
 use time::Duration;
 
 /// The network side of ethercrab's `PduStorage`, as a port for frames. It belongs to the thread that first
@@ -26,7 +25,7 @@ impl<'s> EthercrabPort<'s> {
 
     fn take_frame(&mut self, buffer: &mut [u8]) -> io::Result<Option<usize>> {
         // Registered before the check: a frame that becomes ready after the check still wakes the thread.
-        let waker = self.receiver.get_or_insert_with(|| Waker::from(Arc::new(Unpark(thread::current()))));
+        let waker = self.receiver.get_or_insert_with(|| wakes_thread(thread::current()));
         self.tx.replace_waker(waker);
         if self.tx.should_exit() {
             return Err(io::ErrorKind::UnexpectedEof.into());
@@ -54,17 +53,8 @@ impl FramePort for EthercrabPort<'_> {
     fn send(&mut self, frame: &[u8]) -> io::Result<()> {
         self.rx.receive_frame(frame).map(|_| ()).map_err(io::Error::other)
     }
-}
 
-/// Wakes a parked thread.
-struct Unpark(Thread);
-
-impl Wake for Unpark {
-    fn wake(self: Arc<Self>) {
-        self.0.unpark();
-    }
-
-    fn wake_by_ref(self: &Arc<Self>) {
-        self.0.unpark();
+    fn waker(&self) -> Waker {
+        wakes_thread(thread::current())
     }
 }

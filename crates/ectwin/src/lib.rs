@@ -33,9 +33,8 @@ pub mod object_words;
 #[cfg(feature = "opcua")]
 mod opcua_clients;
 mod program_file;
-mod program_files;
+mod runtime;
 mod setup;
-mod task_watch;
 mod twin;
 mod unit_side;
 pub mod user_files;
@@ -45,7 +44,7 @@ pub use coe_kit::indicators::Pattern;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
-pub use live::{Ended, Live, run};
+pub use live::Live;
 #[cfg(feature = "modbus")]
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
 pub use nx_ect101::unit_file;
@@ -61,6 +60,7 @@ pub use plc::{
     NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,
     Target, Validity, Variable, VariableAccess, VariableError, VariableId, VariableType, VariableValue,
 };
+pub use runtime::{Ended, Handle, Runtime, UnitStatus};
 pub use scenario;
 pub use setup::{Setup, SetupError};
 pub use st;

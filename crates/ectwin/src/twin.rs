@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use device::Network;
+use device::{Device, Network};
 use link::{FrameFate, Responder};
 use plant::Powered;
 use plc::CpuUnit;
@@ -38,7 +38,6 @@ pub(crate) struct Parts {
     /// User programs in files, with the positions of their units.
     pub(crate) programs: Vec<(usize, WatchedProgram)>,
     pub(crate) error_reset: ErrorReset,
-    pub(crate) now: Instant,
 }
 
 /// A flag that is set from outside to reset the errors of all NX Bus Function Modules.
@@ -61,7 +60,7 @@ impl Twin {
         twin
     }
 
-    /// Powers on a line of units for [`crate::run`]: work that is due immediately, such as the first scan of
+    /// Powers on a line of units for [`crate::Runtime`]: work that is due immediately, such as the first scan of
     /// each program, waits for it.
     #[must_use]
     pub fn power_on_for_run(setups: impl IntoIterator<Item = Setup>) -> Self {
@@ -133,15 +132,15 @@ impl Twin {
         self.cpus.iter_mut().map(connect).collect()
     }
 
-    /// Lets [`crate::run`] reset the errors of all NX Bus Function Modules, and of their units, whenever this
+    /// Lets [`crate::Runtime`] reset the errors of all NX Bus Function Modules, and of their units, whenever this
     /// flag is set, for example by a signal handler.
     pub fn reset_errors_on(&mut self, flag: Arc<AtomicBool>) {
         self.error_reset = flag;
     }
 
     pub(crate) fn into_parts(self) -> Parts {
-        let Self { line, cpus, programs, error_reset, now } = self;
-        Parts { line, cpus, programs, error_reset, now }
+        let Self { line, cpus, programs, error_reset, now: _ } = self;
+        Parts { line, cpus, programs, error_reset }
     }
 
     fn poll(&mut self, now: Instant) {
@@ -182,6 +181,11 @@ impl Line {
         now: Instant,
     ) -> UnitSide<'a> {
         UnitSide::of(&mut self.network, cpus, position, now)
+    }
+
+    /// Takes the next unit that may be another than when it was taken last. At first that is every unit.
+    pub(crate) fn take_changed(&mut self) -> Option<(usize, &mut Device<Box<dyn ModelUnit>>)> {
+        self.network.take_changed()
     }
 
     /// Stores the changes, and releases the files. Changes that cannot be stored are lost.

@@ -15,6 +15,7 @@ use crate::device_variables::DeviceVariables;
 use crate::io::Io;
 use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
 use crate::program::{Program, Slot};
+use crate::scan_watch::ScanWatch;
 
 pub use operating_mode::OperatingMode;
 pub use settings::CpuSettings;
@@ -84,10 +85,10 @@ impl CpuUnit {
         self.io.switch_off = flag;
     }
 
-    /// Ends a scan that is under way when this flag is set, so that a program that does not return can be replaced. Its
-    /// owner clears it after the scan.
-    pub fn end_scan_on(&mut self, flag: Arc<AtomicBool>) {
-        self.io.end_scan = flag;
+    /// Lets the owner of this watch end a scan that is under way, so that a program that does not return can be replaced.
+    /// The owner tells it when a scan begins and has ended.
+    pub fn watch_scans(&mut self, watch: Arc<ScanWatch>) {
+        self.io.scan = watch;
     }
 
     /// When the next task period begins.

@@ -12,6 +12,7 @@ use crate::device_variables::{DeviceVariables, Memory};
 use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
 use crate::program::ProgramEvent;
+use crate::scan_watch::ScanWatch;
 
 /// The series of units that exchange arrays and numbers with their master.
 const UINTS: &str = "UINTs";
@@ -35,8 +36,8 @@ pub struct Io {
     has_stopped: bool,
     /// The owner of the CPU Unit sets it to end a scan early.
     pub(crate) switch_off: Arc<AtomicBool>,
-    /// The same for one scan, so that another program can be loaded.
-    pub(crate) end_scan: Arc<AtomicBool>,
+    /// Another thread ends one scan by it, so that another program can be loaded.
+    pub(crate) scan: Arc<ScanWatch>,
 }
 
 impl Io {
@@ -52,7 +53,7 @@ impl Io {
             nx_bus_reset: NxBusReset::None,
             has_stopped: false,
             switch_off: Arc::default(),
-            end_scan: Arc::default(),
+            scan: Arc::default(),
         };
         io.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
         io
@@ -194,7 +195,7 @@ impl Io {
     /// that does not return. A program whose scan can be long checks this about once a millisecond.
     #[must_use]
     pub fn ends_scan(&self) -> bool {
-        self.switch_off.load(Ordering::Relaxed) || self.end_scan.load(Ordering::Relaxed)
+        self.switch_off.load(Ordering::Relaxed) || self.scan.is_to_end()
     }
 
     /// Stores the data and statuses of the unit; forced values are kept.

@@ -16,6 +16,7 @@ mod nx_object_client;
 pub mod outside;
 mod program;
 mod pulse;
+mod scan_watch;
 mod structured_text;
 
 pub use builtin::Builtin;
@@ -35,6 +36,7 @@ pub use nx_bus_function::FailSoftOperation;
 pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::{Program, ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;
+pub use scan_watch::ScanWatch;
 pub use st::Elementary;
 pub use structured_text::StructuredText;
 pub use wire::{ObjectIndex, SubIndex};

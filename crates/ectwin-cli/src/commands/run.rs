@@ -6,7 +6,7 @@ mod signals;
 use std::fs::File;
 use std::path::PathBuf;
 
-use ectwin::{ChangesLost, Ended, ModbusServer, Setup, Twin};
+use ectwin::{ChangesLost, Ended, ModbusServer, Runtime, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
 
 use crate::cli::RunArgs;
@@ -51,7 +51,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     // The port is open: a frame that arrives from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
-    let ended = ectwin::run(twin, &mut port, observer, &clock, &stop);
+    let runtime = Runtime::start(twin, clock, stop).map_err(Failure::LinkLost)?;
+    let ended = runtime.answer(&mut port, observer);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));
     let Ended { statistics, lost } = ended.map_err(Failure::LinkLost)?;

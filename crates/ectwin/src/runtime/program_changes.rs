@@ -1,5 +1,4 @@
-//! User programs in files while they run: they are reloaded when a file changes, and reports of the CPU Units
-//! are logged.
+//! User programs in files while they run: they are reloaded when a file changes.
 
 use std::io;
 use std::sync::Arc;
@@ -8,18 +7,15 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel}
 use std::thread;
 use std::time::Duration as WallDuration;
 
-use plc::{CpuEvent, CpuRecord, CpuUnit, OperatingMode, Program, ProgramEvent};
-use time::{Duration, Instant};
+use plc::{CpuUnit, OperatingMode, Program};
 
 use crate::watched_program::{Change, Watch, WatchedProgram};
 
 /// Interval at which the files are checked.
 const LOOK_AGAIN: WallDuration = WallDuration::from_millis(200);
-/// Interval at which the events of the CPU Units are logged.
-const TELL_AGAIN: Duration = Duration::from_millis(1_000);
 
 /// Changed programs on their way to their CPU Units. Dropping it ends the watch.
-pub(crate) struct ProgramChanges {
+pub(super) struct ProgramChanges {
     changed: Receiver<Change>,
     waiting: Waiting,
     _watch: Option<Sender<()>>,
@@ -27,10 +23,10 @@ pub(crate) struct ProgramChanges {
 
 /// Changed programs that have not been loaded yet.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Waiting(Arc<AtomicUsize>);
+pub(super) struct Waiting(Arc<AtomicUsize>);
 
 impl Waiting {
-    pub(crate) fn is_any(&self) -> bool {
+    pub(super) fn is_any(&self) -> bool {
         self.0.load(Ordering::Relaxed) > 0
     }
 }
@@ -40,7 +36,7 @@ impl ProgramChanges {
     ///
     /// # Errors
     /// No thread can be started.
-    pub(crate) fn watch(programs: Vec<(usize, WatchedProgram)>) -> io::Result<Self> {
+    pub(super) fn watch(programs: Vec<(usize, WatchedProgram)>) -> io::Result<Self> {
         let (sender, changed) = sync_channel(1);
         let waiting = Waiting::default();
         if programs.is_empty() {
@@ -64,12 +60,12 @@ impl ProgramChanges {
     }
 
     /// Those that have not been loaded yet.
-    pub(crate) fn waiting(&self) -> Waiting {
+    pub(super) fn waiting(&self) -> Waiting {
         self.waiting.clone()
     }
 
     /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it.
-    pub(crate) fn apply(&mut self, cpus: &mut [CpuUnit]) {
+    pub(super) fn apply(&mut self, cpus: &mut [CpuUnit]) {
         while let Ok(Change { programs, report }) = self.changed.try_recv() {
             self.waiting.0.fetch_sub(1, Ordering::Relaxed);
             for (position, program) in programs {
@@ -89,53 +85,4 @@ fn load(cpu: &mut CpuUnit, program: Box<dyn Program + Send>) {
         unreachable!("the CPU Unit is in PROGRAM mode");
     }
     cpu.set_mode(mode);
-}
-
-/// The events of CPU Units that are not logged yet.
-#[derive(Debug, Default)]
-pub(crate) struct Reports {
-    next: Instant,
-    lost: u64,
-}
-
-impl Reports {
-    /// Logs events, at most once a second: one that repeats is one line with its count.
-    pub(crate) fn tell(&mut self, cpus: &mut [CpuUnit], now: Instant) {
-        if now < self.next {
-            return;
-        }
-        self.next = now + TELL_AGAIN;
-        self.tell_all(cpus);
-    }
-
-    /// Logs the events that have not been logged.
-    pub(crate) fn tell_all(&mut self, cpus: &mut [CpuUnit]) {
-        for (position, cpu) in cpus.iter_mut().enumerate() {
-            for record in cpu.take_events() {
-                tell(position + 1, &record);
-            }
-        }
-        let lost = cpus.iter().map(CpuUnit::events_lost).sum();
-        if lost > self.lost {
-            tracing::warn!("{} events of CPU Units were lost: too many at once", lost - self.lost);
-            self.lost = lost;
-        }
-    }
-}
-
-fn tell(unit: usize, record: &CpuRecord) {
-    let (event, count) = (&record.event, record.count);
-    match event {
-        CpuEvent::ModeChanged(_) | CpuEvent::ProgramLoaded => {
-            tracing::info!("CPU Unit of unit {unit}: {event}")
-        }
-        CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { .. }) => {
-            tracing::info!("CPU Unit of unit {unit}: {event}");
-        }
-        // A machine that is briefly busy with other work causes this in every real-time program.
-        CpuEvent::TaskPeriodExceeded { .. } => {
-            tracing::debug!("CPU Unit of unit {unit}: {event} ({count} times)")
-        }
-        _ => tracing::warn!("CPU Unit of unit {unit}: {event} ({count} times)"),
-    }
 }

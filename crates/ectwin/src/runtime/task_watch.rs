@@ -2,67 +2,59 @@
 //! its scan is ended if another program waits for its end.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
 use link::Clock;
-use plc::CpuUnit;
+use plc::{CpuUnit, ScanWatch};
 use time::{Duration, Instant};
 
-use crate::program_files::Waiting;
+use super::program_changes::Waiting;
 
 /// How often the tasks are looked at.
 const LOOK_AGAIN: std::time::Duration = std::time::Duration::from_millis(100);
 /// A task period of this length is reported. The units have noticed it before (80200000), and a machine that is busy
 /// for a moment is not reported.
 const LIMIT: Duration = Duration::from_millis(300);
-const NONE: u64 = u64::MAX;
 
 /// The task period that is under way on the thread of the CPU Units.
 #[derive(Debug)]
-pub(crate) struct TaskPulse {
-    /// When it began, in nanoseconds of the clock.
-    began_ns: AtomicU64,
+pub(super) struct TaskPulse {
+    scan: Arc<ScanWatch>,
     position: AtomicUsize,
-    end_scan: Arc<AtomicBool>,
 }
 
 impl TaskPulse {
     /// The pulse of these CPU Units, which run their tasks by [`TaskPulse::cycle`].
-    pub(crate) fn of(cpus: &mut [CpuUnit]) -> Self {
-        let end_scan = Arc::new(AtomicBool::new(false));
-        cpus.iter_mut().for_each(|cpu| cpu.end_scan_on(Arc::clone(&end_scan)));
-        Self { began_ns: AtomicU64::new(NONE), position: AtomicUsize::new(0), end_scan }
+    pub(super) fn of(cpus: &mut [CpuUnit]) -> Self {
+        let scan = Arc::new(ScanWatch::default());
+        cpus.iter_mut().for_each(|cpu| cpu.watch_scans(Arc::clone(&scan)));
+        Self { scan, position: AtomicUsize::new(0) }
     }
 
     /// Runs the task of each CPU Unit that is due at `now`.
-    pub(crate) fn cycle(&self, cpus: &mut [CpuUnit], now: Instant, clock: &Clock) {
+    pub(super) fn cycle(&self, cpus: &mut [CpuUnit], now: Instant, clock: &Clock) {
         for (position, cpu) in cpus.iter_mut().enumerate().filter(|(_, cpu)| cpu.deadline() <= now) {
             self.position.store(position, Ordering::Relaxed);
-            // Release: who sees the beginning also sees the position.
-            self.began_ns.store(clock.now().as_nanos(), Ordering::Release);
+            self.scan.begin(clock.now());
             cpu.cycle(now);
-            self.began_ns.store(NONE, Ordering::Relaxed);
-            self.end_scan.store(false, Ordering::Relaxed);
+            self.scan.finish();
         }
     }
 
     /// The number of the unit whose task period is under way, and when it began.
     fn under_way(&self) -> Option<(usize, Instant)> {
-        match self.began_ns.load(Ordering::Acquire) {
-            NONE => None,
-            began_ns => Some((self.position.load(Ordering::Relaxed) + 1, Instant::from_nanos(began_ns))),
-        }
+        self.scan.under_way().map(|began| (self.position.load(Ordering::Relaxed) + 1, began))
     }
 }
 
 /// Looks at the pulse again and again.
-pub(crate) struct TaskWatch<'a> {
-    pub(crate) pulse: &'a TaskPulse,
+pub(super) struct TaskWatch<'a> {
+    pub(super) pulse: &'a TaskPulse,
     /// Changed programs that wait for the end of a task period.
-    pub(crate) waiting: Waiting,
+    pub(super) waiting: Waiting,
     /// A reset of the errors has been requested.
-    pub(crate) error_reset: &'a AtomicBool,
+    pub(super) error_reset: &'a AtomicBool,
     reported: Option<Reported>,
 }
 
@@ -75,12 +67,12 @@ struct Reported {
 }
 
 impl<'a> TaskWatch<'a> {
-    pub(crate) const fn new(pulse: &'a TaskPulse, waiting: Waiting, error_reset: &'a AtomicBool) -> Self {
+    pub(super) const fn new(pulse: &'a TaskPulse, waiting: Waiting, error_reset: &'a AtomicBool) -> Self {
         Self { pulse, waiting, error_reset, reported: None }
     }
 
     /// Looks until `stop` is set. Unpark its thread then.
-    pub(crate) fn run(mut self, clock: &Clock, stop: &AtomicBool) {
+    pub(super) fn run(mut self, clock: &Clock, stop: &AtomicBool) {
         while !stop.load(Ordering::Relaxed) {
             self.look(clock.now());
             thread::park_timeout(LOOK_AGAIN);
@@ -98,7 +90,7 @@ impl<'a> TaskWatch<'a> {
         }
         if let Some(reported) = &mut self.reported {
             if self.waiting.is_any() {
-                self.pulse.end_scan.store(true, Ordering::Relaxed);
+                self.pulse.scan.end(reported.began);
             }
             let was_told = reported.reset;
             reported.reset = self.error_reset.load(Ordering::Relaxed);

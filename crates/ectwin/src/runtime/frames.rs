@@ -1,0 +1,51 @@
+//! The thread that answers frames: it owns the line, and publishes the status of the units that have changed.
+
+use link::{FrameFate, Responder};
+use time::Instant;
+
+use super::handover::Owned;
+use super::shared::Shared;
+use super::status::Published;
+use crate::twin::Line;
+
+/// The line in the hands of the thread that answers frames.
+pub(super) struct Frames<'a> {
+    line: Owned<'a, Line>,
+    units: &'a Published,
+}
+
+impl<'a> Frames<'a> {
+    /// The calling thread answers frames from now on.
+    pub(super) fn own(shared: &'a Shared) -> Self {
+        Self { line: shared.line.own(), units: &shared.units }
+    }
+}
+
+impl Responder for Frames<'_> {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        self.line.frame(now, frame)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        self.line.poll(now);
+        self.units.publish_changed(&mut self.line);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.line.deadline()
+    }
+
+    fn attend(&mut self) {
+        if self.line.attend() {
+            self.units.publish_changed(&mut self.line);
+        }
+    }
+
+    fn carrier(&mut self, present: bool) {
+        self.line.carrier(present);
+    }
+
+    fn overlong_frames(&self) -> u64 {
+        self.line.overlong_frames()
+    }
+}
