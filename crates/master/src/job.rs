@@ -2,6 +2,7 @@
 
 use crate::access::Dialogue;
 use crate::event::{Failure, Outcome};
+use crate::load::DATAGRAM_BYTES_MAX;
 use crate::mailbox::MailboxDialogue;
 use crate::reaction::ServiceFailure;
 use crate::register::{RegisterRead, RegisterWrite};
@@ -63,6 +64,19 @@ impl Job {
         }
     }
 
+    /// Number of data bytes of its longest access, as far as it is known. A mailbox is written and read as a whole.
+    fn longest_access_bytes(&self) -> usize {
+        match self {
+            Self::Mailbox(mailbox) => mailbox.longest_access_bytes(),
+            _ => self.dialogue().access().length_bytes(),
+        }
+    }
+
+    /// Whether each of its accesses fits into a datagram.
+    pub(crate) fn fits(&self) -> bool {
+        self.longest_access_bytes() <= DATAGRAM_BYTES_MAX
+    }
+
     /// Its result when it is done.
     pub(crate) fn result(self) -> Result<Outcome, Failure> {
         match self {
@@ -85,9 +99,10 @@ impl Job {
         }
     }
 
-    /// Its result when it has waited for too long.
+    /// Its result when it has waited for too long, or cannot be sent.
     pub(crate) fn failure(&self) -> Failure {
         match self {
+            _ if !self.fits() => Failure::TooLong { length_bytes: self.longest_access_bytes() },
             Self::Read(_) | Self::Write(_) | Self::Search(_) => Failure::NoAnswer,
             Self::State(request) if request.is_taken() => Failure::NotReached(request.report()),
             Self::State(_) => Failure::NoAnswer,

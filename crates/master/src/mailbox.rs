@@ -179,6 +179,11 @@ impl MailboxDialogue {
         !matches!(self.phase, Phase::Ask { .. } | Phase::Failed)
     }
 
+    /// Length of the longer mailbox in bytes.
+    pub(crate) fn longest_access_bytes(&self) -> usize {
+        usize::from(self.out.length_bytes.max(self.inward.length_bytes))
+    }
+
     /// Packs the next request into the mailbox.
     fn ask(&mut self) {
         self.message.clear();

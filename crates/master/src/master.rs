@@ -111,16 +111,20 @@ impl Master {
         self.emergencies_lost
     }
 
-    /// The time at which [`Master::transmit`] must be called next, independent of answers.
+    /// The time at which [`Master::transmit`] must be called next, independent of answers. After it has returned none,
+    /// this time is in the future.
     #[must_use]
     pub fn deadline(&self) -> Instant {
+        self.accesses_deadline().min(self.process_data.deadline()).min(self.flights.deadline())
+    }
+
+    /// Accesses to single slaves, and datagrams of the caller, wait for the end of a dialogue with all slaves.
+    fn accesses_deadline(&self) -> Instant {
+        if !self.everybody.is_empty() {
+            return self.everybody.deadline();
+        }
         let slaves = self.slaves.iter().map(Slave::deadline).min().unwrap_or(Instant::NEVER);
-        let datagrams = if self.datagrams.is_empty() { Instant::NEVER } else { Instant::ZERO };
-        slaves
-            .min(self.everybody.deadline())
-            .min(datagrams)
-            .min(self.process_data.deadline())
-            .min(self.flights.deadline())
+        if self.datagrams.is_empty() { slaves } else { Instant::ZERO }
     }
 
     /// Writes the next frame to be sent now into `frame`, replacing its contents; none if there is no further

@@ -225,8 +225,9 @@ impl ProcessData {
             return first;
         }
         let passed = now.saturating_since(first).as_nanos();
-        let period = self.exchange.period.as_nanos().max(1);
-        first + self.exchange.period * (passed / period + 1)
+        // A cycle of no length would never end.
+        let period = self.exchange.period.max(Duration::from_nanos(1));
+        first + period * (passed / period.as_nanos() + 1)
     }
 
     /// Begins the next cycle if it is due. Missing answers of the cycle before it are ignored from now on.

@@ -95,6 +95,11 @@ impl Queue {
         self.tasks.is_empty()
     }
 
+    /// Whether the slave is on its way to the exchange of process data.
+    pub(crate) fn opens(&self) -> bool {
+        self.tasks.iter().any(|task| task.then == Then::Open)
+    }
+
     /// Whether jobs of this order are not complete yet.
     pub(crate) fn holds(&self, request: RequestId) -> bool {
         self.tasks.iter().any(|task| task.request == request)
@@ -160,9 +165,10 @@ impl Queue {
         self.departed
     }
 
-    /// Ends the first job, if it is due and has waited for too long.
+    /// Ends the first job, if it is due and has waited for too long, or does not fit into any frame.
     pub(crate) fn give_up(&mut self, pace: &Pace<'_>) -> Option<Over> {
-        if self.deadline() > pace.now || self.until > pace.now {
+        let is_sendable = self.until > pace.now && self.tasks.front().is_none_or(|task| task.job.fits());
+        if self.deadline() > pace.now || is_sendable {
             return None;
         }
         let Task { request, job, then } = self.pop(pace)?;

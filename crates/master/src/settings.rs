@@ -136,6 +136,10 @@ struct Channel {
     enable: u8,
 }
 
+/// Maximum number of SyncManagers of a controller: further ones in an SII or a description have no registers
+/// (reference 2.1).
+const SYNC_MANAGERS_MAX: u8 = 16;
+
 /// Enable bit 2 of SII and ESI: a SyncManager that does not exist in the controller.
 const VIRTUAL: u8 = 0x04;
 
@@ -145,7 +149,7 @@ impl SlaveSettings {
     pub fn from_sii(sii: &SiiContents) -> Self {
         let general = sii.general.as_ref();
         let flags = general.map_or(GeneralFlags::empty(), |general| general.flags);
-        let channels = (0..).zip(&sii.sync_managers).map(|(number, sm)| Channel {
+        let channels = (0..SYNC_MANAGERS_MAX).zip(&sii.sync_managers).map(|(number, sm)| Channel {
             number,
             usage: sm.usage,
             start: sm.start,
@@ -178,7 +182,7 @@ impl SlaveSettings {
     /// for the way up.
     #[must_use]
     pub fn from_description(description: &DeviceDescription) -> Self {
-        let channels = (0..).zip(&description.sync_managers).map(|(number, sm)| Channel {
+        let channels = (0..SYNC_MANAGERS_MAX).zip(&description.sync_managers).map(|(number, sm)| Channel {
             number,
             usage: sm.usage,
             start: sm.start,
@@ -340,5 +344,27 @@ impl FreeFmmus<'_> {
             number.or_else(|| free.find(|&number| usage(number) == FmmuUsage::Unused)).unwrap_or(u8::MAX);
         self.taken.push(number);
         number
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sync_managers_that_no_controller_has_are_not_used() {
+        let outputs = esi::sii::SyncManagerContents {
+            start: 0x1000,
+            length_bytes: 1,
+            control: 0x64,
+            enable: 1,
+            usage: SyncManagerType::Outputs,
+        };
+        let sii = SiiContents { sync_managers: vec![outputs; 300], ..SiiContents::default() };
+        let areas = SlaveSettings::from_sii(&sii).process_data;
+        assert_eq!(
+            areas.iter().map(|area| area.sync_manager.number).collect::<Vec<_>>(),
+            Vec::from_iter(0..16)
+        );
     }
 }

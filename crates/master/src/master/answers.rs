@@ -70,12 +70,16 @@ impl Master {
             self.over_everybody(now, over);
         }
         for position in 0..self.slaves.len() {
-            let slave = &mut self.slaves[position];
-            let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
-            if let Some(over) = slave.queue.give_up(&pace) {
+            while let Some(over) = self.give_up_job(now, position) {
                 self.over(now, position, over);
             }
         }
+    }
+
+    fn give_up_job(&mut self, now: Instant, position: usize) -> Option<Over> {
+        let slave = self.slaves.get_mut(position)?;
+        let pace = Pace { now, habits: &self.habits, timeouts: &slave.settings.timeouts };
+        slave.queue.give_up(&pace)
     }
 
     /// A job of a slave is complete. With the last job of an order, or a failed one, its order is complete.

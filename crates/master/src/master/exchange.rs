@@ -53,13 +53,14 @@ impl Master {
     }
 
     /// Places the process data of a slave in the logical address space, if they have no suitable place. While
-    /// other slaves exchange theirs, they are placed after them; otherwise all are placed again.
+    /// other slaves exchange theirs, or their FMMUs are being set, they are placed after them; otherwise all are
+    /// placed again.
     pub(super) fn place(&mut self, position: usize) {
         let Some(slave) = self.slaves.get(position) else { return };
         if self.process_data.holds(position, &slave.settings) {
             return;
         }
-        if self.process_data.is_any_open() {
+        if self.process_data.is_any_open() || self.slaves.iter().any(|slave| slave.queue.opens()) {
             self.process_data.place(position, &slave.settings);
         } else {
             self.process_data.place_all(self.slaves.iter().map(|slave| &slave.settings).enumerate());

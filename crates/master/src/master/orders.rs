@@ -9,6 +9,7 @@ use crate::access::Address;
 use crate::event::{Event, Failure, RequestId};
 use crate::information::EscInformation;
 use crate::job::Job;
+use crate::load::DATAGRAM_BYTES_MAX;
 use crate::mailbox::{MailboxConduct, MailboxDialogue};
 use crate::process_data::ProcessData;
 use crate::queue::{Found, Pace, Task, Then};
@@ -22,9 +23,6 @@ use crate::service::Service;
 use crate::settings::{DeviceIdSource, SlaveSettings};
 use crate::slave::Slave;
 use crate::state::{DeviceIdRequest, StateRequest};
-
-/// Maximum number of data bytes of one datagram.
-const DATAGRAM_BYTES_MAX: usize = 1_486;
 
 impl Master {
     /// Finds the slaves of the line: counts them, takes them to INIT, gives them station addresses, and reads
@@ -78,13 +76,12 @@ impl Master {
 
     /// Reads bytes of a slave's memory.
     pub fn read(&mut self, now: Instant, slave: usize, offset: u16, length_bytes: u16) -> RequestId {
-        let job = Job::Read(RegisterRead::new(offset, length_bytes));
-        self.order(now, slave, usize::from(length_bytes), job)
+        self.order(now, slave, Job::Read(RegisterRead::new(offset, length_bytes)))
     }
 
     /// Writes bytes to a slave's memory, until it accepts them.
     pub fn write(&mut self, now: Instant, slave: usize, offset: u16, data: &[u8]) -> RequestId {
-        self.order(now, slave, data.len(), Job::Write(RegisterWrite::new(offset, data.to_vec())))
+        self.order(now, slave, Job::Write(RegisterWrite::new(offset, data.to_vec())))
     }
 
     /// Takes a slave to a state with the sequence of a real master: errors are acknowledged, SyncManagers,
@@ -106,7 +103,7 @@ impl Master {
 
     /// Executes a dialogue with the state machine of a slave as it is: without set-up or acknowledge.
     pub fn request_state(&mut self, now: Instant, slave: usize, state: StateRequest) -> RequestId {
-        self.order(now, slave, 0, Job::State(state))
+        self.order(now, slave, Job::State(state))
     }
 
     /// Requests the Explicit Device ID of a slave, from the place given in its settings.
@@ -123,7 +120,7 @@ impl Master {
 
     /// Reads the SII of a slave.
     pub fn read_sii(&mut self, now: Instant, slave: usize) -> RequestId {
-        self.order(now, slave, 0, Job::Sii(Box::default()))
+        self.order(now, slave, Job::Sii(Box::default()))
     }
 
     /// Reads an entry or a whole object by SDO.
@@ -190,13 +187,9 @@ impl Master {
         }
     }
 
-    fn order(&mut self, now: Instant, slave: usize, length_bytes: usize, job: Job) -> RequestId {
+    fn order(&mut self, now: Instant, slave: usize, job: Job) -> RequestId {
         let request = self.next_request();
-        if length_bytes > DATAGRAM_BYTES_MAX {
-            self.refuse(request, Some(slave), Failure::TooLong { length_bytes });
-        } else {
-            self.push(now, slave, request, [(job, Then::Continue)]);
-        }
+        self.push(now, slave, request, [(job, Then::Continue)]);
         request
     }
 

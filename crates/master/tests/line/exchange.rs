@@ -2,7 +2,7 @@
 
 use crate::bench::{Slaves, connected, connected_with, terminals};
 use digital::{BitImages, Terminal};
-use master::{Commands, Connected, Grouping, Habits, Master, StatusRead};
+use master::{Commands, Connected, Grouping, Habits, Line, Master, StatusRead};
 use time::Duration;
 use wire::{AlState, Command, datagrams};
 
@@ -170,6 +170,51 @@ fn a_slave_whose_process_data_change_goes_behind_those_that_exchange() {
     assert_eq!(bench.master.outputs(1).len(), outputs as usize / 8);
     let report = bench.master.cycle();
     assert_eq!((report.working_counter, report.expected), (1 + 3, 4));
+}
+
+#[test]
+fn a_slave_on_its_way_keeps_the_place_for_which_its_fmmus_are_set() {
+    let mut bench = terminals(habits(Commands::Lrw, StatusRead::Never), &[(16, 0), (8, 0)]);
+    bench.search().expect("two terminals");
+    bench.take_all_to(AlState::PreOp).expect("PRE-OP");
+    let set_bits = |bench: &mut Connected<Slaves<_>>, bits| {
+        let settings = bench.master.settings_mut(0).expect("a slave");
+        settings.set_bits(settings.process_data[0].sync_manager.number, bits);
+    };
+    set_bits(&mut bench, 0);
+    let now = bench.now();
+    let second = bench.master.take_to(now, 1, AlState::SafeOp);
+    let mut frame = Vec::new();
+    while !datagrams(&frame).any(|datagram| datagram.header.offset == 0x0600) {
+        let ticket = bench.master.transmit(now, &mut frame).expect("a frame to the second terminal");
+        bench.line.frame(now, &mut frame);
+        bench.line.poll(now);
+        bench.master.receive(now, ticket, &frame);
+    }
+    set_bits(&mut bench, 16);
+    let first = bench.master.take_to(now, 0, AlState::SafeOp);
+    bench.complete(second);
+    bench.complete(first);
+    bench.take_all_to(AlState::Op).expect("OP");
+    bench.master.outputs_mut(0).copy_from_slice(&[0x11, 0x22]);
+    bench.master.outputs_mut(1).copy_from_slice(&[0x33]);
+    bench.run_for(CYCLE * 4);
+    let outputs = |position| {
+        let terminal = bench.line.network.device_mut(position).expect("a terminal").unit_mut();
+        terminal.wiring_mut().outputs
+    };
+    assert_eq!([0, 1].map(outputs), [0x2211, 0x33]);
+}
+
+#[test]
+fn a_period_of_no_length_is_a_very_short_one() {
+    let mut bench = terminals(habits(Commands::Lrw, StatusRead::Never), &[(8, 8)]);
+    bench.search().expect("a terminal");
+    bench.take_all_to(AlState::Op).expect("OP");
+    bench.master.exchange(bench.now(), Duration::ZERO);
+    let before = bench.master.cycle().cycles;
+    bench.run_for(Duration::from_nanos(10));
+    assert_eq!(bench.master.cycle().cycles - before, 11);
 }
 
 #[test]

@@ -11,7 +11,7 @@ use crate::bench::{Slaves, connected_with};
 
 /// The fault of a frame.
 #[derive(Clone, Copy, Debug)]
-enum Fate {
+pub(crate) enum Fate {
     Passes,
     LostOnItsWay,
     LostOnItsWayBack,
@@ -21,7 +21,7 @@ enum Fate {
     Damaged(u16, u8),
 }
 
-fn fate() -> impl Strategy<Value = Fate> {
+pub(crate) fn fate() -> impl Strategy<Value = Fate> {
     prop_oneof![
         6 => Just(Fate::Passes),
         1 => Just(Fate::LostOnItsWay),
@@ -36,21 +36,21 @@ fn any_fate() -> impl Strategy<Value = Fate> {
 }
 
 /// A line that treats each frame according to the list, and then starts again from the beginning of the list.
-struct BadLine {
-    master: Master,
-    slaves: Slaves<NxEct101>,
+pub(crate) struct BadLine {
+    pub(crate) master: Master,
+    pub(crate) slaves: Slaves<NxEct101>,
     fates: Vec<Fate>,
     next: usize,
     late: Vec<(Instant, master::Ticket, Vec<u8>)>,
-    now: Instant,
+    pub(crate) now: Instant,
     /// Slaves that have shown an error to the master, and since then no state without one.
     refused: [bool; 2],
     /// A damaged answer has been delivered: from then on the master may have a wrong image of a slave.
-    is_deceived: bool,
+    pub(crate) is_deceived: bool,
 }
 
 impl BadLine {
-    fn new(fates: Vec<Fate>, lost_read: LostRead) -> Self {
+    pub(crate) fn new(fates: Vec<Fate>, lost_read: LostRead) -> Self {
         let mut habits = Habits { answer_patience: Duration::from_millis(5), ..Habits::default() };
         habits.mailbox.lost_read = lost_read;
         let bench = connected_with(Master::new(habits), 2, |_, _| {});
@@ -69,7 +69,7 @@ impl BadLine {
     }
 
     /// Runs until an order is done; returns its result for each slave.
-    fn complete(&mut self, request: RequestId) -> Vec<(Option<usize>, Result<Outcome, Failure>)> {
+    pub(crate) fn complete(&mut self, request: RequestId) -> Vec<(Option<usize>, Result<Outcome, Failure>)> {
         let limit = self.now + Duration::from_secs(120);
         let mut results = Vec::new();
         loop {
@@ -83,13 +83,27 @@ impl BadLine {
             if !self.master.is_open(request) {
                 return results;
             }
-            let late = self.late.iter().map(|(at, ..)| *at).min().unwrap_or(Instant::NEVER);
-            let next = self.master.deadline().min(self.slaves.network.deadline()).min(late);
-            self.now = next.max(self.now);
+            self.now = self.deadline();
             assert!(self.now < limit, "{request:?} does not end");
         }
     }
 
+    pub(crate) fn run_for(&mut self, duration: Duration) {
+        let end = self.now + duration;
+        self.exchange();
+        while self.deadline() <= end {
+            self.now = self.deadline();
+            self.exchange();
+        }
+        self.now = end;
+    }
+
+    fn deadline(&self) -> Instant {
+        let late = self.late.iter().map(|(at, ..)| *at).min().unwrap_or(Instant::NEVER);
+        self.master.deadline().min(self.slaves.network.deadline()).min(late).max(self.now)
+    }
+
+    /// Sends what is due. The master must then have nothing to do before a later time: otherwise virtual time stops.
     fn exchange(&mut self) {
         self.slaves.network.poll(self.now);
         while let Some(at) = self.late.iter().position(|(at, ..)| *at <= self.now) {
@@ -99,10 +113,12 @@ impl BadLine {
         let mut frame = Vec::new();
         while let Some(ticket) = self.master.transmit(self.now, &mut frame) {
             self.check_requests(&frame);
+            self.slaves.frames.push(frame.clone());
             let fate = self.fates[self.next % self.fates.len()];
             self.next += 1;
             self.pass(ticket, &frame, fate);
         }
+        assert!(self.master.deadline() > self.now, "nothing to send, and nothing to wait for");
     }
 
     fn pass(&mut self, ticket: master::Ticket, sent: &[u8], fate: Fate) {

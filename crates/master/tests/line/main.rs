@@ -9,3 +9,4 @@ mod faults;
 mod mailbox;
 mod search;
 mod states;
+mod waiting;
