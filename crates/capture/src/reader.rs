@@ -61,7 +61,7 @@ impl core::error::Error for NotACapture {}
 
 /// Reads the packets of a capture, in the order of the file.
 ///
-/// [`NotACapture`]: the defect and its position.
+/// # Errors
 /// [`NotACapture`]: the defect and its position.
 pub fn read_packets(bytes: &[u8]) -> Result<Vec<Packet>, NotACapture> {
     packets(bytes)?.collect()

@@ -67,7 +67,7 @@ impl fmt::Display for SiiError {
             }
             Self::ContentsTruncated { category, at_bytes, length_bytes } => write!(
                 formatter,
-                "SII category {category}: what stands at byte {at_bytes} goes beyond its {length_bytes} bytes"
+                "SII category {category}: the entry at byte {at_bytes} is longer than the rest of its {length_bytes} bytes"
             ),
         }
     }
