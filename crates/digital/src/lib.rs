@@ -11,6 +11,7 @@ mod description;
 mod layout;
 mod model;
 mod settings;
+mod tables;
 mod terminal;
 mod unit_file;
 mod variables;

@@ -7,13 +7,18 @@ use std::sync::Arc;
 use coe_kit::indicators::{self, Pattern};
 use esi::DeviceDescription;
 use time::Duration;
-use unit_model::{DataValid, Model, ModelUnit, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection};
+use unit_model::{
+    DataValid, Model, ModelTables, ModelUnit, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection,
+};
 use user_file::{Reader, Section};
 use variables::VariableTable;
 
 use crate::bus_wiring::BusWiring;
+use crate::channels::Channels;
 use crate::config::device_config;
 use crate::description::description;
+use crate::settings::TerminalSettings;
+use crate::tables::{self, PORT_IN, PORT_OUT, RUN};
 use crate::terminal::{self, Terminal};
 use crate::unit_file::{self, UnitFile};
 use crate::variables::variable_table;
@@ -26,10 +31,6 @@ pub static MODEL: DigitalModel = DigitalModel;
 #[derive(Clone, Copy, Debug)]
 pub struct DigitalModel;
 
-const RUN: &str = "RUN";
-const PORT_IN: &str = "L/A IN";
-const PORT_OUT: &str = "L/A OUT";
-
 impl Model for DigitalModel {
     fn name(&self) -> &'static str {
         unit_file::MODEL
@@ -37,6 +38,17 @@ impl Model for DigitalModel {
 
     fn indicators(&self) -> &'static [&'static str] {
         &[RUN, PORT_IN, PORT_OUT]
+    }
+
+    fn tables(&self) -> &'static ModelTables {
+        tables::tables()
+    }
+
+    /// Those of the largest terminal.
+    fn every_variable(&self) -> Vec<VariableTable> {
+        let all = Channels::new(Channels::MAX).unwrap_or_default();
+        let largest = TerminalSettings { inputs: all, outputs: all, ..TerminalSettings::default() };
+        vec![variable_table(unit_file::NAME, &largest)]
     }
 }
 

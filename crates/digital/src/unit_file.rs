@@ -11,6 +11,8 @@ use crate::settings::{Ports, TerminalSettings};
 
 /// The name of the model.
 pub(crate) const MODEL: &str = "digital";
+/// The name of a unit whose file has none.
+pub(crate) const NAME: &str = "K1";
 /// The keys of this model, in addition to those of every model.
 pub const KEYS: [&str; 4] = ["inputs", "outputs", "ports", "mailbox"];
 
@@ -66,7 +68,7 @@ impl UnitFile {
             settings: settings(common.timing.value),
             fast: settings(Timing::Fast),
             names_refresh_phase: common.refresh_phase.is_some(),
-            name: common.name.as_ref().map_or_else(|| "K1".into(), |name| name.value.clone()),
+            name: common.name.as_ref().map_or_else(|| NAME.into(), |name| name.value.clone()),
         }
     }
 }

@@ -6,8 +6,11 @@ use std::net::SocketAddr;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Args, Parser, Subcommand};
 use link::LinkSpec;
+use plant::{default_model, models};
+use unit_model::ModelTables;
 
 use crate::commands::replay::{PartitionChoice, SeedChoice, SeedRange};
 
@@ -221,35 +224,42 @@ pub(crate) struct StCheckArgs {
 #[derive(Debug, Subcommand)]
 pub(crate) enum List {
     /// The events with their levels, AL status codes and emergency error codes
-    Events {
-        /// One JSON document instead of text
-        #[arg(long)]
-        json: bool,
-    },
+    Events(ListArgs),
     /// The CoE objects with their types, access rights and defaults
-    Objects {
-        /// One JSON document instead of text
-        #[arg(long)]
-        json: bool,
-    },
+    Objects(ListArgs),
     /// The NX objects, as the CPU Unit sees them
-    NxObjects {
-        /// One JSON document instead of text
-        #[arg(long)]
-        json: bool,
-    },
+    NxObjects(ListArgs),
     /// The meaning of each indicator, and its patterns over time
-    Indicators {
-        /// One JSON document instead of text
-        #[arg(long)]
-        json: bool,
-    },
+    Indicators(ListArgs),
     /// The setting rules with their events, in the order in which they are checked
-    Rules {
-        /// One JSON document instead of text
-        #[arg(long)]
-        json: bool,
-    },
+    Rules(ListArgs),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ListArgs {
+    /// The unit model, as unit files name it
+    #[arg(long, value_name = "MODEL", default_value = default_model().name(), value_parser = model_names())]
+    model: String,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+impl ListArgs {
+    /// The tables of the model.
+    pub(crate) fn tables(&self) -> &'static ModelTables {
+        let named = models().iter().find(|model| model.name() == self.model);
+        named.copied().unwrap_or(default_model()).tables()
+    }
+
+    /// The text of a table of the model; if it has no rows, a line that says so.
+    pub(crate) fn text(&self, table: &str, rows: usize, text: impl FnOnce() -> String) -> String {
+        if rows == 0 { format!("the model {} has no {table}\n", self.model) } else { text() }
+    }
+}
+
+fn model_names() -> PossibleValuesParser {
+    PossibleValuesParser::new(models().iter().map(|model| model.name()))
 }
 
 #[cfg(test)]

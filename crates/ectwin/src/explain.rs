@@ -24,6 +24,7 @@ mod port;
 mod register;
 mod sdo_abort_codes;
 mod subject;
+mod tables;
 #[cfg(test)]
 mod tests;
 mod unexplained;
@@ -31,12 +32,13 @@ mod unknown;
 
 use wire::SdoAbort;
 
-pub use explanation::{Advice, Explanation, Fact, Section};
+pub use explanation::Explanation;
 use kind::Kind;
 use number::Number;
 pub use pages::{Page, event_pages};
 pub use subject::Subject;
 pub use unexplained::Unexplained;
+pub use unit_model::tables::{Advice, Fact, Section};
 
 /// Longer than every name of the tables.
 const TEXT_BYTES_MAX: usize = 200;
@@ -151,7 +153,7 @@ fn abort(code: SdoAbort) -> Option<Explanation> {
         subject: Subject::Abort(code),
         name: code.row()?.meaning.into(),
         facts: Vec::new(),
-        advice: vec![*advice],
+        advice: vec![advice.clone()],
         sections: Vec::new(),
     })
 }

@@ -47,14 +47,9 @@ pub use link::{self, FrameFate};
 pub use live::Live;
 #[cfg(feature = "modbus")]
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
-pub use nx_ect101::unit_file;
-pub use nx_ect101::{
-    CurrentError, ErrorLog, EventCode, EventLevel, EventLog, Fault, Indicators, LevelNotChangeable, Lights,
-    LogRecord,
-};
 #[cfg(feature = "opcua")]
 pub use opcua::{self, Server as OpcUaServer};
-pub use plant::{self, UnitFile};
+pub use plant::{self, ErrorLog, Fault, Indicators, Lights, LogRecord, UnitFile, unit_file};
 pub use plc::{
     CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
     NxObjectClient, NxValue, ObjectIndex, OperatingMode, Program, ProgramEvent, StructuredText, SubIndex,
@@ -67,5 +62,6 @@ pub use st;
 pub use storage::ChangesLost;
 pub use time::{Duration, Instant};
 pub use twin::Twin;
+pub use unit_model::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable};
 pub use unit_side::UnitSide;
 pub use wire::{AlState, AlStatus, AlStatusCode};

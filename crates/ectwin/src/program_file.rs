@@ -116,13 +116,8 @@ mod tests {
 
     #[test]
     fn a_build_without_the_feature_says_which_one_has_it() {
-        let reason = web_assembly(b"\0asm", &variables(), 1).err().expect("it runs none");
+        let factory = plant::UnitFile::factory();
+        let reason = web_assembly(b"\0asm", factory.variables(), 1).err().expect("it runs none");
         assert!(reason.contains("--features wasm"), "{reason}");
-    }
-
-    fn variables() -> DeviceVariables {
-        let file = nx_ect101::unit_file::UnitFile::parse("model = \"nx-ect101\"");
-        let file = file.unwrap_or_else(|_| panic!("the factory setting is right"));
-        DeviceVariables::of(file.variable_table())
     }
 }

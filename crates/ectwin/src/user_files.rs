@@ -180,7 +180,7 @@ impl Unreadable {
 
 const fn not_found(wanted: Wanted) -> &'static str {
     match wanted {
-        Wanted::UnitFile => "give the path of a unit file, such as units/nx-ect101.toml",
+        Wanted::UnitFile => "give the path of a unit file, such as one in the folder units",
         Wanted::Scenario => "give the path of a scenario file, or of a folder of them",
         Wanted::Program => "give the path of a user program, such as scenarios/programs/a-3-3.st",
         Wanted::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",

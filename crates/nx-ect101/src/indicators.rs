@@ -20,7 +20,8 @@ use wire::{AlState, AlStatusCode};
 use crate::events::{Event, EventCode, IndicatorStatus};
 use table::{PrimaryCause, primary};
 
-pub use table::{Colour, Indicator, IndicatorMeaning, pattern_source};
+pub(crate) use table::pattern_sources;
+pub use table::{Colour, Indicator, IndicatorMeaning};
 
 /// All inputs of the indicators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

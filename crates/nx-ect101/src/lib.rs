@@ -17,6 +17,7 @@ pub mod layout;
 mod memory;
 mod messages;
 mod model;
+mod model_tables;
 mod named_bits;
 mod nx_objects;
 mod nx_server;
@@ -26,6 +27,7 @@ mod rule;
 mod rule_kind;
 mod rules;
 mod settings;
+mod settings_check;
 mod status;
 mod tables;
 mod timing;
@@ -47,9 +49,7 @@ pub use events::{
 pub use exchange::ExchangePlan;
 pub use fault::Fault;
 pub use finding::{Amount, Fact, Finding};
-pub use indicators::{
-    Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition, pattern_source,
-};
+pub use indicators::{Colour, Indicator, IndicatorCauses, IndicatorMeaning, Indicators, Lights, NxCondition};
 pub use memory::{
     ACCESS_RECORDS_MAX, DETAILS_MAX, Damage, ErrorLog, LogRecord, MemoryAtPowerOn, NonVolatileMemory,
     SYSTEM_RECORDS_MAX,
@@ -57,7 +57,7 @@ pub use memory::{
 pub use messages::MESSAGE_BYTES;
 pub use model::MODEL;
 pub use nx_bus::SlaveStatus;
-pub use nx_objects::{NxAccess, NxEntry, NxObject};
+pub use nx_objects::{NxAccess, NxEntry, NxObject, nx_object, nx_objects};
 pub use rule::Rule;
 pub use rule_kind::{Moment, RuleEvents, RuleId, Side};
 pub use rules::RULES;

@@ -10,7 +10,8 @@ use time::Duration;
 use unit_model::keys::Timing;
 use unit_model::{
     CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable, MemoryDamage,
-    Model, ModelUnit, NotThere, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection,
+    Model, ModelTables, ModelUnit, NotThere, PowerOn, PoweredUnit, SettingsCheck, SlaveView, UnitFiles,
+    UnitSection,
 };
 use user_file::{Located, Reader, Section};
 use variables::VariableTable;
@@ -21,8 +22,10 @@ use crate::events::Event;
 use crate::fault::Fault;
 use crate::indicators::Indicators;
 use crate::memory::{Damage, MemoryAtPowerOn, NonVolatileMemory};
+use crate::model_tables;
 use crate::named_bits::NAMED_BITS;
 use crate::settings::UnitSettings;
+use crate::settings_check;
 use crate::tables::object_table;
 use crate::timing::slave_period;
 use crate::unit::NxEct101;
@@ -87,6 +90,14 @@ impl Model for NxEct101Model {
     fn switches(&self) -> &'static [&'static str] {
         &[ID_SWITCH]
     }
+
+    fn tables(&self) -> &'static ModelTables {
+        model_tables::tables()
+    }
+
+    fn every_variable(&self) -> Vec<VariableTable> {
+        model_tables::every_variable()
+    }
 }
 
 impl UnitFiles for NxEct101Model {
@@ -135,6 +146,10 @@ impl UnitSection for UnitFile {
 
     fn refresh_period(&self) -> Option<Duration> {
         Some(slave_period(self.timing.value, self.io_allocation().total_bytes()))
+    }
+
+    fn check_settings(&self) -> Option<SettingsCheck> {
+        Some(settings_check::check(self))
     }
 
     fn check_memory(&self, bytes: &[u8]) -> Result<(), MemoryDamage> {

@@ -7,71 +7,23 @@ use wire::{ObjectIndex, SubIndex};
 
 use crate::tables::{self, expand};
 
+pub use unit_model::tables::{NxAccess, NxEntry, NxObject};
+
 static OBJECTS: LazyLock<Vec<NxObject>> = LazyLock::new(|| {
     let file: ObjectsFile = tables::parse("nx_objects.toml", include_str!("../tables/nx_objects.toml"));
     file.object.into_iter().map(ObjectRow::object).collect()
 });
 
-/// One NX object.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NxObject {
-    /// Its index.
-    pub index: ObjectIndex,
-    /// Its name.
-    pub name: String,
-    /// Whether the CPU Unit can access it by NX message; the others are accessible by I/O allocation only.
-    pub message_access: bool,
-    /// Its subindexes, ascending.
-    pub entries: Vec<NxEntry>,
+/// All NX objects, ascending by index.
+#[must_use]
+pub fn nx_objects() -> &'static [NxObject] {
+    &OBJECTS
 }
 
-/// One subindex of an NX object.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NxEntry {
-    /// Its number.
-    pub sub: SubIndex,
-    /// Its name.
-    pub name: String,
-    /// Its data type, in the notation of IEC 61131-3.
-    pub data_type: String,
-    /// Its length in bytes.
-    pub size_bytes: usize,
-    /// Access right of the CPU Unit.
-    pub access: NxAccess,
-    /// Whether an I/O entry mapping can contain it.
-    pub io_allocation: bool,
-    /// Its value at power-on, little endian, `size_bytes` long.
-    pub default: Vec<u8>,
-}
-
-/// Access right of an NX object.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum NxAccess {
-    /// Read only.
-    Ro,
-    /// Read and write.
-    Rw,
-}
-
-impl NxObject {
-    /// All NX objects, ascending by index.
-    #[must_use]
-    pub fn all() -> &'static [Self] {
-        &OBJECTS
-    }
-
-    /// The object at `index`; none if the unit has no such object.
-    #[must_use]
-    pub fn find(index: ObjectIndex) -> Option<&'static Self> {
-        Self::all().iter().find(|object| object.index == index)
-    }
-
-    /// The entry at `sub`; none if the object has no such subindex.
-    #[must_use]
-    pub fn entry(&self, sub: SubIndex) -> Option<&NxEntry> {
-        self.entries.iter().find(|entry| entry.sub == sub)
-    }
+/// The NX object at `index`; none if the unit has no such object.
+#[must_use]
+pub fn nx_object(index: ObjectIndex) -> Option<&'static NxObject> {
+    nx_objects().iter().find(|object| object.index == index)
 }
 
 #[derive(Deserialize)]
@@ -156,7 +108,7 @@ mod tests {
 
     #[test]
     fn the_table_has_the_objects_of_the_manual() {
-        let rows = NxObject::all().iter().map(|object| {
+        let rows = nx_objects().iter().map(|object| {
             (object.index.0, object.message_access, object.entries.last().map(|entry| entry.sub.0))
         });
         let expected = [
@@ -177,7 +129,7 @@ mod tests {
 
     #[test]
     fn only_the_message_to_the_master_can_be_written_by_message() {
-        let by_message = NxObject::all().iter().filter(|object| object.message_access);
+        let by_message = nx_objects().iter().filter(|object| object.message_access);
         let writable = by_message.flat_map(|object| {
             let entries = object.entries.iter().filter(|entry| entry.access == NxAccess::Rw);
             entries.map(|entry| (object.index.0, entry.sub.0))
@@ -188,7 +140,7 @@ mod tests {
     #[test]
     fn texts_are_padded_with_spaces_and_numbers_are_little_endian() {
         let default = |index, sub| {
-            let object = NxObject::find(ObjectIndex(index)).expect("exists");
+            let object = nx_object(ObjectIndex(index)).expect("exists");
             object.entry(SubIndex(sub)).expect("exists").default.clone()
         };
         assert_eq!(default(0x1000, 2), b"NX-ECT101   ");
@@ -199,7 +151,7 @@ mod tests {
 
     #[test]
     fn what_can_be_allocated_is_what_messages_do_not_reach() {
-        for object in NxObject::all() {
+        for object in nx_objects() {
             for entry in object.entries.iter().filter(|entry| entry.sub != SubIndex::ZERO) {
                 assert_eq!(entry.io_allocation, !object.message_access, "{}:{}", object.index, entry.sub);
                 assert_eq!(entry.default.len(), entry.size_bytes);

@@ -4,7 +4,7 @@ use nx_bus::{NxMessageError, NxRequest, NxValue};
 use wire::{ObjectIndex, SubIndex};
 
 use crate::messages::{Message, Messages};
-use crate::nx_objects::{NxAccess, NxEntry, NxObject};
+use crate::nx_objects::{NxAccess, NxEntry, nx_object};
 use crate::unit_information::UnitInformation;
 
 const SERIAL_NUMBER: (u16, u8) = (0x1000, 7);
@@ -29,7 +29,7 @@ pub(crate) fn answer(
 }
 
 fn reach(index: ObjectIndex, sub: SubIndex) -> Result<&'static NxEntry, NxMessageError> {
-    let object = NxObject::find(index).ok_or(NxMessageError::ObjectDoesNotExist)?;
+    let object = nx_object(index).ok_or(NxMessageError::ObjectDoesNotExist)?;
     if !object.message_access {
         return Err(NxMessageError::NotAccessibleByMessage);
     }

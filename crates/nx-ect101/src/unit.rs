@@ -25,7 +25,7 @@ use crate::fault::Fault;
 use crate::finding::Finding;
 use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
-use crate::nx_objects::NxObject;
+use crate::nx_objects::nx_objects;
 use crate::pdo_settings;
 use crate::rules;
 use crate::settings::UnitSettings;
@@ -219,7 +219,7 @@ impl NxEct101 {
 
 /// Reads the text tables that are otherwise read at first use: now, and not at the first event.
 fn read_tables() {
-    let _ = (Event::all(), Indicator::all(), NxObject::all());
+    let _ = (Event::all(), Indicator::all(), nx_objects());
 }
 
 impl Unit for NxEct101 {

@@ -3,12 +3,14 @@
 //! [`UnitFile`] reads a unit file and [`UnitFile::power_on`] makes a unit with its CPU Unit of it. This is the one
 //! composition for twins, real lines and scenarios.
 
+mod file;
 mod powered;
 mod registry;
-mod unit_file;
 mod words;
 
+pub use file::UnitFile;
 pub use powered::{PowerConditions, Powered};
-pub use registry::{ErrorLog, Indicators, error_log, indicators, models};
-pub use unit_file::UnitFile;
+pub use registry::{
+    ErrorLog, Fault, Indicators, Lights, LogRecord, default_model, error_log, indicators, models, unit_file,
+};
 pub use words::{event, has_fault};

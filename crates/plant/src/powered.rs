@@ -5,7 +5,7 @@ use plc::{CpuSettings, CpuUnit, Program};
 use time::{Duration, Instant};
 use unit_model::{ModelUnit, PowerOn, PoweredUnit};
 
-use crate::unit_file::UnitFile;
+use crate::file::UnitFile;
 
 /// The conditions of the first power-on. The default is what the unit file says, without a system time.
 #[derive(Clone, Debug, Default)]

@@ -4,15 +4,22 @@ use std::sync::LazyLock;
 
 use unit_model::{ModelUnit, SlaveView, UnitFiles};
 
-pub use nx_ect101::{ErrorLog, Indicators};
+pub use nx_ect101::unit_file;
+pub use nx_ect101::{ErrorLog, Fault, Indicators, Lights, LogRecord};
 
-/// All models, in the order in which they are shown.
+/// All models, in the order in which they are shown. The first one is the default.
 const MODELS: &[&dyn UnitFiles] = &[&nx_ect101::MODEL, &digital::MODEL];
 
 /// All models.
 #[must_use]
 pub const fn models() -> &'static [&'static dyn UnitFiles] {
     MODELS
+}
+
+/// The model that is used where none is named.
+#[must_use]
+pub const fn default_model() -> &'static dyn UnitFiles {
+    MODELS[0]
 }
 
 /// Both logs of a unit; empty for a model without logs.

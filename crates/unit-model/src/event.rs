@@ -26,6 +26,18 @@ pub enum EventLevel {
     Information,
 }
 
+impl EventLevel {
+    /// Its words for people.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::MinorFault => "minor fault",
+            Self::Observation => "observation",
+            Self::Information => "information",
+        }
+    }
+}
+
 /// A log for support software.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]

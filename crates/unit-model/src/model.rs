@@ -1,6 +1,11 @@
-//! A unit model: its name, and its words.
+//! A unit model: its name, its words, its tables.
+
+use std::sync::LazyLock;
+
+use variables::VariableTable;
 
 use crate::event::{EventCode, EventInfo};
+use crate::tables::ModelTables;
 
 /// A unit model. Lists are in the order in which they are shown.
 pub trait Model: Sync {
@@ -25,5 +30,16 @@ pub trait Model: Sync {
     /// The names of the switches that can be set by hand.
     fn switches(&self) -> &'static [&'static str] {
         &[]
+    }
+
+    /// Its tables, for lists, explanations and pages.
+    fn tables(&self) -> &'static ModelTables {
+        static NONE: LazyLock<ModelTables> = LazyLock::new(ModelTables::default);
+        &NONE
+    }
+
+    /// Tables of variables that together have each variable of the model, for units with its usual name.
+    fn every_variable(&self) -> Vec<VariableTable> {
+        Vec::new()
     }
 }

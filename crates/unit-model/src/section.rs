@@ -14,6 +14,7 @@ use user_file::Located;
 use variables::VariableTable;
 
 use crate::model::Model;
+use crate::settings_check::SettingsCheck;
 use crate::unit::ModelUnit;
 
 /// What a unit file says of one unit.
@@ -52,6 +53,11 @@ pub trait UnitSection: Any + Debug + Send + Sync {
 
     /// Time between two refreshes by the unit's own timer; none if it has no timer.
     fn refresh_period(&self) -> Option<Duration>;
+
+    /// Evaluates the setting rules for the unit file; none for a model without rules.
+    fn check_settings(&self) -> Option<SettingsCheck> {
+        None
+    }
 
     /// Whether these bytes are the non-volatile memory of a unit of this model.
     ///

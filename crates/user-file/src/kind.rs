@@ -24,7 +24,7 @@ impl Wanted {
     /// Where to find such a file.
     pub(crate) const fn help(self) -> &'static str {
         match self {
-            Self::UnitFile => "a unit file is TOML; units/nx-ect101.toml is one to begin with",
+            Self::UnitFile => "a unit file is TOML; the folder units has some to begin with",
             Self::Scenario => "a scenario is TOML; docs/user/write-a-scenario.md has one to begin with",
             Self::Program => "a program is Structured Text in UTF-8, such as scenarios/programs/a-3-3.st",
             Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",

@@ -2,14 +2,12 @@
 
 mod document;
 mod exchange;
-mod places;
 mod report;
 
 use std::path::Path;
 
-use ectwin::unit_file::UnitFile;
 use esi::SyncManagerType;
-use nx_ect101::{Configuration, EventLevel, Finding, UnitSettings, Verdict};
+use unit_model::SettingsCheck;
 use user_file::{MISTAKES_MAX, and_more};
 
 use crate::cli::CheckArgs;
@@ -20,18 +18,13 @@ use crate::{output, unit_files};
 /// Shows the findings and the resulting exchange. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let (file, text) = or_document(args.json, unit_files::parse(&args.unit))?;
-    let Some(file) = file.section().as_model::<UnitFile>() else { return without_rules(args, &file) };
-    let configuration = Configuration::from_unit_file(file);
-    let levels = UnitSettings::from_unit_file(file).event_levels;
-    let verdict = configuration.check();
+    let Some(check) = file.section().check_settings() else { return without_rules(args, &file) };
     if args.json {
-        output::print(document::of(&configuration, levels, &verdict)?.as_bytes())?;
+        output::print(document::of(&check)?.as_bytes())?;
     } else {
-        let level = |finding: &Finding| finding.level(levels);
-        output::print_text(&for_people(&args.unit, file, &text, &configuration, &verdict, level))?;
+        output::print_text(&for_people(&args.unit, &text, &check))?;
     }
-    let is_broken = verdict.findings.iter().any(|finding| finding.level(levels) == EventLevel::MinorFault);
-    if is_broken { Err(Failure::RulesBroken) } else { Ok(()) }
+    if check.has_errors() { Err(Failure::RulesBroken) } else { Ok(()) }
 }
 
 /// A unit of a model without setting rules: what it exchanges with the master.
@@ -56,20 +49,13 @@ fn without_rules(args: &CheckArgs, file: &plant::UnitFile) -> Result<(), Failure
     ))
 }
 
-fn for_people(
-    path: &Path,
-    file: &UnitFile,
-    text: &str,
-    configuration: &Configuration,
-    verdict: &Verdict,
-    level: impl Fn(&Finding) -> EventLevel,
-) -> String {
-    let picture =
-        |finding: &Finding| report::picture(path, text, finding, level(finding), places::of(file, finding));
-    let mut told: String = verdict.findings.iter().take(MISTAKES_MAX).map(picture).collect();
-    let more = and_more(verdict.findings.len().saturating_sub(MISTAKES_MAX));
+fn for_people(path: &Path, text: &str, check: &SettingsCheck) -> String {
+    let findings = &check.findings;
+    let mut told: String =
+        findings.iter().take(MISTAKES_MAX).map(|finding| report::picture(path, text, finding)).collect();
+    let more = and_more(findings.len().saturating_sub(MISTAKES_MAX));
     told.extend(more.map(|more| format!("{more}\n\n")));
-    told.push_str(&format!("{}: {}\n", path.display(), exchange::consequence(verdict, level)));
-    told.push_str(&exchange::table(configuration, verdict));
+    told.push_str(&format!("{}: {}\n", path.display(), check.consequence));
+    told.push_str(&exchange::table(check));
     told
 }

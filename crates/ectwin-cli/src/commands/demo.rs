@@ -7,11 +7,12 @@ mod story;
 
 use std::time::Duration;
 
-use ectwin::{Live, Setup, Twin};
+use ectwin::{Live, Setup, Twin, UnitFile};
 use ethercrab::std::ethercat_now;
 use ethercrab::subdevice_group::PreOp;
 use ethercrab::{MainDevice, MainDeviceConfig, PduStorage, RetryBehaviour, Timeouts};
 use link::Statistics;
+use plant::default_model;
 
 use crate::failure::Failure;
 use exchange::Exchanged;
@@ -24,8 +25,8 @@ const FRAME_BYTES: usize = PduStorage::element_size(1100);
 
 static STORAGE: PduStorage<MAX_FRAMES, FRAME_BYTES> = PduStorage::new();
 
-/// The factory setting: that of a unit file with only its model.
-const UNIT_FILE: &str = "model = \"nx-ect101\"\n[cpu]\nprogram = \"builtin:copy\"";
+/// What the file of the unit has beside its model.
+const CPU: &str = "[cpu]\nprogram = \"builtin:copy\"";
 
 /// Runs the demo for a few seconds.
 pub(crate) fn run() -> Result<(), Failure> {
@@ -35,9 +36,12 @@ pub(crate) fn run() -> Result<(), Failure> {
 }
 
 async fn demo() -> Result<(), Failure> {
-    let story =
-        Story::begin("a virtual NX-ECT101 and the ethercrab master in one process, on a link in memory")?;
-    let setup = Setup::from_toml(UNIT_FILE).map_err(|error| failed("reading the unit file", error))?;
+    let device = default_model().tables().device;
+    let story = Story::begin(&format!(
+        "a virtual {device} and the ethercrab master in one process, on a link in memory"
+    ))?;
+    let setup = Setup::from_toml(&format!("{}\n{CPU}", UnitFile::factory_text()))
+        .map_err(|error| failed("reading the unit file", error))?;
     let (tx, rx, pdu_loop) =
         STORAGE.try_split().map_err(|()| failed("starting the master", "started twice"))?;
     let live = Twin::power_on([setup]).serve_ethercrab(tx, rx);
@@ -108,7 +112,10 @@ fn conclude(story: &Story, exchanged: &Exchanged, statistics: &Statistics) -> Re
         "{} frames answered in {seconds:.1} s, {rate:.0} each second",
         statistics.frames
     ))?;
-    story.more("next: `ectwin run units/nx-ect101.toml --link udp:127.0.0.1`, and your own master")
+    story.more(format_args!(
+        "next: `ectwin run units/{}.toml --link udp:127.0.0.1`, and your own master",
+        default_model().name()
+    ))
 }
 
 /// With long time-outs: a machine that is busy with other work must not cause a failure.

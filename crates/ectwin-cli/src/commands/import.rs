@@ -2,6 +2,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use ectwin::UnitFile;
 use ectwin::user_files::{self, Wanted};
 use scenario::RecordedFrames;
 use time::Duration;
@@ -82,7 +83,7 @@ fn read(path: &Path) -> Result<RecordedFrames, Failure> {
 fn text(args: &ImportArgs, frames: &RecordedFrames) -> Result<String, Failure> {
     let folder = folder_of(&args.output);
     let units = match args.units.as_slice() {
-        [] => vec!["{ model = \"nx-ect101\" }".to_owned(); frames.units().max(1)],
+        [] => vec![format!("{{ {} }}", UnitFile::factory_text()); frames.units().max(1)],
         units => units.iter().map(|unit| seen_from(folder, unit)).collect::<Result<_, _>>()?,
     };
     let whole_seconds = frames.duration().as_nanos().div_ceil(1_000_000_000);

@@ -1,26 +1,31 @@
-//! `ectwin list events`: the events of the NX-ECT101.
+//! `ectwin list events`: the events of a unit model.
 
 use std::fmt::Write;
 
-use nx_ect101::{Event, EventLevel, Notified};
 use serde::Serialize;
+use unit_model::EventLevel;
+use unit_model::tables::{EmergencyCode, EventRow, Record};
 
+use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::output;
 
 /// The JSON document: the rows of the event table with its names and values.
 #[derive(Serialize)]
 struct Document {
-    events: &'static [Event],
+    events: Vec<&'static Record>,
 }
 
-pub(crate) fn run(json: bool) -> Result<(), Failure> {
-    let events = Event::all();
-    let text = if json { output::json(&Document { events })? } else { as_text(events) };
-    output::print(text.as_bytes())
+pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
+    let events = &args.tables().events;
+    if args.json {
+        let events = events.iter().map(|event| &event.record).collect();
+        return output::print(output::json(&Document { events })?.as_bytes());
+    }
+    output::print(args.text("events", events.len(), || as_text(events)).as_bytes())
 }
 
-fn as_text(events: &[Event]) -> String {
+fn as_text(events: &[EventRow]) -> String {
     let mut text = String::from("event     level         AL    emergency  name\n");
     for event in events {
         let al_status = event.al_status_code.map_or_else(|| "-".into(), |code| format!("{:04X}", code.0));
@@ -33,8 +38,8 @@ fn as_text(events: &[Event]) -> String {
     text
 }
 
-const fn level(event: &Event) -> &'static str {
-    match (event.level, event.changeable_level) {
+const fn level(event: &EventRow) -> &'static str {
+    match (event.level, event.has_changeable_level) {
         (EventLevel::MinorFault, true) => "minor fault*",
         (EventLevel::MinorFault, false) => "minor fault",
         (EventLevel::Observation, _) => "observation",
@@ -42,11 +47,11 @@ const fn level(event: &Event) -> &'static str {
     }
 }
 
-fn emergency(event: &Event) -> String {
-    match (event.emergency_code, event.emergency_notified) {
-        (None, _) => "-".into(),
-        (Some(code), Notified::Possible) => format!("{code:04X}"),
-        (Some(code), Notified::NotPossible) => format!("({code:04X})"),
+fn emergency(event: &EventRow) -> String {
+    match event.emergency {
+        None => "-".into(),
+        Some(EmergencyCode { code, is_sent: true }) => format!("{code:04X}"),
+        Some(EmergencyCode { code, is_sent: false }) => format!("({code:04X})"),
     }
 }
 
@@ -56,8 +61,9 @@ mod tests {
 
     #[test]
     fn the_text_has_a_line_for_each_event_between_its_head_and_foot() {
-        let text = as_text(Event::all());
-        assert_eq!(text.lines().count(), Event::all().len() + 2);
+        let events = &plant::default_model().tables().events;
+        let text = as_text(events);
+        assert_eq!(text.lines().count(), events.len() + 2);
         let row = "39170000  minor fault*  -     FF30       Data Size Mismatched between PDO Entry and I/O Entry M to C";
         assert!(text.lines().any(|line| line == row), "{text}");
         assert!(text.lines().any(|line| line == "391E0000  minor fault   0025  (A000)     Illegal PDO Entry Added M to C"));

@@ -3,9 +3,11 @@
 use std::fmt::Write;
 
 use coe_kit::indicators::Pattern;
-use nx_ect101::{Indicator, IndicatorMeaning, pattern_source};
 use serde::Serialize;
+use unit_model::ModelTables;
+use unit_model::tables::{self, IndicatorRow as Indicator};
 
+use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::output;
 
@@ -27,7 +29,7 @@ struct IndicatorRow {
 struct StatusRow {
     colour: &'static str,
     pattern: &'static str,
-    meaning: &'static [String],
+    meaning: &'static [&'static str],
     events: Vec<String>,
 }
 
@@ -39,16 +41,19 @@ struct PatternRow {
     source: Option<&'static str>,
 }
 
-pub(crate) fn run(json: bool) -> Result<(), Failure> {
-    let document = document();
-    let text = if json { output::json(&document)? } else { as_text(&document) };
+pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
+    let document = document(args.tables());
+    if args.json {
+        return output::print(output::json(&document)?.as_bytes());
+    }
+    let text = args.text("indicators", document.indicators.len(), || as_text(&document));
     output::print(text.as_bytes())
 }
 
-fn document() -> Document {
+fn document(tables: &'static ModelTables) -> Document {
     Document {
-        indicators: Indicator::all().iter().flat_map(indicator_rows).collect(),
-        patterns: Pattern::ALL.into_iter().map(pattern_row).collect(),
+        indicators: tables.indicators.iter().flat_map(indicator_rows).collect(),
+        patterns: Pattern::ALL.into_iter().map(|pattern| pattern_row(tables, pattern)).collect(),
     }
 }
 
@@ -56,23 +61,23 @@ fn document() -> Document {
 fn indicator_rows(indicator: &'static Indicator) -> impl Iterator<Item = IndicatorRow> {
     let row = |name| IndicatorRow {
         name,
-        shows: &indicator.shows,
+        shows: indicator.shows,
         status: indicator.status.iter().map(status_row).collect(),
     };
     indicator.names.iter().map(move |name| row(name))
 }
 
-fn status_row(status: &'static IndicatorMeaning) -> StatusRow {
+fn status_row(status: &'static tables::StatusRow) -> StatusRow {
     StatusRow {
         colour: status.colour.id(),
         pattern: status.pattern.id(),
         meaning: &status.meaning,
-        events: status.events().map(|code| code.to_string()).collect(),
+        events: status.events.iter().map(ToString::to_string).collect(),
     }
 }
 
-fn pattern_row(pattern: Pattern) -> PatternRow {
-    PatternRow { name: pattern.id(), steps_ms: pattern.steps_ms(), source: pattern_source(pattern) }
+fn pattern_row(tables: &ModelTables, pattern: Pattern) -> PatternRow {
+    PatternRow { name: pattern.id(), steps_ms: pattern.steps_ms(), source: tables.pattern_source(pattern) }
 }
 
 fn as_text(document: &Document) -> String {
@@ -102,7 +107,7 @@ mod tests {
     use super::*;
 
     fn json() -> serde_json::Value {
-        let text = output::json(&document()).ok().unwrap();
+        let text = output::json(&document(plant::default_model().tables())).ok().unwrap();
         serde_json::from_str(&text).unwrap()
     }
 
@@ -137,8 +142,12 @@ mod tests {
 
     #[test]
     fn the_text_has_every_meaning_and_every_event() {
-        let text = as_text(&document());
-        for status in document().indicators.into_iter().flat_map(|indicator| indicator.status) {
+        let text = as_text(&document(plant::default_model().tables()));
+        for status in document(plant::default_model().tables())
+            .indicators
+            .into_iter()
+            .flat_map(|indicator| indicator.status)
+        {
             assert!(text.contains(&status.meaning.join("; ")));
             assert!(status.events.iter().all(|code| text.contains(code.as_str())));
         }

@@ -1,10 +1,11 @@
-//! `ectwin list nx-objects`: the NX objects of the NX-ECT101, as its CPU Unit sees them.
+//! `ectwin list nx-objects`: the NX objects of a unit model, as its CPU Unit sees them.
 
 use std::fmt::Write;
 
-use nx_ect101::{NxAccess, NxEntry, NxObject};
 use serde::Serialize;
+use unit_model::tables::{NxEntry, NxObject};
 
+use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::output;
 
@@ -33,14 +34,17 @@ struct EntryRow {
     default: String,
 }
 
-pub(crate) fn run(json: bool) -> Result<(), Failure> {
-    let document = document();
-    let text = if json { output::json(&document)? } else { as_text(&document) };
+pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
+    let document = document(args.tables().nx_objects);
+    if args.json {
+        return output::print(output::json(&document)?.as_bytes());
+    }
+    let text = args.text("NX objects", document.nx_objects.len(), || as_text(&document));
     output::print(text.as_bytes())
 }
 
-fn document() -> Document {
-    Document { nx_objects: NxObject::all().iter().map(object_row).collect() }
+fn document(objects: &'static [NxObject]) -> Document {
+    Document { nx_objects: objects.iter().map(object_row).collect() }
 }
 
 fn object_row(object: &'static NxObject) -> ObjectRow {
@@ -58,10 +62,7 @@ fn entry_row(entry: &'static NxEntry) -> EntryRow {
         name: &entry.name,
         r#type: &entry.data_type,
         size_bits: entry.size_bytes * 8,
-        access: match entry.access {
-            NxAccess::Ro => "RO",
-            NxAccess::Rw => "RW",
-        },
+        access: entry.access.id(),
         io_allocation: entry.io_allocation,
         default: default(entry),
     }
@@ -97,7 +98,7 @@ mod tests {
 
     #[test]
     fn the_json_document_tells_the_message_objects() {
-        let text = output::json(&document()).ok().unwrap();
+        let text = output::json(&document(plant::default_model().tables().nx_objects)).ok().unwrap();
         let json: serde_json::Value = serde_json::from_str(&text).unwrap();
         let objects = json["nx_objects"].as_array().unwrap();
         assert_eq!(objects.len(), 11);
@@ -113,7 +114,7 @@ mod tests {
 
     #[test]
     fn the_text_has_a_line_for_each_object_and_entry() {
-        let document = document();
+        let document = document(plant::default_model().tables().nx_objects);
         let entries: usize = document.nx_objects.iter().map(|object| object.entries.len()).sum();
         assert_eq!(as_text(&document).lines().count(), document.nx_objects.len() + entries);
     }

@@ -1,4 +1,4 @@
-//! `ectwin list objects`: the CoE object dictionary of the NX-ECT101.
+//! `ectwin list objects`: the CoE object dictionary of a unit model.
 
 use std::fmt::Write;
 
@@ -6,6 +6,7 @@ use ectwin::object_words::{access, code, default, pdo, type_name, writable_in};
 use objects::{Entry, Object, ObjectTable};
 use serde::Serialize;
 
+use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::output::print;
 
@@ -36,9 +37,12 @@ struct EntryRow {
     default: String,
 }
 
-pub(crate) fn run(json: bool) -> Result<(), Failure> {
-    let document = document(&nx_ect101::object_table());
-    let text = if json { as_json(&document)? } else { as_text(&document) };
+pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
+    let document = document(&args.tables().objects);
+    if args.json {
+        return print(as_json(&document)?.as_bytes());
+    }
+    let text = args.text("objects", document.objects.len(), || as_text(&document));
     print(text.as_bytes())
 }
 
@@ -101,7 +105,7 @@ mod tests {
 
     #[test]
     fn the_json_document_tells_the_identity_object() {
-        let document = document(&nx_ect101::object_table());
+        let document = document(&plant::default_model().tables().objects);
         let json: serde_json::Value = serde_json::from_str(&as_json(&document).ok().unwrap()).unwrap();
         let objects = json["objects"].as_array().unwrap();
         assert_eq!(objects.len(), 37);
@@ -115,7 +119,7 @@ mod tests {
 
     #[test]
     fn the_text_has_a_line_for_each_object_and_entry() {
-        let document = document(&nx_ect101::object_table());
+        let document = document(&plant::default_model().tables().objects);
         let entries: usize = document.objects.iter().map(|object| object.entries.len()).sum();
         assert_eq!(as_text(&document).lines().count(), document.objects.len() + entries);
     }

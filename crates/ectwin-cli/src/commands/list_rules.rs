@@ -2,9 +2,10 @@
 
 use std::fmt::Write;
 
-use nx_ect101::{Direction, Event, Moment, RULES, Rule, RuleEvents};
 use serde::Serialize;
+use unit_model::tables::{self, RuleEvent};
 
+use crate::cli::ListArgs;
 use crate::failure::Failure;
 use crate::output;
 
@@ -31,30 +32,32 @@ struct EventRow {
     al_status_code: Option<String>,
 }
 
-pub(crate) fn run(json: bool) -> Result<(), Failure> {
-    let document = Document { rules: RULES.iter().map(rule_row).collect() };
-    let text = if json { output::json(&document)? } else { as_text(&document) };
+pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
+    let document = Document { rules: args.tables().rules.iter().map(rule_row).collect() };
+    if args.json {
+        return output::print(output::json(&document)?.as_bytes());
+    }
+    let text = args.text("setting rules", document.rules.len(), || as_text(&document));
     output::print(text.as_bytes())
 }
 
-fn rule_row(rule: &Rule) -> RuleRow {
-    let events = rule.events.iter().flat_map(|events| Direction::ALL.map(|way| event_row(events, way)));
-    RuleRow { id: rule.id.id(), section: rule.section, text: rule.text, events: events.collect() }
+fn rule_row(rule: &tables::RuleRow) -> RuleRow {
+    RuleRow {
+        id: rule.id,
+        section: rule.section,
+        text: rule.text,
+        events: rule.events.iter().map(event_row).collect(),
+    }
 }
 
-fn event_row(events: &RuleEvents, direction: Direction) -> EventRow {
-    let code = events.of(direction);
-    let event = Event::find(code);
+fn event_row(event: &RuleEvent) -> EventRow {
     EventRow {
-        code: code.to_string(),
-        name: event.map_or("", |event| event.name.as_str()),
-        side: events.side.id(),
-        direction: direction.id(),
-        checked_at: match events.moment {
-            Moment::PowerOn => "nx_unit_power_on",
-            Moment::PreOpToSafeOp => "preop_to_safeop",
-        },
-        al_status_code: event.and_then(|event| event.al_status_code).map(|code| format!("{:04X}", code.0)),
+        code: event.code.to_string(),
+        name: event.name,
+        side: event.side,
+        direction: event.direction,
+        checked_at: event.checked_at,
+        al_status_code: event.al_status_code.map(|code| format!("{:04X}", code.0)),
     }
 }
 

@@ -11,9 +11,6 @@ use crate::failure_document::or_document;
 use crate::file_problem::FileProblems;
 use crate::{output, unit_files};
 
-/// The unit whose device variables a program uses if none is given: the factory setting.
-const FACTORY: &str = "model = \"nx-ect101\"";
-
 #[derive(Serialize)]
 struct Document<'a> {
     problems: Vec<Row<'a>>,
@@ -57,8 +54,7 @@ pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
 fn unit_file(args: &StCheckArgs) -> Result<UnitFile, Failure> {
     match &args.unit {
         Some(path) => unit_files::parse(path).map(|(file, _)| file),
-        // The only key that a unit file needs.
-        None => Ok(UnitFile::parse(FACTORY).unwrap_or_else(|_| unreachable!("the factory setting is right"))),
+        None => Ok(UnitFile::factory()),
     }
 }
 

@@ -1,8 +1,9 @@
-//! Emergency error codes of the NX-ECT101 (manual, 8-4-3).
+//! Emergency error codes of the model's events.
 
-use nx_ect101::{Event, Notified};
+use unit_model::tables::EventRow;
 
-use super::event::{advice, event_facts, section, when_emergencies_are_sent};
+use super::event::section_of_model;
+use super::tables::{events_of_emergency, tables};
 use super::{Explanation, Fact, Subject};
 
 /// The meaning of a range of codes: highest code of the range, and its class (CiA 301; A000 is from ETG.1000.6).
@@ -37,23 +38,22 @@ fn class(code: u16) -> &'static str {
     CLASSES.iter().find(|(last, _)| code <= *last).map_or("device specific", |(_, class)| class)
 }
 
-fn events_of(code: u16) -> impl Iterator<Item = &'static Event> {
-    Event::all().iter().filter(move |event| event.emergency_code == Some(code))
-}
-
-/// All codes of the unit, some of them more than once.
+/// All codes of the model, some of them more than once.
 pub(super) fn known() -> impl Iterator<Item = u16> {
-    Event::all().iter().filter_map(|event| event.emergency_code)
+    tables().events.iter().filter_map(|event| event.emergency).map(|emergency| emergency.code)
 }
 
 pub(super) fn explanation(code: u16) -> Option<Explanation> {
-    let events: Vec<&'static Event> = events_of(code).collect();
-    let first = *events.first()?;
-    let is_sent = events.iter().any(|event| event.emergency_notified == Notified::Possible);
-    let sent = if is_sent { when_emergencies_are_sent() } else { "in no emergency message" };
+    let events: Vec<&'static EventRow> = events_of_emergency(code).collect();
+    let is_sent = |event: &&&EventRow| event.emergency.is_some_and(|emergency| emergency.is_sent);
+    let sent = match events.iter().find(is_sent) {
+        Some(_) => tables().emergencies_are_sent,
+        None => "in no emergency message",
+    };
     let (name, advice) = match *events {
-        [only] => (only.name.clone(), advice(only)),
-        _ => (format!("{}, {} events", class(first.emergency_code?), events.len()), Vec::new()),
+        [] => return None,
+        [only] => (only.name.to_owned(), only.causes.clone()),
+        _ => (format!("{}, {} events", class(code), events.len()), Vec::new()),
     };
     Some(Explanation {
         subject: Subject::Emergency(code),
@@ -64,7 +64,7 @@ pub(super) fn explanation(code: u16) -> Option<Explanation> {
             Fact::new("in 10F3", format!("upper half of the diagnosis code, 0x{code:04X}E800")),
         ],
         advice,
-        sections: section("In the NX-ECT101", event_facts(events.into_iter())),
+        sections: section_of_model(events.into_iter()),
     })
 }
 

@@ -1,42 +1,10 @@
-//! The contents of an explanation: facts under headings, and advice.
+//! An explanation: facts under headings, and advice.
 
-use std::borrow::Cow;
 use std::fmt;
 
+use unit_model::tables::{Advice, Fact, Section};
+
 use super::Subject;
-
-/// A cause of a code, and its correction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Advice {
-    /// The likely cause.
-    pub cause: &'static str,
-    /// The correction.
-    pub correction: &'static str,
-}
-
-/// A fact, with a label for its subject.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fact {
-    /// Its subject: a word or two.
-    pub label: Cow<'static, str>,
-    /// The fact.
-    pub text: String,
-}
-
-impl Fact {
-    pub(super) fn new(label: impl Into<Cow<'static, str>>, text: impl Into<String>) -> Self {
-        Self { label: label.into(), text: text.into() }
-    }
-}
-
-/// Facts that belong together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Section {
-    /// Their subject.
-    pub heading: &'static str,
-    /// The facts, in the order of display.
-    pub facts: Vec<Fact>,
-}
 
 /// The explanation of a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -64,8 +32,8 @@ impl fmt::Display for Explanation {
             line(formatter, &fact.label, &fact.text)?;
         }
         for advice in &self.advice {
-            line(formatter, "cause", advice.cause)?;
-            line(formatter, "correction", advice.correction)?;
+            line(formatter, "cause", &advice.cause)?;
+            line(formatter, "correction", &advice.correction)?;
         }
         for section in &self.sections {
             write!(formatter, "\n{}", section.heading)?;

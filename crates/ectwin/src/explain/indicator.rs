@@ -1,38 +1,38 @@
 //! Indicators and their patterns, from the indicator table of the model.
 
 use coe_kit::indicators::Pattern;
-use nx_ect101::{Indicator, IndicatorMeaning, pattern_source};
+use unit_model::tables::StatusRow;
 
+use super::tables::tables;
 use super::{Explanation, Fact, Subject};
 
 /// The names of all indicators.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
-    Indicator::all().iter().flat_map(|indicator| indicator.names.iter().map(String::as_str))
+    tables().indicators.iter().flat_map(|indicator| indicator.names.iter().copied())
 }
 
 pub(super) fn explanation(name: &'static str) -> Option<Explanation> {
-    let indicator =
-        Indicator::all().iter().find(|indicator| indicator.names.iter().any(|known| known == name))?;
+    let indicator = tables().indicators.iter().find(|indicator| indicator.names.contains(&name))?;
     let facts = indicator.status.iter().map(status).collect();
-    let (subject, name) = (Subject::Indicator(name), indicator.shows.clone());
+    let (subject, name) = (Subject::Indicator(name), indicator.shows.to_owned());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 
 /// The possible observations of each indicator, in the usual spellings, with the indicator: `TS green`, `red ERR LED flickering`.
 pub(super) fn lights() -> impl Iterator<Item = (String, &'static str)> {
-    Indicator::all().iter().flat_map(|indicator| {
+    tables().indicators.iter().flat_map(|indicator| {
         let statuses = indicator.status.iter().flat_map(seen).collect::<Vec<_>>();
         indicator.names.iter().flat_map(move |name| {
-            let kind = name.split_once(' ').map_or(name.as_str(), |(kind, _)| kind);
+            let kind = name.split_once(' ').map_or(*name, |(kind, _)| kind);
             let all = [name, kind]
                 .map(|named| statuses.iter().flat_map(|seen| spellings(named, seen)).collect::<Vec<_>>());
-            all.into_iter().flatten().map(move |words| (words, name.as_str()))
+            all.into_iter().flatten().map(move |words| (words, *name))
         })
     })
 }
 
 /// The words for a status: a colour, a pattern, or both in either order.
-fn seen(status: &IndicatorMeaning) -> Vec<String> {
+fn seen(status: &StatusRow) -> Vec<String> {
     let pattern = status.pattern.id().replace('_', " ");
     if status.pattern == Pattern::NotLit {
         return ["dark", "off", "out", &pattern].map(str::to_owned).to_vec();
@@ -52,8 +52,8 @@ fn spellings(name: &str, seen: &str) -> Vec<String> {
     names.iter().flat_map(|name| [format!("{name} {seen}"), format!("{seen} {name}")]).collect()
 }
 
-fn status(status: &IndicatorMeaning) -> Fact {
-    let events: Vec<String> = status.events().map(|code| code.to_string()).collect();
+fn status(status: &StatusRow) -> Fact {
+    let events: Vec<String> = status.events.iter().map(ToString::to_string).collect();
     let events = if events.is_empty() { String::new() } else { format!(" ({})", events.join(" ")) };
     let (pattern, meaning) = (words(status.pattern), status.meaning.join("; "));
     let colour = if status.pattern == Pattern::NotLit { "dark" } else { status.colour.id() };
@@ -77,8 +77,8 @@ fn times(pattern: Pattern) -> Option<String> {
 
 pub(super) fn pattern(pattern: Pattern) -> Explanation {
     let name = times(pattern).unwrap_or_else(|| "steady".into());
-    let source = pattern_source(pattern).map(|source| Fact::new("source", source));
-    let shown = Indicator::all().iter().flat_map(|indicator| {
+    let source = tables().pattern_source(pattern).map(|source| Fact::new("source", source));
+    let shown = tables().indicators.iter().flat_map(|indicator| {
         let status = indicator.status.iter().filter(move |status| status.pattern == pattern);
         status.map(|status| {
             let meaning = status.meaning.join("; ");

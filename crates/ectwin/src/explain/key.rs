@@ -5,13 +5,13 @@ use std::sync::LazyLock;
 use plc::CPU_KEYS;
 
 use super::page::{self, PageSection, Table};
+use super::tables::tables;
 use super::{Explanation, Fact, Subject};
-use crate::unit_file;
 
 const PAGE: &str = include_str!("../../../../docs/user/unit-file.md");
 
 static KEYS: LazyLock<Vec<String>> =
-    LazyLock::new(|| unit_file::keys().into_iter().chain(CPU_KEYS.map(|key| format!("cpu.{key}"))).collect());
+    LazyLock::new(|| tables().keys.iter().cloned().chain(CPU_KEYS.map(|key| format!("cpu.{key}"))).collect());
 static SECTIONS: LazyLock<Vec<Described>> = LazyLock::new(|| described(PAGE));
 
 /// A section of the page that describes a section of the file.

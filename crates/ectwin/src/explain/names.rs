@@ -4,10 +4,10 @@ use std::sync::LazyLock;
 
 use coe_kit::indicators::Pattern;
 use esc::REGISTERS;
-use nx_ect101::{Event, MINOR_FAULT_BIT, NxObject, OBSERVATION_BIT, object_table};
 use objects::ObjectCode;
 
-use super::{Subject, glossary, indicator, key, library, object, port};
+use super::tables::tables;
+use super::{Subject, glossary, indicator, key, library, port};
 
 static ALL: LazyLock<Vec<Name>> = LazyLock::new(|| all().map(Name::new).collect());
 
@@ -84,21 +84,20 @@ pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
     let rows = glossary::rows_of_words().map(|row| (row, row));
     let words = glossary::words().chain(rows).map(|(word, row)| (word.to_owned(), Subject::Word(row)));
     let patterns = Pattern::ALL.map(|pattern| (pattern.id().to_owned(), Subject::Pattern(pattern)));
-    let events = Event::all().iter().map(|event| (event.name.clone(), Subject::Event(event.code)));
-    let objects: Vec<_> =
-        object_table().iter().map(|object| (object.name.clone(), Subject::Object(object.index))).collect();
+    let events = tables().events.iter().map(|event| (event.name.to_owned(), Subject::Event(event.code)));
+    let objects = tables().objects.iter().map(|object| (object.name.clone(), Subject::Object(object.index)));
     let nx_objects =
-        NxObject::all().iter().map(|object| (object.name.clone(), Subject::NxObject(object.index)));
+        tables().nx_objects.iter().map(|object| (object.name.clone(), Subject::NxObject(object.index)));
     let registers =
         REGISTERS.iter().map(|register| (register.name.to_owned(), Subject::Register(register.offset)));
     let indicators = indicator::names().flat_map(indicator_names);
     let keys = key::names().map(|(name, path)| (name.to_owned(), Subject::Key(path)));
     let library = library::names().map(|name| (name.to_owned(), Subject::Library(name)));
     let ports = port::names().map(|(name, port)| (name.to_owned(), Subject::Port(port)));
-    let status_bits = [OBSERVATION_BIT, MINOR_FAULT_BIT];
-    let (index, sub) = object::SYSMAC_ERROR_STATUS;
-    let status_bits = status_bits.map(|bit| (bit.port.to_owned(), Subject::Entry(index, sub)));
-    let of_model = events.chain(objects).chain(nx_objects).chain(entries()).chain(ports).chain(status_bits);
+    let named_bits = tables().named_bits.iter();
+    let named_bits =
+        named_bits.map(|bit| (bit.name.to_owned(), Subject::Entry(bit.entry.index, bit.entry.sub)));
+    let of_model = events.chain(objects).chain(nx_objects).chain(entries()).chain(ports).chain(named_bits);
     let lights = indicator::lights().map(|(words, name)| (words, Subject::Indicator(name)));
     let of_unit = indicators.chain(lights).chain(patterns).chain(words).chain(keys).chain(of_model);
     of_unit.chain(registers).chain(library)
@@ -106,15 +105,14 @@ pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
 
 /// The entries of all objects. That of a variable is the object, with the same name.
 fn entries() -> impl Iterator<Item = (String, Subject)> {
-    let mut entries = Vec::new();
-    for object in object_table().iter().filter(|object| object.code != ObjectCode::Variable) {
-        let of_object = object.entries.iter();
-        entries.extend(of_object.map(|entry| (entry.name.clone(), Subject::Entry(object.index, entry.sub))));
-    }
-    let nx_entries = NxObject::all().iter().flat_map(|object| {
+    let objects = tables().objects.iter().filter(|object| object.code != ObjectCode::Variable);
+    let entries = objects.flat_map(|object| {
+        object.entries.iter().map(|entry| (entry.name.clone(), Subject::Entry(object.index, entry.sub)))
+    });
+    let nx_entries = tables().nx_objects.iter().flat_map(|object| {
         object.entries.iter().map(|entry| (entry.name.clone(), Subject::NxEntry(object.index, entry.sub)))
     });
-    entries.into_iter().chain(nx_entries)
+    entries.chain(nx_entries)
 }
 
 /// `L/A IN` is one of the two indicators named `L/A`.

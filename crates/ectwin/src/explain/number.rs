@@ -2,9 +2,10 @@
 
 use std::fmt;
 
-use nx_ect101::{Event, EventCode, NxObject, object_table};
+use unit_model::EventCode;
 use wire::{AlStatusCode, ObjectIndex, SdoAbort};
 
+use super::tables::tables;
 use super::{Subject, al_status_codes, emergency};
 
 /// Low word of a diagnosis code whose high word is an emergency error code (manual, A-6-4).
@@ -79,8 +80,8 @@ impl Number {
     pub(super) fn there_is(self) -> String {
         match self {
             Self::Word(_) => {
-                let objects = object_table().iter().map(|object| object.index.0.into()).collect();
-                let nx_objects = NxObject::all().iter().map(|object| object.index.0.into()).collect();
+                let objects = tables().objects.iter().map(|object| object.index.0.into()).collect();
+                let nx_objects = tables().nx_objects.iter().map(|object| object.index.0.into()).collect();
                 [
                     ("AL status codes", al_status_codes::known().map(|code| code.0.into()).collect()),
                     ("emergency error codes", emergency::known().map(u32::from).collect()),
@@ -91,7 +92,7 @@ impl Number {
                 .join("; ")
             }
             Self::Double(_) => {
-                let events = Event::all().iter().map(|event| event.code.0).collect();
+                let events = tables().events.iter().map(|event| event.code.0).collect();
                 let aborts = SdoAbort::TABLE.iter().map(|row| row.code.0).collect();
                 format!("event codes: {}; SDO abort codes: {}", runs(events, 8), runs(aborts, 8))
             }
@@ -107,7 +108,7 @@ impl Number {
                 al_status.chain(emergency).collect()
             }
             Self::Double(_) => {
-                let events = Event::all().iter().map(|event| (event.code.0, Subject::Event(event.code)));
+                let events = tables().events.iter().map(|event| (event.code.0, Subject::Event(event.code)));
                 let aborts = SdoAbort::TABLE.iter().map(|row| (row.code.0, Subject::Abort(row.code)));
                 events.chain(aborts).collect()
             }

@@ -1,18 +1,12 @@
 //! Objects: of the CoE object dictionary for the master, and NX objects for the CPU Unit.
 
-use nx_ect101::unit_file::{DataSetEntries, Entries, IoAllocationSection, Located, UnitFile};
-use nx_ect101::{
-    DataSet, Direction, MINOR_FAULT_BIT, NxAccess, NxEntry, NxObject, OBSERVATION_BIT, SLAVE_STATUS_BITS,
-    SlaveStatus, StatusBit, object_table,
-};
 use objects::{AccessRights, Entry, Object};
-use wire::{ObjectIndex, SdoAbort, SubIndex};
+use unit_model::tables::{EntryFact, NxEntry, NxObject};
+use wire::{EntryAddress, ObjectIndex, SdoAbort, SubIndex};
 
+use super::tables::{self, tables};
 use super::{Explanation, Fact, Section, Subject, Unexplained};
 use crate::object_words::{access, code, default, pdo, type_name, writable_in};
-
-/// The object whose bits 4 and 5 are I/O ports of a master.
-pub(super) const SYSMAC_ERROR_STATUS: (ObjectIndex, SubIndex) = (ObjectIndex(0x2002), SubIndex(1));
 
 /// Maximum length of a default that is shown in a list.
 const SHOWN_DEFAULT: usize = 20;
@@ -46,8 +40,7 @@ impl EntryNumber {
 
     fn missing(self) -> Unexplained {
         let Self { index, sub } = self;
-        let table = object_table();
-        let subs = match (table.object(index), NxObject::find(index)) {
+        let subs = match (tables().objects.object(index), tables::nx_object(index)) {
             (Some(object), _) => object.entries.iter().map(|entry| entry.sub.to_string()).collect::<Vec<_>>(),
             (None, Some(object)) => object.entries.iter().map(|entry| entry.sub.to_string()).collect(),
             (None, None) => {
@@ -63,33 +56,18 @@ impl EntryNumber {
 /// The name of the object to which an entry belongs; none if it is not an entry.
 pub(super) fn name_around(subject: Subject) -> Option<String> {
     match subject {
-        Subject::Entry(index, _) => object_table().object(index).map(|object| object.name.clone()),
-        Subject::NxEntry(index, _) => NxObject::find(index).map(|object| object.name.clone()),
+        Subject::Entry(index, _) => tables().objects.object(index).map(|object| object.name.clone()),
+        Subject::NxEntry(index, _) => tables::nx_object(index).map(|object| object.name.clone()),
         _ => None,
     }
 }
 
-/// Unit files that together have every I/O entry: one data set each, because all of them exceed one unit.
-pub(super) fn files_with_every_io_entry() -> Vec<UnitFile> {
-    let Ok(file) = UnitFile::parse("model = \"nx-ect101\"") else { return Vec::new() };
-    let with = |set: &DataSet| {
-        let all = Located::left_out(Entries::Count(set.max_count));
-        let entries = vec![DataSetEntries { kind: set.kind, entries: all }];
-        let section = match set.direction {
-            Direction::MToC => IoAllocationSection { m_to_c: entries, c_to_m: Vec::new() },
-            Direction::CToM => IoAllocationSection { m_to_c: Vec::new(), c_to_m: entries },
-        };
-        UnitFile { io_allocation: Some(Located::left_out(section)), ..file.clone() }
-    };
-    DataSet::all().iter().map(with).collect()
-}
-
 pub(super) fn object(index: ObjectIndex) -> Option<Explanation> {
-    let table = object_table();
+    let table = &tables().objects;
     let object = table.object(index)?;
     let facts = vec![Fact::new("kind", kind(object))];
     let entries = object.entries.iter().map(|entry| Fact::new(format!(":{}", entry.sub), entry_line(entry)));
-    let sections = vec![Section { heading: "Entries", facts: entries.collect() }];
+    let sections = vec![Section { heading: "Entries".into(), facts: entries.collect() }];
     let (subject, name) = (Subject::Object(index), object.name.clone());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections })
 }
@@ -119,7 +97,7 @@ fn shown_default(default: &str) -> String {
 }
 
 pub(super) fn entry(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
-    let table = object_table();
+    let table = &tables().objects;
     let (object, entry) = (table.object(index)?, table.entry(index, sub)?);
     let mut facts = vec![
         Fact::new("object", format!("{}, {}", object.name, kind(object))),
@@ -135,18 +113,16 @@ pub(super) fn entry(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
     if entry.access.contains(AccessRights::SETTING) {
         facts.push(Fact::new("setting", "a master writes it when communications start"));
     }
-    let set = DataSet::all().iter().find(|set| set.pdo_entry == index && set.has(sub));
-    facts.extend(set.map(|set| Fact::new("NX object", format!("{}:{sub}, {}", set.nx_entry, set.name))));
-    if (index, sub) == SYSMAC_ERROR_STATUS {
-        facts.extend(bits(&[OBSERVATION_BIT, MINOR_FAULT_BIT]));
-    }
+    facts.extend(facts_of(&tables().entry_facts, index, sub));
+    let named = tables().named_bits.iter().filter(|bit| bit.entry == EntryAddress { index, sub });
+    facts.extend(named.map(|bit| Fact::new(format!("bit {}", bit.bit), bit.name)));
     let (subject, name) = (Subject::Entry(index, sub), entry.name.clone());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }
 
 /// A subindex below the highest one that has no entry.
 fn gap(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
-    let table = object_table();
+    let table = &tables().objects;
     let object = table.object(index)?;
     if !object.is_gap(sub) {
         return None;
@@ -172,16 +148,18 @@ fn access_words(entry: &Entry) -> String {
     format!("{}{written}", access(entry.access))
 }
 
-fn bits(bits: &[StatusBit]) -> Vec<Fact> {
-    bits.iter().map(|StatusBit { bit, port }| Fact::new(format!("bit {bit}"), *port)).collect()
+/// What the model adds about an entry.
+fn facts_of(facts: &'static [EntryFact], index: ObjectIndex, sub: SubIndex) -> impl Iterator<Item = Fact> {
+    let facts = facts.iter().filter(move |fact| fact.entry == EntryAddress { index, sub });
+    facts.map(|fact| fact.fact.clone())
 }
 
 pub(super) fn nx_object(index: ObjectIndex) -> Option<Explanation> {
-    let object = NxObject::find(index)?;
+    let object = tables::nx_object(index)?;
     let facts = vec![Fact::new("reached", reached(object))];
     let entries =
         object.entries.iter().map(|entry| Fact::new(format!(":{}", entry.sub), nx_entry_line(entry)));
-    let sections = vec![Section { heading: "Entries", facts: entries.collect() }];
+    let sections = vec![Section { heading: "Entries".into(), facts: entries.collect() }];
     let (subject, name) = (Subject::NxObject(index), object.name.clone());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections })
 }
@@ -191,30 +169,19 @@ const fn reached(object: &NxObject) -> &'static str {
 }
 
 fn nx_entry_line(entry: &NxEntry) -> String {
-    format!("{}, {}, {}", entry.name, entry.data_type, nx_access(entry))
-}
-
-const fn nx_access(entry: &NxEntry) -> &'static str {
-    match entry.access {
-        NxAccess::Ro => "RO",
-        NxAccess::Rw => "RW",
-    }
+    format!("{}, {}, {}", entry.name, entry.data_type, entry.access.id())
 }
 
 pub(super) fn nx_entry(index: ObjectIndex, sub: SubIndex) -> Option<Explanation> {
-    let object = NxObject::find(index)?;
+    let object = tables::nx_object(index)?;
     let entry = object.entry(sub)?;
     let mut facts = vec![
         Fact::new("object", object.name.clone()),
         Fact::new("reached", reached(object)),
         Fact::new("type", entry.data_type.clone()),
-        Fact::new("access", nx_access(entry)),
+        Fact::new("access", entry.access.id()),
     ];
-    let set = DataSet::all().iter().find(|set| set.nx_entry == index && set.has(sub));
-    facts.extend(set.map(|set| Fact::new("CoE object", format!("{}:{sub}, {}", set.pdo_entry, set.name))));
-    if (index, sub) == SlaveStatus::NX_OBJECT {
-        facts.extend(bits(&SLAVE_STATUS_BITS));
-    }
+    facts.extend(facts_of(&tables().nx_entry_facts, index, sub));
     let (subject, name) = (Subject::NxEntry(index, sub), entry.name.clone());
     Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
 }

@@ -2,17 +2,18 @@
 
 use std::fmt::Write;
 
-use nx_ect101::{Event, Notified};
+use unit_model::tables::{EmergencyCode, EventRow};
 
-use super::event::{self, level, recovery};
+use super::event;
+use super::tables::tables;
 use super::{Advice, Explanation, Fact};
 
 /// Line 1 of each file.
 const GENERATED: &str = "<!-- Generated: cargo xtask bless -->";
 
-/// The text of the index before its table.
+/// The text of the index before its table, after the name of the device.
 const INDEX_HEAD: &str = "\
-All events of the NX-ECT101 by code; each has a page with its causes and with what every side sees.
+by code; each has a page with its causes and with what every side sees.
 
 An emergency error code in brackets is in the diagnosis history, object 10F3, but in no emergency message. A fault that a page
 names is injected by `UnitSide::inject` of the library; `UnitSide` also resets errors, clears logs, and restarts the unit.";
@@ -32,17 +33,16 @@ pub struct Page {
 /// All files of docs/events: the index, and a page for each event.
 #[must_use]
 pub fn event_pages() -> Vec<Page> {
-    let explanations = Event::all().iter().filter_map(|row| Some((row, event::explanation(row.code)?)));
-    let pages = explanations
-        .map(|(row, explanation)| Page { file_name: file_name(row), text: page(row, &explanation) });
+    let pages = tables().events.iter();
+    let pages = pages.map(|row| Page { file_name: file_name(row), text: page(row, &event::of_row(row)) });
     [Page { file_name: "README.md".into(), text: index() }].into_iter().chain(pages).collect()
 }
 
-fn file_name(event: &Event) -> String {
+fn file_name(event: &EventRow) -> String {
     format!("{}.md", event.code)
 }
 
-fn page(row: &Event, explanation: &Explanation) -> String {
+fn page(row: &EventRow, explanation: &Explanation) -> String {
     let mut text = format!("{GENERATED}\n# {} {}\n\n", row.code, row.name);
     let (sentence, facts) = explanation
         .facts
@@ -74,28 +74,31 @@ fn causes(advice: &[Advice], text: &mut String) {
 }
 
 fn index() -> String {
-    let mut text = format!("{GENERATED}\n# Events\n\n{INDEX_HEAD}\n\n{INDEX_COLUMNS}\n");
-    let mut events: Vec<&Event> = Event::all().iter().collect();
+    let mut text = format!(
+        "{GENERATED}\n# Events\n\nAll events of the {} {INDEX_HEAD}\n\n{INDEX_COLUMNS}\n",
+        tables().device
+    );
+    let mut events: Vec<&EventRow> = tables().events.iter().collect();
     events.sort_unstable_by_key(|event| event.code);
     events.iter().for_each(|event| index_row(event, &mut text));
     text
 }
 
-fn index_row(event: &Event, text: &mut String) {
+fn index_row(event: &EventRow, text: &mut String) {
     let al_status = event.al_status_code.map_or_else(|| "none".into(), |code| format!("{:04X}", code.0));
-    let emergency = match (event.emergency_code, event.emergency_notified) {
-        (None, _) => "none".into(),
-        (Some(code), Notified::Possible) => format!("{code:04X}"),
-        (Some(code), Notified::NotPossible) => format!("({code:04X})"),
+    let emergency = match event.emergency {
+        None => "none".into(),
+        Some(EmergencyCode { code, is_sent: true }) => format!("{code:04X}"),
+        Some(EmergencyCode { code, is_sent: false }) => format!("({code:04X})"),
     };
-    let changeable = if event.changeable_level { " or observation" } else { "" };
+    let changeable = if event.has_changeable_level { " or observation" } else { "" };
     let _ = writeln!(
         text,
         "| [{code}]({file}) | {name} | {level}{changeable} | {al_status} | {emergency} | {recovery} |",
         code = event.code,
         file = file_name(event),
         name = event.name,
-        level = level(event.level),
-        recovery = recovery(event.recovery),
+        level = event.level.words(),
+        recovery = event.recovery,
     );
 }

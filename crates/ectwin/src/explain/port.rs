@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use plc::{DeviceVariables, Variable, VariableAccess};
 
-use super::{Explanation, Fact, Subject, object};
+use super::{Explanation, Fact, Subject};
 
 static PORTS: LazyLock<Vec<Port>> = LazyLock::new(ports);
 
@@ -36,8 +36,8 @@ pub(super) fn explanation(name: &'static str) -> Option<Explanation> {
 
 fn ports() -> Vec<Port> {
     let mut ports: Vec<Port> = Vec::new();
-    for file in object::files_with_every_io_entry() {
-        let variables = DeviceVariables::of(file.variable_table());
+    for table in plant::default_model().every_variable() {
+        let variables = DeviceVariables::of(table);
         let location = variables.node_location();
         let location = Port {
             name: location.port.to_owned(),

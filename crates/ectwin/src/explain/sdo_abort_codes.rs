@@ -7,7 +7,7 @@ use super::Advice;
 type Row = (SdoAbort, Advice);
 
 const fn row(code: SdoAbort, cause: &'static str, correction: &'static str) -> Row {
-    (code, Advice { cause, correction })
+    (code, Advice::new(cause, correction))
 }
 
 /// Ascending by code, one row for each row of [`SdoAbort::TABLE`].

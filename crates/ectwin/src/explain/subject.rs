@@ -3,13 +3,13 @@
 use std::fmt;
 
 use coe_kit::indicators::Pattern;
-use nx_ect101::EventCode;
+use unit_model::EventCode;
 use wire::{AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
 /// Something that can be explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
-    /// Event code of the NX-ECT101.
+    /// Event code of the model.
     Event(EventCode),
     /// Emergency error code, in an emergency message or a diagnosis code.
     Emergency(u16),

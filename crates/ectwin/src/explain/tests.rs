@@ -98,7 +98,7 @@ fn every_object_and_every_entry_of_the_tables_is_explained() {
             );
         }
     }
-    for object in nx_ect101::NxObject::all() {
+    for object in nx_ect101::nx_objects() {
         assert!(subjects(&format!("{:04X}", object.index.0)).contains(&Subject::NxObject(object.index)));
         for entry in &object.entries {
             let text = format!("{}:{}", object.index, entry.sub);
@@ -318,7 +318,7 @@ fn every_name_of_an_object_and_of_an_entry_is_explained() {
             assert!(known.contains(&wanted), "{}:{} {}", object.index, entry.sub, entry.name);
         }
     }
-    for object in nx_ect101::NxObject::all() {
+    for object in nx_ect101::nx_objects() {
         assert!(subjects(&object.name).contains(&Subject::NxObject(object.index)), "{}", object.name);
         for entry in &object.entries {
             let wanted = Subject::NxEntry(object.index, entry.sub);
@@ -470,7 +470,7 @@ fn every_event_is_told_on_every_channel() {
         let explanations = explain(&event.code.to_string()).unwrap();
         let [known] = &explanations[..] else { panic!("{}: one meaning", event.code) };
         assert!(!known.advice.is_empty(), "{}", event.code);
-        let headings: Vec<&str> = known.sections.iter().map(|section| section.heading).collect();
+        let headings: Vec<&str> = known.sections.iter().map(|section| section.heading.as_ref()).collect();
         for heading in
             ["What the EtherCAT master sees", "What the CPU Unit sees", "Indicators", "Logs and recovery"]
         {

@@ -3,10 +3,12 @@
 use std::sync::LazyLock;
 
 use coe_kit::indicators::Pattern;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
 use crate::events::{Event, EventCode};
 use crate::tables;
+
+pub use unit_model::tables::Colour;
 
 static TABLE: LazyLock<IndicatorsFile> =
     LazyLock::new(|| tables::parse("indicators.toml", include_str!("../../tables/indicators.toml")));
@@ -88,30 +90,6 @@ impl EventColumn {
     }
 }
 
-/// Colour of an indicator.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Colour {
-    /// Green.
-    Green,
-    /// Red.
-    Red,
-    /// Dark.
-    None,
-}
-
-impl Colour {
-    /// Its word in the table.
-    #[must_use]
-    pub const fn id(self) -> &'static str {
-        match self {
-            Self::Green => "green",
-            Self::Red => "red",
-            Self::None => "none",
-        }
-    }
-}
-
 /// A row of 8-2-2 that is not an event.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -142,9 +120,7 @@ pub(super) fn primary(cause: PrimaryCause) -> PrimaryRow {
     }
 }
 
-/// The document with the times of a pattern: the standard, or the manual; none for a steady one.
-#[must_use]
-pub fn pattern_source(pattern: Pattern) -> Option<&'static str> {
-    let of_manual = || TABLE.pattern.iter().find(|row| row.name == pattern).map(|row| row.source.as_str());
-    pattern.standard().or_else(of_manual)
+/// The document with the times of each pattern that is in no standard.
+pub(crate) fn pattern_sources() -> Vec<(Pattern, &'static str)> {
+    TABLE.pattern.iter().map(|row| (row.name, row.source.as_str())).collect()
 }

@@ -12,9 +12,6 @@ use super::problem::Part;
 use crate::model::{FileWithProgram, ScriptUnit};
 use crate::run::{ProgramFile, UnitSource, UserProgram};
 
-/// The unit of a scenario without units.
-const DEFAULT_UNIT: &str = "model = \"nx-ect101\"";
-
 /// The source of a unit.
 struct Origin<'a> {
     /// The path of its file; none if it is written in the scenario.
@@ -37,7 +34,8 @@ impl Maker<'_> {
             self.units.extend(source);
         }
         if units.is_empty() {
-            let source = self.unit_text(DEFAULT_UNIT, Part::Script, Origin { path: None, program: None });
+            let source =
+                self.unit_text(&UnitFile::factory_text(), Part::Script, Origin { path: None, program: None });
             self.units.extend(source);
         }
         let variables = self.units.iter().map(|unit| unit.file.variables().clone());

@@ -1,11 +1,8 @@
 //! Names of unit models: code outside a model's own crate uses the registry of models.
 //!
-//! Comments may name a model, and so may tests. The files whose code does so at present are in a list; if a
-//! file is only moved, rename it there by hand.
+//! Comments may name a model, and so may tests.
 
-use super::list::List;
 use super::tokens;
-use crate::outcome::{Outcome, report};
 use crate::sources::Source;
 
 /// The crates of the unit models; their names are the names of the crates.
@@ -13,37 +10,12 @@ const MODELS: &[&str] = &["nx-ect101"];
 /// The one file that may name them all.
 const REGISTRY: &str = "crates/plant/src/registry.rs";
 
-/// The files that name a model.
-const KNOWN: List = List { file: "crates/xtask/src/arrows/models.txt", text: include_str!("models.txt") };
-
-/// Files of these crates that name a model and are not in the list, and lines of the list that no longer name one.
+/// Files of these crates that name a model.
 pub(super) fn findings(crates: &[&str], sources: &[Source]) -> Vec<String> {
-    compare(&naming(crates, sources), &KNOWN.items().collect::<Vec<_>>())
-}
-
-/// The number of files in the list.
-pub(super) fn count() -> usize {
-    KNOWN.items().count()
-}
-
-/// Writes the list, if no file is new.
-pub(super) fn bless(crates: &[&str], sources: &[Source]) -> Outcome {
-    let (found, known) = (naming(crates, sources), KNOWN.items().collect::<Vec<_>>());
-    report("files that name a model", &new(&found, &known))?;
-    KNOWN.write(found.iter().map(ToString::to_string))
-}
-
-fn compare(found: &[&str], known: &[&str]) -> Vec<String> {
-    let new = new(found, known).into_iter();
-    let new =
-        new.map(|file| format!("{file}: names a unit model outside its crate and the registry of models"));
-    let gone = known.iter().filter(|file| !found.contains(file));
-    new.chain(gone.map(|file| format!("{file}: names no unit model any more: `cargo xtask arrows --bless`")))
+    let naming = naming(crates, sources).into_iter();
+    naming
+        .map(|file| format!("{file}: names a unit model outside its crate and the registry of models"))
         .collect()
-}
-
-fn new(found: &[&str], known: &[&str]) -> Vec<String> {
-    found.iter().filter(|file| !known.contains(file)).map(ToString::to_string).collect()
 }
 
 /// The files whose code names a model of another crate.
@@ -101,12 +73,10 @@ mod tests {
     }
 
     #[test]
-    fn the_list_only_shrinks() {
-        let known = ["a.rs", "b.rs"];
-        assert_eq!(compare(&known, &known), Vec::<String>::new());
-        assert!(compare(&["a.rs"], &known)[0].starts_with("b.rs: names no unit model"));
-        assert!(compare(&["a.rs", "b.rs", "c.rs"], &known)[0].starts_with("c.rs: names a unit model"));
-        assert_eq!(new(&["a.rs"], &known), Vec::<String>::new());
-        assert_eq!(new(&["a.rs", "c.rs"], &known), ["c.rs"]);
+    fn a_file_that_names_a_model_is_a_finding() {
+        let source = Source { path: "crates/plc/src/io.rs".into(), text: "use nx_ect101::Unit;".into() };
+        let findings = findings(&["nx-ect101", "plc"], &[source]);
+        assert_eq!(findings.len(), 1);
+        assert!(findings[0].starts_with("crates/plc/src/io.rs: names a unit model"), "{findings:?}");
     }
 }

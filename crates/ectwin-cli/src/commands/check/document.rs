@@ -1,22 +1,19 @@
 //! Findings and sizes as data for programs.
 
-use nx_ect101::{
-    Amount, Configuration, DataSet, DataSetKind, Direction, EventLevel, EventLevels, ExchangedDataSet, Fact,
-    Finding, Side, Verdict,
-};
 use serde::Serialize;
+use unit_model::{EventLevel, ExchangedData, SettingsCheck, SettingsFinding};
 
 use crate::failure::Failure;
 
 #[derive(Serialize)]
-struct Document {
-    findings: Vec<FindingRow>,
+struct Document<'a> {
+    findings: Vec<FindingRow<'a>>,
     sizes: Sizes,
     data_sets: Vec<DataSetRow>,
 }
 
 #[derive(Serialize)]
-struct FindingRow {
+struct FindingRow<'a> {
     event_code: String,
     event_name: &'static str,
     level: EventLevel,
@@ -28,8 +25,8 @@ struct FindingRow {
     pdo_bytes: Option<usize>,
     /// The same on the CPU Unit's side.
     io_bytes: Option<usize>,
-    message: String,
-    correction: String,
+    message: &'a str,
+    correction: &'a str,
 }
 
 #[derive(Serialize)]
@@ -67,82 +64,50 @@ pub(super) fn without_rules(outputs: usize, inputs: usize) -> Result<String, Fai
 }
 
 /// The JSON document.
-pub(super) fn of(
-    configuration: &Configuration,
-    levels: EventLevels,
-    verdict: &Verdict,
-) -> Result<String, Failure> {
-    let sizes = |direction| DirectionSizes::of(direction, configuration, verdict);
+pub(super) fn of(check: &SettingsCheck) -> Result<String, Failure> {
     let document = Document {
-        findings: verdict.findings.iter().map(|finding| FindingRow::of(finding, levels)).collect(),
-        sizes: Sizes { m_to_c: sizes(Direction::MToC), c_to_m: sizes(Direction::CToM) },
-        data_sets: verdict.data_sets.iter().map(DataSetRow::of).collect(),
+        findings: check.findings.iter().map(FindingRow::of).collect(),
+        sizes: Sizes { m_to_c: check.m_to_c.into(), c_to_m: check.c_to_m.into() },
+        data_sets: check.data_sets.iter().map(DataSetRow::of).collect(),
     };
     crate::output::json(&document)
 }
 
-impl FindingRow {
-    fn of(finding: &Finding, levels: EventLevels) -> Self {
-        let (pdo_bytes, io_bytes) = sizes(finding);
+impl<'a> FindingRow<'a> {
+    fn of(finding: &'a SettingsFinding) -> Self {
         Self {
             event_code: finding.event.to_string(),
-            event_name: finding.event_name(),
-            level: finding.level(levels),
-            rule: finding.rule.id(),
-            side: finding.side.id(),
-            direction: finding.direction.id(),
+            event_name: finding.event_name,
+            level: finding.level,
+            rule: finding.rule,
+            side: finding.side,
+            direction: finding.direction,
             data_set: finding.data_set.map(|index| format!("{:04X}", index.0)),
-            pdo_bytes,
-            io_bytes,
-            message: finding.message(),
-            correction: finding.correction(),
+            pdo_bytes: finding.pdo_bytes,
+            io_bytes: finding.io_bytes,
+            message: &finding.message,
+            correction: &finding.correction,
         }
     }
 }
 
-/// The sizes of a finding: PDO entries, I/O entries.
-fn sizes(finding: &Finding) -> (Option<usize>, Option<usize>) {
-    match finding.fact {
-        Fact::TxPdosTooLong { size_bytes, .. } => (Some(size_bytes), None),
-        Fact::TooMuchData { size_bytes } if finding.side == Side::IoEntry => (None, Some(size_bytes)),
-        Fact::TooMuchData { size_bytes } => (Some(size_bytes), None),
-        Fact::OneSided { amounts } | Fact::Unequal { amounts } => {
-            let of_side = |entries: fn(&Amount) -> usize| {
-                let sets = DataSetKind::ALL.into_iter().zip(&amounts);
-                let different = sets.filter(|(_, amount)| amount.io_entries != amount.pdo_entries);
-                let bytes = different.map(|(kind, amount)| {
-                    entries(amount) * usize::from(DataSet::of(finding.direction, kind).entry_bytes)
-                });
-                Some(bytes.sum())
-            };
-            (of_side(|amount| amount.pdo_entries), of_side(|amount| amount.io_entries))
-        }
-        _ => (None, None),
-    }
-}
-
-impl DirectionSizes {
-    fn of(direction: Direction, configuration: &Configuration, verdict: &Verdict) -> Self {
-        let sets = || verdict.data_sets.iter().filter(|set| set.data_set.direction == direction);
-        Self {
-            pdo_bytes: nx_ect101::pdo_settings::size_bytes(&configuration.pdo, direction),
-            io_bytes: sets().map(|set| set.io_entries * usize::from(set.data_set.entry_bytes)).sum(),
-            exchanged_bytes: sets().map(ExchangedDataSet::exchanged_bytes).sum(),
-        }
+impl From<unit_model::DirectionSizes> for DirectionSizes {
+    fn from(sizes: unit_model::DirectionSizes) -> Self {
+        let unit_model::DirectionSizes { pdo_bytes, io_bytes, exchanged_bytes } = sizes;
+        Self { pdo_bytes, io_bytes, exchanged_bytes }
     }
 }
 
 impl DataSetRow {
-    fn of(set: &ExchangedDataSet) -> Self {
-        let bytes = |entries| entries * usize::from(set.data_set.entry_bytes);
+    fn of(set: &ExchangedData) -> Self {
         Self {
-            name: &set.data_set.entry_name,
-            direction: set.data_set.direction.id(),
-            pdo: format!("{:04X}", set.data_set.pdo.0),
+            name: set.name,
+            direction: set.direction,
+            pdo: format!("{:04X}", set.pdo.0),
             pdo_entries: set.pdo_entries,
-            pdo_bytes: bytes(set.pdo_entries),
+            pdo_bytes: set.pdo_entries * set.entry_bytes,
             io_entries: set.io_entries,
-            io_bytes: bytes(set.io_entries),
+            io_bytes: set.io_entries * set.entry_bytes,
             exchanged_entries: set.exchanged_entries,
             exchanged_bytes: set.exchanged_bytes(),
         }

@@ -1,23 +1,22 @@
 //! How master and CPU Unit see an event, channel by channel (manual, 8-1-1).
 
-use nx_ect101::{
-    CurrentError, DIAGNOSIS_MESSAGE_BYTES, EcatEffect, Event, EventLevel, Fault, LogRecord, Notified,
-    current_error_bytes,
-};
+use unit_model::CurrentError;
+use unit_model::tables::Fact;
 
-use super::words;
-use crate::explain::{Fact, al_status_codes};
+use super::{al_status, words};
+use crate::diagnosis::{DIAGNOSIS_MESSAGE_BYTES, current_error_bytes};
+use crate::events::{EcatEffect, Event, EventLevel, Notified};
+use crate::fault::Fault;
+use crate::memory::LogRecord;
 
 /// When an emergency message is sent for an event that is notified.
-pub(crate) const fn when_emergencies_are_sent() -> &'static str {
-    "if 10F3:05 is 1, in PRE-OP, SAFE-OP and OP"
-}
+pub(super) const EMERGENCIES_ARE_SENT: &str = "if 10F3:05 is 1, in PRE-OP, SAFE-OP and OP";
 
 /// The channels to the master.
 pub(super) fn master(event: &Event) -> Vec<Fact> {
     vec![
         Fact::new("state", words::ecat(event.ecat_effect)),
-        Fact::new("AL status", al_status(event)),
+        Fact::new("AL status", al_status_code(event)),
         Fact::new("emergency", emergency(event)),
         Fact::new("10F3", diagnosis_history(event)),
         Fact::new("2002:01", error_status(event)),
@@ -41,9 +40,9 @@ pub(super) fn cpu_unit(event: &Event) -> Vec<Fact> {
     facts
 }
 
-fn al_status(event: &Event) -> String {
+fn al_status_code(event: &Event) -> String {
     let Some(code) = event.al_status_code else { return "no AL status code".into() };
-    let name = al_status_codes::name(code).unwrap_or("vendor-specific");
+    let name = al_status::name(code);
     let is_one_of_several = event.ecat_effect == EcatEffect::StopPreop;
     let first = if is_one_of_several {
         "; of several errors detected together the first one sets the code"
@@ -61,7 +60,7 @@ fn emergency(event: &Event) -> String {
         }
         (Some(code), Notified::Possible) => {
             let bytes = emergency_bytes(code, event);
-            format!("0x{code:04X}, {}: {bytes}", when_emergencies_are_sent())
+            format!("0x{code:04X}, {}: {bytes}", EMERGENCIES_ARE_SENT)
         }
     }
 }

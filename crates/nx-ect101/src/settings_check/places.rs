@@ -1,20 +1,15 @@
 //! The places in a unit file that cause a finding.
 
-use std::ops::Range;
-
-use ectwin::unit_file::{Entries, Located, UnitFile};
-use nx_ect101::{Amount, DataSet, DataSetKind, Direction, Fact, Finding, Side};
+use unit_model::FilePlace;
 use wire::ObjectIndex;
 
-/// A part of the file and its label.
-#[derive(Debug)]
-pub(super) struct Place {
-    pub(super) span: Range<usize>,
-    pub(super) label: String,
-}
+use crate::data_sets::{DataSet, DataSetKind, Direction};
+use crate::finding::{Amount, Fact, Finding};
+use crate::rule_kind::Side;
+use crate::unit_file::{Entries, Located, UnitFile};
 
 /// The places of a finding; none if the file leaves all of them at the factory setting.
-pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<Place> {
+pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<FilePlace> {
     let direction = finding.direction;
     match finding.fact {
         Fact::UnitStatusNotAssigned => whole_assignment(file, direction, "0x1A00 is missing"),
@@ -37,8 +32,8 @@ pub(super) fn of(file: &UnitFile, finding: &Finding) -> Vec<Place> {
     }
 }
 
-fn located<T>(at: &Located<T>, label: String) -> Option<Place> {
-    at.span.clone().map(|span| Place { span, label })
+fn located<T>(at: &Located<T>, label: String) -> Option<FilePlace> {
+    at.span.clone().map(|span| FilePlace { span, label })
 }
 
 fn assignment(file: &UnitFile, direction: Direction) -> Option<&Located<Vec<Located<ObjectIndex>>>> {
@@ -49,12 +44,12 @@ fn assignment(file: &UnitFile, direction: Direction) -> Option<&Located<Vec<Loca
     }
 }
 
-fn whole_assignment(file: &UnitFile, direction: Direction, label: &str) -> Vec<Place> {
+fn whole_assignment(file: &UnitFile, direction: Direction, label: &str) -> Vec<FilePlace> {
     let list = assignment(file, direction);
     list.and_then(|list| located(list, label.to_owned())).into_iter().collect()
 }
 
-fn assigned(file: &UnitFile, direction: Direction, place: usize, label: &str) -> Vec<Place> {
+fn assigned(file: &UnitFile, direction: Direction, place: usize, label: &str) -> Vec<FilePlace> {
     let element = assignment(file, direction).and_then(|list| list.value.get(place));
     element.and_then(|element| located(element, label.to_owned())).into_iter().collect()
 }
@@ -74,7 +69,7 @@ fn entries<'f>(file: &'f UnitFile, side: Side, set: &DataSet) -> Option<&'f Loca
 }
 
 /// The entry of the finding; the number of entries if the file has the short form.
-fn entry(file: &UnitFile, finding: &Finding, place: usize, label: &str) -> Vec<Place> {
+fn entry(file: &UnitFile, finding: &Finding, place: usize, label: &str) -> Vec<FilePlace> {
     let set = finding.data_set();
     let Some(entries) = set.and_then(|set| entries(file, finding.side, set)) else { return Vec::new() };
     let element = match &entries.value {
@@ -89,7 +84,7 @@ fn entry(file: &UnitFile, finding: &Finding, place: usize, label: &str) -> Vec<P
 }
 
 /// All entries of the finding's direction and side with their numbers of bytes.
-fn sizes(file: &UnitFile, finding: &Finding) -> Vec<Place> {
+fn sizes(file: &UnitFile, finding: &Finding) -> Vec<FilePlace> {
     let sets = DataSet::all().iter().filter(|set| set.direction == finding.direction);
     let size = |set: &DataSet| {
         let entries = entries(file, finding.side, set)?;
@@ -101,7 +96,7 @@ fn sizes(file: &UnitFile, finding: &Finding) -> Vec<Place> {
 }
 
 /// Both sides of the data sets that differ.
-fn differences(file: &UnitFile, direction: Direction, amounts: &[Amount; 3]) -> Vec<Place> {
+fn differences(file: &UnitFile, direction: Direction, amounts: &[Amount; 3]) -> Vec<FilePlace> {
     let mut places = Vec::new();
     let different = DataSetKind::ALL.into_iter().zip(amounts);
     for (kind, amount) in different.filter(|(_, amount)| amount.io_entries != amount.pdo_entries) {

@@ -1,20 +1,9 @@
 //! The attributes of events as text for display.
 
-use nx_ect101::{
-    DetectionTiming, EcatEffect, EventLevel, EventLog, IndicatorStatus, IoRefreshEffect, Recovery,
-};
-
-/// A level.
-pub(crate) const fn level(level: EventLevel) -> &'static str {
-    match level {
-        EventLevel::MinorFault => "minor fault",
-        EventLevel::Observation => "observation",
-        EventLevel::Information => "information",
-    }
-}
+use crate::events::{DetectionTiming, EcatEffect, EventLog, IndicatorStatus, IoRefreshEffect, Recovery};
 
 /// The recovery from an error of a unit after the cause is gone.
-pub(crate) const fn recovery(recovery: Recovery) -> &'static str {
+pub(super) const fn recovery(recovery: Recovery) -> &'static str {
     match recovery {
         Recovery::ResetErrorInSlaveUnit => "reset the error in the unit: 2002:02 = 1, or from the CPU Unit",
         Recovery::RedoIoAllocationSettings => "correct the I/O allocation settings and download them",

@@ -6,7 +6,7 @@ use plc::{CpuSection, DeviceVariables, WithCpu};
 use unit_model::{UnitFiles, UnitSection};
 use user_file::{FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
 
-use crate::registry::models;
+use crate::registry::{default_model, models};
 
 const MODEL: &str = "model";
 
@@ -25,6 +25,18 @@ impl UnitFile {
     /// Everything that is wrong, in the order of the file. Of a file without a known model only that is reported.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
         read_toml(text, Wanted::UnitFile, Self::read)
+    }
+
+    /// The shortest file of the default model: its factory setting.
+    #[must_use]
+    pub fn factory_text() -> String {
+        format!("{MODEL} = \"{}\"", default_model().name())
+    }
+
+    /// A unit of the default model with its factory setting.
+    #[must_use]
+    pub fn factory() -> Self {
+        Self::parse(&Self::factory_text()).unwrap_or_else(|_| unreachable!("the only key that a file needs"))
     }
 
     /// Reads a unit that is a table of another file. What is wrong is refused by `reader`.
@@ -107,6 +119,12 @@ mod tests {
             let file = UnitFile::parse(text).unwrap_or_else(|errors| panic!("{errors}"));
             assert_eq!((file.section().model().name(), file.name()), (model, name));
         }
+    }
+
+    #[test]
+    fn the_factory_setting_needs_no_file() {
+        let file = UnitFile::factory();
+        assert_eq!((file.section().model().name(), file.name()), (default_model().name(), "N1"));
     }
 
     #[test]
