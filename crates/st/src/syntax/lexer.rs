@@ -5,10 +5,8 @@ mod skipped;
 use logos::Logos as _;
 
 use super::keyword::Keyword;
-use super::token::{Lexeme, Token};
+use super::token::{Cursor, Lexeme, Token};
 use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
-
-type Cursor<'source> = logos::Lexer<'source, Token>;
 
 /// The tokens of a source.
 pub(crate) struct Lexed {

@@ -5,6 +5,9 @@ use logos::Logos;
 use super::keyword::Keyword;
 use crate::problem::Span;
 
+/// Reads the tokens of a source one after the other.
+pub(crate) type Cursor<'source> = logos::Lexer<'source, Token>;
+
 /// A token with its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Lexeme {

@@ -1,8 +1,7 @@
 //! Tokens that are found by their end and not by a pattern: comments, pragmas, strings.
 
-use super::Cursor;
 use crate::problem::{Problem, Span};
-use crate::syntax::token::Token;
+use crate::syntax::token::{Cursor, Token};
 
 /// Moves to the end of the comment whose start was read. Comments of both forms nest (IEC 61131-3, table 3).
 pub(super) fn comment(token: Token, cursor: &mut Cursor<'_>) -> Option<Problem> {
