@@ -1,6 +1,7 @@
 //! From tokens to the tree: a recursive descent that reports missing parts and continues.
 
 mod arguments;
+mod block;
 mod blocks;
 mod configuration;
 mod declarations;
@@ -17,7 +18,7 @@ use super::keyword::Keyword;
 use super::lexer::{self, Lexed};
 use super::token::{Lexeme, Token};
 use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
-use blocks::Block;
+use block::Block;
 
 /// Maximum nesting depth of expressions, statements, types and initial values together.
 const NESTING_MAX: usize = 64;

@@ -2,28 +2,9 @@
 
 use super::super::keyword::Keyword;
 use super::super::token::Token;
+use super::block::Block;
 use super::{Parsed, Parser, spelling};
 use crate::problem::{Problem, Span};
-
-/// A block that an `END_…` closes.
-pub(super) struct Block {
-    opener: Keyword,
-    span: Span,
-    /// An `IF` with an `ELSE IF`, which opens a second one: often it should have been ELSIF.
-    has_else_if: bool,
-}
-
-impl Block {
-    fn awaits(&self, keyword: Keyword) -> bool {
-        let goes_on = match self.opener {
-            Keyword::If => matches!(keyword, Keyword::Elsif | Keyword::Else),
-            Keyword::Case => keyword == Keyword::Else,
-            Keyword::Repeat => keyword == Keyword::Until,
-            _ => false,
-        };
-        goes_on || self.opener.closer() == Some(keyword)
-    }
-}
 
 impl Parser<'_> {
     /// Opens the block whose first word is at this position, and returns that position.
