@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use crate::elementary::Elementary;
-use crate::problem::Problems;
+use crate::problems::Problems;
 use crate::syntax::ast::File;
 use crate::syntax::parse;
 

@@ -10,7 +10,7 @@ mod properties;
 mod spans;
 
 use super::{ast::File, parse};
-use crate::problem::Problems;
+use crate::problems::Problems;
 
 /// The problems of a source, one line each.
 fn told(source: &str) -> String {

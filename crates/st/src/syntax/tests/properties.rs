@@ -6,7 +6,7 @@ use super::printed;
 use super::read;
 use crate::SOURCE_BYTES_MAX;
 use crate::problem::PROBLEMS_SOUGHT;
-use crate::problem::Problems;
+use crate::problems::Problems;
 use crate::syntax::ast::{Expression, StatementKind};
 use crate::syntax::parse;
 
