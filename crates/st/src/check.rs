@@ -22,13 +22,13 @@ mod unknown_names;
 
 use std::collections::HashMap;
 
-use crate::code::{Slot, Unit};
+use crate::code::{Slot, Task, Unit};
 use crate::machine::Layout;
 use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
-use crate::program::{External, Global, Task, Variable};
 use crate::syntax::ast::{File, Pou, TypeDeclaration};
 use crate::system::System;
 use crate::types::Type;
+use crate::variable::{External, Global, Variable};
 use scope::{Scope, Symbol};
 
 /// Maximum number of slots of a program: 8 MiB.

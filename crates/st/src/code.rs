@@ -272,3 +272,12 @@ pub(crate) struct Unit {
     /// Whether its source positions are in the library's text, and not in the program's.
     pub(crate) is_library: bool,
 }
+
+/// PROGRAMs that run together.
+#[derive(Clone, Debug)]
+pub(crate) struct Task {
+    /// In each scan, or in every n-th scan, where n is this number.
+    pub(crate) every: u64,
+    /// Their units, in the order in which they run.
+    pub(crate) programs: Vec<u32>,
+}

@@ -9,8 +9,9 @@ use core::fmt::Write;
 use crate::code::Slot;
 use crate::elementary::{Class, Elementary};
 use crate::library::text_of;
-use crate::program::{Instance, Owner};
+use crate::program::Instance;
 use crate::types::{Role, Type, member};
+use crate::variable::Owner;
 
 impl Instance {
     /// The value of a variable as text: `x`, `Main.x`, `timer.Q`, `table[3].speed`. None if there is no such

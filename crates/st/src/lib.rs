@@ -20,6 +20,7 @@ mod system;
 mod task_period;
 mod types;
 mod value;
+mod variable;
 
 use iec_types::{calendar, elementary};
 
@@ -29,9 +30,10 @@ pub use host::{Alarm, Host, NX_OBJECT_BYTES_MAX, NoHost, NxCallNumber, NxFault};
 pub use library::{Entry, reference, text_of, value_of};
 pub use problem::{PROBLEMS_MAX, Problem, Span};
 pub use problems::{Problems, stopped_words};
-pub use program::{External, Global, Instance, Program, Stopped, compile, judge};
+pub use program::{Instance, Program, Stopped, compile, judge};
 pub use sources::{Place, Sources};
 pub use task_period::{TASK_PERIODS, is_task_period};
+pub use variable::{External, Global};
 
 /// Maximum length of the source in bytes, all files of a program together.
 pub const SOURCE_BYTES_MAX: usize = 1 << 20;

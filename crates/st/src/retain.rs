@@ -3,8 +3,8 @@
 use core::fmt::{self, Write};
 
 use crate::code::Slot;
-use crate::program::Variable;
 use crate::types::{Member, Role, Type};
+use crate::variable::Variable;
 
 /// A part of the memory that is kept.
 #[derive(Clone, Debug)]

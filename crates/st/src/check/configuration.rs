@@ -4,8 +4,8 @@ use super::constants::Constants;
 use super::scope::{Scope, key};
 use super::unknown_names::nearest;
 use super::{Checker, Origin, Pending};
+use crate::code::Task;
 use crate::problem::{Problem, Span};
-use crate::program::Task;
 use crate::syntax::ast::{
     Configuration, Expression, File, Name, Pou, PouKind, ProgramInstance, TaskDeclaration,
 };

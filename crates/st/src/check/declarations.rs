@@ -5,10 +5,10 @@ use super::{Checker, Origin, Pending, Shape, Signature};
 use crate::code::{Base, Slot};
 use crate::machine::Layout;
 use crate::problem::{Problem, Span};
-use crate::program::{External, Owner, Variable};
 use crate::syntax::ast::{File, Name, Pou, TypeKind, VarDeclaration, VarKind, VarSection};
 use crate::system::System;
 use crate::types::{Block, Member, Role, Type};
+use crate::variable::{External, Owner, Variable};
 use std::rc::Rc;
 use std::sync::Arc;
 

@@ -1,7 +1,7 @@
 //! Remedies for a name that is not declared: the nearest one, or why a device variable is not there.
 
 use super::scope::key;
-use crate::program::Global;
+use crate::variable::Global;
 
 /// The minimum similarity of two names for a suggestion.
 const LIKENESS: f64 = 0.8;
