@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use time::Instant;
 
 use crate::cpu_unit::OperatingMode;
-use crate::program::ProgramEvent;
+use crate::program_event::ProgramEvent;
 
 /// Maximum number of waiting records.
 pub const CPU_EVENTS_MAX: usize = 64;

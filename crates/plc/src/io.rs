@@ -11,7 +11,7 @@ use crate::cpu_event::{CpuEvent, CpuEventLog};
 use crate::device_variables::{DeviceVariables, Memory};
 use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
-use crate::program::ProgramEvent;
+use crate::program_event::ProgramEvent;
 use crate::scan_watch::ScanWatch;
 
 /// The series of units that exchange arrays and numbers with their master.

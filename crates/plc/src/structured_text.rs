@@ -11,7 +11,8 @@ use time::Duration;
 use crate::cpu_section::STATEMENT_BUDGET_DEFAULT;
 use crate::device_variables::{DeviceVariables, VariableId, VariableValue};
 use crate::io::Io;
-use crate::program::{Program, ProgramEvent};
+use crate::program::Program;
+use crate::program_event::ProgramEvent;
 use host::{IoHost, PendingCalls};
 
 /// A user program in Structured Text.

@@ -10,7 +10,7 @@ use wire::{ObjectIndex, SubIndex};
 use crate::NxMessageError;
 use crate::io::Io;
 use crate::nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
-use crate::program::ProgramEvent;
+use crate::program_event::ProgramEvent;
 
 /// The calls of a program that are in progress.
 #[derive(Clone, Debug, Default)]
