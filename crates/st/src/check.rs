@@ -19,6 +19,7 @@ mod statements;
 mod types;
 mod units;
 mod unknown_names;
+mod value;
 
 use std::collections::HashMap;
 

@@ -3,10 +3,11 @@
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::expressions::{Body, Kind, Value};
+use super::expressions::Body;
 use super::numbers::{Fitting, coerce, converted};
 use super::scope::{Located, Symbol, key};
 use super::unknown_names::nearest;
+use super::value::{Kind, Value};
 use super::{Named, Signature};
 use crate::code::{
     Assign, BlockCall, BlockOutput, Code, FunctionCall, FunctionResult, Place, Put, SlotCopy, StatementKind,

@@ -1,7 +1,8 @@
 //! Expressions that are known before the program runs.
 
-use super::expressions::{Body, Kind};
+use super::expressions::Body;
 use super::scope::Scope;
+use super::value::Kind;
 use super::{Checker, numbers};
 use crate::code::Code;
 use crate::elementary::{Class, Elementary};

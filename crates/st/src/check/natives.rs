@@ -1,9 +1,10 @@
 //! Calls of functions of the library.
 
-use super::expressions::{Body, Kind, Value};
+use super::expressions::Body;
 use super::numbers::{coerce, elementary_of, operand_of};
 use super::operands::with_number;
 use super::scope::Located;
+use super::value::{Kind, Value};
 use crate::code::{Code, Element, Extent, NativeArgument, NativeCall, Slot};
 use crate::convert::{common, natural, widens};
 use crate::elementary::{Class, Elementary};

@@ -1,7 +1,7 @@
 //! Which value is converted to which type implicitly.
 
 use super::Checker;
-use super::expressions::{Kind, Value};
+use super::value::{Kind, Value};
 use crate::code::{Base, Code, Put};
 use crate::convert::{convert, fits, natural, widens};
 use crate::elementary::{Class, Elementary};

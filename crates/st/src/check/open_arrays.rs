@@ -1,8 +1,9 @@
 //! Arrays of any length: the arguments of a VAR_IN_OUT, and the bounds of its array.
 
-use super::expressions::{Body, Value};
+use super::expressions::Body;
 use super::numbers::converted;
 use super::scope::Located;
+use super::value::Value;
 use crate::code::{Base, Code, Place, Put};
 use crate::elementary::Elementary;
 use crate::problem::{Problem, Span};

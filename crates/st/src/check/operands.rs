@@ -1,6 +1,6 @@
 //! Operators by the types of their operands: the common type of two operands, and the operations that exist.
 
-use super::expressions::Kind;
+use super::value::Kind;
 use crate::convert::{common, fits, natural, widens};
 use crate::elementary::{Class, Elementary};
 use crate::operators::Binary;

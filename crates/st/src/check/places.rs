@@ -1,9 +1,10 @@
 //! Variables, their members and their elements.
 
 use super::Checker;
-use super::expressions::{Body, Kind};
+use super::expressions::Body;
 use super::scope::{Access, Located, Symbol, key};
 use super::unknown_names::{nearest, remedy};
+use super::value::Kind;
 use crate::code::{Code, Dimension, Element, Extent};
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};

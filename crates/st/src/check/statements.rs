@@ -1,8 +1,9 @@
 //! Statements.
 
-use super::expressions::{Body, Kind, Value};
+use super::expressions::Body;
 use super::numbers::{coerce, elementary_of, operand_of};
 use super::scope::Located;
+use super::value::{Kind, Value};
 use crate::code::{Assign, Case, CaseArm, Code, For, Statement, StatementKind};
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
