@@ -5,6 +5,7 @@
 //! because the setting rules check them and refer to the file.
 
 mod entries;
+mod event_levels;
 mod information;
 mod keys;
 mod sections;
@@ -14,35 +15,29 @@ mod tests;
 use std::path::PathBuf;
 
 use time::Duration;
-use unit_model::keys::{SlaveKeys, Timing};
-use user_file::{Reader, Section, Wanted, read_toml};
+use unit_model::keys::{CommonKeys, SlaveKeys, Timing};
+use user_file::{Reader, Section, Wanted, read_toml, values};
 use variables::VariableTable;
 
 use crate::allocation::IoAllocation;
-use crate::events::{EventCode, EventLevel};
 use crate::unit_information::UnitInformation;
 use crate::variables::variable_table;
 
 pub use entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
+pub use event_levels::ChangedLevel;
 pub use keys::keys;
 pub(crate) use keys::top_keys;
 pub use user_file::{FileErrors, Located};
 pub use wire::EntryAddress;
+
+/// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
+const UNIT_NUMBER_MAX: u64 = 32;
 
 /// The unit models that a unit file can contain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Model {
     /// `nx-ect101`.
     NxEct101,
-}
-
-/// The level that a user assigns to an event whose level can be changed (manual, 8-3-4).
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ChangedLevel {
-    /// Code of the event.
-    pub event_code: Located<EventCode>,
-    /// Its level: observation or minor fault.
-    pub level: Located<EventLevel>,
 }
 
 /// One virtual unit. The field comments give the defaults of values that are left out.
@@ -95,7 +90,38 @@ impl UnitFile {
     /// model. `[cpu]` is one of them, but its keys are read by the CPU Unit. `reader` refuses what is wrong.
     #[must_use]
     pub fn read(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Self> {
-        sections::unit(reader, file)
+        reader.only(file, &keys::UNIT);
+        reader.require(file, "model", "`model = \"nx-ect101\"`");
+        let model = reader.value(file, "model", |place, value| {
+            values::choice(place, value, &[("nx-ect101", Model::NxEct101)])
+        });
+        let unit_number = reader.value(file, "unit_number", |place, value| {
+            values::integer(place, value, 1..=UNIT_NUMBER_MAX, "1 to 32, which CPU Units have")
+        });
+        let id_switch = reader
+            .value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
+        let common = CommonKeys::read(reader, file, keys::SHAPE);
+        let storage = reader.value(file, "storage", values::path);
+        let io_allocation = sections::io_allocation(reader, file);
+        let pdo = sections::pdo(reader, file);
+        let event_levels = event_levels::event_levels(reader, file);
+        Some(Self {
+            model: model?,
+            name: common.name.unwrap_or_else(|| Located::left_out("N1".into())),
+            unit_number: unit_number.unwrap_or(Located::left_out(1)),
+            serial: common.serial.unwrap_or(Located::left_out(1)),
+            id_switch: id_switch.unwrap_or(Located::left_out(0x01)),
+            alias: common.alias,
+            information: information::information(reader, file),
+            timing: common.timing,
+            start_up: common.start_up,
+            refresh_phase: common.refresh_phase,
+            slave: common.slave,
+            storage,
+            io_allocation,
+            pdo,
+            event_levels,
+        })
     }
 
     /// The I/O allocation in the file, correct or not.

@@ -8,7 +8,6 @@ use crate::io::Io;
 
 /// A program: a function of [`Io`], Structured Text, an outside PLC. It must not wait, because the task period
 /// would wait too.
-/// while it does.
 pub trait Program {
     /// Runs once before the first scan: when the CPU Unit enters RUN mode, or when an outside runtime is
     /// attached. Here a program initializes its variables.

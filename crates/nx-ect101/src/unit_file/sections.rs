@@ -1,53 +1,16 @@
-//! The sections of a unit file, key by key.
+//! The sections `io_allocation` and `pdo` of a unit file, key by key.
 
-use unit_model::keys::CommonKeys;
-use user_file::{DeValue, Located, Problem, Reader, Section, Value, values, wrong_type};
+use user_file::{Located, Problem, Reader, Section, Value, values, wrong_type};
 use wire::ObjectIndex;
 
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
-use super::{ChangedLevel, Model, UnitFile, information, keys};
+use super::keys;
 use crate::data_sets::DataSet;
-use crate::events::EventLevel;
 
-/// The largest NX Unit number of a CPU Unit: the elements of `_NXB_UnitMsgActiveTbl` (manual, A-5-1).
-const UNIT_NUMBER_MAX: u64 = 32;
-
-/// The whole file; none if it does not contain its model.
-pub(super) fn unit(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<UnitFile> {
-    reader.only(file, &keys::UNIT);
-    reader.require(file, "model", "`model = \"nx-ect101\"`");
-    let model = reader
-        .value(file, "model", |place, value| values::choice(place, value, &[("nx-ect101", Model::NxEct101)]));
-    let unit_number = reader.value(file, "unit_number", |place, value| {
-        values::integer(place, value, 1..=UNIT_NUMBER_MAX, "1 to 32, which CPU Units have")
-    });
-    let id_switch = reader
-        .value(file, "id_switch", |place, value| values::integer(place, value, 0..=0xFF, "0x00 to 0xFF"));
-    let common = CommonKeys::read(reader, file, keys::SHAPE);
-    let storage = reader.value(file, "storage", values::path);
-    let io_allocation = io_allocation(reader, file);
-    let pdo = pdo(reader, file);
-    let event_levels = event_levels(reader, file);
-    Some(UnitFile {
-        model: model?,
-        name: common.name.unwrap_or_else(|| Located::left_out("N1".into())),
-        unit_number: unit_number.unwrap_or(Located::left_out(1)),
-        serial: common.serial.unwrap_or(Located::left_out(1)),
-        id_switch: id_switch.unwrap_or(Located::left_out(0x01)),
-        alias: common.alias,
-        information: information::information(reader, file),
-        timing: common.timing,
-        start_up: common.start_up,
-        refresh_phase: common.refresh_phase,
-        slave: common.slave,
-        storage,
-        io_allocation,
-        pdo,
-        event_levels,
-    })
-}
-
-fn io_allocation(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<IoAllocationSection>> {
+pub(super) fn io_allocation(
+    reader: &mut Reader<'_>,
+    file: &Section<'_, '_>,
+) -> Option<Located<IoAllocationSection>> {
     let section = reader.section(file, "io_allocation")?;
     reader.only(&section, &keys::IO_ALLOCATION);
     let m_to_c = data_sets(reader, &section, "m_to_c");
@@ -83,7 +46,7 @@ fn entries(reader: &mut Reader<'_>, place: &str, value: &Value<'_>) -> Option<Lo
     })
 }
 
-fn pdo(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<PdoSection>> {
+pub(super) fn pdo(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<PdoSection>> {
     let section = reader.section(file, "pdo")?;
     reader.only(&section, &keys::PDO);
     let mut pdo = PdoSection::default();
@@ -145,31 +108,4 @@ fn refuse_mapping_key(reader: &mut Reader<'_>, place: &str, key: Located<&str>) 
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
     let problem = Problem::unknown(format!("unknown key `{place}`"), key.value, &names);
     reader.refuse(key.span.unwrap_or_default(), problem);
-}
-
-fn event_levels(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Vec<ChangedLevel> {
-    let Some(section) = reader.section(file, "event_levels") else { return Vec::new() };
-    let mut levels = Vec::new();
-    for (key, value) in section.entries() {
-        let Some(code) = keys::changeable_events().find(|code| code.to_string() == key.value) else {
-            let message = format!(
-                "`event_levels`: no event `{}` whose level can be changed",
-                user_file::shown(key.value)
-            );
-            let names: Vec<String> = keys::changeable_events().map(|code| code.to_string()).collect();
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            reader.refuse(key.span.unwrap_or_default(), Problem::unknown(message, key.value, &names));
-            continue;
-        };
-        if let Some(level) = reader.read(&section.place_of(key.value), value, level) {
-            levels.push(ChangedLevel { event_code: Located { value: code, span: key.span }, level });
-        }
-    }
-    levels.sort_by_key(|level| level.event_code.value);
-    levels
-}
-
-fn level(place: &str, value: &DeValue<'_>) -> Result<EventLevel, Problem> {
-    let choices = [("observation", EventLevel::Observation), ("minor_fault", EventLevel::MinorFault)];
-    values::choice(place, value, &choices)
 }

@@ -4,6 +4,7 @@ use wire::{AlState, AlStatusCode};
 
 use super::*;
 use crate::data_sets::{DataSet, DataSetKind, Direction};
+use crate::events::EventLevel;
 use crate::unit_information::{UnitVersion, VersionText};
 
 const FACTORY: &str = include_str!("../../../../units/nx-ect101.toml");
