@@ -23,8 +23,9 @@ mod value;
 
 use std::collections::HashMap;
 
-use crate::code::{Slot, Task, Unit};
-use crate::machine::Layout;
+use crate::code::{Task, Unit};
+use crate::layout::Layout;
+use crate::memory::Slot;
 use crate::problem::{PROBLEMS_SOUGHT, Problem, Span};
 use crate::syntax::ast::{File, Pou, TypeDeclaration};
 use crate::system::System;

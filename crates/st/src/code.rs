@@ -2,11 +2,10 @@
 
 use crate::elementary::Elementary;
 use crate::library::Native;
+use crate::memory::Slot;
 use crate::operators::{Binary, Unary};
 use crate::problem::Span;
-
-/// A slot of the memory.
-pub(crate) type Slot = u32;
+use crate::types::Extent;
 
 /// An expression. Its value is 64 bits: for an elementary value as in [`crate::value`], for everything else the
 /// slot at which it begins.
@@ -79,16 +78,6 @@ pub(crate) struct Element {
     pub(crate) dimensions: Vec<Dimension>,
     pub(crate) element_slots: u32,
     pub(crate) extent: Extent,
-}
-
-/// Total number of elements of an array in all its dimensions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extent {
-    Fixed(u32),
-    /// An array of any length: its bounds follow the reference with which the position begins.
-    Open {
-        dimensions: u32,
-    },
 }
 
 #[derive(Clone, Debug)]

@@ -6,9 +6,9 @@ mod tests;
 
 use core::fmt::Write;
 
-use crate::code::Slot;
 use crate::elementary::{Class, Elementary};
 use crate::library::text_of;
+use crate::memory::Slot;
 use crate::program::Instance;
 use crate::types::{Role, Type, member};
 use crate::variable::Owner;

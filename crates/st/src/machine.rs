@@ -1,6 +1,5 @@
 //! Executes the code of a program on its memory.
 
-mod budget;
 mod places;
 
 use arrayvec::ArrayVec;
@@ -9,50 +8,29 @@ use crate::code::*;
 use crate::convert::convert;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
-use crate::host::Host;
 use crate::library::Call;
-use crate::memory::Memory;
+use crate::memory::{Slot, slot_of};
 use crate::operators::{Binary, binary, compare, unary};
 use crate::problem::Span;
+use crate::scan::Scan;
 use crate::value::{integer, wrap};
-
-pub(crate) use budget::Budget;
 
 /// Maximum number of argument slots of a call.
 pub(crate) const ARGUMENTS_MAX: usize = 64;
 const _: () = assert!(ARGUMENTS_MAX <= u64::BITS as usize, "a call marks its ULINTs by bits");
 
-/// Number of steps that cost as much as a statement: operators and variables that are evaluated, labels of CASE
-/// that are compared.
-const STEPS_FOR_ONE: u64 = 32;
 /// Number of steps to copy a slot.
 const STEPS_FOR_SLOT: u64 = 2;
 
 /// A program during a scan.
 pub(crate) struct Machine<'m> {
-    pub(crate) memory: &'m mut Memory,
+    pub(crate) scan: Scan<'m>,
     pub(crate) initial: &'m [u64],
     pub(crate) units: &'m [Unit],
-    pub(crate) layouts: &'m [Layout],
-    pub(crate) host: &'m mut dyn Host,
-    /// The present time in nanoseconds, constant during the scan.
-    pub(crate) now_ns: u64,
-    /// Number of statements that may still run.
-    pub(crate) budget: Budget,
-    /// Steps that have not been taken from the budget yet.
-    pub(crate) steps: u64,
     /// The start of the function block instance whose body is executed.
     pub(crate) instance: Slot,
     /// The statement or index that is executed, as the position of a fault.
     pub(crate) at: Span,
-}
-
-/// A variable referred to by a reference of the type ANY, in the form of a message: elementary values one after
-/// the other.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Layout {
-    /// Offset in slots, and type.
-    pub(crate) values: Vec<(u32, Elementary)>,
 }
 
 /// How a statement has ended.
@@ -76,48 +54,17 @@ impl Machine<'_> {
     fn freshen(&mut self, unit: u32) -> Result<(), Fault> {
         for range in &self.units[unit as usize].fresh {
             let slots = range.end - range.start;
-            self.step(STEPS_FOR_SLOT * u64::from(slots) + 1)?;
+            self.scan.step(STEPS_FOR_SLOT * u64::from(slots) + 1)?;
             let initial = &self.initial[range.start as usize..range.end as usize];
-            self.memory.slice_mut(range.start, slots).copy_from_slice(initial);
+            self.scan.memory.slice_mut(range.start, slots).copy_from_slice(initial);
         }
         Ok(())
-    }
-
-    /// Consumes part of the budget.
-    pub(crate) fn spend(&mut self, statements: u64) -> Result<(), Fault> {
-        if self.budget.take(statements) { Ok(()) } else { self.refill(statements) }
-    }
-
-    /// The present share of the budget is too small. The scan continues with another one, unless it must end.
-    #[cold]
-    fn refill(&mut self, statements: u64) -> Result<(), Fault> {
-        if self.host.ends_scan() {
-            return Err(Fault::SwitchedOff);
-        }
-        if self.budget.refill(statements) { Ok(()) } else { Err(Fault::BudgetUsedUp) }
-    }
-
-    /// Consumes a statement, or an iteration of a loop: its first steps are included.
-    fn spend_one(&mut self) -> Result<(), Fault> {
-        self.steps = 0;
-        self.spend(1)
-    }
-
-    /// Consumes a part of a statement: one statement may evaluate any number of operands.
-    pub(crate) fn step(&mut self, steps: u64) -> Result<(), Fault> {
-        self.steps += steps;
-        if self.steps < STEPS_FOR_ONE {
-            return Ok(());
-        }
-        let statements = self.steps / STEPS_FOR_ONE;
-        self.steps %= STEPS_FOR_ONE;
-        self.spend(statements)
     }
 
     fn body(&mut self, body: &[Statement]) -> Result<Flow, Fault> {
         for statement in body {
             self.at = statement.span;
-            self.spend_one()?;
+            self.scan.spend_one()?;
             match self.statement(&statement.kind)? {
                 Flow::Next => {}
                 other => return Ok(other),
@@ -153,12 +100,12 @@ impl Machine<'_> {
 
     fn put(&mut self, to: Slot, value: u64, put: Put) -> Result<(), Fault> {
         match put {
-            Put::Value => self.memory.set(to, value),
+            Put::Value => self.scan.memory.set(to, value),
             Put::Slots(slots) => self.copy(SlotCopy { from: slot_of(value), to, slots })?,
             Put::Text(capacity) => self.put_text(to, slot_of(value), capacity)?,
             Put::Any { layout } => {
-                self.memory.set(to, value);
-                self.memory.set(to + 1, layout.into());
+                self.scan.memory.set(to, value);
+                self.scan.memory.set(to + 1, layout.into());
             }
         }
         Ok(())
@@ -166,9 +113,9 @@ impl Machine<'_> {
 
     #[inline(never)]
     fn put_text(&mut self, to: Slot, from: Slot, capacity: u16) -> Result<(), Fault> {
-        let text = self.memory.text(from);
-        self.spend(text.len() as u64 / 128)?;
-        self.memory.put_text(to, capacity, &text)
+        let text = self.scan.memory.text(from);
+        self.scan.spend(text.len() as u64 / 128)?;
+        self.scan.memory.put_text(to, capacity, &text)
     }
 
     fn choose(
@@ -187,7 +134,7 @@ impl Machine<'_> {
     fn case(&mut self, selector: &Case, arms: &[CaseArm], otherwise: &[Statement]) -> Result<Flow, Fault> {
         let value = integer(selector.elementary, self.value(&selector.value)?);
         for arm in arms {
-            self.step(arm.labels.len() as u64)?;
+            self.scan.step(arm.labels.len() as u64)?;
             if arm.labels.iter().any(|(from, to)| (from..=to).contains(&&value)) {
                 return self.body(&arm.body);
             }
@@ -206,9 +153,9 @@ impl Machine<'_> {
             return Err(Fault::StepOfZero);
         }
         let variable = self.slot(&ring.variable)?;
-        self.memory.set(variable, from);
+        self.scan.memory.set(variable, from);
         loop {
-            let present = integer(elementary, self.memory.get(variable));
+            let present = integer(elementary, self.scan.memory.get(variable));
             if if by > 0 { present > to } else { present < to } {
                 return Ok(Flow::Next);
             }
@@ -217,11 +164,11 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend_one()?;
+            self.scan.spend_one()?;
             self.at = at;
-            let next = integer(elementary, self.memory.get(variable)) + by;
-            self.memory.set(variable, wrap(elementary, next as u64));
-            if integer(elementary, self.memory.get(variable)) != next {
+            let next = integer(elementary, self.scan.memory.get(variable)) + by;
+            self.scan.memory.set(variable, wrap(elementary, next as u64));
+            if integer(elementary, self.scan.memory.get(variable)) != next {
                 return Ok(Flow::Next);
             }
         }
@@ -235,7 +182,7 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend_one()?;
+            self.scan.spend_one()?;
             // The position of a fault in the condition is the loop, not its last statement.
             self.at = at;
         }
@@ -250,7 +197,7 @@ impl Machine<'_> {
                 Flow::Return => return Ok(Flow::Return),
                 Flow::Next | Flow::Continue => {}
             }
-            self.spend_one()?;
+            self.scan.spend_one()?;
             self.at = at;
             if self.value(until)? != 0 {
                 break;
@@ -261,10 +208,10 @@ impl Machine<'_> {
 
     /// The value of an expression.
     pub(crate) fn value(&mut self, code: &Code) -> Result<u64, Fault> {
-        self.step(1)?;
+        self.scan.step(1)?;
         match code {
             Code::Constant(value) => Ok(*value),
-            Code::Load(place) => self.slot(place).map(|slot| self.memory.get(slot)),
+            Code::Load(place) => self.slot(place).map(|slot| self.scan.memory.get(slot)),
             Code::Address(place) => self.slot(place).map(u64::from),
             Code::Unary { operator, elementary, operand } => {
                 Ok(unary(*operator, *elementary, self.value(operand)?))
@@ -290,14 +237,15 @@ impl Machine<'_> {
     fn compare_text(&mut self, operator: Binary, left: &Code, right: &Code) -> Result<u64, Fault> {
         let (left, right) = (self.value(left)?, self.value(right)?);
         let (left, right) = (slot_of(left), slot_of(right));
-        self.step((self.memory.text_length(left) + self.memory.text_length(right)) as u64 / 4)?;
+        self.scan
+            .step((self.scan.memory.text_length(left) + self.scan.memory.text_length(right)) as u64 / 4)?;
         Ok(self.order_of_texts(operator, left, right).into())
     }
 
     // Its texts are large: they must not be in the stack frames of the surrounding evaluation.
     #[inline(never)]
     fn order_of_texts(&self, operator: Binary, left: Slot, right: Slot) -> bool {
-        compare(operator, Some(self.memory.text(left).cmp(&self.memory.text(right))))
+        compare(operator, Some(self.scan.memory.text(left).cmp(&self.scan.memory.text(right))))
     }
 
     /// All inputs are evaluated before the first is stored: one of them may call the same function.
@@ -311,7 +259,7 @@ impl Machine<'_> {
         for ((slot, _, put), value) in call.inputs.iter().zip(values) {
             self.put(*slot, value, *put)?;
         }
-        self.spend_one()?;
+        self.scan.spend_one()?;
         let units = self.units;
         self.body(&units[call.unit as usize].body)?;
         self.at = at;
@@ -335,7 +283,7 @@ impl Machine<'_> {
     fn result(&mut self, result: FunctionResult) -> Result<u64, Fault> {
         Ok(match result {
             FunctionResult::None => 0,
-            FunctionResult::Value(slot) => self.memory.get(slot),
+            FunctionResult::Value(slot) => self.scan.memory.get(slot),
             FunctionResult::Copied(copy) => {
                 self.copy(copy)?;
                 copy.to.into()
@@ -344,8 +292,8 @@ impl Machine<'_> {
     }
 
     fn copy(&mut self, SlotCopy { from, to, slots }: SlotCopy) -> Result<(), Fault> {
-        self.step(STEPS_FOR_SLOT * u64::from(slots))?;
-        self.memory.copy(from, to, slots);
+        self.scan.step(STEPS_FOR_SLOT * u64::from(slots))?;
+        self.scan.memory.copy(from, to, slots);
         Ok(())
     }
 
@@ -367,12 +315,18 @@ impl Machine<'_> {
                 }
                 NativeArgument::Any(place) => {
                     let slot = self.slot(place)?;
-                    arguments.extend([self.memory.get(slot), self.memory.get(slot + 1)]);
+                    arguments.extend([self.scan.memory.get(slot), self.scan.memory.get(slot + 1)]);
                 }
             }
         }
         let (elementary, text) = (call.elementary, call.text);
-        (call.native.0.run)(&mut Call { machine: self, arguments: &arguments, elementary, ulints, text })
+        (call.native.0.run)(&mut Call {
+            scan: &mut self.scan,
+            arguments: &arguments,
+            elementary,
+            ulints,
+            text,
+        })
     }
 
     fn call_block(&mut self, call: &BlockCall) -> Result<(), Fault> {
@@ -407,14 +361,8 @@ impl Machine<'_> {
         if output.put != Put::Value {
             return slot.into();
         }
-        let value = self.memory.get(slot);
+        let value = self.scan.memory.get(slot);
         let value = output.convert.map_or(value, |(from, to)| convert(from, to, value));
         if output.negated { unary(crate::operators::Unary::Not, Elementary::Bool, value) } else { value }
     }
-}
-
-/// The slot in a value.
-pub(crate) fn slot_of(value: u64) -> Slot {
-    Slot::try_from(value)
-        .unwrap_or_else(|_| unreachable!("{value} is not a slot: the checker returns only slots"))
 }

@@ -2,9 +2,11 @@
 
 use arrayvec::ArrayVec;
 
-use crate::code::Slot;
 use crate::fault::Fault;
 use crate::types::STRING_CHARACTERS_MAX;
+
+/// A slot of the memory.
+pub(crate) type Slot = u32;
 
 /// The characters of a STRING, copied from the memory.
 pub(crate) type Text = ArrayVec<u8, STRING_CHARACTERS_MAX>;
@@ -71,6 +73,13 @@ impl Memory {
         }
         Ok(())
     }
+}
+
+/// The slot in a value.
+#[inline]
+pub(crate) fn slot_of(value: u64) -> Slot {
+    Slot::try_from(value)
+        .unwrap_or_else(|_| unreachable!("{value} is not a slot: the checker returns only slots"))
 }
 
 #[cfg(test)]

@@ -8,11 +8,12 @@ use crate::check::{Checked, Purpose, Surroundings, check};
 use crate::fault::Fault;
 use crate::host::Host;
 use crate::library::PRELUDE;
-use crate::machine::{Budget, Machine};
+use crate::machine::Machine;
 use crate::memory::Memory;
 use crate::problem::{Problem, Span};
 use crate::problems::Problems;
 use crate::retain::{self, Retained};
+use crate::scan::{Budget, Scan};
 use crate::sources::Sources;
 use crate::syntax::ast::File;
 use crate::syntax::{parse, parse_from};
@@ -168,22 +169,20 @@ impl Instance {
         self.scans += 1;
         self.set_system(System::FirstScan, scans == 0);
         let checked = &self.program.inner.checked;
-        let mut machine = Machine {
+        let scan = Scan {
             memory: &mut self.memory,
-            initial: &checked.initial,
-            units: &checked.units,
             layouts: &checked.layouts,
             host,
             now_ns,
             budget: Budget::new(budget),
             steps: 0,
-            instance: 0,
-            at: Span::default(),
         };
+        let (initial, units) = (&checked.initial, &checked.units);
+        let mut machine = Machine { scan, initial, units, instance: 0, at: Span::default() };
         let due = checked.tasks.iter().filter(|task| scans.is_multiple_of(task.every));
         let result = due.flat_map(|task| &task.programs).try_for_each(|unit| machine.run(*unit));
         let result = result.map_err(|fault| Stopped { fault, span: machine.at });
-        self.used = budget - machine.budget.left();
+        self.used = budget - machine.scan.budget.left();
         if result.as_ref().is_err_and(|stopped| stopped.fault.is_instruction_error()) {
             self.set_system(System::InstructionError, true);
         }

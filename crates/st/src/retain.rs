@@ -2,7 +2,7 @@
 
 use core::fmt::{self, Write};
 
-use crate::code::Slot;
+use crate::memory::Slot;
 use crate::types::{Member, Role, Type};
 use crate::variable::Variable;
 

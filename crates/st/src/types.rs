@@ -7,7 +7,6 @@
 use core::fmt;
 use std::sync::Arc;
 
-use crate::code::Extent;
 use crate::elementary::Elementary;
 
 /// Maximum length of a STRING in bytes, including the NUL at its end, which every STRING has (W501, 6-3-5).
@@ -46,6 +45,16 @@ pub(crate) struct Array {
 pub(crate) struct OpenArray {
     pub(crate) dimensions: usize,
     pub(crate) element: Type,
+}
+
+/// Total number of elements of an array in all its dimensions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    Fixed(u32),
+    /// An array of any length: its bounds follow the reference with which the position begins.
+    Open {
+        dimensions: u32,
+    },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The variables of a program with their names: its own, and those of its surroundings.
 
-use crate::code::Slot;
 use crate::elementary::Elementary;
-use crate::machine::Layout;
+use crate::layout::Layout;
+use crate::memory::Slot;
 use crate::types::Type;
 
 /// A variable that exists without a declaration: a device variable or a system-defined one.

@@ -15,8 +15,9 @@ use crate::code::{
 use crate::convert::widens;
 use crate::elementary::{Class, Elementary};
 use crate::host::NX_OBJECT_BYTES_MAX;
+use crate::layout::Layout;
 use crate::library;
-use crate::machine::{ARGUMENTS_MAX, Layout};
+use crate::machine::ARGUMENTS_MAX;
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Argument, Call, Expression, ExpressionKind, Name};
 use crate::types::{Block, Member, Role, Type, member};

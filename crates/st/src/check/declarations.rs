@@ -2,8 +2,9 @@
 
 use super::scope::{Access, Located, Scope, Symbol, key};
 use super::{Checker, Origin, Pending, Shape, Signature};
-use crate::code::{Base, Slot};
-use crate::machine::Layout;
+use crate::code::Base;
+use crate::layout::Layout;
+use crate::memory::Slot;
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{File, Name, Pou, TypeKind, VarDeclaration, VarKind, VarSection};
 use crate::system::System;

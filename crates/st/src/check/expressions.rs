@@ -7,9 +7,10 @@ use super::operands::{
 use super::scope::{Located, Scope, Symbol, key};
 use super::value::{Kind, Value};
 use super::{Checker, Origin};
-use crate::code::{Base, Code, Place, Slot};
+use crate::code::{Base, Code, Place};
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
+use crate::memory::Slot;
 use crate::operators::{self, Binary, Unary};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{

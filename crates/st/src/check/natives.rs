@@ -5,13 +5,15 @@ use super::numbers::{coerce, elementary_of, operand_of};
 use super::operands::with_number;
 use super::scope::Located;
 use super::value::{Kind, Value};
-use crate::code::{Code, Element, Extent, NativeArgument, NativeCall, Slot};
+use crate::code::{Code, Element, NativeArgument, NativeCall};
 use crate::convert::{common, natural, widens};
 use crate::elementary::{Class, Elementary};
 use crate::library::{self, Function, Native, Pin, ResultType, Takes};
 use crate::machine::ARGUMENTS_MAX;
+use crate::memory::Slot;
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Argument, Call, Expression, Name};
+use crate::types::Extent;
 use crate::types::{STRING_CHARACTERS_MAX, Type, string_slots};
 
 /// Maximum number of arguments of a call: each has three slots at most.

@@ -5,10 +5,11 @@ use super::expressions::Body;
 use super::scope::{Access, Located, Symbol, key};
 use super::unknown_names::{nearest, remedy};
 use super::value::Kind;
-use crate::code::{Code, Dimension, Element, Extent};
+use crate::code::{Code, Dimension, Element};
 use crate::elementary::{Class, Elementary};
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{Expression, ExpressionKind, Name};
+use crate::types::Extent;
 use crate::types::{Array, Bound, Role, Type, member};
 use crate::value::integer;
 

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-use crate::code::{Base, Place, Slot};
+use crate::code::{Base, Place};
+use crate::memory::Slot;
 use crate::types::Type;
 
 /// The names of one unit, in capitals.

@@ -1,7 +1,8 @@
 //! Bit strings: shifts, rotations, single bits.
 
-use super::table::{BIT_STRINGS, INTEGERS, pin, pin_or, row};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{BIT_STRINGS, INTEGERS, pin, pin_or, row};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::value::wrap;
@@ -86,7 +87,7 @@ fn mask(call: &Call<'_, '_>) -> Result<u64, Fault> {
 
 fn put(call: &mut Call<'_, '_>, mask: u64, value: bool) -> u64 {
     let slot = call.slot(0);
-    let before = call.machine.memory.get(slot);
-    call.machine.memory.set(slot, if value { before | mask } else { before & !mask });
+    let before = call.scan.memory.get(slot);
+    call.scan.memory.set(slot, if value { before | mask } else { before & !mask });
     1
 }

@@ -1,7 +1,8 @@
 //! Comparisons as functions: IEC 61131-3, table 33, and the manufacturer's additional ones for texts.
 
-use super::table::{EVERY, pin, row, row_of_many};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{EVERY, pin, row, row_of_many};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::operators::{Binary, binary, compare};

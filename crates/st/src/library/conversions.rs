@@ -1,8 +1,9 @@
 //! Conversions by name: `INT_TO_REAL`, `TO_DINT`, `REAL_TO_STRING`, `STRING_TO_UINT`.
 
-use super::table::{EVERY, pin, row};
+use super::call::Call;
+use super::function::{Function, ResultType, Takes};
+use super::notation::{EVERY, pin, row};
 use super::value_text::{TEXT_CHARACTERS_MAX, read, shown};
-use super::{Call, Function, ResultType, Takes};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 

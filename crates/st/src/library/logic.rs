@@ -1,7 +1,8 @@
 //! Logic as functions: IEC 61131-3, table 30. Unlike an operator, a function evaluates all its arguments.
 
-use super::table::{LOGICAL, pin, row, row_of_many};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{LOGICAL, pin, row, row_of_many};
 use crate::fault::Fault;
 use crate::operators::{Binary, Unary, binary, unary};
 

@@ -1,7 +1,8 @@
 //! Memory: elements of arrays copied and filled.
 
-use super::table::{INTEGERS, pin, row};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{INTEGERS, pin, row};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 
@@ -55,18 +56,18 @@ fn copy(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (from, to) = (Elements::of(call, 0), Elements::of(call, 3));
     let size = from.asked(call, 6)?.min(to.asked(call, 6)?);
     let slots = size * to.slots_each;
-    call.machine.spend(u64::from(slots) / SLOTS_FOR_ONE)?;
-    call.machine.memory.copy(from.slot, to.slot, slots);
+    call.scan.spend(u64::from(slots) / SLOTS_FOR_ONE)?;
+    call.scan.memory.copy(from.slot, to.slot, slots);
     Ok(1)
 }
 
 fn fill(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (from, to) = (Elements::of(call, 0), Elements::of(call, 3));
     let size = to.asked(call, 6)?;
-    call.machine.spend(u64::from(size * to.slots_each) / SLOTS_FOR_ONE)?;
+    call.scan.spend(u64::from(size * to.slots_each) / SLOTS_FOR_ONE)?;
     // The value may be one of the elements: copying it to itself does not change it.
     for element in 0..size {
-        call.machine.memory.copy(from.slot, to.slot + element * to.slots_each, to.slots_each);
+        call.scan.memory.copy(from.slot, to.slot + element * to.slots_each, to.slots_each);
     }
     Ok(1)
 }

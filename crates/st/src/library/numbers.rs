@@ -4,8 +4,9 @@
 //! as in IEEE 754, without a fault. Their results do not depend on the machine: the functions that IEEE 754
 //! does not define come from `libm`, not from the system.
 
-use super::table::{INTEGERS, MAGNITUDES, NUMBERS, REALS, pin, pin_or, row, row_of_many};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{INTEGERS, MAGNITUDES, NUMBERS, REALS, pin, pin_or, row, row_of_many};
 use crate::convert::convert;
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
@@ -106,7 +107,7 @@ fn fold(call: &mut Call<'_, '_>, operator: Binary) -> Result<u64, Fault> {
 
 fn step(call: &mut Call<'_, '_>, by: i64) -> Result<u64, Fault> {
     let (slot, elementary) = (call.slot(0), call.elementary);
-    let next = call.machine.memory.get(slot).wrapping_add_signed(by);
-    call.machine.memory.set(slot, wrap(elementary, next));
+    let next = call.scan.memory.get(slot).wrapping_add_signed(by);
+    call.scan.memory.set(slot, wrap(elementary, next));
     Ok(1)
 }

@@ -7,12 +7,13 @@ use core::task::Poll;
 
 use arrayvec::ArrayVec;
 
-use super::table::{pin, row};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{pin, row};
 use crate::elementary::{Class, Elementary};
 use crate::fault::Fault;
 use crate::host::{NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault};
-use crate::machine::Layout;
+use crate::layout::Layout;
 use crate::value;
 
 const STATUS: ResultType = ResultType::Fixed(Elementary::Lword);
@@ -31,7 +32,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("_NxReadResult", &[MADE, DATA], STATUS, "what became of a call that reads", read_result),
     row("_NxBusReset", &[], STATUS, "begins to reset the errors of the NX Bus Function Module", reset_bus),
     row("_NxBusResult", &[], STATUS, "whether that is complete", |call| {
-        Ok(if call.machine.host.nx_bus_is_reset() { DONE } else { PENDING })
+        Ok(if call.scan.host.nx_bus_is_reset() { DONE } else { PENDING })
     }),
     row("_NxWriteResult", &[MADE], STATUS, "what became of a call, whatever was read", write_result),
 ];
@@ -56,28 +57,28 @@ fn object(call: &Call<'_, '_>) -> (u16, u16, u8) {
 
 fn read(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (unit, index, sub) = object(call);
-    let made = call.machine.host.nx_read(unit, index, sub);
+    let made = call.scan.host.nx_read(unit, index, sub);
     Ok(note(call, made))
 }
 
 fn write(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let (unit, index, sub) = object(call);
     let made = match packed(call, 4) {
-        Some(value) => call.machine.host.nx_write(unit, index, sub, &value),
+        Some(value) => call.scan.host.nx_write(unit, index, sub, &value),
         None => Err(WRONG_LENGTH),
     };
     Ok(note(call, made))
 }
 
 fn reset_bus(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
-    Ok(call.machine.host.reset_nx_bus().map_or_else(status_of, |()| PENDING))
+    Ok(call.scan.host.reset_nx_bus().map_or_else(status_of, |()| PENDING))
 }
 
 fn note(call: &mut Call<'_, '_>, made: Result<NxCallNumber, NxFault>) -> u64 {
     match made {
         Ok(number) => {
             let slot = call.slot(3);
-            call.machine.memory.set(slot, number);
+            call.scan.memory.set(slot, number);
             PENDING
         }
         Err(fault) => status_of(fault),
@@ -86,7 +87,7 @@ fn note(call: &mut Call<'_, '_>, made: Result<NxCallNumber, NxFault>) -> u64 {
 
 fn read_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let mut value = [0; NX_OBJECT_BYTES_MAX];
-    Ok(match call.machine.host.nx_result(call.bits(0), &mut value) {
+    Ok(match call.scan.host.nx_result(call.bits(0), &mut value) {
         Poll::Pending => PENDING,
         Poll::Ready(Err(fault)) => status_of(fault),
         Poll::Ready(Ok(length_bytes)) => match value.get(..length_bytes) {
@@ -98,7 +99,7 @@ fn read_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
 
 fn write_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
     let mut value = [0; NX_OBJECT_BYTES_MAX];
-    Ok(match call.machine.host.nx_result(call.bits(0), &mut value) {
+    Ok(match call.scan.host.nx_result(call.bits(0), &mut value) {
         Poll::Pending => PENDING,
         Poll::Ready(Err(fault)) => status_of(fault),
         Poll::Ready(Ok(_)) => DONE,
@@ -107,7 +108,7 @@ fn write_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
 
 /// The slot and the layout of the variable referred to by the reference at `place`.
 fn referred<'m>(call: &Call<'_, 'm>, place: usize) -> Option<(u32, &'m Layout)> {
-    let layouts = call.machine.layouts;
+    let layouts = call.scan.layouts;
     let number = usize::try_from(call.bits(place + 1)).ok()?;
     Some((call.slot(place), layouts.get(number)?))
 }
@@ -117,7 +118,7 @@ fn packed(call: &Call<'_, '_>, place: usize) -> Option<Octets> {
     let (slot, layout) = referred(call, place)?;
     let mut octets = Octets::new();
     for (offset, elementary) in &layout.values {
-        let bits = call.machine.memory.get(slot + offset).to_le_bytes();
+        let bits = call.scan.memory.get(slot + offset).to_le_bytes();
         octets.try_extend_from_slice(&bits[..elementary.size_bytes()]).ok()?;
     }
     Some(octets)
@@ -132,7 +133,7 @@ fn unpack(call: &mut Call<'_, '_>, place: usize, mut octets: &[u8]) -> bool {
     }
     for (offset, elementary) in &layout.values {
         let (own, rest) = octets.split_at(elementary.size_bytes());
-        call.machine.memory.set(slot + offset, value::unpack(*elementary, own));
+        call.scan.memory.set(slot + offset, value::unpack(*elementary, own));
         octets = rest;
     }
     true

@@ -1,8 +1,8 @@
 //! The library in the form of the documents.
 
 use super::blocks::BLOCKS;
+use super::function::{Function, Pin, ResultType, Takes};
 use super::table::GROUPS;
-use super::{Function, Pin, ResultType, Takes};
 use crate::elementary::{Class, Elementary};
 
 /// A function or a function block of the library.

@@ -1,7 +1,8 @@
 //! Selection: IEC 61131-3, table 32.
 
-use super::table::{EVERY, INTEGERS, MAGNITUDES, pin, row, row_of_many};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{EVERY, INTEGERS, MAGNITUDES, pin, row, row_of_many};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::operators::{Binary, binary};

@@ -1,7 +1,8 @@
 //! User-defined errors and information.
 
-use super::table::{EVERY, optional, pin, row};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{EVERY, optional, pin, row};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::host::Alarm;
@@ -25,13 +26,13 @@ pub(super) const FUNCTIONS: &[Function] = &[
         |call| raise(call, LAST_ERROR + 1, LAST_INFORMATION)),
     row("ResetAlarm", &[optional("Code", Takes::Fixed(Elementary::Uint), 0)], DONE,
         "resets the user-defined error with this Code; 0 resets all of them; returns TRUE",
-        |call| { let code = call.number(0, 0, LAST_ERROR)? as u16; call.machine.host.reset_alarm(code); Ok(1) }),
+        |call| { let code = call.number(0, 0, LAST_ERROR)? as u16; call.scan.host.reset_alarm(code); Ok(1) }),
 ];
 
 fn raise(call: &mut Call<'_, '_>, lower: i64, upper: i64) -> Result<u64, Fault> {
     // Both limits are those of a UINT.
     let code = call.number(0, lower, upper)? as u16;
     let (info_1, info_2) = (call.bits(1), call.bits(2));
-    call.machine.host.set_alarm(Alarm { code, info_1, info_2 });
+    call.scan.host.set_alarm(Alarm { code, info_1, info_2 });
     Ok(1)
 }

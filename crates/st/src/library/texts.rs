@@ -5,8 +5,9 @@
 //! INSERT 0 to 1985, where 0 is the position before the first character: another number is a fault. A result that
 //! is longer than any STRING is a fault.
 
-use super::table::{INTEGERS, pin, row, row_of_many};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{INTEGERS, pin, row, row_of_many};
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::memory::Text;
@@ -21,7 +22,7 @@ const COUNT: ResultType = ResultType::Fixed(Elementary::Uint);
 
 #[rustfmt::skip]
 pub(super) const FUNCTIONS: &[Function] = &[
-    row("LEN", IN, COUNT, "the number of characters of In", |call| Ok(call.machine.memory.text_length(call.slot(0)) as u64)),
+    row("LEN", IN, COUNT, "the number of characters of In", |call| Ok(call.scan.memory.text_length(call.slot(0)) as u64)),
     row("LEFT", IN_LENGTH, ResultType::Text, "the first L characters; L is 0 to 1985", |call| give(call, left)),
     row("RIGHT", IN_LENGTH, ResultType::Text, "the last L characters; L is 0 to 1985", |call| give(call, right)),
     row("MID", IN_LENGTH_POSITION, ResultType::Text, "L characters beginning at position P; L is 0 to 1985, P is 1 to 1985", |call| give(call, middle)),
@@ -133,7 +134,7 @@ fn find(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
         return Ok(0);
     }
     // Long texts with a long common beginning compare many characters.
-    call.machine.spend((text.len() * piece.len()) as u64 / (128 * 128))?;
+    call.scan.spend((text.len() * piece.len()) as u64 / (128 * 128))?;
     let place = text.windows(piece.len()).position(|window| window == piece.as_slice());
     Ok(place.map_or(0, |place| place as u64 + 1))
 }

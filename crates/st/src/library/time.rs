@@ -1,7 +1,8 @@
 //! Durations, and the present time for the blocks.
 
-use super::table::{pin, row};
-use super::{Call, Function, Pin, ResultType, Takes};
+use super::call::Call;
+use super::function::{Function, Pin, ResultType, Takes};
+use super::notation::{pin, row};
 use crate::calendar;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
@@ -54,7 +55,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
         |call| moment(call, Elementary::DateAndTime).map(|moment| calendar::part(Elementary::Date, moment))),
     row("SecToTod", ONE_NUMBER, TOD, "seconds since midnight as a time of day; a value outside the day is a fault", |call| moment(call, Elementary::TimeOfDay)),
     row("SecToDt", ONE_NUMBER, DT, "seconds since 1970-01-01 as a DATE_AND_TIME; a value outside its range is a fault", |call| moment(call, Elementary::DateAndTime)),
-    row("_Now", &[], TIME, "the present moment, the same in the whole scan", |call| Ok(call.machine.now_ns)),
+    row("_Now", &[], TIME, "the present moment, the same in the whole scan", |call| Ok(call.scan.now_ns)),
 ];
 
 const fn two(first: Elementary, second: Elementary) -> [Pin; 2] {

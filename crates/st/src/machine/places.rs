@@ -1,9 +1,10 @@
 //! The positions of variables while a program runs.
 
-use super::{Machine, slot_of};
-use crate::code::{Base, Dimension, Element, Extent, Place, Slot};
+use super::Machine;
+use crate::code::{Base, Dimension, Element, Place};
 use crate::fault::Fault;
-use crate::types::Bound;
+use crate::memory::{Slot, slot_of};
+use crate::types::{Bound, Extent};
 use crate::value::integer;
 
 impl Machine<'_> {
@@ -33,8 +34,8 @@ impl Machine<'_> {
         match base {
             Base::Memory => 0,
             Base::Instance => self.instance,
-            Base::ReferenceInMemory(slot) => slot_of(self.memory.get(slot)),
-            Base::ReferenceInInstance(offset) => slot_of(self.memory.get(self.instance + offset)),
+            Base::ReferenceInMemory(slot) => slot_of(self.scan.memory.get(slot)),
+            Base::ReferenceInInstance(offset) => slot_of(self.scan.memory.get(self.instance + offset)),
         }
     }
 
@@ -80,7 +81,8 @@ impl Machine<'_> {
                 )
             }
         };
-        let [lower, upper] = [1, 2].map(|place| self.memory.get(reference + 2 * dimension + place) as i64);
+        let [lower, upper] =
+            [1, 2].map(|place| self.scan.memory.get(reference + 2 * dimension + place) as i64);
         Bound { lower, upper }
     }
 

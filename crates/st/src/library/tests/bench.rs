@@ -2,14 +2,13 @@
 
 use core::task::Poll;
 
-use crate::code::Slot;
 use crate::elementary::Elementary;
 use crate::fault::Fault;
 use crate::host::{Alarm, Host, NX_OBJECT_BYTES_MAX, NoHost, NxCallNumber, NxFault};
 use crate::library::{Call, function};
-use crate::machine::{Budget, Machine};
 use crate::memory::Memory;
-use crate::problem::Span;
+use crate::memory::Slot;
+use crate::scan::{Budget, Scan};
 use crate::types::STRING_CHARACTERS_MAX;
 
 /// Slots of each text of the bench, and of its result.
@@ -44,22 +43,18 @@ impl Bench {
         elementary: Elementary,
         arguments: &[u64],
     ) -> Result<u64, Fault> {
-        let mut machine = Machine {
+        let mut scan = Scan {
             memory: &mut self.memory,
-            initial: &[],
-            units: &[],
             layouts: &[],
             host,
             now_ns: 77,
             budget: Budget::new(self.budget),
             steps: 0,
-            instance: 0,
-            at: Span::default(),
         };
         let ulints = self.ulints;
         let text = (RESULT, STRING_CHARACTERS_MAX as u16);
         let run = function(name).unwrap_or_else(|| panic!("no function {name}")).0.run;
-        run(&mut Call { machine: &mut machine, arguments, elementary, ulints, text })
+        run(&mut Call { scan: &mut scan, arguments, elementary, ulints, text })
     }
 
     /// Stores a text in the memory, as an argument.
