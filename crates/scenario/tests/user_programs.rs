@@ -40,9 +40,7 @@ fn all_that_is_wrong_with_a_program_is_told_with_its_place() {
     assert_eq!(
         errors,
         [
-            "units/wrong.st:1:1: there is no variable `N1_UINTs_01_C_to_N` / did you mean `N1_UINTs_01_C_to_M`? \
-             `ectwin map` lists the variables of an I/O allocation; \
-             `ectwin st check --unit FILE` checks a program with the unit file FILE",
+            "units/wrong.st:1:1: there is no variable `N1_UINTs_01_C_to_N` / did you mean `N1_UINTs_01_C_to_M`?",
             "units/wrong.st:2:1: this cannot be written: it comes from the unit / ",
         ]
     );

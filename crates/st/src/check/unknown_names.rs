@@ -20,8 +20,10 @@ pub(super) fn nearest(name: &str, candidates: impl Iterator<Item = String>) -> O
 pub(super) fn remedy(name: &str, own: impl Iterator<Item = String>, devices: &[Global]) -> String {
     let devices: Vec<_> = devices.iter().map(|device| device.name.as_str()).collect();
     let near = nearest(name, own.chain(devices.iter().map(|&device| device.to_owned())));
-    let is_own = near.as_ref().is_some_and(|near| !devices.contains(&near.as_str()));
-    match of_a_unit(name, &devices).filter(|_| !is_own) {
+    // A name of the program, or a slip of the finger in that of a device variable.
+    let is_meant =
+        near.as_ref().is_some_and(|near| !devices.contains(&near.as_str()) || is_one_letter_off(name, near));
+    match of_a_unit(name, &devices).filter(|_| !is_meant) {
         Some(missing) => missing.remedy(),
         None => match near.or_else(|| without_device_name(name, &devices)) {
             Some(near) => did_you_mean(&near),
@@ -32,6 +34,16 @@ pub(super) fn remedy(name: &str, own: impl Iterator<Item = String>, devices: &[G
 
 fn did_you_mean(near: &str) -> String {
     format!("did you mean `{near}`?")
+}
+
+/// Whether one letter is wrong, missing or too much; numbers distinguish names.
+fn is_one_letter_off(name: &str, near: &str) -> bool {
+    // The table of distances is as large as both names: a name of a program may have any length.
+    if name.len().abs_diff(near.len()) > 1 {
+        return false;
+    }
+    let numbers = |name: &str| name.chars().filter(char::is_ascii_digit).collect::<String>();
+    numbers(name) == numbers(near) && strsim::damerau_levenshtein(&key(name), &key(near)) == 1
 }
 
 /// A device variable that this unit does not have.
