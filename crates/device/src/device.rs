@@ -66,8 +66,12 @@ impl<U: Unit> Device<U> {
         (device, esc)
     }
 
-    /// Starts again from INIT, as after power-on; the EEPROM keeps its contents.
+    /// Starts again from INIT, as after power-on; the EEPROM keeps its contents. A slave without power starts only by
+    /// [`Start::PowerOn`]; any other start has no effect on it.
     pub fn restart(&mut self, esc: &mut Esc, now: Instant, start: Start) {
+        if self.is_off() && start != Start::PowerOn {
+            return;
+        }
         let code = self.unit.restart(now, start, esc.sii_image_mut());
         esc.reset(now);
         self.machine = Machine::START;
@@ -83,8 +87,11 @@ impl<U: Unit> Device<U> {
         matches!(self.power, Power::Off)
     }
 
-    /// Switches the slave's power off: it does nothing until [`Device::restart`]. Its cables belong to the network.
+    /// Switches the slave's power off: it does nothing until [`Start::PowerOn`]. Its cables belong to the network.
     pub(crate) fn power_off(&mut self, now: Instant) {
+        if self.is_off() {
+            return;
+        }
         self.power = Power::Off;
         self.unit.power_off(now);
     }

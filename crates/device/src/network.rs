@@ -155,8 +155,8 @@ impl<U: Unit> Network<U> {
         self.connect(0);
     }
 
-    /// Switches one slave's power off: no frame passes it until [`Network::restart`]. A position without a
-    /// slave has no effect.
+    /// Switches one slave's power off: no frame passes it until [`Network::restart`] with [`Start::PowerOn`]. A
+    /// position without a slave has no effect.
     pub fn power_off(&mut self, position: usize, now: Instant) {
         self.agenda.is_lent(position);
         if let Some(device) = self.devices.get_mut(position) {
@@ -177,14 +177,15 @@ impl<U: Unit> Network<U> {
         self.segment.set_cable(cable, carries);
     }
 
-    /// Restarts one slave; a position without a slave has no effect.
+    /// Restarts one slave; a position without a slave has no effect, nor has any start but [`Start::PowerOn`] of a
+    /// slave without power.
     pub fn restart(&mut self, position: usize, now: Instant, start: Start) {
         self.agenda.is_lent(position);
         if let (Some(device), Some(esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
             let was_off = device.is_off();
             device.restart(esc, now, start);
             self.segment.follow_changed_ports();
-            if was_off {
+            if was_off && !device.is_off() {
                 self.connect(position);
                 self.connect(position + 1);
             }

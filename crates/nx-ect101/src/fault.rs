@@ -114,6 +114,12 @@ impl Fault {
         matches!(self.row().detection_timing, DetectionTiming::Continuous | DetectionTiming::Unspecified)
     }
 
+    /// Whether it occurs only in a unit that has power: its software or the NX bus fails. The causes of the others are
+    /// in the hardware and in settings, and are there without power too.
+    pub(crate) fn is_of_operation(self) -> bool {
+        self.is_found_at_once() || self == Self::MessageCommunications
+    }
+
     /// Whether an error reset clears it, after its cause is gone; the others persist until the unit starts.
     pub(crate) fn goes_with_reset(self) -> bool {
         self.row().recovery == Recovery::ResetErrorByFailsoft
@@ -189,6 +195,8 @@ mod tests {
         let at_start = [Fault::NonVolatileMemory, Fault::Esc, Fault::ControlParameters];
         assert_eq!(those(Fault::is_found_at_start), at_start);
         assert_eq!(those(Fault::goes_with_reset), [Fault::IoCommunications]);
+        let of_operation = [&at_once[..], &[Fault::MessageCommunications]].concat();
+        assert_eq!(those(Fault::is_of_operation), of_operation);
     }
 
     #[test]

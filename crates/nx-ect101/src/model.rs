@@ -83,6 +83,10 @@ impl Model for NxEct101Model {
         &FAULTS
     }
 
+    fn is_fault_of_operation(&self, fault: &str) -> bool {
+        Fault::named(fault).is_some_and(Fault::is_of_operation)
+    }
+
     fn indicators(&self) -> &'static [&'static str] {
         &INDICATOR_NAMES
     }

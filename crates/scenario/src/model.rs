@@ -30,6 +30,6 @@ pub use spelling::NotAValue;
 pub(crate) use spelling::{hexadecimal, number};
 pub use step::{Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
 pub(crate) use step_form::StepForm;
-pub(crate) use unit::ID_SWITCH;
 pub use unit::{ConductOrder, EventLog, UnitOrder};
+pub(crate) use unit::{ID_SWITCH, Needs};
 pub use units::{CableNumber, Controller, UnitNumber, UnitSet};

@@ -22,6 +22,12 @@ pub trait Model: Sync {
         &[]
     }
 
+    /// Whether a fault occurs only in a unit that has power, such as a failure of its software. The causes of the others
+    /// also appear without power, and are found at the next start.
+    fn is_fault_of_operation(&self, _fault: &str) -> bool {
+        false
+    }
+
     /// The names of the indicators.
     fn indicators(&self) -> &'static [&'static str] {
         &[]

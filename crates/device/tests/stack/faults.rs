@@ -110,13 +110,15 @@ fn the_unit_hears_why_it_leaves_a_state() {
     assert_eq!(bench.unit().told, [0x1B, 0x12].map(AlStatusCode), "an error has to be acknowledged first");
 }
 
+/// Number of slaves that a frame reaches.
+fn count(bench: &mut Bench) -> u16 {
+    let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0, 0]).finish();
+    bench.network.frame(bench.now, &mut frame);
+    returned_datagrams(&frame).first().map_or(0, |datagram| datagram.working_counter)
+}
+
 #[test]
 fn a_slave_without_power_closes_the_line_in_front_of_it_and_a_cable_needs_power_at_both_ends() {
-    let count = |bench: &mut Bench| {
-        let mut frame = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0, 0]).finish();
-        bench.network.frame(bench.now, &mut frame);
-        returned_datagrams(&frame).first().map_or(0, |datagram| datagram.working_counter)
-    };
     let mut bench = Bench::new();
     bench.network = Network::power_on((0..3).map(|_| (config(), Digital8::default())), bench.now);
     assert_eq!(count(&mut bench), 3);
@@ -132,4 +134,21 @@ fn a_slave_without_power_closes_the_line_in_front_of_it_and_a_cable_needs_power_
     bench.network.set_cable(1, false);
     bench.network.set_cable(1, true);
     assert_eq!(count(&mut bench), 1, "a cable without power at its end carries nothing");
+}
+
+/// Only power starts a slave without power: support software and the master do not reach it.
+#[test]
+fn a_slave_without_power_does_not_restart() {
+    for start in [Start::Restart, Start::EscReset] {
+        let mut bench = Bench::new();
+        bench.network = Network::power_on((0..2).map(|_| (config(), Digital8::default())), bench.now);
+        bench.network.power_off(1, bench.now);
+        bench.network.restart(1, bench.now, start);
+        bench.run_for(Duration::from_secs(1));
+        let device = bench.network.device(1).expect("two slaves");
+        assert!(device.is_off() && device.unit().restarted.is_none(), "{start:?}");
+        assert_eq!(count(&mut bench), 1, "{start:?}");
+        bench.network.restart(1, bench.now, Start::PowerOn);
+        assert_eq!(count(&mut bench), 2, "{start:?}");
+    }
 }

@@ -43,6 +43,54 @@ pub enum UnitOrder {
     RemoveFault { units: UnitSet, fault: String },
 }
 
+/// The unit that an order needs to have an effect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Needs<'a> {
+    /// Any: a hand changes its hardware, its supply or its settings.
+    Nothing,
+    /// One with power: its software or its communication carries out the order.
+    Power,
+    /// One in which this fault can occur.
+    PowerForFault(&'a str),
+}
+
+impl UnitOrder {
+    /// The units of the order.
+    pub(crate) fn units(&self) -> UnitSet {
+        match self {
+            Self::Restart { units }
+            | Self::CyclePower { units }
+            | Self::PowerOff { units }
+            | Self::PowerOn { units }
+            | Self::ResetErrors { units }
+            | Self::ClearEventLog { units, .. }
+            | Self::EraseSii { units }
+            | Self::Conduct { units, .. }
+            | Self::InjectFault { units, .. }
+            | Self::RemoveFault { units, .. } => *units,
+            Self::SetIdSwitch { unit, .. } | Self::InvertSiiWord { unit, .. } => UnitSet::One(*unit),
+        }
+    }
+
+    /// What a unit needs so that the order has an effect on it.
+    pub(crate) fn needs(&self) -> Needs<'_> {
+        match self {
+            Self::Restart { .. }
+            | Self::ResetErrors { .. }
+            | Self::ClearEventLog { .. }
+            | Self::PowerOff { .. } => Needs::Power,
+            Self::InjectFault { fault, .. } => Needs::PowerForFault(fault),
+            Self::Conduct { conduct, .. } => conduct.needs(),
+            Self::CyclePower { .. }
+            | Self::PowerOn { .. }
+            | Self::SetIdSwitch { .. }
+            | Self::InvertSiiWord { .. }
+            | Self::EraseSii { .. }
+            | Self::RemoveFault { .. } => Needs::Nothing,
+        }
+    }
+}
+
 /// A log of events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -94,4 +142,20 @@ pub enum ConductOrder {
     IgnoreAcknowledges,
     /// Times are those of the unit file again, and all other changes of the conduct are cleared.
     Behave,
+}
+
+impl ConductOrder {
+    const fn needs(&self) -> Needs<'static> {
+        match self {
+            // A state of the ESC, which a start resets.
+            Self::SiiBusy { .. } => Needs::Power,
+            Self::EveryTransition { .. }
+            | Self::Transition { .. }
+            | Self::SiiCommands { .. }
+            | Self::Sdos { .. }
+            | Self::Refuse { .. }
+            | Self::IgnoreAcknowledges
+            | Self::Behave => Needs::Nothing,
+        }
+    }
 }

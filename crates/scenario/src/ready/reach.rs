@@ -1,6 +1,6 @@
 //! The units of an order, to check whether they exist.
 
-use crate::model::{Condition, Controller, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitOrder, UnitSet};
+use crate::model::{Condition, Controller, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitSet};
 
 pub(super) fn line_of(units: usize) -> String {
     format!("the line has {units} unit{}, counted from 1", if units == 1 { "" } else { "s" })
@@ -33,22 +33,6 @@ pub(super) fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
         | MasterOrder::ReadNoMailbox
         | MasterOrder::Behave
         | MasterOrder::Restart => None,
-    }
-}
-
-pub(super) fn unit_of_unit(order: &UnitOrder) -> UnitSet {
-    match order {
-        UnitOrder::Restart { units }
-        | UnitOrder::CyclePower { units }
-        | UnitOrder::PowerOff { units }
-        | UnitOrder::PowerOn { units }
-        | UnitOrder::ResetErrors { units }
-        | UnitOrder::ClearEventLog { units, .. }
-        | UnitOrder::EraseSii { units }
-        | UnitOrder::Conduct { units, .. }
-        | UnitOrder::InjectFault { units, .. }
-        | UnitOrder::RemoveFault { units, .. } => *units,
-        UnitOrder::SetIdSwitch { unit, .. } | UnitOrder::InvertSiiWord { unit, .. } => UnitSet::One(*unit),
     }
 }
 

@@ -4,7 +4,7 @@ use time::Duration;
 
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
-use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master, unit_of_unit};
+use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
 use crate::model::{Condition, Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
 use crate::run::{RandomPart, WrittenStep};
@@ -132,7 +132,7 @@ impl Maker<'_> {
             }
             Order::Unit(order) => {
                 self.said(order, part)?;
-                unit_of_unit(order).exists(units)
+                order.units().exists(units)
             }
             Order::Cpu(order) => {
                 self.said(order, part)?;

@@ -11,7 +11,9 @@ use wire::AlStatusCode;
 
 use super::World;
 use super::cpus::Cpu;
-use crate::model::{ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, UnitOrder, UnitSet};
+use crate::model::{
+    ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, Needs, UnitOrder, UnitSet,
+};
 use crate::run::master::Master;
 
 /// A byte of an EEPROM that has never been written.
@@ -22,33 +24,48 @@ impl World {
         &mut self.master
     }
 
+    /// An order to each of its units. One without power does nothing, unless a hand carries out the order.
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
-        match order {
-            UnitOrder::Restart { units } => self.each(*units, |world, at| world.start(at, Start::Restart)),
-            UnitOrder::CyclePower { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
-            UnitOrder::PowerOff { units } => self.each(*units, Self::power_off),
-            UnitOrder::PowerOn { units } => self.each(*units, |world, at| world.start(at, Start::PowerOn)),
-            UnitOrder::ResetErrors { units } => self.each_unit(*units, |unit| unit.reset_errors()),
-            UnitOrder::ClearEventLog { units, log } => {
-                self.each_unit(*units, |unit| unit.clear_event_log(event_log(*log)));
+        for at in order.units().positions(self.count()) {
+            if self.is_off(at) && self.needs_power(order, at) {
+                let words = "has no power: the order has no effect";
+                self.recording.tell(self.now, &format!("unit {}", at + 1), words);
+            } else {
+                self.act_on_unit(order, at);
             }
-            UnitOrder::SetIdSwitch { unit, id } => {
-                self.each_unit(UnitSet::One(*unit), |unit| {
-                    let _ = unit.set_switch(ID_SWITCH, id.0.into());
-                });
-            }
-            UnitOrder::InvertSiiWord { unit, word } => self.invert_sii_word(unit.position(), *word),
-            UnitOrder::EraseSii { units } => {
-                self.each_slave(*units, |_, esc| esc.sii_image_mut().fill(ERASED));
-            }
-            UnitOrder::Conduct { units, conduct: order } => {
-                let now = self.now;
-                self.each_slave(*units, |device, esc| conduct(device, esc, order, now));
-            }
-            UnitOrder::InjectFault { units, fault } => self.each_fault(*units, |unit| unit.inject(fault)),
-            UnitOrder::RemoveFault { units, fault } => self.each_fault(*units, |unit| unit.remove(fault)),
         }
         self.happen();
+    }
+
+    fn needs_power(&self, order: &UnitOrder, at: usize) -> bool {
+        match order.needs() {
+            Needs::Nothing => false,
+            Needs::Power => true,
+            Needs::PowerForFault(fault) => self.unit(at).model().is_fault_of_operation(fault),
+        }
+    }
+
+    fn act_on_unit(&mut self, order: &UnitOrder, at: usize) {
+        match order {
+            UnitOrder::Restart { .. } => self.start(at, Start::Restart),
+            UnitOrder::CyclePower { .. } | UnitOrder::PowerOn { .. } => self.start(at, Start::PowerOn),
+            UnitOrder::PowerOff { .. } => self.power_off(at),
+            UnitOrder::ResetErrors { .. } => self.with_unit(at, |unit| unit.reset_errors()),
+            UnitOrder::ClearEventLog { log, .. } => {
+                self.with_unit(at, |unit| unit.clear_event_log(event_log(*log)));
+            }
+            UnitOrder::SetIdSwitch { id, .. } => {
+                self.with_named(at, |unit| unit.set_switch(ID_SWITCH, id.0.into()));
+            }
+            UnitOrder::InvertSiiWord { word, .. } => self.invert_sii_word(at, *word),
+            UnitOrder::EraseSii { .. } => self.with_slave(at, |_, esc| esc.sii_image_mut().fill(ERASED)),
+            UnitOrder::Conduct { conduct: order, .. } => {
+                let now = self.now;
+                self.with_slave(at, |device, esc| conduct(device, esc, order, now));
+            }
+            UnitOrder::InjectFault { fault, .. } => self.with_named(at, |unit| unit.inject(fault)),
+            UnitOrder::RemoveFault { fault, .. } => self.with_named(at, |unit| unit.remove(fault)),
+        }
     }
 
     pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
@@ -118,26 +135,22 @@ impl World {
         units.positions(self.count()).for_each(|at| order(self, at));
     }
 
-    fn each_unit(&mut self, units: UnitSet, mut order: impl FnMut(&mut dyn ModelUnit)) {
-        for at in units.positions(self.count()) {
-            if let Some(device) = self.network.device_mut(at) {
-                order(&mut **device.unit_mut());
-            }
+    fn with_unit(&mut self, at: usize, order: impl FnOnce(&mut dyn ModelUnit)) {
+        if let Some(device) = self.network.device_mut(at) {
+            order(&mut **device.unit_mut());
         }
     }
 
-    /// An action on a fault of each unit. The name was checked when the scenario was read.
-    fn each_fault(&mut self, units: UnitSet, order: impl Fn(&mut dyn ModelUnit) -> Result<(), NotThere>) {
-        self.each_unit(units, |unit| {
+    /// An action on something that the model has by name. The name was checked when the scenario was read.
+    fn with_named(&mut self, at: usize, order: impl FnOnce(&mut dyn ModelUnit) -> Result<(), NotThere>) {
+        self.with_unit(at, |unit| {
             let _ = order(unit);
         });
     }
 
-    fn each_slave(&mut self, units: UnitSet, order: impl Fn(&mut Device<Box<dyn ModelUnit>>, &mut Esc)) {
-        for at in units.positions(self.count()) {
-            if let Some((device, esc)) = self.network.slave_mut(at) {
-                order(device, esc);
-            }
+    fn with_slave(&mut self, at: usize, order: impl FnOnce(&mut Device<Box<dyn ModelUnit>>, &mut Esc)) {
+        if let Some((device, esc)) = self.network.slave_mut(at) {
+            order(device, esc);
         }
     }
 
@@ -146,11 +159,12 @@ impl World {
     }
 
     fn invert_sii_word(&mut self, at: usize, word: u16) {
-        let Some((_, esc)) = self.network.slave_mut(at) else { return };
         let first = usize::from(word) * 2;
-        if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
-            bytes.iter_mut().for_each(|byte| *byte = !*byte);
-        }
+        self.with_slave(at, |_, esc| {
+            if let Some(bytes) = esc.sii_image_mut().get_mut(first..first + 2) {
+                bytes.iter_mut().for_each(|byte| *byte = !*byte);
+            }
+        });
     }
 
     fn power_off(&mut self, at: usize) {

@@ -1,0 +1,93 @@
+//! A unit without power: which orders have an effect on it, and which expectations hold.
+
+use scenario::{Recording, Report, Scenario};
+
+const NO_EFFECT: &str = "unit 1    has no power: the order has no effect";
+
+fn replay(steps: &[String]) -> Report {
+    let text = format!("title = \"t\"\nsteps = [\n{}\n]", steps.join(",\n"));
+    let scenario = Scenario::parse(&text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+    scenario.replay(1, Recording::new(true, false))
+}
+
+fn off_and(steps: &[&str]) -> Report {
+    let off = "{ unit = \"power off unit 1\" }".to_owned();
+    replay(&[off].into_iter().chain(steps.iter().map(|step| format!("{{ {step} }}"))).collect::<Vec<_>>())
+}
+
+/// The events of the unit while it has no power, and whether the trace says that the order has no effect.
+fn after_order(order: &str) -> (usize, bool) {
+    let report = off_and(&[&format!("unit = \"{order}\""), "after = \"1s\", line = \"be quiet\""]);
+    let trace = report.recording.trace().unwrap_or_default();
+    (trace.matches(" records ").count(), trace.contains(NO_EFFECT))
+}
+
+#[test]
+fn what_the_unit_itself_would_do_has_no_effect() {
+    for order in [
+        "restart unit 1",
+        "power off unit 1",
+        "reset the errors of unit 1",
+        "clear the system event log of unit 1",
+        "clear the access event log of unit 1",
+        "break Processing of unit 1",
+        "break ClockNotSynchronized of unit 1",
+        "break IoCommunications of unit 1",
+        "break MessageCommunications of unit 1",
+        "keep the SII of unit 1 busy for 100ms",
+    ] {
+        assert_eq!(after_order(order), (0, true), "{order}");
+    }
+}
+
+#[test]
+fn what_a_hand_does_to_it_has_an_effect() {
+    for order in [
+        "power on unit 1",
+        "cycle the power of unit 1",
+        "turn the ID switch of unit 1 to 0x2A",
+        "spoil word 4 of the SII of unit 1",
+        "erase the SII of unit 1",
+        "break Esc of unit 1",
+        "break NonVolatileMemory of unit 1",
+        "break SiiVerification of unit 1",
+        "mend Processing of unit 1",
+        "let every transition of unit 1 take 500ms",
+        "let transition IP of unit 1 take 500ms",
+        "let each SII command of unit 1 take 5ms",
+        "let the SDOs of unit 1 take 300ms",
+        "let unit 1 refuse OP with AL status code 0x8001",
+        "let unit 1 ignore acknowledges",
+        "let unit 1 behave",
+    ] {
+        assert_eq!(after_order(order), (0, false), "{order}");
+    }
+}
+
+/// A restart by support software does not bring the power back.
+#[test]
+fn a_restart_starts_no_unit_without_power() {
+    let report = off_and(&[
+        "unit = \"restart unit 1\"",
+        "after = \"1s\", expect = \"RUN of unit 1 is not_lit\"",
+        "expect = \"unit 1 has recorded nothing\"",
+        "unit = \"power on unit 1\"",
+        "after = \"1s\", expect = \"unit 1 is in INIT\"",
+        "expect = \"unit 1 has recorded nothing\"",
+    ]);
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
+/// Of several units, those with power carry out the order.
+#[test]
+fn an_order_to_all_units_acts_on_those_with_power() {
+    let text = "title = \"t\"\nunits = [{ model = \"nx-ect101\" }, { model = \"nx-ect101\", name = \"N2\", serial = 2 }]\n\
+        steps = [\n{ unit = \"power off unit 1\" },\n{ unit = \"restart all units\" },\n\
+        { expect = \"unit 2 has recorded 94B80000\" },\n{ expect = \"unit 1 has recorded nothing\" },\n]";
+    let scenario = Scenario::parse(text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+    let report = scenario.replay(1, Recording::new(true, false));
+    let trace = report.recording.trace().unwrap_or_default();
+    assert_eq!(report.failure, None, "{trace}");
+    assert_eq!(trace.matches("the order has no effect").count(), 1, "{trace}");
+    assert!(trace.contains(NO_EFFECT), "{trace}");
+}
