@@ -29,8 +29,11 @@ fn expect_harmless(text: &str) {
 fn a_title_of_a_scenario_is_text() {
     let folder = folder_of("title");
     let long = "x".repeat(200_000);
-    fs::write(folder.join("s.toml"), format!("title = \"\\u001b[31mred\\u0007 {long}\"\nsteps = []\n"))
-        .unwrap();
+    fs::write(
+        folder.join("s.toml"),
+        format!("title = \"\\u001b[31mred\\u0007 {long}\"\nsteps = [{{ line = \"be quiet\" }}]\n"),
+    )
+    .unwrap();
     expect_harmless(&stdout(&folder, &["replay", "s.toml"]));
 }
 
@@ -53,6 +56,6 @@ fn a_name_of_a_file_is_text() {
     let name = "x\u{1b}[31m.toml";
     fs::write(folder.join(name), "model = \"nx-ect101\"\n").unwrap();
     expect_harmless(&stdout(&folder, &["check", name]));
-    fs::write(folder.join(name), "title = \"t\"\nsteps = []\n").unwrap();
+    fs::write(folder.join(name), "title = \"t\"\nsteps = [{ line = \"be quiet\" }]\n").unwrap();
     expect_harmless(&stdout(&folder, &["replay", name]));
 }

@@ -160,8 +160,10 @@ fn unknown_keys_of_a_scenario_are_twenty_mistakes_and_a_number() {
     let bench = bench("unknown-keys-of-a-scenario");
     let keys: String = (0..20_000).map(|at| format!("key_{at} = 1\n")).collect();
     for text in [
-        format!("title = \"t\"\nsteps = []\n{keys}"),
-        format!("title = \"t\"\nsteps = []\n[[units]]\nmodel = \"nx-ect101\"\n{keys}"),
+        format!("title = \"t\"\nsteps = [{{ line = \"be quiet\" }}]\n{keys}"),
+        format!(
+            "title = \"t\"\nsteps = [{{ line = \"be quiet\" }}]\n[[units]]\nmodel = \"nx-ect101\"\n{keys}"
+        ),
         format!("title = \"t\"\n[[steps]]\nline = \"be quiet\"\n{keys}"),
         format!("title = \"t\"\n[[steps]]\n[steps.unit.restart]\nunits = 1\n{keys}"),
     ] {

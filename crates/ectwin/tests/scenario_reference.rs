@@ -19,13 +19,13 @@ Every key, sentence, placeholder and fault of a scenario file. To start, read [w
 |---|---|---|
 | `title` | what the scenario shows, as a sentence | none: every file needs it |
 | `seed` | seed of the random generator, a number | 1 |
-| `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure | `"60s"` |
+| `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure; above 0 | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
 | `cycle_phase` | phase of the cycle in its period, from the beginning | the seed decides |
-| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file | one unit at its factory setting |
+| `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file. Two units cannot have the same `name`; without names, no step can name a variable that two of them have | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | no program: the master only follows the steps |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | only the scripted master |
-| `steps` | list of steps | none: every file needs it |
+| `steps` | list of steps, at least one | none: every file needs it |
 
 Paths are relative to the folder of the scenario file; the program of a unit file is relative to the unit file. A unit can run the
 programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
@@ -88,7 +88,15 @@ These keys give the time of an `expect`, and the repetition of a step:
 | `repeat`, `every` | total number of times that the step happens, and the time from one to the next |
 | `jitter` | each repetition is earlier or later by at most this time, chosen at random |
 
-Times have a unit: `20us`, `1.5ms`, `2s`.
+Times have a unit: `20us`, `1.5ms`, `2s`. A sentence has at most 65,536 bytes.
+
+A unit without power does nothing: an order that its software would carry out has no effect, which the trace says. What a hand does
+has an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
+errors, objects, registers, the validity of its data) fails while it has no power.
+
+An expectation that could not fail is a mistake of the file: a condition of the program of a unit that has none at that time, `0 cycles
+are done`. A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
+that later steps load. If the variable is not there when the condition is checked, the step fails.
 "#;
 
 fn page() -> String {
@@ -136,7 +144,7 @@ fn faults(page: &mut String) {
     section(
         page,
         "faults",
-        "The faults of `break` and `mend`, and the events that they raise.",
+        "The faults of `break` and `repair`, and the events that they raise.",
         ["fault", "event"],
         rows,
     );

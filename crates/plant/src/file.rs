@@ -9,6 +9,7 @@ use user_file::{FileErrors, Problem, Reader, Section, Wanted, read_toml, values}
 use crate::registry::{default_model, models};
 
 const MODEL: &str = "model";
+const NAME: &str = "name";
 
 /// One unit with its CPU Unit, before it has power.
 #[derive(Clone, Debug)]
@@ -16,6 +17,7 @@ pub struct UnitFile {
     section: Arc<dyn UnitSection>,
     cpu: CpuSection,
     variables: DeviceVariables,
+    is_named: bool,
 }
 
 impl UnitFile {
@@ -46,7 +48,7 @@ impl UnitFile {
         let WithCpu { unit: section, cpu } =
             WithCpu::read(reader, table, |reader, table| model.read(reader, table))?;
         let variables = DeviceVariables::of(section.variables());
-        Some(Self { section, cpu, variables })
+        Some(Self { section, cpu, variables, is_named: table.get(NAME).is_some() })
     }
 
     /// The part that its model has read.
@@ -59,6 +61,12 @@ impl UnitFile {
     #[must_use]
     pub fn name(&self) -> &str {
         self.section.name()
+    }
+
+    /// Whether the file has this name, or the model has given it.
+    #[must_use]
+    pub const fn is_named(&self) -> bool {
+        self.is_named
     }
 
     /// Its CPU Unit.
@@ -118,6 +126,7 @@ mod tests {
         ] {
             let file = UnitFile::parse(text).unwrap_or_else(|errors| panic!("{errors}"));
             assert_eq!((file.section().model().name(), file.name()), (model, name));
+            assert_eq!(file.is_named(), text.contains("name ="));
         }
     }
 

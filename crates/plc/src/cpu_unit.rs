@@ -154,6 +154,16 @@ impl CpuUnit {
         Ok(())
     }
 
+    /// Replaces the user program in any mode: a CPU Unit in RUN mode goes to PROGRAM mode for it, and returns.
+    pub fn change_program(&mut self, program: Box<dyn Program + Send>) {
+        let mode = self.mode;
+        self.set_mode(OperatingMode::Program);
+        if self.load(program).is_err() {
+            unreachable!("the CPU Unit is in PROGRAM mode");
+        }
+        self.set_mode(mode);
+    }
+
     /// Attaches an outside runtime, such as another PLC or an HMI. It runs before the user program, and in
     /// every operating mode: outside runtimes do not stop with this CPU Unit.
     pub fn attach(&mut self, runtime: Box<dyn Program + Send>) {

@@ -7,6 +7,7 @@ mod master;
 mod model_words;
 mod nodes;
 mod problem;
+mod programs;
 mod reach;
 mod resolve;
 mod steps;
@@ -24,6 +25,14 @@ use steps::{Ground, ReadySteps};
 pub(crate) use units::is_unit;
 pub(crate) use written::Written;
 
+/// The remedy for a scenario without steps.
+pub(crate) const STEPS_WAY_OUT: &str = "such as `steps = [{ expect = \"unit 1 is in INIT\" }]`";
+
+/// The mistake in a list with nothing in it.
+pub(crate) fn empty_list(key: &str) -> String {
+    format!("`{key}` is an empty list")
+}
+
 /// A script, with the words of its steps.
 pub(crate) struct Draft {
     pub(crate) script: Script,
@@ -40,6 +49,10 @@ impl Scenario {
     /// The mistakes: units and programs that cannot be read, values out of range, units and variables that do
     /// not exist, steps whose times run backwards.
     pub fn of(script: Script, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
+        if script.steps.is_empty() {
+            let (message, help) = (empty_list("steps"), STEPS_WAY_OUT.to_owned());
+            return Err(ScenarioErrors::of_script(vec![Problem { part: Part::Script, message, help }]));
+        }
         let written = script.steps.iter().enumerate().map(|(at, step)| Written::of_script(at, step));
         let written = written.collect();
         let (scenario, problems) = ready(Draft { script, written, is_whole: true }, files);
@@ -52,8 +65,18 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
     let Draft { script, written, is_whole } = draft;
     let mut maker = Maker::new(files, script.capture.is_some());
     maker.units(&script.units);
-    maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));
+    // Without the units it is unknown which names and addresses the master's program may use.
+    if is_whole && maker.problems.is_empty() {
+        maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));
+    }
     let ground = if is_whole && maker.problems.is_empty() { Ground::Firm } else { Ground::Missing };
+    if script.limit.is_zero() {
+        maker.refuse(
+            Part::Limit,
+            "a limit of 0 ends the scenario at its beginning",
+            "such as `limit = \"60s\"`",
+        );
+    }
     if script.cycle.is_zero() {
         maker.refuse(Part::Cycle, "a cycle of 0 never ends", "such as `cycle = \"1ms\"`");
     } else if let Some(phase) = script.cycle_phase.filter(|phase| *phase >= script.cycle) {

@@ -95,7 +95,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ),
         ("{ cpu = \"load a.st into unit 2\" }", "refers to a unit", "1 unit"),
         ("{ cpu = \"load a.st into unit 1\" }", "the program a.st cannot be read", ""),
-        ("{ expect = \"program variable x of unit 1 is 1\" }", "of unit 1 has no variable x", ""),
+        ("{ expect = \"program variable x of unit 1 is 1\" }", "unit 1 has no user program", "program = "),
         ("{ expect = \"program variable x of unit 2 is 1\" }", "refers to a unit", "1 unit"),
         ("{ expect = \"program variable x of the master is 1\" }", "no user program", "master = {"),
         ("{ never = \"user-defined error 0 at the master\" }", "from 1 to 40000", ""),
@@ -140,11 +140,160 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"unit 1 has recorded 85000001\" }", "one of `ectwin list events`", "85000000"),
         ("{ lines = \"be quiet\" }", "unknown key `lines`", "did you mean `line`?"),
     ];
+    are_told(&cases);
+}
+
+/// Steps that are refused, each with a part of its message and of its way out.
+fn are_told(cases: &[(&str, &str, &str)]) {
     for (text, message, help) in cases {
         let errors = step(text);
         let limit = message.replace("1m", "60s");
         assert!(errors.contains(&limit) && errors.contains(help), "{text}\n{errors}");
     }
+}
+
+/// A count or a time of 0 that does nothing, and an expectation that always holds, are mistakes.
+#[test]
+fn what_does_nothing_and_what_cannot_fail_is_told() {
+    are_told(&[
+        ("{ expect = \"0 cycles are done\" }", "0 cycles are done at the beginning too", "a number from 1"),
+        (
+            "{ never = { cycles = { at_least = 0 } } }",
+            "0 cycles are done at the beginning too",
+            "a number from 1",
+        ),
+        (
+            "{ line = \"lose the next 0 frames\" }",
+            "0 frames get the fault",
+            "a number from 1, such as `the next 3 frames`",
+        ),
+        (
+            "{ line = { disturb = { fault = \"lose\", frames = { choice = { next = 0 } } } } }",
+            "0 frames get the fault",
+            "a number from 1, such as `the next 3 frames`",
+        ),
+        (
+            "{ line = { disturb = { fault = \"lose\", frames = { choice = { behind = { skip = 3, count = 0 } } } } } }",
+            "0 frames get the fault",
+            "a number from 1, such as `the next 3 frames`",
+        ),
+        ("{ line = \"delay all frames by 0ms\" }", "expected a time above 0", "delay {frames} by {period}"),
+        (
+            "{ line = \"cut all frames to 13 bytes\" }",
+            "expected a length from 14 to 1513 bytes",
+            "cut {frames} to",
+        ),
+        (
+            "{ line = \"cut all frames to 1514 bytes\" }",
+            "expected a length from 14 to 1513 bytes",
+            "cut {frames} to",
+        ),
+        (
+            "{ cpu = \"let the system time of unit 1 jump by 0s\" }",
+            "expected a time above 0",
+            "jump by {period}",
+        ),
+        ("{ unit = \"keep the SII of unit 1 busy for 0s\" }", "expected a time above 0", "busy for {pause}"),
+        ("{ line = \"be quiet\", repeat = 2, every = \"0ms\" }", "a period of 0", "every = "),
+        ("{ expect = \"unit 1 is in 0x05\" }", "expected INIT, PRE-OP, SAFE-OP, OP or BOOT", "is in {state}"),
+        (
+            "{ master = \"take unit 1 to 0x05\" }",
+            "expected INIT, PRE-OP, SAFE-OP, OP or BOOT",
+            "take {units}",
+        ),
+    ]);
+}
+
+/// The limits are those of the keys of the unit file.
+#[test]
+fn a_conduct_that_no_slave_has_is_told() {
+    let time = "expected a time, \"0ms\" to \"60s\", found `61000ms`";
+    let code = "expected an AL status code, 0x0001 to 0xFFFF, found `0x0000`";
+    are_told(&[
+        ("{ unit = \"let every transition of unit 1 take 61000ms\" }", time, "take {time}"),
+        ("{ unit = \"let transition IP of unit 1 take 61000ms\" }", time, "take {time}"),
+        ("{ unit = \"let each SII command of unit 1 take 61000ms\" }", time, "take {time}"),
+        ("{ unit = \"let the SDOs of unit 1 take 61000ms\" }", time, "take {time}"),
+        (
+            "{ unit = \"keep the SII of unit 1 busy for 61000ms\" }",
+            "above 0 and at most 60s",
+            "busy for {pause}",
+        ),
+        (
+            "{ unit = { conduct = { units = 1, conduct = { every_transition = { time = \"100s\" } } } } }",
+            "expected a time, \"0ms\" to \"60s\", found `100s`",
+            "take {time}",
+        ),
+        (
+            "{ unit = \"let unit 1 refuse OP with AL status code 0x0000\" }",
+            code,
+            "with AL status code {code}",
+        ),
+        ("{ expect = \"unit 1 is in OP with AL status code 0x0000\" }", code, "with AL status code {code}"),
+        (
+            "{ unit = \"let unit 1 refuse 0x05 with AL status code 0x0024\" }",
+            "expected INIT, PRE-OP, SAFE-OP, OP or BOOT, found `0x05`",
+            "refuse {state}",
+        ),
+    ]);
+    let longest = "title = \"t\"\nsteps = [{ unit = \"let every transition of unit 1 take 60s\" }]";
+    assert!(Scenario::parse(longest, |_| Err(String::new())).is_ok());
+}
+
+#[test]
+fn a_program_that_a_unit_does_not_have_is_told() {
+    for condition in [
+        "no program error of unit 1",
+        "program error of unit 1",
+        "no task overrun of unit 1",
+        "task overrun of unit 1",
+        "no user-defined error at unit 1",
+        "user-defined error 16#101 at unit 1",
+        "user-defined error 16#101 at unit 1 0 times",
+        "program variable x of unit 1 is 1",
+    ] {
+        for key in ["expect", "never", "line = \"be quiet\", when"] {
+            let none = step(&format!("{{ {key} = \"{condition}\" }}"));
+            assert!(none.contains("unit 1 has no user program"), "{condition}\n{none}");
+            assert!(none.contains("give it one: `cpu = { program"), "{condition}\n{none}");
+        }
+        let builtin = errors(&format!(
+            "title = \"t\"\nunits = [{{ model = \"nx-ect101\", cpu.program = \"builtin:copy\" }}]\n\
+             steps = [\n{{ expect = \"{condition}\" }}\n]"
+        ));
+        assert!(
+            builtin.contains("the program builtin:copy of unit 1 has no errors and no variables"),
+            "{builtin}"
+        );
+    }
+}
+
+#[test]
+fn a_limit_of_0_and_empty_lists_are_told() {
+    let with = |head: &str, steps: &str| errors(&format!("title = \"t\"\n{head}\nsteps = [{steps}]"));
+    let quiet = "{ line = \"be quiet\" }";
+    let limit = with("limit = \"0ms\"", quiet);
+    assert!(
+        limit.contains("line 2, column 9: a limit of 0") && limit.contains("such as `limit = "),
+        "{limit}"
+    );
+    let units = with("units = []", quiet);
+    assert!(units.contains("line 2, column 9: `units` is an empty list"), "{units}");
+    assert!(units.contains("leave `units` out for one unit at its factory setting"), "{units}");
+    let steps = with("", "");
+    assert!(
+        steps.contains("line 3, column 9: `steps` is an empty list") && steps.contains("`steps = ["),
+        "{steps}"
+    );
+}
+
+#[test]
+fn a_sentence_has_a_greatest_length() {
+    let of = |length: usize| step(&format!("{{ expect = \"{}\" }}", "x".repeat(length)));
+    assert!(of(65_536).contains("is not a valid sentence here"));
+    let long = of(65_537);
+    assert!(long.contains("a sentence of 65537 bytes, and at most 65536 are read"), "{long}");
+    assert!(of(4_000_000).contains("a sentence of 4000000 bytes, and at most 65536 are read"));
 }
 
 #[test]
@@ -296,7 +445,7 @@ fn a_unit_without_power_is_in_no_state() {
         "title = \"t\"\nsteps = [\n{ unit = \"power off unit 1\" },\n{ expect = \"unit 1 is in INIT\" }\n]";
     let scenario = Scenario::parse(text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
     let failure = scenario.replay(1, Recording::new(false, false)).failure;
-    assert_eq!(failure.map(|failure| failure.seen).as_deref(), Some("unit 1 is off"));
+    assert_eq!(failure.map(|failure| failure.seen).as_deref(), Some("unit 1 has no power"));
 }
 
 #[test]
@@ -316,13 +465,15 @@ fn nothing_goes_on_behind_the_limit() {
 
 #[test]
 fn a_cycle_that_never_ends_is_refused() {
-    assert!(errors("title = \"t\"\ncycle = \"0s\"\nsteps = []").contains("a cycle of 0 never ends"));
+    assert!(
+        errors("title = \"t\"\ncycle = \"0s\"\nsteps = [{ line = \"be quiet\" }]")
+            .contains("a cycle of 0 never ends")
+    );
 }
 
 #[test]
 fn a_program_that_is_not_there_is_refused() {
-    let text =
-        "title = \"t\"\nunits = [{ model = \"nx-ect101\", cpu = { program = \"echo.st\" } }]\nsteps = []";
+    let text = "title = \"t\"\nunits = [{ model = \"nx-ect101\", cpu = { program = \"echo.st\" } }]\nsteps = [{ line = \"be quiet\" }]";
     let errors = errors(text);
     assert!(errors.contains("echo.st is not there") && errors.contains("builtin:copy"), "{errors}");
 }

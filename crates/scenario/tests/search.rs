@@ -14,9 +14,9 @@ steps = [
 
   { after = "10ms", line = "be quiet" },
   { line = "plug cable 1" },
-  { unit = "mend Processing of unit 1" },
-  { unit = "mend IoCommunications of unit 1" },
-  { unit = "mend ClockNotSynchronized of unit 1" },
+  { unit = "repair Processing of unit 1" },
+  { unit = "repair IoCommunications of unit 1" },
+  { unit = "repair ClockNotSynchronized of unit 1" },
   { cpu = "start the task of unit 1" },
   { cpu = "start I/O refreshing of unit 1" },
   { cpu = "set unit 1 to RUN mode" },

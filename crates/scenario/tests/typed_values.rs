@@ -131,7 +131,8 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "controller" => {
             prop_oneof![Just("the master".to_owned()), (1..99_u8).prop_map(|n| format!("unit {n}"))].boxed()
         }
-        "state" => one_of(&["INIT", "PRE-OP", "SAFE-OP", "OP", "BOOT", "0x05", "15", "4", "0x00"]).boxed(),
+        "state" => one_of(&["INIT", "PRE-OP", "SAFE-OP", "OP", "BOOT", "4", "0x08"]).boxed(),
+        "request" => one_of(&["INIT", "PRE-OP", "SAFE-OP", "OP", "BOOT", "0x05", "15", "4", "0x00"]).boxed(),
         "transition" => one_of(&["IP", "PS", "SO", "OI"]).boxed(),
         "number" => number(u64::MAX).boxed(),
         "byte" => number(0xFF).boxed(),
@@ -141,7 +142,10 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "cable" => (1..=0xFFFF_u16).prop_map(|n| n.to_string()).boxed(),
         "error" => (1..=40_000_u16).prop_map(|n| format!("16#{n:x}")).boxed(),
         "period" => one_of(&["1ms", "1.5ms", "250us", "2s", "1ns"]).boxed(),
-        "duration" => (0..u64::MAX / 2).prop_map(|n| format!("{n}ns")).boxed(),
+        "time" => (0..=60_000_000_000_u64).prop_map(|n| format!("{n}ns")).boxed(),
+        "pause" => (1..=60_000_000_000_u64).prop_map(|n| format!("{n}ns")).boxed(),
+        "code" => (1..=0xFFFF_u16).prop_map(|n| format!("0x{n:04X}")).boxed(),
+        "length" => (14..=1513_u16).prop_map(|n| n.to_string()).boxed(),
         "bytes" => bytes()
             .prop_map(|bytes| bytes.iter().map(|byte| format!("0x{byte:x}")).collect::<Vec<_>>().join(" "))
             .boxed(),

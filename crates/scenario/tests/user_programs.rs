@@ -84,8 +84,9 @@ fn a_condition_takes_the_constants_of_structured_text() {
 
 #[test]
 fn the_masters_program_is_checked_against_the_entries_that_the_steps_map() {
-    let text =
-        |steps: &str, master: &str| format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = [{steps}]");
+    let text = |steps: &str, master: &str| {
+        format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = [{{ line = \"be quiet\" }}, {steps}]")
+    };
     let reads = |program: &str, steps: &str, master: &str| errors(&text(steps, master), &[("m.st", program)]);
     let udint = "VAR x : UDINT; END_VAR x := E001_UDINT_01_C_to_M;";
     let mapped = "{ master = \"let unit 1 assign to 0x1C13 the PDOs 1A00 1A01 1A03\" }";
@@ -112,7 +113,10 @@ fn what_is_wrong_with_the_master_is_told() {
         ("device_names = []", "`master.program` is missing"),
         ("program = \"m.st\", period = \"1ms\"", "unknown key `master.period`"),
     ] {
-        let errors = errors(&format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = []"), &[("m.st", ";")]);
+        let errors = errors(
+            &format!("title = \"t\"\nmaster = {{ {master} }}\nsteps = [{{ line = \"be quiet\" }}]"),
+            &[("m.st", ";")],
+        );
         assert!(errors.len() == 1 && errors[0].contains(message), "{message}: {errors:?}");
     }
 }
@@ -259,7 +263,9 @@ fn what_the_master_writes_goes_to_the_unit_that_it_names() {
 
 /// The mistakes of a line with these units, whose master has this program.
 fn errors_of_line(units: &str, program: &str) -> Vec<String> {
-    let text = format!("title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{units}]\nsteps = []");
+    let text = format!(
+        "title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{units}]\nsteps = [{{ line = \"be quiet\" }}]"
+    );
     errors(&text, &[("m.st", program)])
 }
 
@@ -304,14 +310,15 @@ fn missing_equal_and_too_large_ids_are_mistakes_when_the_master_has_a_program() 
     );
     assert_eq!(two("", ", id_switch = 192"), [""; 0]);
     assert_eq!(two(", id_switch = 3, alias = 9", ", id_switch = 9"), [""; 0], "the switch counts");
-    let text = format!("title = \"t\"\nunits = [{}{}]\nsteps = []", unit(""), unit(""));
+    let text =
+        format!("title = \"t\"\nunits = [{}{}]\nsteps = [{{ line = \"be quiet\" }}]", unit(""), unit(""));
     assert_eq!(errors(&text, &[]), [""; 0], "without a program nobody asks for the node address");
 }
 
 #[test]
 fn a_wrong_id_is_told_at_its_unit() {
     let text = "title = \"t\"\nmaster = { program = \"m.st\" }\nunits = [\n\
-        { model = \"nx-ect101\" },\n{ model = \"nx-ect101\", serial = 2 },\n]\nsteps = []";
+        { model = \"nx-ect101\" },\n{ model = \"nx-ect101\", serial = 2 },\n]\nsteps = [{ line = \"be quiet\" }]";
     let errors = Scenario::parse(text, |_| Ok(";".to_owned())).unwrap_err();
     assert_eq!(errors.iter().map(|error| error.line()).collect::<Vec<_>>(), [Some(5)]);
 }
@@ -413,11 +420,25 @@ fn a_program_without_end_at_the_master_does_not_stop_the_exchange_either() {
         .within(Duration::from_millis(20))
         .expect("unit 1 is in OP")
         .expect("task overrun of the master")
-        .expect("no task overrun of unit 1")
         .after(Duration::from_millis(5))
         .expect("the working counter of unit 1 is 3")
         .finish()
         .expect("a right scenario")
         .replay(1, Recording::new(true, false));
     assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
+/// One mistake is one message: names and addresses of units that cannot be read are not checked.
+#[test]
+fn wrong_units_give_no_mistakes_of_the_master() {
+    let master = "master = { program = \"m.st\", device_names = [\"A\", \"A\", \"1\"] }";
+    for (units, message) in [
+        ("[{ model = \"nx-ect102\" }]", "nx-ect102"),
+        ("[\"no.toml\"]", "no such file"),
+        ("7", "`units` is an integer"),
+    ] {
+        let text = format!("title = \"t\"\n{master}\nunits = {units}\nsteps = [{{ line = \"be quiet\" }}]");
+        let errors = errors(&text, &[("m.st", "E001_UINTs_01_M_to_C[0] := 1;")]);
+        assert!(errors.len() == 1 && errors[0].contains(message), "{message}: {errors:?}");
+    }
 }

@@ -65,7 +65,7 @@ const VALUES: &str = r##"
 | `units` | `"all"`, or the number of a unit, 1 for the one next to the master |
 | `unit`, `cable` | a number from 1 |
 | `controller` | `"master"`, or `{ "unit": 1 }` |
-| a state | `"INIT"`, `"PRE-OP"`, `"SAFE-OP"`, `"OP"`, `"BOOT"`, or a number as a text: `"0x05"` |
+| a state | `"INIT"`, `"PRE-OP"`, `"SAFE-OP"`, `"OP"`, `"BOOT"`; in `request` also a number as a text: `"0x05"` |
 | a code, a register, a PDO | a text in hexadecimal such as `"0x001B"`, or a number |
 | bytes | a text in hexadecimal: `"01 FF"` |
 | an entry of an object | `"10F3:05"` |
@@ -88,7 +88,7 @@ fn page() -> String {
 
 fn values<T: Spoken + Serialize>(page: &mut String, heading: &str, table: &[Sentence<T>]) {
     page.push_str(&format!("\n## {heading}\n| sentence | typed value |\n|---|---|\n"));
-    for Sentence { example, .. } in table {
+    for Sentence { example, .. } in table.iter().filter(|row| !row.is_old) {
         let json = T::from_sentence(example).ok().and_then(|value| serde_json::to_string(&value).ok());
         page.push_str(&format!("| `{example}` | `{}` |\n", json.unwrap_or_default()));
     }

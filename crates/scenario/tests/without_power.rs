@@ -46,11 +46,12 @@ fn what_a_hand_does_to_it_has_an_effect() {
         "power on unit 1",
         "cycle the power of unit 1",
         "turn the ID switch of unit 1 to 0x2A",
-        "spoil word 4 of the SII of unit 1",
+        "corrupt word 4 of the SII of unit 1",
         "erase the SII of unit 1",
         "break Esc of unit 1",
         "break NonVolatileMemory of unit 1",
         "break SiiVerification of unit 1",
+        "repair Processing of unit 1",
         "mend Processing of unit 1",
         "let every transition of unit 1 take 500ms",
         "let transition IP of unit 1 take 500ms",
@@ -90,4 +91,25 @@ fn an_order_to_all_units_acts_on_those_with_power() {
     assert_eq!(report.failure, None, "{trace}");
     assert_eq!(trace.matches("the order has no effect").count(), 1, "{trace}");
     assert!(trace.contains(NO_EFFECT), "{trace}");
+}
+
+/// What only a unit with power can show does not hold without power.
+#[test]
+fn a_unit_without_power_shows_nothing() {
+    for condition in [
+        "unit 1 is in INIT",
+        "unit 1 has no error",
+        "all units have no error",
+        "unit 1 has no new messages",
+        "register 0x0130 of unit 1 is 01 00",
+        "object 1018:01 of unit 1 is 83 00 00 00",
+        "the data of unit 1 is not valid",
+        "the data M to C of unit 1 is not valid",
+        "the data C to M of unit 1 is not valid",
+    ] {
+        let step = format!("after = \"1ms\", expect = \"{condition}\"");
+        assert_eq!(replay(&[format!("{{ {step} }}")]).failure, None, "{condition}");
+        let seen = off_and(&[&step]).failure.map(|failure| failure.seen);
+        assert_eq!(seen.as_deref(), Some("unit 1 has no power"), "{condition}");
+    }
 }

@@ -9,7 +9,11 @@ mod times;
 mod timing;
 
 pub use common::{CommonKeys, KEYS};
-pub use slave::{OutputsRule, Shape, SlaveKeys, refuse_keys, times_keys, transition_keys};
+pub use slave::{
+    AL_STATUS_CODES, AL_STATUS_CODES_WORDS, OutputsRule, Shape, SlaveKeys, refuse_keys, times_keys,
+    transition_keys,
+};
+pub use times::{TIMES, TIMES_WORDS};
 pub use timing::Timing;
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel}
 use std::thread;
 use std::time::Duration as WallDuration;
 
-use plc::{CpuUnit, OperatingMode, Program};
+use plc::CpuUnit;
 
 use crate::watched_program::{Change, Watch, WatchedProgram};
 
@@ -70,19 +70,10 @@ impl ProgramChanges {
             self.waiting.0.fetch_sub(1, Ordering::Relaxed);
             for (position, program) in programs {
                 if let Some(cpu) = cpus.get_mut(position) {
-                    load(cpu, program);
+                    cpu.change_program(program);
                 }
             }
             report.log();
         }
     }
-}
-
-fn load(cpu: &mut CpuUnit, program: Box<dyn Program + Send>) {
-    let mode = cpu.mode();
-    cpu.set_mode(OperatingMode::Program);
-    if cpu.load(program).is_err() {
-        unreachable!("the CPU Unit is in PROGRAM mode");
-    }
-    cpu.set_mode(mode);
 }

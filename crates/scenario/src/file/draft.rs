@@ -1,14 +1,14 @@
 //! A script from a file, with the places of its parts.
 
 use time::Duration;
-use user_file::{Section, Value, field_names, wrong_type};
+use user_file::{Problem, Section, Value, field_names, wrong_type};
 
 use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
 use super::steps::{StepReading, read_step};
 use super::values;
 use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
-use crate::ready::{Draft, is_unit};
+use crate::ready::{Draft, STEPS_WAY_OUT, empty_list, is_unit};
 
 impl FileReader<'_, '_> {
     /// The script with the words of its steps; wrong parts are left out.
@@ -31,6 +31,7 @@ impl FileReader<'_, '_> {
         self.reader.require(file, "steps", "`steps = […]`, what happens");
         let mut script = Script::new(&self.value(file, "title", values::text).unwrap_or_default());
         script.seed = self.value(file, "seed", values::number).unwrap_or(script.seed);
+        self.places.limit = span_of(file, "limit");
         script.limit = self.limit(file, script.limit);
         self.places.cycle = span_of(file, "cycle");
         script.cycle = self.value(file, "cycle", values::duration).unwrap_or(script.cycle);
@@ -63,6 +64,7 @@ impl FileReader<'_, '_> {
     }
 
     fn units(&mut self, file: &Section<'_, '_>, script: &mut Script) {
+        self.refuse_empty(file, "units", "leave `units` out for one unit at its factory setting");
         for (at, unit) in self.list(file, "units").iter().enumerate() {
             if let Some(read) = self.unit(at, unit) {
                 self.places.units.push(unit.span());
@@ -91,6 +93,7 @@ impl FileReader<'_, '_> {
     }
 
     fn steps(&mut self, file: &Section<'_, '_>, script: &mut Script) {
+        self.refuse_empty(file, "steps", STEPS_WAY_OUT);
         for (at, step) in self.list(file, "steps").iter().enumerate() {
             if let Some(StepReading { step, places, written }) = read_step(self, at, step) {
                 script.steps.push(step);
@@ -108,5 +111,14 @@ impl FileReader<'_, '_> {
         }
         self.reader.refuse_by(value.span(), || wrong_type(key, value.get_ref(), "a list"));
         &[]
+    }
+
+    /// A list with nothing in it says nothing: `way_out` is what to write instead.
+    fn refuse_empty(&mut self, file: &Section<'_, '_>, key: &str, way_out: &str) {
+        let Some(value) = file.get(key) else { return };
+        if value.get_ref().as_array().is_some_and(|list| list.is_empty()) {
+            let problem = Problem::new(empty_list(key), "").with_help(way_out.to_owned());
+            self.reader.refuse(value.span(), problem);
+        }
     }
 }

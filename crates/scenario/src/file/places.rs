@@ -10,6 +10,7 @@ pub(super) type Span = Range<usize>;
 /// The places of a file.
 #[derive(Default)]
 pub(super) struct Places {
+    pub(super) limit: Span,
     pub(super) cycle: Span,
     pub(super) cycle_phase: Span,
     pub(super) units: Vec<Span>,
@@ -42,6 +43,7 @@ impl Places {
     pub(super) fn of(&self, part: Part) -> Span {
         match part {
             Part::Script => 0..0,
+            Part::Limit => self.limit.clone(),
             Part::Cycle => self.cycle.clone(),
             Part::CyclePhase => self.cycle_phase.clone(),
             Part::Unit(at) => self.units.get(at).cloned().unwrap_or_default(),

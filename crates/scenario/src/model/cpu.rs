@@ -42,7 +42,7 @@ pub enum CpuOrder {
     Release { variable: String },
     /// Releases everything.
     ReleaseAll { units: UnitSet },
-    /// Replaces the user program, in PROGRAM mode, by the one in this file, relative to the scenario.
+    /// Replaces the user program by the one in this file, relative to the scenario.
     Load { unit: UnitNumber, program: String },
 }
 

@@ -91,6 +91,13 @@ pub enum FrameKind {
     Mailbox,
 }
 
+impl Choice {
+    /// Whether it selects no frame at all.
+    pub(crate) const fn is_none(self) -> bool {
+        matches!(self, Self::Next(0) | Self::Behind { count: 0, .. })
+    }
+}
+
 /// The selected frames of a kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]

@@ -1,6 +1,6 @@
 //! A whole scenario as written: units and programs by their files, and steps.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, de};
 use time::Duration;
 
 use super::spelling::{optional_text, text};
@@ -36,7 +36,7 @@ pub struct Script {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub master: Option<ScriptMaster>,
     /// The units of the line, the one next to the master first; none: one unit at its factory setting.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, deserialize_with = "at_least_one", skip_serializing_if = "Vec::is_empty")]
     pub units: Vec<ScriptUnit>,
     /// The steps, in this order.
     pub steps: Vec<ScriptStep>,
@@ -52,6 +52,14 @@ const fn default_limit() -> Duration {
 
 const fn default_cycle() -> Duration {
     DEFAULT_CYCLE
+}
+
+/// An empty list would mean one unit, as if the key were left out.
+fn at_least_one<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<ScriptUnit>, D::Error> {
+    let units = Vec::deserialize(deserializer)?;
+    let none =
+        || de::Error::custom("`units` is an empty list: leave it out for one unit at its factory setting");
+    if units.is_empty() { Err(none()) } else { Ok(units) }
 }
 
 impl Script {

@@ -105,6 +105,7 @@ impl ScenarioErrors {
         for Problem { part, message, help } in problems {
             let (order, place) = match part {
                 Part::Script
+                | Part::Limit
                 | Part::Cycle
                 | Part::CyclePhase
                 | Part::MasterProgram

@@ -4,6 +4,7 @@ use plc::DeviceVariables;
 
 use super::files::Files;
 use super::problem::{Part, Problem};
+use super::programs::LastingValue;
 use crate::run::{LoadedProgram, MasterProgram, UnitSource};
 
 /// Makes a scenario ready.
@@ -19,6 +20,12 @@ pub(super) struct Maker<'f> {
     pub(super) has_capture: bool,
     /// Programs that steps load.
     pub(super) programs: Vec<LoadedProgram>,
+    /// The steps that load them, and their units.
+    pub(super) loads: Vec<(usize, usize)>,
+    /// Units whose last load has a mistake: their program is not known.
+    pub(super) unreadable: Vec<usize>,
+    /// Values of programs' variables that are checked to the end.
+    pub(super) lasting_values: Vec<LastingValue>,
     pub(super) problems: Vec<Problem>,
 }
 
@@ -31,6 +38,9 @@ impl<'f> Maker<'f> {
             variables: Vec::new(),
             master: None,
             programs: Vec::new(),
+            loads: Vec::new(),
+            unreadable: Vec::new(),
+            lasting_values: Vec::new(),
             problems: Vec::new(),
         }
     }

@@ -13,6 +13,7 @@ pub(crate) struct Problem {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     Script,
+    Limit,
     Cycle,
     CyclePhase,
     Unit(usize),

@@ -4,9 +4,9 @@ use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess};
 
 use super::maker::Maker;
 use super::problem::Part;
+use super::programs::{Lasting, Present, VariableProblem, canonical_value};
 use super::reach::line_of;
 use crate::model::{Condition, Controller, CpuOrder};
-use crate::run::{LoadedProgram, UserProgram};
 
 impl Maker<'_> {
     /// Whether the variables of an order exist and accept its values. Reads the program that it loads.
@@ -32,13 +32,6 @@ impl Maker<'_> {
         }
     }
 
-    fn load(&mut self, unit: usize, name: &str, part: Part) -> Option<()> {
-        let unit_file = self.units.get(unit)?.file.clone();
-        let file = self.program_file(&[name.to_owned()], part, &unit_file)?;
-        self.programs.push(LoadedProgram { unit, file });
-        Some(())
-    }
-
     /// Writes the value of a condition in the notation of the variable.
     pub(super) fn resolve(&mut self, condition: &mut Condition, part: Part) -> Option<()> {
         if let Condition::VariableBytes { variable, .. } = condition {
@@ -62,6 +55,14 @@ impl Maker<'_> {
             let units = self.units.iter().map(|unit| unit.file.name());
             let help = format!("the units are named {}", units.collect::<Vec<_>>().join(", "));
             self.refuse(part, format!("no unit has the device variable {name}"), help);
+        }
+        let (first, _) = found?;
+        let is_there = |variables: &DeviceVariables| variables.find_target(name).is_ok();
+        if let Some(more) = self.variables.iter().skip(first + 1).position(is_there) {
+            let message =
+                format!("units {} and {} both have the device variable {name}", first + 1, first + more + 2);
+            self.refuse(part, message, "give each unit of the line another `name`");
+            return None;
         }
         found
     }
@@ -103,11 +104,11 @@ impl Maker<'_> {
     fn program_value(&mut self, of: Controller, name: &str, text: &str, part: Part) -> Option<String> {
         let canonical = match of {
             Controller::Master => canonical_value(self.master.as_ref()?.instance(), name, text),
-            Controller::Unit(unit) => match &self.units.get(unit.position())?.program {
-                UserProgram::StructuredText(file) => canonical_value(file.program.instance(), name, text),
+            Controller::Unit(unit) => match self.present_program(unit.position()) {
+                Present::File(file) => canonical_value(file.program.instance(), name, text),
                 // The variables of a test's program are known only when it runs.
-                UserProgram::Custom(_) => Ok(text.to_owned()),
-                UserProgram::None | UserProgram::Builtin(_) => Err(VariableProblem::NoSuchVariable),
+                Present::Unknown => Ok(text.to_owned()),
+                Present::None | Present::Builtin(_) => Err(VariableProblem::NoSuchVariable),
             },
         };
         match canonical {
@@ -125,8 +126,14 @@ impl Maker<'_> {
         }
     }
 
-    /// Whether the variables of a program are known.
-    pub(super) fn check_controller(&mut self, controller: Controller, part: Part) -> Option<()> {
+    /// Whether a controller has a program that a condition can be about.
+    pub(super) fn check_controller(
+        &mut self,
+        controller: Controller,
+        condition: &Condition,
+        part: Part,
+        lasting: Lasting,
+    ) -> Option<()> {
         match controller {
             Controller::Master if self.master.is_none() => {
                 let help = "give it one: `master = { program = \"….st\" }`";
@@ -137,27 +144,8 @@ impl Maker<'_> {
                 self.refuse(part, "it refers to a unit that does not exist", line_of(self.units.len()));
                 None
             }
-            Controller::Master | Controller::Unit(_) => Some(()),
+            Controller::Master => Some(()),
+            Controller::Unit(unit) => self.check_program(unit.position(), condition, part, lasting),
         }
-    }
-}
-
-/// The mistake in the name or the value of a program's variable.
-enum VariableProblem {
-    NoSuchVariable,
-    NoValue {
-        /// The initial value of the variable, as an example.
-        such_as: String,
-    },
-}
-
-/// A value of a variable in the notation of the program, so that texts can be compared: `5`, `16#1F`, `T#20ms`,
-/// `[0, 1]`.
-fn canonical_value(program: &st::Instance, name: &str, text: &str) -> Result<String, VariableProblem> {
-    let initial = program.value(name).ok_or(VariableProblem::NoSuchVariable)?;
-    let mut trial = program.clone();
-    match trial.set(name, text).then(|| trial.value(name)).flatten() {
-        Some(value) => Ok(value),
-        None => Err(VariableProblem::NoValue { such_as: initial }),
     }
 }

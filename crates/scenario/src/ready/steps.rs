@@ -4,9 +4,12 @@ use time::Duration;
 
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
+use super::programs::{Lasting, loads};
 use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
-use crate::model::{Condition, Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
+use crate::model::{
+    Condition, Expectation, LineOrder, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger,
+};
 use crate::run::{RandomPart, WrittenStep};
 use crate::words::Spoken;
 
@@ -40,6 +43,7 @@ impl Maker<'_> {
         ground: Ground,
     ) -> ReadySteps {
         let mut ready = ReadySteps::default();
+        self.loads = loads(&steps);
         for (at, (step, written)) in steps.into_iter().zip(written).enumerate() {
             match step {
                 ScriptStep::Random(random) => self.random(at, random, written, &mut ready),
@@ -82,6 +86,10 @@ impl Maker<'_> {
             let message = format!("`repeat` is 1 to {STEPS_MAX} times");
             self.refuse(Part::Step(at, StepPart::Count), message, "");
         }
+        if every.is_zero() {
+            let help = "such as `every = \"10ms\"`";
+            self.refuse(Part::Step(at, StepPart::Whole), "a period of 0 repeats nothing in time", help);
+        }
         if jitter > every {
             let message = format!("a jitter of {jitter} is more than the period of {every}");
             self.refuse(Part::Step(at, StepPart::Whole), message, "");
@@ -107,14 +115,15 @@ impl Maker<'_> {
 
     fn check_step(&mut self, at: usize, step: &mut Step, ground: Ground) {
         if let Trigger::When(condition) = &mut step.trigger {
-            self.condition(condition, Part::Step(at, StepPart::When), ground);
+            self.condition(condition, Part::Step(at, StepPart::When), ground, Lasting::Step);
         }
         let part = Part::Step(at, StepPart::Order);
         match &mut step.order {
             Order::Expect(Expectation { condition, mode }) => {
-                self.condition(condition, part, ground);
+                let lasting = if *mode == Mode::Never { Lasting::ToTheEnd } else { Lasting::Step };
+                self.condition(condition, part, ground, lasting);
                 if let Mode::Until(until) | Mode::NeverUntil(until) = mode {
-                    self.condition(until, Part::Step(at, StepPart::Until), ground);
+                    self.condition(until, Part::Step(at, StepPart::Until), ground, Lasting::Step);
                 }
             }
             order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
@@ -139,6 +148,7 @@ impl Maker<'_> {
                 unit_of_cpu(order).is_none_or(|set| set.exists(units))
             }
             Order::Line(order) => {
+                self.check_count(order, part)?;
                 self.said(order, part)?;
                 is_cable_there(order, units)
             }
@@ -158,7 +168,13 @@ impl Maker<'_> {
         }
     }
 
-    fn condition(&mut self, condition: &mut Condition, part: Part, ground: Ground) -> Option<()> {
+    fn condition(
+        &mut self,
+        condition: &mut Condition,
+        part: Part,
+        ground: Ground,
+        lasting: Lasting,
+    ) -> Option<()> {
         self.said(condition, part)?;
         if ground == Ground::Missing {
             return None;
@@ -169,7 +185,7 @@ impl Maker<'_> {
                 self.refuse(part, "it refers to a unit that does not exist", line_of(units));
                 return None;
             }
-            Subject::Controller(controller) => self.check_controller(controller, part)?,
+            Subject::Controller(controller) => self.check_controller(controller, condition, part, lasting)?,
             // Without frames all of them are sent, and no answer differs.
             Subject::Capture if !self.has_capture => {
                 let help = "name one: `capture = \"….pcapng\"`";
@@ -178,8 +194,31 @@ impl Maker<'_> {
             }
             Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture => {}
         }
+        if matches!(condition, Condition::Cycles { at_least: 0 }) {
+            let message = "0 cycles are done at the beginning too, so it always holds";
+            self.refuse(part, message, "a number from 1, such as `100 cycles are done`");
+            return None;
+        }
         self.check_words_of_condition(condition, part)?;
-        self.resolve(condition, part)
+        self.resolve(condition, part)?;
+        if lasting == Lasting::ToTheEnd {
+            self.value_lasts(condition, part);
+        }
+        Some(())
+    }
+
+    /// Refuses faults of 0 frames.
+    fn check_count(&mut self, order: &LineOrder, part: Part) -> Option<()> {
+        let LineOrder::Disturb(disturbance) = order else { return Some(()) };
+        if disturbance.frames.choice.is_none() {
+            self.refuse(
+                part,
+                "0 frames get the fault, so it does nothing",
+                "a number from 1, such as `the next 3 frames`",
+            );
+            return None;
+        }
+        Some(())
     }
 
     /// Refuses values without a sentence: a byte above 255, an unknown fault, an empty list.

@@ -38,8 +38,27 @@ impl Maker<'_> {
                 self.unit_text(&UnitFile::factory_text(), Part::Script, Origin { path: None, program: None });
             self.units.extend(source);
         }
+        self.check_names_of_units();
         let variables = self.units.iter().map(|unit| unit.file.variables().clone());
         self.variables = variables.collect();
+    }
+
+    /// Refuses a name that two units have, if a file has it: the variables of a unit begin with its name.
+    fn check_names_of_units(&mut self) {
+        if !self.problems.is_empty() {
+            return;
+        }
+        let files: Vec<_> = self.units.iter().map(|unit| &unit.file).collect();
+        let twin = |at: usize, file: &UnitFile| {
+            let first = files.iter().take(at).position(|other| {
+                (file.is_named() || other.is_named()) && other.name().eq_ignore_ascii_case(file.name())
+            })?;
+            Some((at, format!("units {} and {} are both named {}", first + 1, at + 1, file.name())))
+        };
+        let twins: Vec<_> = files.iter().enumerate().filter_map(|(at, file)| twin(at, file)).collect();
+        for (at, message) in twins {
+            self.refuse(Part::Unit(at), message, "each unit of a line needs another `name`");
+        }
     }
 
     fn unit(&mut self, unit: &ScriptUnit, part: Part) -> Option<UnitSource> {

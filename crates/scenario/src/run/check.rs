@@ -94,7 +94,7 @@ fn each(
 ) -> Result<(), Seen> {
     let mut positions = units.positions(world.count());
     if positions.is_empty() {
-        return Err(format!("{units}: not there"));
+        return Err(Seen::not_there(format!("{units}: not there")));
     }
     positions.try_for_each(|at| check(world, at))
 }

@@ -59,8 +59,9 @@ impl Wanted {
     fn judge(self, checked: Result<(), Seen>) -> Result<(), Seen> {
         match (self, checked) {
             (Self::Always, checked) => checked,
-            (Self::Never, Err(_)) => Ok(()),
-            (Self::Never, Ok(())) => Err("it does hold".to_owned()),
+            (Self::Never, Err(seen)) if seen.is_false() => Ok(()),
+            (Self::Never, Err(seen)) => Err(seen),
+            (Self::Never, Ok(())) => Err("it does hold".to_owned().into()),
         }
     }
 }
@@ -124,7 +125,7 @@ impl<'a> Replay<'a> {
                     Err(seen) => seen,
                 };
                 if self.world.now() >= self.limit {
-                    let seen = format!("the condition of `when` is not true before the limit: {seen}");
+                    let seen = format!("the condition of `when` is not true before the limit: {seen}").into();
                     return Err(failure(step, self.world.now(), seen));
                 }
                 self.advance(self.limit)?;
@@ -192,7 +193,7 @@ impl<'a> Replay<'a> {
                 return Err(failure(
                     step,
                     now,
-                    format!("the condition of `until` is not true before the limit: {waiting}"),
+                    format!("the condition of `until` is not true before the limit: {waiting}").into(),
                 ));
             }
             self.advance(self.limit)?;
@@ -217,7 +218,7 @@ impl<'a> Replay<'a> {
     fn advance(&mut self, end: Instant) -> Verdict {
         if let Some(step) = self.current.filter(|_| self.world.now() > self.limit) {
             let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
-            return Err(failure(step, self.world.now(), words));
+            return Err(failure(step, self.world.now(), words.into()));
         }
         let quiet = self.world.now() + QUIET_STEP;
         let next = self.world.deadline().min(end).min(quiet);
@@ -249,6 +250,7 @@ impl Watch<'_> {
     }
 }
 
-fn failure(step: &WrittenStep, at: Instant, seen: String) -> Failure {
-    Failure { line: step.line, text: step.text.clone(), at: at.saturating_since(Instant::ZERO), seen }
+fn failure(step: &WrittenStep, at: Instant, seen: Seen) -> Failure {
+    let at = at.saturating_since(Instant::ZERO);
+    Failure { line: step.line, text: step.text.clone(), at, seen: seen.to_string() }
 }

@@ -2,13 +2,13 @@
 
 mod read;
 
-use time::Duration;
+use unit_model::keys::{AL_STATUS_CODES, AL_STATUS_CODES_WORDS, TIMES, TIMES_WORDS};
 
 use super::value::Value;
 use read::{
-    bytes, choice, controller, entries, entry, event, fault, fitting_entries, fitting_numbers, frames,
-    indicator, limited, number, numbers, one, pattern, percent, position, state, transition, unit, units,
-    user_error,
+    bytes, choice, controller, duration, entries, entry, event, fault, fitting_entries, fitting_numbers,
+    frames, indicator, limited, number, numbers, one, pattern, percent, position, requested, state,
+    transition, unit, units, user_error,
 };
 
 /// A kind of place.
@@ -65,22 +65,28 @@ const PLACES: &[Place] = &[
     place("unit", "`unit` and its number, 1 for the one next to the master", |words| {
         unit(words).map(|unit| (Value::Unit(unit), 2))
     }),
-    place("state", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| one(words, state)),
+    place("state", "INIT, PRE-OP, SAFE-OP, OP or BOOT", |words| one(words, state)),
+    place("request", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| {
+        one(words, requested)
+    }),
     place("transition", "a transition by its letters, such as IP, PS or SO", |words| one(words, transition)),
     place("number", "a number such as 12 or 0x0C", |words| one(words, number)),
+    place("code", AL_STATUS_CODES_WORDS, |words| {
+        limited(words, (*AL_STATUS_CODES.start()).into(), (*AL_STATUS_CODES.end()).into())
+    }),
+    place("length", "a length from 14 to 1513 bytes: all but the last byte of a frame", |words| {
+        limited(words, 14, 1513)
+    }),
     place("byte", "a number from 0 to 255 such as 0x2A", |words| limited(words, 0, 0xFF)),
     place("word", "a number from 0 to 65535 such as 0x0120", |words| limited(words, 0, 0xFFFF)),
     place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),
     place("counter", "a mailbox counter from 0 to 7", |words| limited(words, 0, 7)),
     place("channel", "a SyncManager from 0 to 7", |words| limited(words, 0, 7)),
     place("cable", "a cable, 1 for the one to the master", |words| limited(words, 1, 0xFFFF)),
-    place("period", "a time above 0 such as 1ms", |words| {
-        one(words, |word| {
-            word.parse().ok().filter(|period: &Duration| !period.is_zero()).map(Value::Duration)
-        })
-    }),
-    place("duration", "a time such as 1.5ms, 20us or 2s", |words| {
-        one(words, |word| word.parse().ok().map(Value::Duration))
+    place("period", "a time above 0 such as 1ms", |words| duration(words, |period| !period.is_zero())),
+    place("time", TIMES_WORDS, |words| duration(words, |time| TIMES.contains(&time))),
+    place("pause", "a time above 0 and at most 60s such as 100ms", |words| {
+        duration(words, |pause| !pause.is_zero() && TIMES.contains(&pause))
     }),
     place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
     place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),

@@ -17,6 +17,8 @@ pub struct Sentence<T> {
     pub example: &'static str,
     /// Its meaning.
     pub meaning: &'static str,
+    /// It is an old spelling: it is read, and neither written nor suggested.
+    pub is_old: bool,
     /// The typed value, from the values of its places, in their order.
     pub(super) build: fn(&[Value]) -> Option<T>,
     /// The values of its places for a typed value; none if the value has another sentence.
@@ -34,6 +36,7 @@ macro_rules! row {
             pattern: $pattern,
             example: $example,
             meaning: $meaning,
+            is_old: false,
             build: |values| match values {
                 [$($field),*] => {
                     $(let $field = $crate::words::value::Field::of($field)?;)*
@@ -60,6 +63,17 @@ pub struct NoSentence {
     pub help: String,
 }
 
+/// Maximum length of a sentence: more than an SDO or an array of any program needs.
+const SENTENCE_BYTES_MAX: usize = 65_536;
+
+/// A text that is too long to be a sentence.
+fn too_long(text: &str) -> Option<NoSentence> {
+    (text.len() > SENTENCE_BYTES_MAX).then(|| NoSentence {
+        message: format!("a sentence of {} bytes, and at most {SENTENCE_BYTES_MAX} are read", text.len()),
+        help: "divide it into several steps".to_owned(),
+    })
+}
+
 /// Reads a sentence by the first row that matches.
 ///
 /// # Errors
@@ -74,6 +88,9 @@ pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
 
 /// The same; the message of a mistake is made only on request.
 pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result<T, Misfit<'a, T>> {
+    if too_long(text).is_some() {
+        return Err(Misfit { table, text });
+    }
     let words: Vec<&str> = text.split_whitespace().collect();
     for sentence in table {
         if let Ok(values) = fit(sentence.pattern, &words) {
@@ -89,6 +106,9 @@ pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result
 /// The row that reads a sentence.
 #[must_use]
 pub fn row_of<'t, T>(table: &'t [Sentence<T>], text: &str) -> Option<&'t Sentence<T>> {
+    if too_long(text).is_some() {
+        return None;
+    }
     let words: Vec<&str> = text.split_whitespace().collect();
     table.iter().find(|sentence| fit(sentence.pattern, &words).is_ok())
 }
@@ -96,10 +116,15 @@ pub fn row_of<'t, T>(table: &'t [Sentence<T>], text: &str) -> Option<&'t Sentenc
 /// The sentence of a value. Of several with the same meaning it is the one whose verb agrees with the units,
 /// else the first. None if the table has none, which a test excludes.
 pub(super) fn say<T>(table: &[Sentence<T>], value: &T) -> Option<String> {
-    let said = table.iter().filter_map(|row| (row.take_apart)(value).map(|values| (row.pattern, values)));
+    let said = rows(table).filter_map(|row| (row.take_apart)(value).map(|values| (row.pattern, values)));
     let said: Vec<_> = said.collect();
     let agreeing = said.iter().find(|(pattern, values)| agrees(pattern, values));
     agreeing.or(said.first()).map(|(pattern, values)| fill(pattern, values))
+}
+
+/// The rows that are written and suggested.
+fn rows<T>(table: &[Sentence<T>]) -> impl Iterator<Item = &Sentence<T>> {
+    table.iter().filter(|row| !row.is_old)
 }
 
 /// `unit 1 is`, `all units are`.
@@ -132,6 +157,9 @@ pub(crate) struct Misfit<'a, T> {
 
 impl<T> Misfit<'_, T> {
     pub(crate) fn words(&self) -> NoSentence {
+        if let Some(too_long) = too_long(self.text) {
+            return too_long;
+        }
         match self.furthest() {
             Some((Sentence { pattern, example, .. }, problem)) => NoSentence {
                 message: problem.to_string(),
@@ -144,7 +172,7 @@ impl<T> Misfit<'_, T> {
     /// The row that matches furthest, the nearest of several, and the mistake there; none: no word matches.
     fn furthest(&self) -> Option<(&Sentence<T>, Problem<'_>)> {
         let words: Vec<&str> = self.text.split_whitespace().collect();
-        let misfits = self.table.iter().filter_map(|row| Some((row, fit(row.pattern, &words).err()?)));
+        let misfits = rows(self.table).filter_map(|row| Some((row, fit(row.pattern, &words).err()?)));
         let mut furthest: Option<(usize, f64, &Sentence<T>, Problem<'_>)> = None;
         for (row, (reached, problem)) in misfits.filter(|(_, (reached, _))| *reached > 0) {
             let likeness = likeness(row, self.text);
@@ -160,7 +188,7 @@ impl<T> Misfit<'_, T> {
 
     /// No part of the text matches: the example with the nearest words, if it is near.
     fn nearest(&self) -> NoSentence {
-        let scored = self.table.iter().map(|sentence| (likeness(sentence, self.text), sentence));
+        let scored = rows(self.table).map(|sentence| (likeness(sentence, self.text), sentence));
         let nearest = scored.max_by(|(a, _), (b, _)| a.total_cmp(b));
         let near = nearest.filter(|(likeness, _)| *likeness >= NEAR);
         let help = near.map_or_else(
@@ -177,6 +205,9 @@ const NEAR: f64 = 0.6;
 /// Number of words of a text that are compared: more than any sentence has words.
 const WORDS_COMPARED: usize = 32;
 
+/// Maximum length of a word that is compared: none in an example has half of it, and a much longer one is not like it.
+const WORD_BYTES_MAX: usize = 64;
+
 /// Two words are alike from this likeness on.
 const ALIKE: f64 = 0.85;
 
@@ -186,9 +217,10 @@ fn likeness<T>(sentence: &Sentence<T>, text: &str) -> f64 {
     let is_no_number = |word: &&str| !word.starts_with(|first: char| first.is_ascii_digit());
     let example: Vec<&str> = sentence.example.split_whitespace().filter(is_no_number).collect();
     let words: Vec<&str> = text.split_whitespace().filter(is_no_number).take(WORDS_COMPARED).collect();
+    let is_comparable = |word: &&&str| word.len() <= WORD_BYTES_MAX;
     let best =
         |word: &&str| example.iter().map(|known| strsim::jaro_winkler(word, known)).fold(0.0, f64::max);
-    let alike: f64 = words.iter().map(best).filter(|likeness| *likeness >= ALIKE).sum();
+    let alike: f64 = words.iter().filter(is_comparable).map(best).filter(|likeness| *likeness >= ALIKE).sum();
     2.0 * alike / (words.len() + example.len()) as f64
 }
 

@@ -14,7 +14,7 @@ fn examples_are_read_and_written<T: Spoken + PartialEq>() {
         let values = fit(sentence.pattern, &words).map_err(|(_, problem)| problem.to_string());
         let alone = (sentence.build)(&values.expect(sentence.example)).expect(sentence.pattern);
         assert_eq!(T::from_sentence(sentence.example).as_ref(), Ok(&alone), "{}", sentence.example);
-        assert_eq!(alone.sentence(), sentence.example);
+        assert_ne!(sentence.is_old, alone.sentence() == sentence.example, "{}", sentence.example);
         assert!(!sentence.meaning.is_empty());
     }
 }
@@ -36,7 +36,7 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
     };
     assert_eq!(
         problem("unit 1 is in SAVE-OP"),
-        "expected INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05, found `SAVE-OP` / \
+        "expected INIT, PRE-OP, SAFE-OP, OP or BOOT, found `SAVE-OP` / \
          the sentence is `{units} is in {state}`, such as `unit 1 is in OP`"
     );
     assert!(problem("unit 1 has recorded 8500").contains("an event code of eight hexadecimal digits"));
@@ -57,8 +57,8 @@ fn places_read_what_they_name() {
     assert!(one("percent", &["0", "%"]).is_err() && one("percent", &["101%"]).is_err());
     assert_eq!(one("bytes", &["01", "0xFF"]), Ok(Value::Bytes(Bytes::from([1, 255]))));
     assert!(one("bytes", &["100"]).is_err() && one("bytes", &[]).is_err());
-    assert_eq!(one("state", &["0x05"]), Ok(Value::State(wire::AlState::from_bits(5))));
-    assert!(one("state", &["0x15"]).is_err());
+    assert_eq!(one("request", &["0x05"]), Ok(Value::State(wire::AlState::from_bits(5))));
+    assert!(one("request", &["0x15"]).is_err() && one("state", &["0x05"]).is_err());
     assert!(one("event", &["12345678"]).is_err(), "an event of the table");
 }
 

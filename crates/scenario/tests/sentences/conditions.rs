@@ -181,7 +181,7 @@ fn masters() -> Vec<ConditionRow> {
     const SERIAL: &str = r#"{ master = "read SDO 1018:04 of unit 1" }"#;
     const EMERGENCIES: &str = r#"{ master = "write SDO 10F3:05 of unit 1 as 01 00" }"#;
     const BROKEN: &str = r#"{ unit = "break IoCommunications of unit 1" }"#;
-    const MENDED: &str = r#"{ after = "50ms", unit = "mend IoCommunications of unit 1" }"#;
+    const MENDED: &str = r#"{ after = "50ms", unit = "repair IoCommunications of unit 1" }"#;
     const RESET: &str = r#"{ unit = "reset the errors of unit 1" }"#;
     const AGAIN: &str = r#"{ after = "50ms", unit = "break IoCommunications of unit 1" }"#;
     const ALLOWED: &str = r#"{ expect = "object 10F3:05 of unit 1 is 01 00", within = "100ms" }"#;

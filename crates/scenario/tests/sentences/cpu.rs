@@ -40,7 +40,7 @@ const BUS_STOPPED: Steps = &[
     r#"{ expect = "the I/O data of unit 1 is active", within = "10ms" }"#,
     r#"{ unit = "break IoCommunications of unit 1" }"#,
     r#"{ expect = "the I/O data of unit 1 is not active", within = "10ms" }"#,
-    r#"{ unit = "mend IoCommunications of unit 1" }"#,
+    r#"{ unit = "repair IoCommunications of unit 1" }"#,
     r#"{ unit = "reset the errors of unit 1" }"#,
     r#"{ after = "10ms", expect = "the I/O data of unit 1 is not active" }"#,
 ];
@@ -136,7 +136,7 @@ fn data() -> Vec<OrderRow> {
         order(
             "let the system time of unit 1 jump by 3600s",
             &[],
-            &[r#"{ at = "1s", expect = "0 cycles are done" }"#],
+            &[r#"{ at = "1s", cpu = "start the task of unit 1" }"#],
             "object 10F8:00 of unit 1 is 00 6A 4D 5A 98 75 86 18",
             "0s",
         )

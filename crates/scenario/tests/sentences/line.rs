@@ -23,7 +23,7 @@ pub(crate) fn rows() -> Vec<OrderRow> {
         order(
             "delay all frames by 5ms",
             &[],
-            &[ASK, r#"{ after = "4ms", expect = "0 cycles are done" }"#],
+            &[ASK, r#"{ after = "4ms", cpu = "start the task of unit 1" }"#],
             "unit 1 is in INIT",
             "0s",
         ),
@@ -38,7 +38,7 @@ pub(crate) fn rows() -> Vec<OrderRow> {
         order(
             "cut all frames to 20 bytes",
             &[],
-            &[ASK, r#"{ after = "4ms", expect = "0 cycles are done" }"#],
+            &[ASK, r#"{ after = "4ms", cpu = "start the task of unit 1" }"#],
             "unit 1 is in INIT",
             "0s",
         ),

@@ -64,7 +64,7 @@ fn expect(condition: &str, within: &str) -> Vec<String> {
 
 /// Must not be true for this time.
 fn never(condition: &str, within: &str) -> Vec<String> {
-    let wait = format!("{{ after = \"{within}\", expect = \"0 cycles are done\" }}");
+    let wait = format!("{{ after = \"{within}\", cpu = \"start the task of unit 1\" }}");
     vec![format!("{{ never = \"{condition}\" }}"), wait]
 }
 

@@ -45,6 +45,13 @@ fn by_hand() -> Vec<OrderRow> {
             "20ms",
         ),
         order(
+            "corrupt word 4 of the SII of unit 1",
+            &[],
+            &[START, PRE_OP],
+            "unit 1 is in INIT with AL status code 0x0014",
+            "1s",
+        ),
+        order(
             "spoil word 4 of the SII of unit 1",
             &[],
             &[START, PRE_OP],
@@ -109,7 +116,7 @@ fn conduct() -> Vec<OrderRow> {
             ],
             &[
                 r#"{ master = "acknowledge and request INIT of unit 1" }"#,
-                r#"{ after = "10ms", expect = "0 cycles are done" }"#,
+                r#"{ after = "10ms", cpu = "start the task of unit 1" }"#,
             ],
             "unit 1 is in INIT with AL status code 0x0011",
             "0s",
@@ -127,6 +134,16 @@ fn conduct() -> Vec<OrderRow> {
 fn faults() -> Vec<OrderRow> {
     vec![
         order("break Processing of unit 1", &[], &[], "unit 1 has the error 40200000", "10ms"),
+        order(
+            "repair IoCommunications of unit 1",
+            &[
+                r#"{ unit = "break IoCommunications of unit 1" }"#,
+                r#"{ expect = "unit 1 has the error 80200000", within = "10ms" }"#,
+            ],
+            &[r#"{ unit = "reset the errors of unit 1" }"#],
+            "unit 1 has no error",
+            "20ms",
+        ),
         order(
             "mend IoCommunications of unit 1",
             &[

@@ -1,5 +1,7 @@
 //! The keys of the slave: `outputs_before_op`, `blank_sii`, `[times]`, `[refuse]`.
 
+use core::ops::RangeInclusive;
+
 use device::{Conduct, Refusals, SiiTiming, TRANSITIONS, Transition, TransitionTimes};
 use time::Duration;
 use user_file::{DeValue, Reader, Section, values, wrong_type};
@@ -18,6 +20,11 @@ const REFUSED_STATES: [(&str, AlState); 5] = [
     ("op", AlState::Op),
 ];
 const ACKNOWLEDGE: &str = "acknowledge";
+
+/// The AL status codes with which a slave refuses a state; 0 is no error.
+pub const AL_STATUS_CODES: RangeInclusive<u16> = 1..=0xFFFF;
+/// [`AL_STATUS_CODES`] in words.
+pub const AL_STATUS_CODES_WORDS: &str = "an AL status code, 0x0001 to 0xFFFF";
 
 /// The features of a model, for which it has keys.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -150,7 +157,8 @@ fn refusals(reader: &mut Reader<'_>, file: &Section<'_, '_>, shape: Shape, condu
     let mut refusals = Refusals::default();
     for (key, state) in refused_states(shape) {
         let code = reader.value(&section, key, |place, value| {
-            values::integer(place, value, 1..=0xFFFF, "an AL status code, 0x0001 to 0xFFFF")
+            let range = u64::from(*AL_STATUS_CODES.start())..=u64::from(*AL_STATUS_CODES.end());
+            values::integer(place, value, range, AL_STATUS_CODES_WORDS)
         });
         refusals.set(*state, code.map(|code| AlStatusCode(code.value)));
     }

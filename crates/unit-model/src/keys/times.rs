@@ -5,8 +5,10 @@ use core::ops::RangeInclusive;
 use time::Duration;
 use user_file::{DeValue, Problem, values};
 
-/// The longest time is more than any master waits.
-const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
+/// The times of a slave: transitions, SII commands, mailbox responses. The longest is more than any master waits.
+pub const TIMES: RangeInclusive<Duration> = Duration::ZERO..=Duration::from_secs(60);
+/// [`TIMES`] in words.
+pub const TIMES_WORDS: &str = "a time, \"0ms\" to \"60s\"";
 /// Above every refresh period of a unit.
 const REFRESH_PHASE_MAX: Duration = Duration::from_millis(2);
 
@@ -22,5 +24,5 @@ pub(crate) fn refresh_phase(place: &str, value: &DeValue<'_>) -> Result<Duration
 
 /// A time of a slave: transition, SII, mailbox.
 pub(crate) fn time(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    values::duration(place, value, |time| TIMES.contains(&time), "a time, \"0ms\" to \"60s\"")
+    values::duration(place, value, |time| TIMES.contains(&time), TIMES_WORDS)
 }

@@ -55,5 +55,5 @@ pub(super) fn no_error(world: &World, controller: Controller) -> Check {
 }
 
 fn story(world: &World, controller: Controller) -> Result<&Story, Seen> {
-    world.told(controller).ok_or_else(|| format!("{controller} is not there"))
+    world.told(controller).ok_or_else(|| Seen::not_there(format!("{controller} is not there")))
 }

@@ -1,12 +1,43 @@
 //! The actual state, for a failed expectation.
 
+use core::fmt;
+
 use crate::model::{Bytes, hex};
 
-/// As text.
-pub(in crate::run) type Seen = String;
+/// What is seen in place of the expected.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(in crate::run) struct Seen {
+    words: String,
+    /// What the condition is about is there, so that it is false.
+    is_there: bool,
+}
 
-pub(super) fn holds(condition: bool, seen: impl FnOnce() -> Seen) -> Result<(), Seen> {
-    if condition { Ok(()) } else { Err(seen()) }
+impl Seen {
+    /// What the condition is about is not there: it is neither true nor false.
+    pub(super) fn not_there(words: impl Into<String>) -> Self {
+        Self { words: words.into(), is_there: false }
+    }
+
+    /// Whether the condition is false.
+    pub(in crate::run) const fn is_false(&self) -> bool {
+        self.is_there
+    }
+}
+
+impl From<String> for Seen {
+    fn from(words: String) -> Self {
+        Self { words, is_there: true }
+    }
+}
+
+impl fmt::Display for Seen {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.words)
+    }
+}
+
+pub(super) fn holds(condition: bool, seen: impl FnOnce() -> String) -> Result<(), Seen> {
+    if condition { Ok(()) } else { Err(seen().into()) }
 }
 
 /// Whether the bytes from `first` on are these.
@@ -17,10 +48,8 @@ pub(super) fn lie_at(seen: &[u8], first: usize, wanted: &Bytes) -> Result<(), Se
 }
 
 pub(super) fn is_text(seen: Option<String>, wanted: &str) -> Result<(), Seen> {
-    holds(seen.as_deref() == Some(wanted), || match seen {
-        Some(seen) => format!("it is {seen}"),
-        None => "it is not there".to_owned(),
-    })
+    let seen = seen.ok_or_else(|| Seen::not_there("it is not there"))?;
+    holds(seen == wanted, || format!("it is {seen}"))
 }
 
 pub(super) fn truth(value: bool) -> &'static str {

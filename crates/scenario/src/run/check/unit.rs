@@ -13,9 +13,13 @@ fn name(at: usize) -> String {
     format!("unit {}", at + 1)
 }
 
-/// A unit without power is in no state.
+/// A unit without power is in no state, and shows nothing that is inside it.
+fn has_power(world: &World, at: usize) -> Check {
+    holds(!world.is_off(at), || format!("{} has no power", name(at)))
+}
+
 pub(super) fn state(world: &mut World, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
-    holds(!world.is_off(at), || format!("{} is off", name(at)))?;
+    has_power(world, at)?;
     let (status, shown) = world.al_status(at);
     let shown_code = status.error.then_some(Hex(shown.0));
     let is_there = (status.state, shown_code) == (state, code);
@@ -34,11 +38,13 @@ pub(super) fn recorded_nothing(world: &mut World, at: usize) -> Check {
 }
 
 pub(super) fn has_error(world: &mut World, at: usize, event: EventCode) -> Check {
+    has_power(world, at)?;
     let is_there = world.current_errors(at).iter().any(|code| code.0 == event.0);
     holds(is_there, || format!("{} has {}", name(at), world.current_error_words(at)))
 }
 
 pub(super) fn has_no_error(world: &mut World, at: usize) -> Check {
+    has_power(world, at)?;
     let status = world.unit(at).error_status();
     holds(status == 0, || {
         format!("{} has {}, error status {status:#04X}", name(at), world.current_error_words(at))
@@ -46,11 +52,13 @@ pub(super) fn has_no_error(world: &mut World, at: usize) -> Check {
 }
 
 pub(super) fn new_messages(world: &mut World, at: usize, available: bool) -> Check {
+    has_power(world, at)?;
     let seen = world.unit(at).has_new_messages();
     holds(seen == available, || format!("{}: New Messages Available is {}", name(at), truth(seen)))
 }
 
 pub(super) fn object(world: &mut World, at: usize, entry: Entry, value: &Bytes) -> Check {
+    has_power(world, at)?;
     let seen = world.object(at, ObjectIndex(entry.index), SubIndex(entry.sub));
     holds(seen.as_ref() == Ok(&value.0), || match &seen {
         Ok(seen) => format!("it is {}", hex(seen)),
@@ -59,6 +67,7 @@ pub(super) fn object(world: &mut World, at: usize, entry: Entry, value: &Bytes) 
 }
 
 pub(super) fn register(world: &mut World, at: usize, register: u16, value: &Bytes) -> Check {
+    has_power(world, at)?;
     let seen = world.registers(at, register, value.0.len());
     holds(seen == value.0, || format!("it is {}", hex(&seen)))
 }
@@ -72,6 +81,7 @@ pub(super) fn inputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) ->
 }
 
 pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
+    has_power(world, at)?;
     let status = world.unit(at).data_valid();
     let seen = [status.outputs, status.inputs];
     holds(seen == [valid; 2], || {
@@ -81,6 +91,7 @@ pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
 }
 
 pub(super) fn direction_valid(world: &mut World, at: usize, direction: DataDirection, valid: bool) -> Check {
+    has_power(world, at)?;
     let status = world.unit(at).data_valid();
     let seen = match direction {
         DataDirection::MToC => status.outputs,

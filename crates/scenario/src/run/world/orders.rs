@@ -102,17 +102,11 @@ impl World {
         self.advance(now);
     }
 
-    /// Loads a program, which its CPU Unit refuses in RUN mode.
+    /// Loads a program, as `run` does with a changed file.
     fn load(&mut self, at: usize, file: &str) {
         let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
         let Some(program) = program else { return };
-        let mut refusal = None;
-        self.cpus.each(at..at + 1, |cpu| {
-            refusal = cpu.unit.load(Box::new(program.file.program.clone())).err();
-        });
-        if let Some(refusal) = refusal {
-            self.recording.tell(self.now, &format!("cpu {}", at + 1), &refusal.to_string());
-        }
+        self.cpus.each(at..at + 1, |cpu| cpu.unit.change_program(Box::new(program.file.program.clone())));
         self.tell_of_cpus();
     }
 

@@ -1,5 +1,8 @@
 //! Reading words: each function takes the matching ones, and returns their number.
 
+use time::Duration;
+use wire::AlState;
+
 use crate::model::{
     Bytes, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName, Position, StateName,
     UnitNumber, UnitSet, UserErrorCode, hexadecimal, number as number_of,
@@ -38,8 +41,18 @@ pub(super) fn position(word: &str) -> Option<Value> {
     word.parse::<Position>().ok().map(Value::Position)
 }
 
+/// A state in which a slave can be.
 pub(super) fn state(word: &str) -> Option<Value> {
+    requested(word).filter(|value| matches!(value, Value::State(state) if AlState::ALL.contains(state)))
+}
+
+/// A state that a master can request: any number.
+pub(super) fn requested(word: &str) -> Option<Value> {
     word.parse::<StateName>().ok().map(|name| Value::State(name.0))
+}
+
+pub(super) fn duration(words: &[&str], is_allowed: impl Fn(Duration) -> bool) -> Option<(Value, usize)> {
+    one(words, |word| word.parse().ok().filter(|time| is_allowed(*time)).map(Value::Duration))
 }
 
 pub(super) fn transition(word: &str) -> Option<Value> {

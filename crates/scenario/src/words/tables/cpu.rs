@@ -34,7 +34,7 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
     row!("set the inputs of {unit} to {bytes}", "set the inputs of unit 1 to 01 02 03",
         "data to the master from the first byte on, unless the program writes them",
         |unit, bytes| SetInputs { unit, bytes }),
-    row!("let the system time of {units} jump by {duration}", "let the system time of unit 1 jump by 1s",
+    row!("let the system time of {units} jump by {period}", "let the system time of unit 1 jump by 1s",
         "ahead; object 10F8 and the time stamps follow",
         |units, by| JumpSystemTime { units, by }),
     row!("write {variable} as {value}", "write N1_UINTs_01_C_to_M[0] as 5",
@@ -50,6 +50,6 @@ pub const CPU: &[Sentence<CpuOrder>] = &[
         "everything that is forced",
         |units| ReleaseAll { units }),
     row!("load {program} into {unit}", "load programs/a-3-3.st into unit 1",
-        "replaces the user program in PROGRAM mode; forced values are kept, and variables that both programs declare with RETAIN",
+        "replaces the user program; a CPU Unit in RUN mode goes to PROGRAM mode for it, and returns. Forced values are kept, and variables that both programs declare with RETAIN",
         |program, unit| Load { unit, program }),
 ];
