@@ -4,7 +4,7 @@ use plc::DeviceVariables;
 
 use super::files::Files;
 use super::problem::{Part, Problem};
-use super::programs::LastingValue;
+use super::program_values::LastingValue;
 use crate::run::{LoadedProgram, MasterProgram, UnitSource};
 
 /// Makes a scenario ready.

@@ -6,6 +6,7 @@ use plc::Builtin;
 
 use super::maker::Maker;
 use super::problem::Part;
+use super::program_values::LastingValue;
 use crate::model::{Condition, Controller, CpuOrder, Order, ScriptStep};
 use crate::run::{LoadedProgram, ProgramFile, UserProgram};
 
@@ -25,15 +26,6 @@ pub(super) enum Present<'a> {
     File(&'a ProgramFile),
     /// That of a test in Rust, or one that cannot be read.
     Unknown,
-}
-
-/// A value of a program's variable that is checked to the end.
-pub(super) struct LastingValue {
-    unit: usize,
-    name: String,
-    /// In the notation of the first program.
-    value: String,
-    part: Part,
 }
 
 /// The steps that load a program, and the unit of each.
@@ -132,40 +124,5 @@ impl Maker<'_> {
     fn is_loaded_after(&self, unit: usize, part: Part) -> bool {
         let Part::Step(at, _) = part else { return false };
         self.loads.iter().any(|&(step, loaded)| step > at && loaded == unit)
-    }
-}
-
-impl LastingValue {
-    fn problem(&self, file: &ProgramFile) -> Option<String> {
-        let Self { name, value, .. } = self;
-        match canonical_value(file.program.instance(), name, value) {
-            Ok(same) if same == *value => None,
-            Err(VariableProblem::NoSuchVariable) => Some(format!("no variable {name}")),
-            Ok(_) | Err(VariableProblem::NoValue { .. }) => Some(format!("another type for {name}")),
-        }
-    }
-}
-
-/// The mistake in the name or the value of a program's variable.
-pub(super) enum VariableProblem {
-    NoSuchVariable,
-    NoValue {
-        /// The initial value of the variable, as an example.
-        such_as: String,
-    },
-}
-
-/// A value of a variable in the notation of the program, so that texts can be compared: `5`, `16#1F`, `T#20ms`,
-/// `[0, 1]`.
-pub(super) fn canonical_value(
-    program: &st::Instance,
-    name: &str,
-    text: &str,
-) -> Result<String, VariableProblem> {
-    let initial = program.value(name).ok_or(VariableProblem::NoSuchVariable)?;
-    let mut trial = program.clone();
-    match trial.set(name, text).then(|| trial.value(name)).flatten() {
-        Some(value) => Ok(value),
-        None => Err(VariableProblem::NoValue { such_as: initial }),
     }
 }

@@ -4,7 +4,8 @@ use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess};
 
 use super::maker::Maker;
 use super::problem::Part;
-use super::programs::{Lasting, Present, VariableProblem, canonical_value};
+use super::program_values::{VariableProblem, canonical_value};
+use super::programs::{Lasting, Present};
 use super::reach::line_of;
 use crate::model::{Condition, Controller, CpuOrder};
 
