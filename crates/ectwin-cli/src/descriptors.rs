@@ -1,12 +1,10 @@
 //! File descriptors: the limit of this process, and detecting that they are used up.
 
-use std::io;
-
-use rustix::io::Errno;
 use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
+pub(crate) use storage::descriptors_are_exhausted as are_exhausted;
 
-/// Open while the memory of a unit is in a file: the file, and the lock on its name.
-const EACH_UNIT: u64 = 2;
+/// Open while the memory of a unit is in a file: the file, the lock on its name, its folder, and one in reserve.
+const EACH_UNIT: u64 = 4;
 /// Links, servers and everything else, with a margin.
 const EVERYTHING_ELSE: u64 = 128;
 
@@ -20,9 +18,4 @@ pub(crate) fn make_room(units: usize) {
             limit.maximum.map_or(wanted, |maximum| wanted.min(maximum)).max(limit.current.unwrap_or(0));
         let _ = setrlimit(Resource::Nofile, Rlimit { current: Some(current), ..limit });
     }
-}
-
-/// Whether a call has failed because there were no file descriptors left.
-pub(crate) fn are_exhausted(error: &io::Error) -> bool {
-    [Errno::MFILE, Errno::NFILE].iter().any(|errno| error.raw_os_error() == Some(errno.raw_os_error()))
 }

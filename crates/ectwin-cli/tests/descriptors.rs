@@ -92,6 +92,32 @@ fn eeprom_write() -> Vec<u8> {
     frame[ETHERNET_HEADER_BYTES..].to_vec()
 }
 
+#[test]
+fn a_change_is_stored_while_clients_use_all_other_descriptors() {
+    let folder = folder_of("exhausted");
+    let unit = "model = \"nx-ect101\"\nstart_up = \"0ms\"\nstorage = \"N1.nvm\"\n";
+    fs::write(folder.join("unit.toml"), unit).unwrap();
+    let link = free_link();
+    let modbus = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
+    let arguments = ["run", "unit.toml", "--link", &link, "--modbus", &modbus];
+    let first_ready = (FEWEST..MOST).find_map(|descriptors| {
+        Started::new(&folder, &format!("ulimit -n {descriptors};"), &arguments).try_ready().ok()
+    });
+    let mut server = first_ready.unwrap();
+    let mute: Vec<TcpStream> = (0..30).map(|_| TcpStream::connect(&modbus).unwrap()).collect();
+    server.wait_for("too few open files for the next Modbus client");
+    let master = UdpSocket::bind("127.0.0.1:0").unwrap();
+    master.set_read_timeout(Some(PATIENCE)).unwrap();
+    master.send_to(&eeprom_write(), link.trim_start_matches("udp:")).unwrap();
+    master.recv(&mut [0; 1500]).unwrap();
+    let ended = server.interrupt();
+    drop(mute);
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(!ended.stderr.contains("not stored"), "{}", ended.stderr);
+    let stored = fs::read(folder.join("N1.nvm")).unwrap();
+    assert!(stored.windows(2).any(|word| word == [0xFE, 0xCA]), "the word of the EEPROM");
+}
+
 /// The units have run: it is no failure of the start.
 #[test]
 fn changes_that_were_lost_for_want_of_descriptors_end_with_2() {

@@ -1,10 +1,11 @@
 //! The location of a file: after symbolic links, and beside other files.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use rustix::fs::{Access, AtFlags, CWD, accessat};
 use rustix::io::Errno;
 
 /// Maximum number of symbolic links in one path, as in the kernel.
@@ -53,7 +54,12 @@ pub(crate) fn folder(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The new name is on the disk only after the folder has been flushed.
-pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
-    File::open(folder(path))?.sync_all()
+/// Refuses a file that could not be replaced: its folder cannot be written, or the name is too long for the auxiliary
+/// files.
+pub(crate) fn refuse_if_fixed(path: &Path) -> io::Result<()> {
+    accessat(CWD, folder(path), Access::WRITE_OK | Access::EXEC_OK, AtFlags::EACCESS)?;
+    match fs::symlink_metadata(own(path, "lock")) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        Ok(_) | Err(_) => Ok(()),
+    }
 }

@@ -9,6 +9,7 @@ use rustix::fs::OFlags;
 
 use crate::lock::{self, Lock};
 use crate::place;
+use crate::reserve::Reserve;
 use crate::temporary::{self, Temporary};
 
 /// Maximum length of the contents: more than any owner stores, and less than would fill the memory.
@@ -26,6 +27,7 @@ pub struct StoredFile {
     path: PathBuf,
     /// The file that was found or written last, locked; none if there was none yet.
     latest: Option<File>,
+    reserve: Reserve,
     _lock: Lock,
 }
 
@@ -42,7 +44,8 @@ impl StoredFile {
         }
         let latest = open(&path)?;
         latest.as_ref().map_or(Ok(()), lock::exclusively)?;
-        Ok(Self { path, latest, _lock: lock })
+        let reserve = Reserve::beside(&path, latest.as_ref())?;
+        Ok(Self { path, latest, reserve, _lock: lock })
     }
 
     /// Its location, after all symbolic links.
@@ -59,31 +62,47 @@ impl StoredFile {
         if self.latest.is_none() {
             return Ok(None);
         }
-        let mut bytes = Vec::new();
         // Opened again: `latest` may be at its end, or open for writing only.
-        open(&self.path)?.map_or(Ok(0), |file| file.take(BYTES_MAX + 1).read_to_end(&mut bytes))?;
-        if bytes.len() as u64 > BYTES_MAX {
-            return Err(io::Error::new(
-                io::ErrorKind::FileTooLarge,
-                "it is larger than any memory of a unit",
-            ));
-        }
-        Ok(Some(bytes))
+        read(open(&self.path)?).map(|bytes| bytes.or(Some(Vec::new())))
+    }
+
+    /// The contents of the file at this path; none if there is no such file yet. Nothing is made or claimed.
+    ///
+    /// # Errors
+    /// It cannot be read, is larger than any stored file, or could not be claimed even without another owner.
+    pub fn peek(path: &Path) -> io::Result<Option<Vec<u8>>> {
+        let path = place::resolve(path)?;
+        place::refuse_if_fixed(&path)?;
+        read(open(&path)?)
     }
 
     /// Replaces the contents. When it returns, a loss of power does not undo it; if the program is killed
-    /// before, the file has its old contents or the new ones. Permissions are kept.
+    /// before, the file has its old contents or the new ones. Permissions are kept. No free file descriptor is needed.
     ///
     /// # Errors
     /// The folder cannot be written, or the disk is full; the file is unchanged.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let mut temporary = Temporary::create(&self.path, self.latest.as_ref())?;
+        let replaced = match self.replace(bytes) {
+            Ok(replaced) => replaced,
+            Err(refused) => {
+                // The new file has been closed.
+                self.reserve.refill(None);
+                return Err(refused);
+            }
+        };
+        self.reserve.refill(replaced);
+        self.reserve.sync_folder()
+    }
+
+    /// Returns the file that has been replaced.
+    fn replace(&mut self, bytes: &[u8]) -> io::Result<Option<File>> {
+        let Self { path, latest, reserve, .. } = self;
+        let mut temporary = reserve.open(|| Temporary::create(path, latest.as_ref()))?;
         // Before it has the name, so that no other process claims it.
         lock::exclusively(&temporary.file)?;
         temporary.file.write_all(bytes)?;
         temporary.file.sync_all()?;
-        self.latest = Some(temporary.replace(&self.path)?);
-        place::sync_folder(&self.path)
+        Ok(latest.replace(temporary.replace(path)?))
     }
 
     /// Renames a file that cannot be used to the first free name of `NAME.damaged-1`, `NAME.damaged-2` and so on.
@@ -97,7 +116,7 @@ impl StoredFile {
                 Ok(_) => {}
                 Err(error) if error.kind() == io::ErrorKind::NotFound => {
                     fs::rename(&self.path, &aside)?;
-                    place::sync_folder(&self.path)?;
+                    self.reserve.sync_folder()?;
                     return Ok(aside);
                 }
                 Err(error) => return Err(error),
@@ -106,6 +125,16 @@ impl StoredFile {
         let words = format!("{ASIDE_MAX} damaged files are beside it; remove some");
         Err(io::Error::new(io::ErrorKind::AlreadyExists, words))
     }
+}
+
+fn read(file: Option<File>) -> io::Result<Option<Vec<u8>>> {
+    let Some(file) = file else { return Ok(None) };
+    let mut bytes = Vec::new();
+    file.take(BYTES_MAX + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > BYTES_MAX {
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, "it is larger than any memory of a unit"));
+    }
+    Ok(Some(bytes))
 }
 
 /// None: there is no such file. Opens only a regular file, without waiting.

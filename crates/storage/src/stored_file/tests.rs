@@ -197,3 +197,21 @@ fn what_is_larger_than_any_memory_is_not_read() {
     let claimed = folder.claim("N1.nvm").expect("free");
     assert_eq!(claimed.read().expect_err("too large").kind(), io::ErrorKind::FileTooLarge);
 }
+
+#[test]
+fn a_look_at_a_file_sees_its_contents_or_why_it_cannot_be_claimed_and_makes_nothing() {
+    let folder = Folder::of_test("peek");
+    fs::create_dir(folder.file("folder")).expect("writable");
+    fs::write(folder.file("N1.nvm"), "contents").expect("writable");
+    let (before, long) = (folder.names(), "n".repeat(250));
+    let peek = |name: &str| StoredFile::peek(&folder.file(name));
+    assert_eq!(peek("N1.nvm").expect("readable").as_deref(), Some(&b"contents"[..]));
+    assert_eq!(peek("N2.nvm").expect("could be made"), None);
+    for name in ["folder", "nowhere/N1.nvm", "..", &long] {
+        assert_eq!(peek(name).expect_err(name).kind(), refused(folder.claim(name)), "{name}");
+    }
+    let claimed = folder.claim("N1.nvm").expect("nothing is claimed");
+    assert!(peek("N1.nvm").is_ok(), "an owner is no reason");
+    drop(claimed);
+    assert_eq!(folder.names(), before);
+}

@@ -1,0 +1,63 @@
+//! File descriptors for one write: clients of a server may use all the others.
+
+use std::fs::File;
+use std::io;
+use std::os::fd::OwnedFd;
+use std::path::Path;
+
+use rustix::io::Errno;
+
+use crate::place;
+
+/// The folder of a file, and descriptors that are given up when no other is left.
+#[derive(Debug)]
+pub(crate) struct Reserve {
+    folder: File,
+    /// Further handles of the folder.
+    spares: Vec<OwnedFd>,
+}
+
+impl Reserve {
+    /// For a file at this path. A write needs one descriptor, and a file that is still missing keeps it.
+    pub(crate) fn beside(path: &Path, file: Option<&File>) -> io::Result<Self> {
+        let folder = File::open(place::folder(path))?;
+        let spare = || folder.try_clone().map(OwnedFd::from);
+        let spares = match file {
+            Some(_) => vec![spare()?],
+            None => vec![spare()?, spare()?],
+        };
+        Ok(Self { folder, spares })
+    }
+
+    /// Opens a file, with a spare descriptor if no other is left.
+    pub(crate) fn open<F>(&mut self, open: impl Fn() -> io::Result<F>) -> io::Result<F> {
+        match open() {
+            Err(error) if descriptors_are_exhausted(&error) && self.spares.pop().is_some() => open(),
+            opened => opened,
+        }
+    }
+
+    /// Replaces a spare descriptor that has been given up by that of a file that is no longer needed: it is never free
+    /// in between, so that no client takes it.
+    pub(crate) fn refill(&mut self, unneeded: Option<File>) {
+        if !self.spares.is_empty() {
+            return self.spares.truncate(1);
+        }
+        let spare = match unneeded.map(OwnedFd::from) {
+            Some(mut descriptor) => rustix::io::dup2(&self.folder, &mut descriptor).ok().map(|()| descriptor),
+            None => self.folder.try_clone().ok().map(OwnedFd::from),
+        };
+        self.spares.extend(spare);
+    }
+
+    /// A new name is on the disk only after the folder has been flushed.
+    pub(crate) fn sync_folder(&self) -> io::Result<()> {
+        self.folder.sync_all()
+    }
+}
+
+/// Whether a call has failed because there was no file descriptor left, in this process or in the system.
+#[must_use]
+pub fn descriptors_are_exhausted(error: &io::Error) -> bool {
+    [Errno::MFILE, Errno::NFILE].iter().any(|errno| error.raw_os_error() == Some(errno.raw_os_error()))
+}
