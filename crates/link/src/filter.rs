@@ -22,6 +22,20 @@ pub(crate) const ETHERCAT_COMING_IN: [SockFilter; 14] = [
     SockFilter::new(RETURN, 0, 0, 0),
 ];
 
+/// For UDP links at all addresses of the machine, with this port: as [`NO_ANSWERS`], and without datagrams that come from
+/// an address of the machine and this port. Only the unit itself has that port, and it sends nothing to itself. What a
+/// machine sends to itself passes its loopback interface, and the kernel drops such senders on other interfaces.
+pub(crate) fn no_answers_and_nothing_from(own_port: u16) -> Vec<SockFilter> {
+    let from_itself = [
+        SockFilter::new(LOAD_HALF_WORD, 0, 0, HARDWARE_TYPE),
+        SockFilter::new(JUMP_IF_EQUAL, 0, 3, LOOPBACK),
+        SockFilter::new(LOAD_HALF_WORD, 0, 0, UDP_SOURCE_PORT),
+        SockFilter::new(JUMP_IF_EQUAL, 0, 1, own_port.into()),
+        SockFilter::new(RETURN, 0, 0, 0),
+    ];
+    from_itself.into_iter().chain(NO_ANSWERS).collect()
+}
+
 /// For UDP links: everything except answers of units, which have [`ANSWER_TOS`] in their IP header (IPv4:
 /// second byte; IPv6: after the version). The network may change the two ECN bits.
 pub(crate) const NO_ANSWERS: [SockFilter; 11] = [
@@ -54,5 +68,10 @@ const RETURN: u16 = 0x06;
 /// Offset at which the kernel shows the packet type (`SKF_AD_OFF + SKF_AD_PKTTYPE`).
 const PACKET_TYPE: u32 = 0xFFFF_F004;
 const PACKET_OUTGOING: u32 = 4;
+/// Offset at which the kernel shows the hardware type of the interface (`SKF_AD_OFF + SKF_AD_HATYPE`).
+const HARDWARE_TYPE: u32 = 0xFFFF_F01C;
+const LOOPBACK: u32 = 772;
+/// A filter of a UDP socket sees the datagram from its UDP header on.
+const UDP_SOURCE_PORT: u32 = 0;
 /// Offset at which the kernel shows the IP header of a datagram (`SKF_NET_OFF`).
 const IP_HEADER: u32 = 0xFFF0_0000;

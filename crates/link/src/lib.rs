@@ -8,6 +8,8 @@
 //! has links in memory only.
 
 mod answers;
+#[cfg(feature = "media")]
+mod claim;
 mod clock;
 #[cfg(feature = "media")]
 mod descriptor;

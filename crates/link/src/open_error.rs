@@ -20,6 +20,11 @@ pub enum OpenError {
         /// The name.
         name: String,
     },
+    /// Frames of this interface have no Ethernet header, such as those of a TUN interface.
+    NotEthernet {
+        /// The name.
+        name: String,
+    },
     /// The kernel refuses because a capability is missing.
     NoPermission {
         /// The link.
@@ -67,12 +72,19 @@ impl OpenError {
                  `sudo ip link add m0 type veth peer name u0`, with the master at m0"
                     .to_owned()
             }
+            Self::NotEthernet { .. } => {
+                "use an Ethernet interface, or tap:ect0 for a master on this machine: a TAP interface has Ethernet frames, \
+                 a TUN interface has IP packets"
+                    .to_owned()
+            }
             Self::NoPermission { link, .. } => help_for_permission(link),
             Self::InUse { link: LinkSpec::Udp(_) } => {
                 "end the program that uses it, or use another port: udp:ADDR:PORT".to_owned()
             }
             Self::InUse { link: LinkSpec::Raw(_) } => {
-                "another ectwin answers on this interface: end it, or use another interface".to_owned()
+                "another ectwin answers on this interface, or is the other end of this TAP interface: end it, or use \
+                 another interface"
+                    .to_owned()
             }
             Self::InUse { .. } => "end the program that uses it, or use another name".to_owned(),
             Self::AddressNotHere { .. } => {
@@ -111,6 +123,10 @@ impl fmt::Display for OpenError {
             Self::Loopback { name } => write!(
                 formatter,
                 "raw:{name} is refused: {name} is a loopback interface, which returns each answer as the next frame"
+            ),
+            Self::NotEthernet { name } => write!(
+                formatter,
+                "raw:{name} is refused: {name} has no Ethernet frames, and EtherCAT needs them"
             ),
             Self::NoPermission { link: link @ LinkSpec::Raw(_), .. } => {
                 write!(formatter, "no permission to open {link}: raw frames need CAP_NET_RAW")

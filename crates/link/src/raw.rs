@@ -1,7 +1,6 @@
 //! A network interface: frames by `AF_PACKET`.
 
 mod bell;
-mod claim;
 mod interface;
 mod socket;
 mod vlan;
@@ -17,7 +16,7 @@ use crate::wake_event::WakeEvent;
 use crate::{FramePort, LinkSpec, OpenError};
 use bell::Bell;
 use interface::{Interface, Watch};
-use socket::PacketSocket;
+use socket::{PacketSocket, is_without_ethernet};
 
 /// A raw socket that is bound to one interface, in promiscuous mode.
 pub(crate) struct RawPort {
@@ -43,8 +42,11 @@ impl RawPort {
             let wake = WakeEvent::new()?;
             Ok((bell, Interface::bind(interface, socket.try_clone()?)?, socket, wake))
         };
-        let (bell, bound, socket, wake) =
-            open().map_err(|error| OpenError::of(LinkSpec::Raw(name.to_owned()), error))?;
+        let refused = |error| match is_without_ethernet(&error) {
+            true => OpenError::NotEthernet { name: name.to_owned() },
+            false => OpenError::of(LinkSpec::Raw(name.to_owned()), error),
+        };
+        let (bell, bound, socket, wake) = open().map_err(refused)?;
         if interface.is_loopback() {
             return Err(OpenError::Loopback { name: name.to_owned() });
         }

@@ -6,6 +6,7 @@ use std::task::Waker;
 use time::Duration;
 use tun_rs::{DeviceBuilder, Layer, SyncDevice};
 
+use crate::claim::Claim;
 use crate::descriptor::{may_be_ethercat, receive_from};
 use crate::wake_event::WakeEvent;
 use crate::{FramePort, LinkSpec, OpenError};
@@ -15,13 +16,18 @@ pub(crate) struct TapPort {
     name: String,
     device: SyncDevice,
     wake: WakeEvent,
+    _claim: Claim,
 }
 
 impl TapPort {
     pub(crate) fn open(name: &str) -> Result<Self, OpenError> {
-        let opened = WakeEvent::new().and_then(|wake| Ok((make(name)?, wake)));
-        let (device, wake) = opened.map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))?;
-        Ok(Self { name: name.to_owned(), device, wake })
+        let open = || {
+            let wake = WakeEvent::new()?;
+            let device = make(name)?;
+            let claim = Claim::take(device.if_index()?)?;
+            Ok(Self { name: name.to_owned(), device, wake, _claim: claim })
+        };
+        open().map_err(|error| OpenError::of(LinkSpec::Tap(name.to_owned()), error))
     }
 }
 

@@ -8,7 +8,7 @@ use socket2::SockRef;
 use time::Duration;
 
 use crate::descriptor::receive_from;
-use crate::filter::{ANSWER_TOS, NO_ANSWERS};
+use crate::filter::{ANSWER_TOS, NO_ANSWERS, no_answers_and_nothing_from};
 use crate::wake_event::WakeEvent;
 use crate::{Envelope, FramePort, LinkSpec, OpenError};
 
@@ -34,8 +34,8 @@ impl UdpPort {
         let open = || {
             let socket = UdpSocket::bind(address)?;
             socket.set_nonblocking(true)?;
-            mark_answers(&socket, address)?;
             let address = socket.local_addr()?;
+            mark_answers(&socket, address)?;
             Ok(Self { socket, address, master: None, wake: WakeEvent::new()? })
         };
         open().map_err(|error| OpenError::of(LinkSpec::Udp(address), error))
@@ -44,7 +44,11 @@ impl UdpPort {
 
 fn mark_answers(socket: &UdpSocket, address: SocketAddr) -> io::Result<()> {
     let options = SockRef::from(socket);
-    options.attach_filter(&NO_ANSWERS)?;
+    if address.ip().is_unspecified() {
+        options.attach_filter(&no_answers_and_nothing_from(address.port()))?;
+    } else {
+        options.attach_filter(&NO_ANSWERS)?;
+    }
     // An IPv6 socket may also send to IPv4 addresses.
     options.set_tos_v4(ANSWER_TOS)?;
     if address.is_ipv6() { options.set_tclass_v6(ANSWER_TOS) } else { Ok(()) }
@@ -91,6 +95,8 @@ impl FramePort for UdpPort {
 
 #[cfg(test)]
 mod tests {
+    use std::net::IpAddr;
+
     use super::*;
     use crate::FRAME_BUFFER_BYTES;
 
@@ -164,6 +170,32 @@ mod tests {
         let mut buffer = [0; FRAME_BUFFER_BYTES];
         assert_eq!(unit.receive(&mut buffer, Duration::from_millis(1)).unwrap(), None);
         assert_eq!(unit.send(&[0; 60]).unwrap_err().kind(), io::ErrorKind::NotConnected);
+    }
+
+    #[test]
+    fn at_all_addresses_a_frame_from_one_of_them_and_the_port_of_the_unit_is_dropped() {
+        let mut buffer = [0; FRAME_BUFFER_BYTES];
+        for (bound, own) in [("0.0.0.0:0", "127.0.0.1"), ("[::]:0", "127.0.0.1"), ("[::]:0", "::1")] {
+            let mut unit = open(bound);
+            let to = SocketAddr::new(own.parse().unwrap(), unit.address.port());
+            // As above: not marked. The kernel makes the sender the same address.
+            SockRef::from(&unit.socket).set_tos_v4(0).unwrap();
+            if to.is_ipv6() {
+                SockRef::from(&unit.socket).set_tclass_v6(0).unwrap();
+            }
+            // Towards an IPv4 address, an IPv6 socket needs it in the form of an IPv6 address.
+            let to_as_bound = match (unit.address.ip(), to.ip()) {
+                (IpAddr::V6(_), IpAddr::V4(ip)) => SocketAddr::new(ip.to_ipv6_mapped().into(), to.port()),
+                _ => to,
+            };
+            unit.socket.send_to(&[1; 46], to_as_bound).unwrap();
+            let master = UdpSocket::bind((to.ip(), 0)).unwrap();
+            master.send_to(&[2; 46], to).unwrap();
+            assert_eq!(unit.receive(&mut buffer, SOON).unwrap(), Some(60), "{bound} {own}");
+            assert_eq!(buffer[14], 2, "{bound} {own}");
+            unit.send(&buffer[..60]).unwrap();
+            assert_eq!(master.recv(&mut buffer).unwrap(), 46, "{bound} {own}");
+        }
     }
 
     /// The segment sees each of them with its length, so that it can count it; one that is longer than the buffer fills it.

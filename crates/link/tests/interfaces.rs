@@ -14,13 +14,19 @@ fn open_link(name: &str) -> Box<dyn FramePort> {
     port
 }
 
-/// Another program of the machine that has the interface open for sending.
-fn neighbour_at(name: &str) -> Box<dyn pnet_datalink::DataLinkSender> {
+/// Another program of the machine that has the interface open.
+fn channel_at(
+    name: &str,
+) -> (Box<dyn pnet_datalink::DataLinkSender>, Box<dyn pnet_datalink::DataLinkReceiver>) {
     let interface = pnet_datalink::interfaces().into_iter().find(|interface| interface.name == name).unwrap();
     match pnet_datalink::channel(&interface, pnet_datalink::Config::default()).unwrap() {
-        pnet_datalink::Channel::Ethernet(sender, _) => sender,
+        pnet_datalink::Channel::Ethernet(sender, receiver) => (sender, receiver),
         _ => panic!("{name} is no Ethernet"),
     }
+}
+
+fn is_from(from: u8, frame: &[u8]) -> bool {
+    frame.get(6..14) == Some(&[0x10, 0, 0, 0, 0, from, 0x88, 0xA4])
 }
 
 /// Checks the port until `agrees` is true, without a time limit.
@@ -99,7 +105,7 @@ fn a_raw_link_hears_ethercat_only_and_nothing_that_its_own_machine_sends() {
     in_network_namespace(name, || {
         add_veth_pair("veth0", "veth1");
         let (mut master, mut unit) = (open_link("raw:veth0"), open_link("raw:veth1"));
-        neighbour_at("veth1").send_to(&frame(0x88A4, 9, 60), None).unwrap().unwrap();
+        channel_at("veth1").0.send_to(&frame(0x88A4, 9, 60), None).unwrap().unwrap();
         for unheard in [frame(0x0806, 1, 60), frame(0x86DD, 1, 60), udp_frame(53), frame(0x0800, 1, 60)] {
             master.send(&unheard).unwrap();
         }
@@ -127,7 +133,7 @@ fn a_vlan_tag_arrives_with_its_frame_and_goes_back_with_the_answer() {
             assert_eq!(next(&mut master), answer);
         }
         // Frames without a tag are unchanged.
-        neighbour_at("veth0").send_to(&frame(0x88A4, 3, 60), None).unwrap().unwrap();
+        channel_at("veth0").0.send_to(&frame(0x88A4, 3, 60), None).unwrap().unwrap();
         assert_eq!(next(&mut unit), frame(0x88A4, 3, 60));
     });
 }
@@ -225,13 +231,49 @@ fn a_master_on_a_tap_interface_talks_to_the_unit() {
             Ok(unit) => unit,
             Err(error) => return skip(name, &error.to_string()),
         };
-        let mut master = open_link("raw:ect0");
-        master.send(&frame(0x88A4, 1, 29)).unwrap();
+        let (mut to_unit, mut from_unit) = channel_at("ect0");
+        to_unit.send_to(&frame(0x88A4, 1, 29), None).unwrap().unwrap();
         assert_eq!(next(&mut unit), frame(0x88A4, 1, 29));
-        unit.send(&frame(0x88A4, 2, 1514)).unwrap();
-        assert_eq!(next(&mut master), frame(0x88A4, 2, 1514));
+        unit.send(&frame(0x88A4, 2, 1000)).unwrap();
+        let answer = std::iter::repeat_with(|| from_unit.next().unwrap().to_vec());
+        assert_eq!({ answer }.find(|frame| is_from(2, frame)), Some(frame(0x88A4, 2, 1000)));
         let second = open(&"tap:ect0".parse().unwrap()).err().unwrap();
         assert!(matches!(second, OpenError::InUse { .. }), "{second}");
+    });
+}
+
+#[test]
+fn an_interface_is_answered_by_one_ectwin_even_if_it_is_the_tap_interface_of_another() {
+    let name = "an_interface_is_answered_by_one_ectwin_even_if_it_is_the_tap_interface_of_another";
+    in_network_namespace(name, || {
+        let unit = match open(&"tap:ect0".parse().unwrap()) {
+            Ok(unit) => unit,
+            Err(error) => return skip(name, &error.to_string()),
+        };
+        let refused = open(&"raw:ect0".parse().unwrap()).err().unwrap();
+        assert_eq!(refused.to_string(), "raw:ect0 is in use");
+        assert!(refused.help().contains("the other end of this TAP interface"), "{}", refused.help());
+        drop(unit);
+        // One that stays without a user, so that a raw link can have it.
+        ip(&["tuntap", "add", "dev", "ect0", "mode", "tap"]);
+        let _unit = open_link("raw:ect0");
+        let refused = open(&"tap:ect0".parse().unwrap()).err().unwrap();
+        assert!(matches!(refused, OpenError::InUse { .. }), "{refused}");
+    });
+}
+
+#[test]
+fn an_interface_without_ethernet_frames_is_refused_with_what_it_needs() {
+    let name = "an_interface_without_ethernet_frames_is_refused_with_what_it_needs";
+    in_network_namespace(name, || {
+        if let Err(error) = open(&"tap:ect0".parse().unwrap()) {
+            return skip(name, &error.to_string());
+        }
+        ip(&["tuntap", "add", "dev", "tun0", "mode", "tun"]);
+        let refused = open(&"raw:tun0".parse().unwrap()).err().unwrap();
+        assert!(matches!(refused, OpenError::NotEthernet { .. }), "{refused}");
+        assert!(refused.to_string().contains("tun0 has no Ethernet frames"), "{refused}");
+        assert!(refused.help().contains("tap:ect0"), "{}", refused.help());
     });
 }
 

@@ -13,8 +13,8 @@ use std::time::Instant;
 use pnet_datalink::NetworkInterface;
 
 use super::bell::Bell;
-use super::claim::Claim;
 use super::socket::{HELP_FOR_BUFFER, PacketSocket};
+use crate::claim::Claim;
 
 /// `IFF_LOWER_UP` of netdevice(7): the interface is up, and there is a signal on the cable.
 const LOWER_UP: u32 = 1 << 16;

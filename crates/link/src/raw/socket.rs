@@ -13,6 +13,14 @@ use crate::filter::ETHERCAT_COMING_IN;
 /// Room for one burst: SOEM sends the process data of 1,000 units, 250 frames, at once.
 const RECEIVE_BUFFER_BYTES: usize = 8 << 20;
 
+/// Hardware types of interfaces, of which a loopback interface is refused for another reason.
+const WITH_ETHERNET_HEADER: [u16; 2] = [c::ARPHRD_ETHER, c::ARPHRD_LOOPBACK];
+
+/// Whether a socket was not bound because of the frames of the interface.
+pub(super) fn is_without_ethernet(error: &io::Error) -> bool {
+    error.kind() == io::ErrorKind::Unsupported && error.raw_os_error().is_none()
+}
+
 /// A packet socket. Only its creation requires CAP_NET_RAW: an existing socket may be bound to another
 /// interface without it.
 pub(super) struct PacketSocket {
@@ -50,6 +58,7 @@ impl PacketSocket {
             sll_addr: [0; 8],
         };
         uapi::bind(self.socket.as_raw_fd(), &address)?;
+        self.refuse_other_headers()?;
         let promiscuous = c::packet_mreq {
             mr_ifindex: index,
             mr_type: c::PACKET_MR_PROMISC as u16,
@@ -57,6 +66,16 @@ impl PacketSocket {
             mr_address: [0; 8],
         };
         self.set(c::PACKET_ADD_MEMBERSHIP, &promiscuous)
+    }
+
+    /// Refuses an interface whose frames have no Ethernet header, such as a TUN interface.
+    fn refuse_other_headers(&self) -> io::Result<()> {
+        let mut address: c::sockaddr_ll = uapi::pod_zeroed();
+        uapi::getsockname(self.socket.as_raw_fd(), &mut address)?;
+        if WITH_ETHERNET_HEADER.contains(&address.sll_hatype) {
+            return Ok(());
+        }
+        Err(io::Error::new(io::ErrorKind::Unsupported, "its frames have no Ethernet header"))
     }
 
     /// Receives a frame, with its VLAN tag.
