@@ -78,7 +78,8 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
     std::fs::write(bench.folder.join("empty.pcapng"), empty).unwrap();
     for (arguments, fragment) in [
         (&["gone.pcapng", "-o", "x.toml"][..], "cannot read gone.pcapng: No such file"),
-        (&["text.pcapng", "-o", "x.toml"], "no pcapng capture"),
+        (&["text.pcapng", "-o", "x.toml"], "neither a pcapng nor a pcap capture"),
+        (&["old.toml", "-o", "x.toml"], "this is a TOML file"),
         (&["empty.pcapng", "-o", "x.toml"], "it contains no EtherCAT frame of a master"),
         (&["captures/live.pcapng", "-o", "old.toml"], "old.toml is there already"),
         (&["captures/live.pcapng", "-o", "no/such/x.toml"], "cannot write no/such"),
@@ -90,6 +91,34 @@ fn what_is_no_capture_is_refused_with_a_way_out() {
         assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
     }
     assert!(!bench.folder.join("x.toml").exists());
+}
+
+/// The frames of a capture as `tcpdump -w` writes them.
+fn as_pcap(pcapng: &[u8]) -> Vec<u8> {
+    let (nanoseconds, version, ethernet) = (0xA1B2_3C4D, 0x0004_0002, 1);
+    let mut pcap = [nanoseconds, version, 0, 0, 65_535, ethernet].map(u32::to_le_bytes).concat();
+    for packet in capture::read_packets(pcapng).unwrap() {
+        let [seconds, rest] = [packet.at_nanos / 1_000_000_000, packet.at_nanos % 1_000_000_000];
+        let length = packet.frame.len() as u32;
+        pcap.extend([seconds as u32, rest as u32, length, length].map(u32::to_le_bytes).concat());
+        pcap.extend(packet.frame);
+    }
+    pcap
+}
+
+#[test]
+fn a_pcap_file_is_imported_like_the_pcapng_file_of_the_same_frames() {
+    let bench = with_capture("import-pcap");
+    let pcapng = std::fs::read(bench.folder.join("captures/live.pcapng")).unwrap();
+    std::fs::write(bench.folder.join("captures/live.pcap"), as_pcap(&pcapng)).unwrap();
+    for capture in ["captures/live.pcapng", "captures/live.pcap"] {
+        let units = ["--unit", "units/unit.toml"].repeat(3);
+        let output = capture.replace("captures/", "units/") + ".toml";
+        let ended = bench.ectwin(&[&["import", capture, "-o", &output], units.as_slice()].concat());
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{}", ended.stdout);
+        let ended = bench.ectwin(&["replay", &output]);
+        assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+    }
 }
 
 #[test]

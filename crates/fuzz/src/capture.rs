@@ -49,7 +49,7 @@ fn check(input: &[u8]) -> Checked {
         }
     }
     let bytes: usize = read.iter().map(|packet| packet.frame.len()).sum();
-    if bytes > input.len() || read.len() > input.len() / 32 {
+    if bytes > input.len() || read.len() > input.len() / 16 {
         return Err(format!("{} packets with {bytes} bytes in {} bytes", read.len(), input.len()));
     }
     if let Some(NotACapture::Block { at } | NotACapture::Interface { at }) = broken

@@ -54,7 +54,7 @@ impl Refusal {
 pub fn of_another_kind(bytes: &[u8], name: &str, wanted: Wanted) -> Option<Refusal> {
     let sample = Sample::of(bytes, name);
     let kind = KINDS.iter().find(|kind| (kind.is)(&sample))?;
-    if kind.wanted_as == Some(wanted) {
+    if kind.wanted_as.contains(&wanted) {
         return None;
     }
     let help = [kind.help, wanted.help()].into_iter().filter(|help| !help.is_empty());
@@ -66,7 +66,8 @@ struct Kind {
     /// With its article.
     name: &'static str,
     is: fn(&Sample<'_>) -> bool,
-    wanted_as: Option<Wanted>,
+    /// The kinds of files that it may be.
+    wanted_as: &'static [Wanted],
     /// The program that reads or writes it; empty if the name is sufficient.
     help: &'static str,
 }
@@ -76,32 +77,32 @@ const KINDS: &[Kind] = &[
     Kind {
         name: "an ESI file, the description of slaves for the configuration tool of a master",
         is: |file| file.is_xml_of("EtherCATInfo"),
-        wanted_as: None,
+        wanted_as: &[],
         help: "`ectwin esi FILE.toml` writes the ESI file of a unit, and no command reads one",
     },
     Kind {
         name: "an ENI file, the configuration of a network for a master",
         is: |file| file.is_xml_of("EtherCATConfig"),
-        wanted_as: None,
+        wanted_as: &[],
         help: "masters read it, and no command does",
     },
     Kind {
         name: "a file of TwinCAT (XML), not Structured Text alone",
         is: |file| file.is_xml_of("TcPlcObject") || file.is_xml_of("TcSmProject"),
-        wanted_as: None,
+        wanted_as: &[],
         help: "copy declaration and implementation into a file FILE.st: the VAR sections, then the statements",
     },
     Kind {
         name: "a PLCopen XML file, not Structured Text",
         is: |file| file.is_xml_of("project") && file.root().is_some_and(|root| root.contains("plcopen.org")),
-        wanted_as: None,
+        wanted_as: &[],
         help: "export the program as text (ST), or copy its text into a file FILE.st",
     },
-    Kind { name: "an XML file", is: |file| file.root().is_some(), wanted_as: None, help: "" },
+    Kind { name: "an XML file", is: |file| file.root().is_some(), wanted_as: &[], help: "" },
     Kind {
         name: "a project of Sysmac Studio (.smc2)",
         is: |file| file.ending == "smc2",
-        wanted_as: None,
+        wanted_as: &[],
         help: "copy the text of its programs into files FILE.st",
     },
     Kind {
@@ -109,56 +110,68 @@ const KINDS: &[Kind] = &[
         is: |file| {
             [&b"PK\x03\x04"[..], b"\x1F\x8B", b"7z\xBC\xAF"].iter().any(|mark| file.bytes.starts_with(mark))
         },
-        wanted_as: None,
+        wanted_as: &[],
         help: "unpack it first",
     },
     Kind {
         name: "a capture of frames",
         is: |file| CAPTURES.iter().any(|mark| file.bytes.starts_with(mark)),
-        wanted_as: Some(Wanted::Capture),
+        wanted_as: &[Wanted::Capture],
         help: "`ectwin import CAPTURE -o SCENARIO` makes a scenario of one",
     },
     Kind {
         name: "the non-volatile memory of a unit",
         is: |file| file.bytes.starts_with(b"ectwnvm\0"),
-        wanted_as: None,
+        wanted_as: &[],
         help: "the key `storage` of a unit file names it",
     },
     Kind {
         name: "a user program in WebAssembly",
         is: |file| file.bytes.starts_with(b"\0asm"),
-        wanted_as: None,
+        wanted_as: &[],
         help: "`ectwin run --program FILE.wasm` and the key `program` of a unit file take it",
     },
     Kind {
         name: "an SII image (EEPROM)",
         is: |file| is_sii(file.bytes),
-        wanted_as: None,
+        wanted_as: &[],
         help: "`ectwin sii FILE.toml` writes the SII image of a unit, and no command reads one",
+    },
+    Kind {
+        name: "a text in Markdown",
+        is: |file| ["md", "markdown"].contains(&&*file.ending),
+        wanted_as: &[],
+        help: "",
     },
     Kind {
         name: "a file of results or another JSON file",
         is: |file| file.start().starts_with("{\""),
-        wanted_as: Some(Wanted::Results),
+        wanted_as: &[Wanted::Results],
         help: "`ectwin merge` reads the results of `ectwin replay --json`",
     },
     Kind {
         name: "a scenario",
         is: |file| file.has_list("steps"),
-        wanted_as: Some(Wanted::Scenario),
+        wanted_as: &[Wanted::Scenario],
         help: "`ectwin replay FILE` and `ectwin search FILE` read it",
     },
     Kind {
         name: "a unit file",
         is: |file| file.has_top_key("model"),
-        wanted_as: Some(Wanted::UnitFile),
+        wanted_as: &[Wanted::UnitFile],
         help: "`ectwin check FILE` and `ectwin run FILE` read it",
     },
     Kind {
         name: "a program in Structured Text",
         is: |file| structured_text::begins(file.start()),
-        wanted_as: Some(Wanted::Program),
+        wanted_as: &[Wanted::Program],
         help: "`ectwin st check FILE` reads it",
+    },
+    Kind {
+        name: "a TOML file",
+        is: |file| file.ending == "toml",
+        wanted_as: &[Wanted::UnitFile, Wanted::Scenario],
+        help: "`ectwin check FILE` reads unit files, and `ectwin replay FILE` scenarios",
     },
 ];
 
@@ -230,10 +243,12 @@ mod tests {
             ("a.nvm", b"ectwnvm\0\x01".to_vec()),
             ("a", b"\0asm\x01\0\0\0".to_vec()),
             ("a.bin", sii_of_a_drive()),
+            ("README.md", b"# Units\n\n```toml\nmodel = \"nx-ect101\"\n```\n".to_vec()),
             ("a.jsonl", b"{\"case\":1}\n".to_vec()),
             ("a.toml", b"title = \"x\"\n[[units]]\nmodel = \"nx-ect101\"\n[[steps]]\n".to_vec()),
             ("a.toml", b"# a unit\nmodel = \"nx-ect101\"\n".to_vec()),
             ("a.st", b"function_block B\n".to_vec()),
+            ("a.toml", b"# nothing in it\n".to_vec()),
         ]
     }
 
@@ -243,7 +258,7 @@ mod tests {
         for ((name, bytes), kind) in samples().iter().zip(KINDS) {
             for wanted in ALL {
                 let refusal = of_another_kind(bytes, name, wanted);
-                if kind.wanted_as == Some(wanted) {
+                if kind.wanted_as.contains(&wanted) {
                     assert_eq!(refusal, None, "{}", kind.name);
                     continue;
                 }
