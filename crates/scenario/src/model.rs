@@ -6,6 +6,7 @@
 mod bytes;
 mod condition;
 mod cpu;
+mod from_one;
 mod line;
 mod master;
 mod names;

@@ -111,7 +111,10 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "one key",
         ),
         ("{ unit = { restart = { units = 2 } } }", "does not exist", "1 unit"),
-        ("{ line = { unplug = { cable = 0 } } }", "nonzero", ""),
+        ("{ line = { unplug = { cable = 0 } } }", "is integer `0`", "the number of a cable, from 1"),
+        ("{ line = { unplug = { cable = 70000 } } }", "70000", "the number of a cable, from 1"),
+        ("{ line = { unplug = { cable = -1 } } }", "-1", "the number of a cable, from 1"),
+        ("{ line = { unplug = { cable = \"1\" } } }", "a string", "the number of a cable, from 1"),
         ("{ unit = 5 }", "a sentence, or a table with one key", ""),
         (
             "{ unit = { inject_fault = { units = 1, fault = \"No\" } } }",
@@ -375,7 +378,7 @@ line 9, column 14: unknown key `unit.restrat`
 line 9, column 41: unknown key `whn`
   did you mean `when`?
 line 10, column 34: `expect.object.unit` is integer `0`
-  expected a nonzero usize
+  expected the number of a unit, from 1
 line 10, column 45: `1018`: expected an entry of an object such as 10F3:05
 line 10, column 53: unknown key `expect.object.valu`
   expected `unit`, `entry` or `value`; did you mean `value`?

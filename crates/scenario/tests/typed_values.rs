@@ -210,7 +210,7 @@ fn what_is_no_value_is_refused_with_what_was_expected() {
         (r#"{ "take": { "units": 1, "state": "OP", "when": 5 } }"#, "unknown field `when`"),
         (r#"{ "write_sdo": { "unit": 1, "entry": "2002", "value": "01" } }"#, "such as 10F3:05"),
         (r#"{ "write_sdo": { "unit": 1, "entry": "2002:01", "value": "100" } }"#, "bytes such as 01 FF"),
-        (r#"{ "read_sdo": { "unit": 0, "entry": "2002:01" } }"#, "nonzero"),
+        (r#"{ "read_sdo": { "unit": 0, "entry": "2002:01" } }"#, "the number of a unit, from 1"),
         (r#"{ "write_register": { "unit": 1, "register": 65536, "bytes": "00" } }"#, "from 0 to 0xFFFF"),
         (r#"{ "write_register": { "unit": 1, "register": "0xG", "bytes": "00" } }"#, "from 0 to 0xFFFF"),
         (r#"{ "write_register": { "unit": 1, "register": -1, "bytes": "00" } }"#, "from 0 to 0xFFFF"),

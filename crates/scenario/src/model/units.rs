@@ -4,10 +4,12 @@ use core::fmt;
 use core::num::{NonZeroU16, NonZeroUsize};
 use core::ops::Range;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::from_one::FromOne;
 
 /// The number of a unit: 1 for the one next to the master.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(transparent)]
 pub struct UnitNumber(NonZeroUsize);
 
@@ -31,6 +33,15 @@ impl UnitNumber {
     #[must_use]
     pub const fn position(self) -> usize {
         self.0.get() - 1
+    }
+}
+
+impl<'de> Deserialize<'de> for UnitNumber {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_u64(FromOne {
+            expected: "the number of a unit, from 1",
+            number: |number| usize::try_from(number).ok().and_then(Self::new),
+        })
     }
 }
 
@@ -97,7 +108,7 @@ mod all {
 }
 
 /// The number of a cable: 1 for the one to the master, 2 for the one after the first unit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(transparent)]
 pub struct CableNumber(NonZeroU16);
 
@@ -121,6 +132,15 @@ impl CableNumber {
     #[must_use]
     pub const fn number(self) -> u16 {
         self.0.get()
+    }
+}
+
+impl<'de> Deserialize<'de> for CableNumber {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_u64(FromOne {
+            expected: "the number of a cable, from 1",
+            number: |number| u16::try_from(number).ok().and_then(Self::new),
+        })
     }
 }
 
