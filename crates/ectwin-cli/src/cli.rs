@@ -1,6 +1,7 @@
 //! The command line.
 
 mod address;
+mod count;
 
 use std::net::SocketAddr;
 use std::num::{NonZeroU64, NonZeroUsize};
@@ -152,7 +153,7 @@ pub(crate) struct ReplayArgs {
     #[arg(long, value_name = "i/n|auto")]
     pub(crate) partition: Option<PartitionChoice>,
     /// Number of threads; default: as many as the machine can run in parallel. It does not change the results
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count::jobs)]
     jobs: Option<NonZeroUsize>,
 }
 
@@ -182,7 +183,7 @@ pub(crate) struct SearchArgs {
     #[arg(value_name = "FILE")]
     pub(crate) scenario: PathBuf,
     /// Number of seeds
-    #[arg(long, value_name = "N", default_value = "1000")]
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = count::runs)]
     pub(crate) runs: NonZeroU64,
     /// The first seed
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -271,6 +272,14 @@ mod tests {
     #[test]
     fn the_command_line_is_well_formed() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn no_runs_and_no_threads_are_refused_in_our_words() {
+        for arguments in [["search", "x.toml", "--runs", "0"], ["replay", "x.toml", "--jobs", "0"]] {
+            let refused = Cli::try_parse_from(["ectwin"].into_iter().chain(arguments)).unwrap_err();
+            assert!(refused.to_string().contains("expected 1 or more, such as"), "{refused}");
+        }
     }
 
     #[test]

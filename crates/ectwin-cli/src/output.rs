@@ -1,6 +1,5 @@
 //! The targets of results and logs: results to stdout, logs to stderr.
 
-use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -9,6 +8,7 @@ use user_file::escaped;
 
 use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
+use crate::output_file::{BegunFile, OutputFile};
 
 /// Longer lines are cut. The longest useful line contains the bytes of a whole SyncManager.
 const LINE_CHARACTERS_MAX: usize = 8_000;
@@ -85,7 +85,7 @@ fn cut(line: &str) -> String {
 /// Writes a result to `path`, or to stdout without one and for `-`.
 pub(crate) fn write(path: Option<&Path>, result: &[u8]) -> Result<(), Failure> {
     let Some(path) = path.filter(|path| !is_stdout(path)) else { return print(result) };
-    std::fs::write(path, result).map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+    OutputFile::open(path)?.write(result)
 }
 
 /// Whether an output of the command line is stdout.
@@ -136,7 +136,17 @@ impl People {
 /// The target of a result that is written in pieces.
 pub(crate) enum ResultOut {
     Stdout,
-    File(File),
+    File(BegunFile),
+}
+
+impl ResultOut {
+    /// The result is complete, even if it is empty.
+    pub(crate) fn complete(&mut self) -> io::Result<()> {
+        match self {
+            Self::Stdout => Ok(()),
+            Self::File(file) => file.complete(),
+        }
+    }
 }
 
 impl Write for ResultOut {

@@ -1,9 +1,11 @@
-//! A file that a command writes later: it is opened at the start, and what is in it stays until the command is accepted.
+//! A file that a command writes later: it is opened at the start, and what is in it stays until the first new bytes are
+//! written. If none are, a file that was made here is removed.
 
 use std::fs::{self, File, OpenOptions};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use link::Medium;
 use rustix::fs::{FlockOperation, flock};
 use rustix::io::Errno;
 
@@ -17,7 +19,7 @@ pub(crate) struct OutputFile {
     made: Made,
 }
 
-/// The file, if it was not there before: it is removed unless it is begun.
+/// The file, if it was not there before: it is removed unless something is written to it.
 struct Made(Option<PathBuf>);
 
 impl OutputFile {
@@ -41,11 +43,71 @@ impl OutputFile {
         }
     }
 
-    /// Empties the file for its new contents: nothing can refuse the command any more.
-    pub(crate) fn begin(mut self) -> Result<File, Failure> {
+    /// Makes the file, which must not exist.
+    pub(crate) fn make(path: &Path) -> Result<Self, Failure> {
+        let path = path.to_owned();
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            Ok(file) => Ok(Self { made: Made(Some(path.clone())), path, file }),
+            Err(source) => Err(Failure::Unwritable { path, source }),
+        }
+    }
+
+    /// The new contents follow: nothing can refuse the command any more.
+    pub(crate) fn begin(self) -> BegunFile {
+        BegunFile { file: self.file, made: self.made, is_replaced: false }
+    }
+
+    /// Writes all the new contents.
+    pub(crate) fn write(self, contents: &[u8]) -> Result<(), Failure> {
+        let path = self.path.clone();
+        let mut file = self.begin();
+        let written = file.write_all(contents).and_then(|()| file.complete());
+        written.map_err(|source| Failure::Unwritable { path, source })
+    }
+}
+
+/// A file whose contents are being replaced. The old ones are there until the first new bytes are.
+pub(crate) struct BegunFile {
+    file: File,
+    made: Made,
+    is_replaced: bool,
+}
+
+impl BegunFile {
+    /// The new contents are complete, even if there are none.
+    pub(crate) fn complete(&mut self) -> io::Result<()> {
+        self.replace_old(0)
+    }
+
+    /// Only the first `length_bytes` are new.
+    fn replace_old(&mut self, length_bytes: usize) -> io::Result<()> {
+        if self.is_replaced {
+            return Ok(());
+        }
+        self.is_replaced = true;
         self.made.0 = None;
-        let emptied = if is_regular(&self.file) { self.file.set_len(0) } else { Ok(()) };
-        emptied.map(|()| self.file).map_err(|source| Failure::Unwritable { path: self.path, source })
+        if is_regular(&self.file) { self.file.set_len(length_bytes as u64) } else { Ok(()) }
+    }
+}
+
+impl Write for BegunFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let length_bytes = self.file.write(bytes)?;
+        if length_bytes > 0 {
+            self.replace_old(length_bytes)?;
+        }
+        Ok(length_bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Medium for BegunFile {
+    fn cut(&mut self, length_bytes: u64) -> io::Result<()> {
+        // Old contents are not part of a new block.
+        if self.is_replaced { self.file.set_len(length_bytes) } else { Ok(()) }
     }
 }
 
@@ -75,11 +137,11 @@ impl LaterOutput {
         if is_stdout(path) { Ok(Self::Stdout) } else { OutputFile::open(path).map(Self::File) }
     }
 
-    /// Empties the file for its new contents.
-    pub(crate) fn begin(self) -> Result<ResultOut, Failure> {
+    /// The new contents follow.
+    pub(crate) fn begin(self) -> ResultOut {
         match self {
-            Self::Stdout => Ok(ResultOut::Stdout),
-            Self::File(file) => file.begin().map(ResultOut::File),
+            Self::Stdout => ResultOut::Stdout,
+            Self::File(file) => ResultOut::File(file.begin()),
         }
     }
 }

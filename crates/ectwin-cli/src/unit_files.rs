@@ -79,6 +79,14 @@ pub(crate) fn parse(path: &Path) -> Result<(UnitFile, String), Failure> {
     }
 }
 
+/// Refuses a unit file whose program or memory file cannot be used. Nothing is made or changed.
+pub(crate) fn refuse_wrong_files(path: &Path, file: &UnitFile, text: &str) -> Result<(), Failure> {
+    let mistakes = Setup::mistakes_in_files(file.clone(), folder_of(path));
+    let mut all = FileProblems::default();
+    mistakes.iter().for_each(|mistake| all.append(problems(path, text, mistake)));
+    if all.is_empty() { Ok(()) } else { Err(Failure::BadFile(all)) }
+}
+
 fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
     let message = error.to_string();
     let seen_from = |span: &Range<usize>| {
@@ -94,6 +102,10 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
             seen_from(span)
         }
         SetupError::ProgramUnreadable { span: None, help, .. } => FileProblem::of_file(&message, help).into(),
+        SetupError::Builtin { refused, span: Some(span) } => {
+            FileProblem::in_text(path, text, span.clone(), &message, &refused.help()).into()
+        }
+        SetupError::Builtin { refused, span: None } => FileProblem::of_file(&message, &refused.help()).into(),
         SetupError::WebAssemblyWrong { .. } => FileProblem::of_file(
             &message,
             "docs/user/wasm-programs.md describes the requirements for a module",

@@ -154,6 +154,51 @@ fn a_bad_file_and_no_file_end_with_2() {
 }
 
 #[test]
+fn the_program_and_the_memory_that_a_unit_file_names_are_checked_and_nothing_is_made() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("check-files");
+    let _files_of_an_earlier_run = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let put = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    put("wrong.st", "VAR x : INT; END_VAR\nx := y;\n");
+    put("notes.nvm", "my notes");
+    let check = |storage: &str, program: &str| {
+        let text = format!("model = \"nx-ect101\"\nstorage = \"{storage}\"\n[cpu]\nprogram = {program}\n");
+        put("unit.toml", &text);
+        let before = std::fs::read_dir(&folder).unwrap().count();
+        let output = ectwin(&["check", folder.join("unit.toml").to_str().unwrap(), "--json"]);
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), before, "nothing is made");
+        let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let problems = told["problems"].as_array().cloned().unwrap_or_default();
+        let problem = |row: &Value| {
+            let place = [&row["line"], &row["column"]].map(|place| place.as_u64().unwrap());
+            let file = Path::new(row["file"].as_str().unwrap()).file_name().unwrap().display().to_string();
+            (file, place, format!("{} {}", row["message"], row["help"]))
+        };
+        (output.status.code(), problems.iter().map(problem).collect::<Vec<_>>())
+    };
+    assert_eq!(check("N1.nvm", "\"builtin:copy\""), (Some(0), Vec::new()));
+    let (code, problems) = check("no/such/N1.nvm", "\"gone.st\"");
+    assert_eq!((code, problems.len()), (Some(2), 2), "{problems:?}");
+    for ((file, place, told), (expected, words)) in
+        problems.iter().zip([([4, 11], "gone.st cannot be read"), ([2, 11], "no/such/N1.nvm cannot be used")])
+    {
+        assert_eq!((file.as_str(), *place), ("unit.toml", expected), "{told}");
+        assert!(told.contains(words), "{told}");
+    }
+    for (storage, program, file, place, words) in [
+        ("notes.nvm", "\"builtin:copy\"", "unit.toml", [2, 11], "is not the memory of a unit"),
+        ("N1.nvm", "\"wrong.st\"", "wrong.st", [2, 6], "there is no variable `y`"),
+        ("N1.nvm", "\"builtin:cpy\"", "unit.toml", [4, 11], "there is no program builtin:cpy"),
+        ("N1.nvm", "[\"builtin:copy\", \"wrong.st\"]", "unit.toml", [4, 11], "give it alone"),
+    ] {
+        let (code, problems) = check(storage, program);
+        let [(named, found, told)] = problems.as_slice() else { panic!("{problems:?}") };
+        assert_eq!((code, named.as_str(), *found), (Some(2), file, place), "{told}");
+        assert!(told.contains(words), "{told}");
+    }
+}
+
+#[test]
 fn list_rules_has_the_seven_rules_and_their_events() {
     let output = ectwin(&["list", "rules", "--json"]);
     assert!(output.status.success());

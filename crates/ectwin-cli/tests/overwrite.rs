@@ -130,6 +130,68 @@ fn one_file_for_two_outputs_is_refused_and_a_device_is_not() {
     assert_eq!(ended(&folder, "", &device).code, Some(0));
 }
 
+/// Every command with an output that is a file.
+const WRITING: &[&[&str]] = &[
+    &["esi", "unit.toml", "-o", "OUT"],
+    &["sii", "unit.toml", "-o", "OUT"],
+    &["merge", "result.jsonl", "--junit", "OUT"],
+    &["replay", "scenario.toml", "--junit", "OUT"],
+    &["replay", "scenario.toml", "--json", "OUT"],
+    &["replay", "scenario.toml", "--pcap", "OUT"],
+    &["replay", "scenario.toml", "--pcap", "captures/", "--json", "OUT"],
+    &["import", "live.pcapng", "-o", "NEW"],
+    &["search", "never.toml", "-o", "NEW"],
+];
+
+/// As on a full disk: no file may grow.
+#[test]
+fn a_command_that_can_write_nothing_leaves_no_new_file_and_changes_none() {
+    let folder = inputs("nothing");
+    let never = LIVE
+        .replace("is in PRE-OP", "is in OP")
+        .replace("{ expect", "{ random = 1, within = \"1s\" },\n{ expect");
+    fs::write(folder.join("never.toml"), never).unwrap();
+    fs::write(folder.join("old"), "the report of yesterday").unwrap();
+    let before = contents(&folder);
+    for arguments in WRITING {
+        for output in ["old", "new"] {
+            let put = |argument: &&'static str| match *argument {
+                "OUT" => output,
+                "NEW" => "new",
+                other => other,
+            };
+            let arguments: Vec<&str> = arguments.iter().map(put).collect();
+            let refused = ended(&folder, "ulimit -f 0;", &arguments);
+            assert_eq!(refused.code, Some(2), "{arguments:?}: {}", refused.stderr);
+            assert!(refused.stderr.contains("cannot write "), "{arguments:?}: {}", refused.stderr);
+            assert_eq!(contents(&folder), before, "{arguments:?}");
+            let captures = fs::read_dir(folder.join("captures"));
+            assert_eq!(captures.map_or(0, Iterator::count), 0, "{arguments:?}");
+        }
+    }
+    // A run goes on without its capture until it ends.
+    for output in ["old", "new"] {
+        let link = free_link();
+        let arguments = ["run", "unit.toml", "--link", &link, "--fast", "--pcap", output];
+        let mut run = Started::new(&folder, "ulimit -f 0;", &arguments).ready();
+        run.wait_for("cannot be written");
+        assert_eq!(run.interrupt().code, Some(2));
+        assert_eq!(contents(&folder), before, "{output}");
+    }
+}
+
+#[test]
+fn a_result_without_cases_is_an_empty_file() {
+    let folder = inputs("no-cases");
+    fs::write(folder.join("old"), "the results of yesterday").unwrap();
+    for output in ["old", "new"] {
+        let part = ["replay", "scenario.toml", "--partition", "2/2", "--json", output];
+        let ended = ended(&folder, "", &part);
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert_eq!(fs::read(folder.join(output)).unwrap(), b"");
+    }
+}
+
 #[test]
 fn an_output_in_the_place_of_a_memory_that_is_not_there_yet_is_refused() {
     let folder = inputs("memory");

@@ -16,6 +16,7 @@ const FILE: &str = "FILE";
 /// Each command that reads user files, at each position of such a file.
 const COMMANDS: &[&[&str]] = &[
     &["check", FILE],
+    &["check", "names.toml"],
     &["map", FILE],
     &["esi", FILE],
     &["sii", FILE],
@@ -199,6 +200,8 @@ fn a_file_of_another_kind_is_told_what_it_is() {
     bench.put("eni.xml", "<?xml version=\"1.0\"?><EtherCATConfig><Config/></EtherCATConfig>");
     bench.put("Main.TcPOU", "<?xml version=\"1.0\"?><TcPlcObject><POU Name=\"Main\"/></TcPlcObject>");
     bench.put("plc.xml", "<project xmlns=\"http://www.plcopen.org/xml/tc6_0200\"/>");
+    bench.put("README.md", "# Units\n\nSee [the first](unit.toml).\n");
+    bench.put("empty.toml", "# to do\n");
     bench.put("machine.smc2", "PK\u{3}\u{4}");
     bench.put("scenario.toml", "title = \"t\"\nsteps = [{ line = \"be quiet\" }]\n");
     fs::write(bench.folder.join("latin.st"), b"(* Z\xE4hler f\xFCr die Gr\xF6\xDFe *)\n;").unwrap();
@@ -230,6 +233,9 @@ fn a_file_of_another_kind_is_told_what_it_is() {
         (&["check", "program.st"], &["a program in Structured Text", "`ectwin st check FILE`"]),
         (&["import", "unit.toml", "-o", "out.toml"], &["this is a unit file", "ectwin run --pcap"]),
         (&["merge", "unit.toml"], &["this is a unit file"]),
+        (&["check", "README.md"], &["this is a text in Markdown", "a unit file is TOML"]),
+        (&["import", "empty.toml", "-o", "out.toml"], &["this is a TOML file", "`ectwin check FILE`"]),
+        (&["st", "check", "empty.toml"], &["this is a TOML file", "a program is Structured Text"]),
     ] {
         let ended = bench.ectwin(arguments);
         assert_eq!(ended.code, Some(2), "{arguments:?}: {}", ended.stderr);
@@ -241,6 +247,23 @@ fn a_file_of_another_kind_is_told_what_it_is() {
             );
         }
     }
+}
+
+#[test]
+fn stdin_is_no_input_of_any_command() {
+    let bench = bench("stdin");
+    // Not this file either: `-` of an output means stdout too.
+    bench.put("-", "model = \"nx-ect101\"\n");
+    for arguments in COMMANDS.iter().filter(|arguments| arguments.contains(&FILE)) {
+        let with_stdin = |argument: &&'static str| if *argument == FILE { "-" } else { argument };
+        let arguments: Vec<&str> = arguments.iter().map(with_stdin).collect();
+        let ended = bounded(&bench, &arguments);
+        assert_eq!(ended.code, Some(2), "{arguments:?}: {}", ended.stderr);
+        for fragment in ["stdin, which no command reads", "one of this name is ./-"] {
+            assert!(ended.stderr.contains(fragment), "{arguments:?}: {}", ended.stderr);
+        }
+    }
+    assert_eq!(bench.ectwin(&["check", "./-"]).code, Some(0));
 }
 
 #[test]

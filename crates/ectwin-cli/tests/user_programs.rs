@@ -1,7 +1,6 @@
 //! The reports of the built command about a user program while it runs.
 
 mod running;
-#[expect(dead_code, reason = "each test uses a part of it")]
 #[expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 mod started;
 
@@ -19,6 +18,20 @@ fn written(name: &str, source: &str) -> PathBuf {
 
 fn change(program: &Path, source: &str) {
     must(std::fs::write(program, source));
+}
+
+#[test]
+fn a_built_in_program_is_run_and_refused_beside_a_file() {
+    let folder = folder_of("builtin");
+    must(std::fs::write(folder.join("unit.toml"), "model = \"nx-ect101\"\n"));
+    must(std::fs::write(folder.join("a.st"), ";\n"));
+    let link = free_link();
+    let run = ["run", "unit.toml", "--link", &link, "--program", "builtin:copy"];
+    assert_eq!(Started::new(&folder, "", &run).ready().interrupt().code, Some(0));
+    let refused = started::ended(&folder, "", &[&run[..], &["--program", "a.st"]].concat());
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("builtin:copy is a whole program"), "{}", refused.stderr);
+    assert!(refused.stderr.contains("./builtin:copy"), "{}", refused.stderr);
 }
 
 #[test]

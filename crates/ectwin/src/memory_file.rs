@@ -23,10 +23,7 @@ impl MemoryFile {
         let found = match file.read()?.map(|bytes| section.check_memory(&bytes).map(|()| bytes)) {
             None => MemoryAtPowerOn::Factory,
             Some(Ok(bytes)) => MemoryAtPowerOn::Stored(bytes),
-            Some(Err(MemoryDamage::NoMemory)) => {
-                let words = "it exists, but it is not the memory of a unit; it is not changed";
-                return Err(io::Error::new(io::ErrorKind::InvalidData, words));
-            }
+            Some(Err(MemoryDamage::NoMemory)) => return Err(no_memory()),
             Some(Err(damage @ MemoryDamage::Damaged(_))) => {
                 let aside = file.set_aside()?;
                 tracing::error!("{}: {damage}; renamed to {}", path.display(), aside.display());
@@ -41,6 +38,20 @@ impl MemoryFile {
     pub(crate) fn into_parts(self) -> (MemoryAtPowerOn, storage::Writer) {
         (self.found, self.writer)
     }
+}
+
+/// Whether a unit can keep its memory in this file, which is neither made nor changed nor claimed. A damaged memory is
+/// no reason against it.
+pub(crate) fn check(path: &Path, section: &dyn UnitSection) -> io::Result<()> {
+    match StoredFile::peek(path)?.map(|bytes| section.check_memory(&bytes)) {
+        Some(Err(MemoryDamage::NoMemory)) => Err(no_memory()),
+        None | Some(Ok(()) | Err(MemoryDamage::Damaged(_))) => Ok(()),
+    }
+}
+
+fn no_memory() -> io::Error {
+    let words = "it exists, but it is not the memory of a unit; it is not changed";
+    io::Error::new(io::ErrorKind::InvalidData, words)
 }
 
 /// Stores the memory of one unit in its file.

@@ -2,6 +2,7 @@
 
 mod error;
 
+use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +12,7 @@ use time::Instant;
 use unit_model::PowerOn;
 use user_file::Located;
 
-use crate::memory_file::MemoryFile;
+use crate::memory_file::{self, MemoryFile};
 use crate::program_file::{ProgramFileError, ProgramText};
 use crate::user_files;
 use crate::watched_program::{self, Stamps, WatchedProgram};
@@ -95,12 +96,14 @@ impl Setup {
     }
 
     /// Sets the user program in these files for the CPU Unit: several in Structured Text are one program, and a
-    /// folder means all files in it and below that end with `.st`.
+    /// folder means all files in it and below that end with `.st`. A built-in program, such as `builtin:copy`, is alone.
     ///
     /// # Errors
-    /// As [`Setup::program_file`].
+    /// As [`Setup::program_file`]; [`SetupError::Builtin`].
     pub fn with_program_files(mut self, paths: &[PathBuf]) -> Result<Self, SetupError> {
-        self.take_program_files(paths.to_vec(), None)?;
+        if !self.take_builtin(paths, None)? {
+            self.take_program_files(paths.to_vec(), None)?;
+        }
         Ok(self)
     }
 
@@ -112,18 +115,36 @@ impl Setup {
     /// [`SetupError::Storage`] if the file cannot be used: another unit stores its memory there, it is not the
     /// memory of a unit, or its folder is missing or cannot be written.
     pub fn with_storage(mut self, folder: &Path) -> Result<Self, SetupError> {
-        if let Some(storage) = self.file.section().storage() {
-            let path = folder.join(&storage.value);
-            let memory =
-                MemoryFile::open(&path, self.file.section()).map_err(|error| SetupError::Storage {
-                    path: path.display().to_string(),
-                    reason: error.to_string(),
-                    os_error: error.raw_os_error(),
-                    span: storage.span.clone().unwrap_or_default(),
-                })?;
-            self.memory = Some(memory);
-        }
+        let memory = self.on_storage(folder, |path| MemoryFile::open(path, self.file.section()))?;
+        self.memory = memory;
         Ok(self)
+    }
+
+    /// The mistakes in the files that a unit file in this folder names: its user program, and the file of its
+    /// non-volatile memory, which is neither made nor changed nor claimed.
+    #[must_use]
+    pub fn mistakes_in_files(file: UnitFile, folder: &Path) -> Vec<SetupError> {
+        let setup = Self::without_program(file);
+        let storage = setup.on_storage(folder, |path| memory_file::check(path, setup.file.section())).err();
+        let program = setup.with_program_of_file(Some(folder)).err();
+        program.into_iter().chain(storage).collect()
+    }
+
+    /// Does something with the file of the memory; nothing if the memory is in no file.
+    fn on_storage<T>(
+        &self,
+        folder: &Path,
+        act: impl FnOnce(&Path) -> io::Result<T>,
+    ) -> Result<Option<T>, SetupError> {
+        let Some(storage) = self.file.section().storage() else { return Ok(None) };
+        let path = folder.join(&storage.value);
+        let done = act(&path).map_err(|error| SetupError::Storage {
+            path: path.display().to_string(),
+            reason: error.to_string(),
+            os_error: error.raw_os_error(),
+            span: storage.span.clone().unwrap_or_default(),
+        });
+        done.map(Some)
     }
 
     /// Removes the simulated times of the unit, whatever `timing` in its file is.
@@ -184,10 +205,14 @@ impl Setup {
     }
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
-        let setup = Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?);
-        match setup.file.cpu().program.clone() {
-            Some(name) => setup.with_named_program(&name, folder),
-            None => Ok(setup),
+        Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?)
+            .with_program_of_file(folder)
+    }
+
+    fn with_program_of_file(self, folder: Option<&Path>) -> Result<Self, SetupError> {
+        match self.file.cpu().program.clone() {
+            Some(name) => self.with_named_program(&name, folder),
+            None => Ok(self),
         }
     }
 
@@ -201,19 +226,32 @@ impl Setup {
         name: &Located<Vec<PathBuf>>,
         folder: Option<&Path>,
     ) -> Result<Self, SetupError> {
-        let path = name.value.first().map(|path| path.display().to_string()).unwrap_or_default();
-        if let (Some(builtin), 1) = (Builtin::named(&path), name.value.len()) {
-            self.program = builtin.program();
+        let span = name.span.clone().unwrap_or_default();
+        if self.take_builtin(&name.value, Some(&span))? {
             return Ok(self);
         }
-        let span = name.span.clone().unwrap_or_default();
         let Some(folder) = folder else {
+            let path = name.value.first().map(|path| path.display().to_string()).unwrap_or_default();
             let reason = "a text has no folder to find it in".to_owned();
             let help = "`Setup::from_toml_in` knows the folder".to_owned();
             return Err(SetupError::ProgramUnreadable { path, reason, help, span: Some(span) });
         };
         self.take_program_files(name.value.iter().map(|path| folder.join(path)).collect(), Some(span))?;
         Ok(self)
+    }
+
+    /// Takes a built-in program. False: these are files.
+    fn take_builtin(&mut self, names: &[PathBuf], span: Option<&Range<usize>>) -> Result<bool, SetupError> {
+        let names: Vec<_> = names.iter().map(|name| name.display().to_string()).collect();
+        let builtin = Builtin::only(&names);
+        match builtin.map_err(|refused| SetupError::Builtin { refused, span: span.cloned() })? {
+            Some(builtin) => {
+                self.program = builtin.program();
+                self.program_files = None;
+                Ok(true)
+            }
+            None => Ok(false),
+        }
     }
 
     fn take_program_files(

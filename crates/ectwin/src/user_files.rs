@@ -20,6 +20,8 @@ pub use lines::{Line, Lines};
 pub use user_file::Wanted;
 
 const MIB: u64 = 1 << 20;
+/// The name that means stdin, as `-` of an output means stdout.
+const STDIN: &str = "-";
 /// The ending of programs in Structured Text.
 const STRUCTURED_TEXT: &str = "st";
 
@@ -41,6 +43,8 @@ pub struct Unreadable {
 #[derive(Debug)]
 enum Reason {
     Io(io::Error),
+    /// The path means stdin.
+    Stdin,
     /// Its kind, if it is not a regular file.
     NotRegular(&'static str),
     TooLarge,
@@ -114,6 +118,9 @@ fn read(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Reason> {
 
 /// Opening a device may have side effects, and a FIFO waits for a writer: they are refused before.
 fn open_regular(path: &Path, limit_bytes: u64) -> Result<File, Reason> {
+    if path == Path::new(STDIN) {
+        return Err(Reason::Stdin);
+    }
     refuse_irregular(&fs::metadata(path).map_err(Reason::Io)?, limit_bytes)?;
     let file = File::open(path).map_err(Reason::Io)?;
     refuse_irregular(&file.metadata().map_err(Reason::Io)?, limit_bytes)?;
@@ -155,6 +162,7 @@ impl Unreadable {
             }
             (Reason::Io(_), Wanted::Program) => not_found(Wanted::Program).to_owned(),
             (Reason::Io(_), _) => "check the path and its permissions".to_owned(),
+            (Reason::Stdin, _) => "give the path of a file; one of this name is ./-".to_owned(),
             (Reason::NotRegular(_), _) => "give the path of a regular file".to_owned(),
             (Reason::TooLarge, Wanted::Capture) => {
                 "`editcap -c` cuts a capture into several, `editcap -A` and `-B` by time".to_owned()
@@ -192,6 +200,7 @@ impl fmt::Display for Unreadable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.reason {
             Reason::Io(error) => error.fmt(formatter),
+            Reason::Stdin => formatter.write_str("it means stdin, which no command reads"),
             Reason::NotRegular(what) => write!(formatter, "it is {what}, not a regular file"),
             Reason::TooLarge => {
                 write!(formatter, "it is larger than {} MiB", limit_bytes(self.wanted) / MIB)

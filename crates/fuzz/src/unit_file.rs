@@ -43,7 +43,10 @@ fn check(input: &[u8]) -> Checked {
             return Ok(if accepted { "accepted" } else { "refused" });
         }
         // The text has no folder that could contain a program.
-        Err(SetupError::ProgramUnreadable { span: Some(span), .. }) => {
+        Err(
+            SetupError::ProgramUnreadable { span: Some(span), .. }
+            | SetupError::Builtin { span: Some(span), .. },
+        ) => {
             return text.get(span).map(|_| "program elsewhere").ok_or("a program without a place".to_owned());
         }
         Err(error) => return Err(format!("{error:?}")),

@@ -20,7 +20,7 @@ mod pulse;
 mod scan_watch;
 mod structured_text;
 
-pub use builtin::Builtin;
+pub use builtin::{Builtin, BuiltinRefused};
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
 pub use cpu_section::{CPU_KEYS, CpuSection, STATEMENT_BUDGET_DEFAULT, WithCpu};
 pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};

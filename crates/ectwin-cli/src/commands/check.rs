@@ -18,6 +18,7 @@ use crate::{output, unit_files};
 /// Shows the findings and the resulting exchange. A finding whose event is an observation is a warning.
 pub(crate) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let (file, text) = or_document(args.json, unit_files::parse(&args.unit))?;
+    or_document(args.json, unit_files::refuse_wrong_files(&args.unit, &file, &text))?;
     let Some(check) = file.section().check_settings() else { return without_rules(args, &file) };
     if args.json {
         output::print(document::of(&check)?.as_bytes())?;

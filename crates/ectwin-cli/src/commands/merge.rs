@@ -48,7 +48,7 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
 /// Writes all results as JUnit, and prints the failed ones.
 fn report(path: &Path, found: &Found, again: &mut ResultsAgain<'_>, people: People) -> Result<(), Failure> {
     let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
-    let file = LaterOutput::open(path)?.begin()?;
+    let file = LaterOutput::open(path)?.begin();
     let mut report = JunitReport::begin(file, found.totals).map_err(unwritable)?;
     for place in &found.places {
         let result = again.read(place)?;

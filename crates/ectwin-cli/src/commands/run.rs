@@ -3,15 +3,15 @@
 mod servers;
 mod signals;
 
-use std::fs::File;
 use std::path::PathBuf;
 
 use ectwin::{ChangesLost, Ended, ModbusServer, Runtime, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
+use plc::Builtin;
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
-use crate::output_file::OutputFile;
+use crate::output_file::{BegunFile, OutputFile};
 use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, unit_files};
@@ -47,7 +47,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let modbus = listener.map(|listener| servers::serve_modbus(&mut twin, listener)).transpose()?;
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
-    let mut recorder = capture.map(|capture| record(capture.begin()?, args, &link, &clock)).transpose()?;
+    let mut recorder = capture.map(|capture| record(capture.begin(), args, &link, &clock)).transpose()?;
     // The port is open: a frame that arrives from now on waits in it and is answered.
     output::print_line(ready(&link, units, modbus.as_ref()))?;
     let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
@@ -103,11 +103,12 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
 
 /// The files that are read or written while the units run. Paths of programs in unit files are relative to these files.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
-    let read = args.units.iter().chain(&args.programs).cloned();
+    let is_file = |program: &&PathBuf| Builtin::named(&program.display().to_string()).is_none();
+    let read = args.units.iter().chain(args.programs.iter().filter(is_file)).cloned();
     memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
 }
 
-fn record(capture: File, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {
+fn record(capture: BegunFile, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {
     let path = args.pcap.clone().unwrap_or_default();
     let name = path.display().to_string();
     Recorder::start(capture, &name, &link.to_string(), clock)

@@ -1,7 +1,5 @@
 //! `ectwin search FILE`: seeds, until a replay fails; the result is a scenario file of a few steps.
 
-use std::fs::OpenOptions;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Wanted};
@@ -12,6 +10,7 @@ use super::replay::{quoted, read_scenario};
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
 use crate::output;
+use crate::output_file::OutputFile;
 
 /// Replays seed after seed; the first one that fails is reduced and written.
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
@@ -89,9 +88,7 @@ fn beside(path: &Path, seed: u64) -> PathBuf {
 /// Writes a file that does not exist yet.
 pub(super) fn write_new(path: &Path, text: &str) -> Result<(), Failure> {
     refuse_existing(path)?;
-    let file = OpenOptions::new().write(true).create_new(true).open(path);
-    let written = file.and_then(|mut file| file.write_all(text.as_bytes()));
-    written.map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
+    OutputFile::make(path)?.write(text.as_bytes())
 }
 
 /// An existing file may be more valuable than the new one.

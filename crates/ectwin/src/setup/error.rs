@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Range;
 
-use plc::Builtin;
+use plc::{Builtin, BuiltinRefused};
 use user_file::FileErrors;
 
 /// Why a unit file cannot be used.
@@ -19,6 +19,13 @@ pub enum SetupError {
         reason: String,
         /// The remedy.
         help: String,
+        /// Its bytes in the unit file; none if it is not in the unit file.
+        span: Option<Range<usize>>,
+    },
+    /// Its user program is a list with a built-in program, or a built-in program that does not exist.
+    Builtin {
+        /// The reason, with the remedy.
+        refused: BuiltinRefused,
         /// Its bytes in the unit file; none if it is not in the unit file.
         span: Option<Range<usize>>,
     },
@@ -58,6 +65,7 @@ impl fmt::Display for SetupError {
                     "the user program {path} cannot be read: {reason}; programs without a file are `{names}`"
                 )
             }
+            Self::Builtin { refused, .. } => write!(formatter, "the user program cannot be used: {refused}"),
             Self::ProgramWrong { problems } => problems.fmt(formatter),
             Self::WebAssemblyWrong { path, reason } => write!(formatter, "{path}: {reason}"),
             Self::Storage { path, reason, .. } => {

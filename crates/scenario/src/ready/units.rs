@@ -114,10 +114,13 @@ impl Maker<'_> {
     }
 
     fn user_program(&mut self, paths: Vec<String>, part: Part, file: &UnitFile) -> Option<UserProgram> {
-        if let [only] = paths.as_slice()
-            && let Some(builtin) = Builtin::named(only)
-        {
-            return Some(UserProgram::Builtin(builtin));
+        match Builtin::only(&paths) {
+            Ok(Some(builtin)) => return Some(UserProgram::Builtin(builtin)),
+            Ok(None) => {}
+            Err(refused) => {
+                self.refuse(part, refused.to_string(), refused.help());
+                return None;
+            }
         }
         let program = self.program_file(&paths, part, file)?;
         Some(UserProgram::StructuredText(Box::new(program)))

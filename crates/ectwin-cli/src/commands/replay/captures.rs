@@ -48,7 +48,7 @@ impl Captures {
             Self::None => Ok(()),
             Self::File { path, file } => {
                 let Some(file) = file.take() else { return Ok(()) };
-                let mut to = file.begin()?;
+                let mut to = file.begin();
                 let written = to.write_all(capture).and_then(|()| to.flush());
                 written.map_err(|source| Failure::Unwritable { path: path.clone(), source })
             }

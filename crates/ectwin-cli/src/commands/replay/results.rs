@@ -30,7 +30,7 @@ impl Results {
         let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
         let junit = args.junit.as_deref().map(Spool::open).transpose()?;
         captures.make_folder()?;
-        let lines = args.json.clone().zip(lines.map(LaterOutput::begin).transpose()?);
+        let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
         Ok(Self { people, lines, captures, junit, passed: 0, failed: 0 })
     }
 
@@ -57,7 +57,11 @@ impl Results {
     }
 
     /// All results of this part are complete; `all` is the total number.
-    pub(super) fn close(self, partition: Partition, all: u64) -> Result<(), Failure> {
+    pub(super) fn close(mut self, partition: Partition, all: u64) -> Result<(), Failure> {
+        if let Some((path, lines)) = &mut self.lines {
+            // A part without cases has no lines.
+            lines.complete().map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
+        }
         if let Some(junit) = self.junit {
             junit.close()?;
         }

@@ -41,7 +41,7 @@ impl Spool {
         let Self { path, report, results, totals } = self;
         let spooled = results.into_inner().map_err(io::IntoInnerError::into_error);
         let spooled = spooled.map_err(unwritable(&path))?;
-        write_report(report.begin()?, totals, spooled).map_err(unwritable(&path))
+        write_report(report.begin(), totals, spooled).map_err(unwritable(&path))
     }
 }
 
