@@ -2,11 +2,13 @@
 //!
 //! One section, one Ethernet interface. The same calls produce the same bytes: nothing machine-specific is included.
 
+mod packet;
 mod reader;
 
 use std::io::{self, Write};
 
-pub use reader::{NotACapture, Packet, Packets, packets, read_packets};
+pub use packet::{NotACapture, Packet};
+pub use reader::{Packets, packets, read_packets};
 
 const SECTION_HEADER: u32 = 0x0A0D_0D0A;
 const INTERFACE_DESCRIPTION: u32 = 1;

@@ -7,6 +7,7 @@ mod descriptors;
 mod failure;
 mod failure_document;
 mod file_problem;
+mod later_output;
 mod output;
 mod output_file;
 mod overwrite;

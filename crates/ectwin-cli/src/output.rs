@@ -8,7 +8,7 @@ use user_file::escaped;
 
 use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
-use crate::output_file::{BegunFile, OutputFile};
+use crate::output_file::OutputFile;
 
 /// Longer lines are cut. The longest useful line contains the bytes of a whole SyncManager.
 const LINE_CHARACTERS_MAX: usize = 8_000;
@@ -130,46 +130,6 @@ impl People {
     /// Prints a line for display immediately.
     pub(crate) fn print_line(self, line: impl std::fmt::Display) -> Result<(), Failure> {
         self.print_text(&format!("{line}\n"))
-    }
-}
-
-/// The target of a result that is written in pieces.
-pub(crate) enum ResultOut {
-    Stdout,
-    File(BegunFile),
-}
-
-impl ResultOut {
-    /// The result is complete, even if it is empty.
-    pub(crate) fn complete(&mut self) -> io::Result<()> {
-        match self {
-            Self::Stdout => Ok(()),
-            Self::File(file) => file.complete(),
-        }
-    }
-}
-
-impl Write for ResultOut {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),
-            Self::File(file) => file.write(bytes),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Stdout => unless_closed(io::stdout().flush(), ()),
-            Self::File(file) => file.flush(),
-        }
-    }
-}
-
-/// If the reader closes the pipe, that is not an error.
-fn unless_closed<T>(result: io::Result<T>, closed: T) -> io::Result<T> {
-    match result {
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(closed),
-        result => result,
     }
 }
 

@@ -10,7 +10,6 @@ use rustix::fs::{FlockOperation, flock};
 use rustix::io::Errno;
 
 use crate::failure::Failure;
-use crate::output::{ResultOut, is_stdout};
 
 /// A file that is open and not written yet.
 pub(crate) struct OutputFile {
@@ -123,27 +122,6 @@ fn is_written_by_another(file: &File) -> bool {
 fn in_use(path: &Path) -> Failure {
     let message = format!("cannot write {}: another ectwin writes it at this time", path.display());
     Failure::Refused { message, help: "give another file; nothing has been written".to_owned() }
-}
-
-/// The output of a command that can be stdout too.
-pub(crate) enum LaterOutput {
-    Stdout,
-    File(OutputFile),
-}
-
-impl LaterOutput {
-    /// Opens the file, or makes it.
-    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        if is_stdout(path) { Ok(Self::Stdout) } else { OutputFile::open(path).map(Self::File) }
-    }
-
-    /// The new contents follow.
-    pub(crate) fn begin(self) -> ResultOut {
-        match self {
-            Self::Stdout => ResultOut::Stdout,
-            Self::File(file) => ResultOut::File(file.begin()),
-        }
-    }
 }
 
 impl Drop for Made {

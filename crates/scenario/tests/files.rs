@@ -114,7 +114,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ line = { unplug = { cable = 0 } } }", "is integer `0`", "the number of a cable, from 1"),
         ("{ line = { unplug = { cable = 70000 } } }", "70000", "the number of a cable, from 1"),
         ("{ line = { unplug = { cable = -1 } } }", "-1", "the number of a cable, from 1"),
-        ("{ line = { unplug = { cable = \"1\" } } }", "a string", "the number of a cable, from 1"),
+        ("{ line = { unplug = { cable = \"1\" } } }", "is \"1\"", "the number of a cable, from 1"),
         ("{ unit = 5 }", "a sentence, or a table with one key", ""),
         (
             "{ unit = { inject_fault = { units = 1, fault = \"No\" } } }",

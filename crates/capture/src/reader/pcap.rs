@@ -1,7 +1,7 @@
 //! The records of a pcap file (draft-ietf-opsawg-pcap), as `tcpdump -w` writes it.
 
-use super::{NotACapture, Packet};
 use crate::LINKTYPE_ETHERNET;
+use crate::packet::{NotACapture, Packet};
 
 const MAGIC_OF_MICROSECONDS: u32 = 0xA1B2_C3D4;
 const MAGIC_OF_NANOSECONDS: u32 = 0xA1B2_3C4D;
@@ -99,7 +99,6 @@ const fn number(bytes: [u8; 4], big_endian: bool) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::read_packets;
     use super::*;
 
     /// A file with one frame of `FRAME`, at 2 s and 5 ticks.
@@ -108,6 +107,10 @@ mod tests {
         let record = [2, 5, FRAME.len() as u32, original_bytes];
         let words = head.into_iter().chain(record).flat_map(to_bytes);
         words.chain(FRAME).collect()
+    }
+
+    fn read_packets(bytes: &[u8]) -> Result<Vec<Packet>, NotACapture> {
+        Records::of(bytes).expect("a pcap file").collect()
     }
 
     const FRAME: [u8; 18] = [7; 18];

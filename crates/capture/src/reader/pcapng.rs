@@ -1,6 +1,6 @@
 //! The blocks of a pcapng file (draft-ietf-opsawg-pcapng).
 
-use super::{NotACapture, Packet};
+use crate::packet::{NotACapture, Packet};
 use crate::{
     BYTE_ORDER_MAGIC, Direction, ENHANCED_PACKET, INTERFACE_DESCRIPTION, LINKTYPE_ETHERNET,
     OPTION_PACKET_FLAGS, OPTION_TIME_RESOLUTION, SECTION_HEADER,

@@ -15,8 +15,8 @@ use super::replay::{
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
+use crate::later_output::LaterOutput;
 use crate::output::People;
-use crate::output_file::LaterOutput;
 use crate::overwrite::{self, Output};
 use again::ResultsAgain;
 use place::Place;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use super::result::CaseResult;
 use crate::failure::Failure;
+use crate::later_output::LaterOutput;
 use crate::output;
-use crate::output_file::LaterOutput;
 use crate::overwrite::{self, Output};
 
 /// The target of the captures.

@@ -11,8 +11,8 @@ use super::story;
 use super::threads::Ended;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
-use crate::output::{self, People, ResultOut};
-use crate::output_file::LaterOutput;
+use crate::later_output::{LaterOutput, ResultOut};
+use crate::output::{self, People};
 
 /// Accepts the results in the order of their cases.
 pub(super) struct Results {

@@ -7,8 +7,7 @@ use std::path::{Path, PathBuf};
 use super::junit::{JunitReport, Totals};
 use super::result::CaseResult;
 use crate::failure::Failure;
-use crate::output::ResultOut;
-use crate::output_file::LaterOutput;
+use crate::later_output::{LaterOutput, ResultOut};
 
 /// A report that is written when the last result is there.
 pub(super) struct Spool {

@@ -1,0 +1,69 @@
+//! An output that is a file or stdout, and is written in pieces.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::failure::Failure;
+use crate::output::is_stdout;
+use crate::output_file::{BegunFile, OutputFile};
+
+/// The output of a command that can be stdout too.
+pub(crate) enum LaterOutput {
+    Stdout,
+    File(OutputFile),
+}
+
+impl LaterOutput {
+    /// Opens the file, or makes it.
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        if is_stdout(path) { Ok(Self::Stdout) } else { OutputFile::open(path).map(Self::File) }
+    }
+
+    /// The new contents follow.
+    pub(crate) fn begin(self) -> ResultOut {
+        match self {
+            Self::Stdout => ResultOut::Stdout,
+            Self::File(file) => ResultOut::File(file.begin()),
+        }
+    }
+}
+
+/// The target of a result that is written in pieces.
+pub(crate) enum ResultOut {
+    Stdout,
+    File(BegunFile),
+}
+
+impl ResultOut {
+    /// The result is complete, even if it is empty.
+    pub(crate) fn complete(&mut self) -> io::Result<()> {
+        match self {
+            Self::Stdout => Ok(()),
+            Self::File(file) => file.complete(),
+        }
+    }
+}
+
+impl Write for ResultOut {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),
+            Self::File(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Stdout => unless_closed(io::stdout().flush(), ()),
+            Self::File(file) => file.flush(),
+        }
+    }
+}
+
+/// If the reader closes the pipe, that is not an error.
+fn unless_closed<T>(result: io::Result<T>, closed: T) -> io::Result<T> {
+    match result {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(closed),
+        result => result,
+    }
+}
