@@ -61,7 +61,7 @@ pub enum NxMessageError {
     },
     /// The master has not read the last message, which is kept (manual, A-5-3).
     NotReady,
-    /// The unit has no power.
+    /// The unit has no power, or it starts.
     NotReachable,
 }
 
@@ -104,7 +104,7 @@ impl core::error::Error for NxMessageError {}
 pub enum NotSent {
     /// Too many are already waiting; it can be sent later.
     Full,
-    /// The unit has no power.
+    /// The unit no longer exists.
     NotReachable,
 }
 
@@ -117,25 +117,27 @@ pub struct CpuMessages {
 }
 
 impl CpuMessages {
-    /// Sends a request, without waiting. If there is no room it is discarded, and the unit detects this.
+    /// Sends a request, without waiting.
     ///
     /// # Errors
-    /// [`REQUESTS_MAX`] requests wait, or the unit has no power.
+    /// [`REQUESTS_MAX`] requests wait, or the unit no longer exists.
     pub fn send(&mut self, request: NxRequest) -> Result<(), NotSent> {
         self.requests.try_send(request).map_err(|error| match error {
-            TrySendError::Full(_) => {
-                // Only a flag: no other data depend on it.
-                self.discarded.store(true, Ordering::Relaxed);
-                NotSent::Full
-            }
+            TrySendError::Full(_) => NotSent::Full,
             TrySendError::Disconnected(_) => NotSent::NotReachable,
         })
+    }
+
+    /// A request for which there was no room is not sent again: the unit detects this.
+    pub fn discard(&mut self) {
+        // Only a flag: no other data depend on it.
+        self.discarded.store(true, Ordering::Relaxed);
     }
 
     /// The next response received; none if there is none yet.
     ///
     /// # Errors
-    /// [`NxMessageError::NotReachable`] if the unit has no power and there are no further responses.
+    /// [`NxMessageError::NotReachable`] if the unit no longer exists and there are no further responses.
     pub fn receive(&mut self) -> Result<Option<NxResponse>, NxMessageError> {
         match self.responses.try_recv() {
             Ok(response) => Ok(Some(response)),
@@ -152,6 +154,8 @@ pub struct UnitMessages {
     responses: SyncSender<NxResponse>,
     /// Responses that must not be visible before the corresponding image.
     held: ArrayVec<NxResponse, REQUESTS_MAX>,
+    /// The unit has left the bus, and has not answered the requests sent meanwhile yet.
+    has_left: bool,
     discarded: Arc<AtomicBool>,
 }
 
@@ -162,13 +166,27 @@ impl UnitMessages {
         self.discarded.load(Ordering::Relaxed) && self.discarded.swap(false, Ordering::Relaxed)
     }
 
-    /// Answers the received requests, the oldest first, and holds the responses back. Returns whether there were any.
+    /// Answers the received requests, the oldest first, and holds the responses back. Requests that were sent while
+    /// the unit had left the bus are refused. Returns whether there are any responses.
     pub fn answer(&mut self, mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>) -> bool {
         while !self.held.is_full() {
-            let Ok(request) = self.requests.try_recv() else { break };
-            self.held.push(NxResponse { number: request.number, result: answer(&request) });
+            let Ok(request) = self.requests.try_recv() else {
+                self.has_left = false;
+                break;
+            };
+            let result = if self.has_left { Err(NxMessageError::NotReachable) } else { answer(&request) };
+            self.held.push(NxResponse { number: request.number, result });
         }
         !self.held.is_empty()
+    }
+
+    /// The unit loses its power, or restarts: no request that it has not answered yet is executed later. Those that
+    /// are waiting are refused now, those of the time until its next answer with that.
+    pub fn leave(&mut self) {
+        self.has_left = true;
+        self.answer(|_| Err(NxMessageError::NotReachable));
+        self.has_left = true;
+        self.send();
     }
 
     /// Sends the responses. Those for which the CPU Unit has no room yet wait in their order.
@@ -188,7 +206,13 @@ pub(crate) fn connect() -> (UnitMessages, CpuMessages) {
     let (ask, requests) = sync_channel(REQUESTS_MAX);
     let (responses, hear) = sync_channel(REQUESTS_MAX);
     let discarded = Arc::new(AtomicBool::new(false));
-    let unit = UnitMessages { requests, responses, held: ArrayVec::new(), discarded: Arc::clone(&discarded) };
+    let unit = UnitMessages {
+        requests,
+        responses,
+        held: ArrayVec::new(),
+        has_left: false,
+        discarded: Arc::clone(&discarded),
+    };
     (unit, CpuMessages { requests: ask, responses: hear, discarded })
 }
 
@@ -240,7 +264,37 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_without_power_is_not_reachable() {
+    fn a_unit_that_has_left_executes_no_request_of_the_time_before_its_return() {
+        let (mut unit, mut cpu) = connect();
+        cpu.send(request(1)).expect("room");
+        unit.leave();
+        let refused = |number| Ok(Some(NxResponse { number, result: Err(NxMessageError::NotReachable) }));
+        assert_eq!(cpu.receive(), refused(1));
+        cpu.send(request(2)).expect("room");
+        assert_eq!(cpu.receive(), Ok(None), "the unit does nothing");
+        unit.answer(|request| panic!("executed: {request:?}"));
+        unit.send();
+        assert_eq!(cpu.receive(), refused(2));
+        cpu.send(request(3)).expect("room");
+        unit.answer(echo);
+        unit.send();
+        assert_eq!(cpu.receive().expect("reachable").expect("a response").result, echo(&request(3)));
+    }
+
+    #[test]
+    fn only_a_request_that_is_given_up_counts_as_discarded() {
+        let (unit, mut cpu) = connect();
+        for number in 0..REQUESTS_MAX as u32 {
+            cpu.send(request(number)).expect("room");
+        }
+        assert_eq!(cpu.send(request(99)), Err(NotSent::Full));
+        assert!(!unit.take_discarded(), "it can be sent later");
+        cpu.discard();
+        assert_eq!((unit.take_discarded(), unit.take_discarded()), (true, false));
+    }
+
+    #[test]
+    fn a_unit_that_no_longer_exists_is_not_reachable() {
         let (unit, mut cpu) = connect();
         drop(unit);
         assert_eq!(cpu.send(request(1)), Err(NotSent::NotReachable));

@@ -13,6 +13,8 @@ use wire::{ObjectIndex, SubIndex};
 pub struct NxObjectClient {
     calls: [Call; REQUESTS_MAX],
     last_number: u32,
+    /// A call that waited for room was dropped; the bus does not know yet.
+    has_discarded: bool,
 }
 
 /// A call that has been made: it identifies the result.
@@ -39,6 +41,8 @@ enum Call {
     Free,
     /// It is sent at the end of this task period.
     Made(NxRequest),
+    /// There was no room in the queue to the unit: it is sent later.
+    Waiting(NxRequest),
     /// It has been sent to the unit.
     Sent { number: u32 },
     /// The result has arrived.
@@ -82,10 +86,11 @@ impl NxObjectClient {
         }
     }
 
-    /// Drops a call: its result will not be used. If it has been sent, it is executed nevertheless.
+    /// Drops a call: its result will not be used. If it has been sent to a unit with power, it is executed nevertheless.
     pub fn forget(&mut self, call: NxCall) {
         let own = self.calls.get_mut(call.place).filter(|place| place.number() == Some(call.number));
         if let Some(place) = own {
+            self.has_discarded |= matches!(place, Call::Waiting(_));
             *place = Call::Free;
         }
     }
@@ -117,8 +122,14 @@ impl NxObjectClient {
 
     /// Sends the calls that were made, the oldest first.
     pub(crate) fn send(&mut self, bus: &mut CpuMessages) {
+        if core::mem::take(&mut self.has_discarded) {
+            bus.discard();
+        }
         while let Some(place) = self.oldest_made() {
-            let Call::Made(request) = core::mem::take(&mut self.calls[place]) else { return };
+            let (Call::Made(request) | Call::Waiting(request)) = core::mem::take(&mut self.calls[place])
+            else {
+                return;
+            };
             let number = request.number;
             self.calls[place] = match bus.send(request.clone()) {
                 Ok(()) => Call::Sent { number },
@@ -126,7 +137,7 @@ impl NxObjectClient {
                     Call::Done { number, result: Err(NxMessageError::NotReachable) }
                 }
                 Err(NotSent::Full) => {
-                    self.calls[place] = Call::Made(request);
+                    self.calls[place] = Call::Waiting(request);
                     return;
                 }
             };
@@ -136,7 +147,9 @@ impl NxObjectClient {
     fn oldest_made(&self) -> Option<usize> {
         let made = self.calls.iter().enumerate().filter_map(|(place, call)| match call {
             // Numbers wrap, so the oldest is the one with the greatest distance to the last.
-            Call::Made(request) => Some((self.last_number.wrapping_sub(request.number), place)),
+            Call::Made(request) | Call::Waiting(request) => {
+                Some((self.last_number.wrapping_sub(request.number), place))
+            }
             _ => None,
         });
         made.max().map(|(_, place)| place)
@@ -163,7 +176,7 @@ impl Call {
     const fn number(&self) -> Option<u32> {
         match self {
             Self::Free => None,
-            Self::Made(request) => Some(request.number),
+            Self::Made(request) | Self::Waiting(request) => Some(request.number),
             Self::Sent { number } | Self::Done { number, .. } => Some(*number),
         }
     }
@@ -235,7 +248,28 @@ mod tests {
     }
 
     #[test]
-    fn a_unit_without_power_answers_nothing_and_leaves_no_call_pending() {
+    fn a_call_that_waits_for_room_is_discarded_only_when_it_is_dropped() {
+        let (unit, mut bus) = nx_bus::connect(0, 0);
+        let mut client = NxObjectClient::default();
+        for _ in 0..REQUESTS_MAX {
+            let call = client.read(SERIAL.0, SERIAL.1).expect("room");
+            client.send(&mut bus.messages);
+            client.forget(call);
+        }
+        let waiting = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.send(&mut bus.messages);
+        assert!(!unit.messages.take_discarded(), "it is sent later");
+        client.forget(waiting);
+        let never_sent = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.forget(never_sent);
+        client.send(&mut bus.messages);
+        assert!(unit.messages.take_discarded());
+        client.send(&mut bus.messages);
+        assert!(!unit.messages.take_discarded(), "once");
+    }
+
+    #[test]
+    fn a_unit_that_no_longer_exists_answers_nothing_and_leaves_no_call_pending() {
         let (unit_end, mut bus) = nx_bus::connect(0, 0);
         let mut client = NxObjectClient::default();
         let sent = client.read(SERIAL.0, SERIAL.1).expect("room");

@@ -62,13 +62,14 @@ impl NxEct101 {
     }
 
     /// The unit does not take part in the NX bus until its next refresh: it has lost its power, or restarts.
-    /// Only the first is an error for the CPU Unit.
+    /// Only the first is an error for the CPU Unit. NX messages of that time are not executed later.
     pub(super) fn leave_nx_bus(&mut self, error: bool) {
         self.status = SlaveStatus::default();
         self.nx_unit_status = NxUnitStatus::default();
         let error_resets = self.error_resets;
         let header = UnitHeader { status: self.status.bits(), error, error_resets, ..UnitHeader::default() };
         self.bus.m_to_c.publish(header, &self.m_to_c);
+        self.bus.messages.leave();
     }
 
     /// The information from the unit to the CPU Unit, sent with its data.

@@ -253,6 +253,8 @@ fn versions_lot_and_type_are_those_of_the_unit_file() {
         assert_eq!(bench.sdo_read(0x1009, 0), hardware);
         assert_eq!(bench.sdo_read(0x100A, 0), software);
         bench.unit.restart(NOW, Start::Restart, &mut image);
+        // The unit takes part in the NX bus again.
+        bench.refresh(AlState::Init, None);
     }
 }
 
@@ -271,14 +273,17 @@ fn a_damaged_memory_is_a_fault_that_stores_nothing() {
 }
 
 #[test]
-fn a_message_that_finds_no_room_is_an_event() {
+fn messages_that_find_no_room_are_an_event_when_they_are_dropped() {
     let mut bench = Bench::factory();
     bench.cpu.c_to_m.publish(REFRESHING, &[0; 180]);
     let request = |number| NxRequest { number, index: ObjectIndex(0x1000), sub: SubIndex(2), value: None };
     let refused = (0..10).filter(|&number| bench.cpu.messages.send(request(number)).is_err()).count();
     bench.refresh(AlState::Init, None);
-    bench.refresh(AlState::Init, None);
     assert_eq!(refused, 2);
+    assert_eq!(bench.unit.error_log().history().count(), 0, "they can be sent later");
+    (0..refused).for_each(|_| bench.cpu.messages.discard());
+    bench.refresh(AlState::Init, None);
+    bench.refresh(AlState::Init, None);
     let records: Vec<_> = bench.unit.error_log().history().collect();
     assert_eq!(records.len(), 1, "they came between two refreshes");
     assert_eq!(records[0].event, Event::MESSAGE_COMMUNICATIONS_ERROR);
