@@ -203,8 +203,8 @@ impl Io {
         self.memory.refresh(self.variables.unit_number(), header, refreshing, m_to_c);
     }
 
-    /// The CPU Unit is powered on again: all values are initialized, nothing is forced, and no NX object call
-    /// is pending.
+    /// The CPU Unit is powered on again: all values are initialized, and nothing is forced. NX object calls are
+    /// kept: those of the user program are dropped when it starts, and outside runtimes still wait for theirs.
     pub(crate) fn power_on(&mut self) {
         self.memory = Memory::new(&self.variables);
         self.nx_bus_reset = NxBusReset::None;

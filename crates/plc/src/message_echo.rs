@@ -35,6 +35,12 @@ impl Program for MessageEcho {
         Echo.scan(io);
         self.step = core::mem::take(&mut self.step).next(io);
     }
+
+    fn end(&mut self, io: &mut Io) {
+        if let Step::Reading(call) | Step::Writing(call, _) = core::mem::take(&mut self.step) {
+            io.nx_objects().forget(call);
+        }
+    }
 }
 
 impl Step {
@@ -63,6 +69,26 @@ impl Step {
                 Poll::Ready(Ok(_)) => Self::AwaitMessage,
                 Poll::Ready(Err(_)) => Self::AwaitRoom(message),
             },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nx_bus::REQUESTS_MAX;
+    use nx_ect101::{IoAllocation, variable_table};
+
+    use super::*;
+    use crate::device_variables::DeviceVariables;
+
+    #[test]
+    fn a_program_that_is_replaced_leaves_no_call_behind() {
+        let mut io = Io::new(DeviceVariables::of(variable_table("N1", 1, &IoAllocation::factory())));
+        for _ in 0..=REQUESTS_MAX {
+            let call = io.nx_objects().read(FROM_MASTER, MESSAGE).expect("room");
+            MessageEcho { step: Step::Reading(call) }.end(&mut io);
+            let call = io.nx_objects().write(TO_MASTER, MESSAGE, &[0; 200]).expect("room");
+            MessageEcho { step: Step::Writing(call, NxValue::new()) }.end(&mut io);
         }
     }
 }

@@ -30,6 +30,9 @@ pub trait Host {
         value: &mut [u8; NX_OBJECT_BYTES_MAX],
     ) -> Poll<Result<usize, NxFault>>;
 
+    /// Drops a call that timed out: its result will not be queried.
+    fn nx_forget(&mut self, call: NxCallNumber);
+
     /// ResetNXBError: starts to reset the errors of the NX Bus Function Module.
     ///
     /// # Errors
@@ -114,6 +117,8 @@ impl Host for NoHost {
     ) -> Poll<Result<usize, NxFault>> {
         Poll::Pending
     }
+
+    fn nx_forget(&mut self, _: NxCallNumber) {}
 
     fn set_alarm(&mut self, _: Alarm) {}
 

@@ -91,6 +91,13 @@ impl Host for IoHost<'_> {
         }))
     }
 
+    fn nx_forget(&mut self, number: NxCallNumber) {
+        let place = self.calls.calls.iter().position(|(own, _)| *own == number);
+        if let Some((_, call)) = place.map(|place| self.calls.calls.remove(place)) {
+            self.io.nx_objects().forget(call);
+        }
+    }
+
     fn reset_nx_bus(&mut self) -> Result<(), NxFault> {
         self.io.reset_nx_bus();
         Ok(())

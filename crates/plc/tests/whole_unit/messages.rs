@@ -3,8 +3,12 @@
 use core::task::Poll;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
+use device::Start;
 use nx_ect101::IoAllocation;
-use plc::{CpuSettings, Io, NxCall, NxMessageError, ObjectIndex, Program, SubIndex};
+use plc::{
+    CpuSettings, DeviceVariables, Io, NxCall, NxMessageError, ObjectIndex, Program, StructuredText, SubIndex,
+};
+use time::Duration;
 
 use crate::bench::{Bench, Random, SAFE_OP};
 
@@ -140,7 +144,7 @@ fn a_write_while_not_ready_is_refused_and_the_first_message_stays() {
     bench.set_process_data(180, 183);
     assert_eq!(bench.request(SAFE_OP), (SAFE_OP, 0));
     // A unit refreshes before it answers, so the following messages are in order.
-    bench.run_for(time::Duration::from_millis(2));
+    bench.run_for(Duration::from_millis(2));
     assert_eq!(status(&mut bench) & READY_TO_WRITE, READY_TO_WRITE);
     assert_eq!(status(&mut bench) & NX_MESSAGES_ENABLED, NX_MESSAGES_ENABLED);
     bench.download(0x3001, 1, &message(1, TO_CPU)).expect("ready");
@@ -156,4 +160,84 @@ fn a_message_has_200_bytes() {
     assert_eq!(bench.download(0x3001, 1, &[1; 199]), Err(0x0607_0010));
     assert_eq!(bench.download(0x3001, 1, &[1; 201]), Err(0x0607_0010));
     assert_eq!(bench.download(0x3000, 1, &[1; 200]), Err(0x0601_0002));
+}
+
+/// Reads the serial number again and again, with a time-out of 0.1 s. The same for a write of a message.
+const AGAIN_AND_AGAIN: &str = "
+    VAR
+        Read : NX_ReadObj; Write : NX_WriteObj;
+        Serial_Number : _sNXOBJ_ACCESS := (Index := 16#1000, Subindex := 7);
+        To_Master : _sNXOBJ_ACCESS := (Index := 16#5001, Subindex := 1);
+        Serial : UDINT; Message : ARRAY[0..199] OF BYTE;
+        Late, Served, Refused : UDINT;
+    END_VAR
+    Read(Execute := NOT (Read.Done OR Read.Error), UnitProxy := N1_Node_location_information, Obj := Serial_Number,
+        TimeOut := 1, ReadDat := Serial);
+    Write(Execute := NOT (Write.Done OR Write.Error), UnitProxy := N1_Node_location_information, Obj := To_Master,
+        TimeOut := 1, WriteDat := Message);
+    IF Read.Done THEN Served := Served + 1; END_IF;
+    IF Read.ErrorID = 16#2C02 THEN Late := Late + 1; END_IF;
+    IF Read.ErrorID = 16#2C01 OR Write.ErrorID = 16#2C01 THEN Refused := Refused + 1; END_IF;";
+
+#[test]
+fn calls_that_timed_out_leave_room_for_the_next_ones() {
+    let allocation = IoAllocation::factory();
+    let variables = DeviceVariables::of(nx_ect101::variable_table("N1", 1, &allocation));
+    let program = StructuredText::compile(AGAIN_AND_AGAIN, &variables).expect("a program");
+    let mut bench = Bench::with_program(allocation, CpuSettings::default(), program);
+    let count = |bench: &Bench, name: &str| {
+        let text = bench.cpu.program_variable(name).expect("declared");
+        text.parse::<u32>().expect("a number")
+    };
+    bench.run_for(Duration::from_millis(100));
+    assert!(count(&bench, "Served") > 10);
+    bench.network.power_off(0, bench.now);
+    bench.run_for(Duration::from_millis(2_000));
+    let (late, served) = (count(&bench, "Late"), count(&bench, "Served"));
+    assert!(late > 9, "{late}");
+    bench.network.restart(0, bench.now, Start::PowerOn);
+    bench.run_for(Duration::from_millis(1_000));
+    assert!(count(&bench, "Served") > served + 100, "{} and {served}", count(&bench, "Served"));
+    assert_eq!(count(&bench, "Refused"), 0, "16#2C01, resources exceeded");
+}
+
+/// Writes a message when it is asked to, and records the result.
+struct OneMessage {
+    asked: Receiver<()>,
+    writing: Option<NxCall>,
+    tell: Sender<Result<(), NxMessageError>>,
+}
+
+impl Program for OneMessage {
+    fn scan(&mut self, io: &mut Io) {
+        let client = io.nx_objects();
+        if let Some(Poll::Ready(result)) = self.writing.map(|call| client.take(call)) {
+            self.writing = None;
+            self.tell.send(result.map(drop)).expect("the test listens");
+        }
+        if self.asked.try_recv().is_ok() {
+            self.writing = client.write(ObjectIndex(0x5001), MESSAGE, &message(1, TO_MASTER)).ok();
+        }
+    }
+}
+
+#[test]
+fn a_write_to_a_unit_without_power_is_not_executed_after_power_on() {
+    let ((ask, asked), (tell, told)) = (channel(), channel());
+    let program = OneMessage { asked, writing: None, tell };
+    let mut bench = Bench::with_program(IoAllocation::factory(), CpuSettings::default(), program);
+    bench.run_for(Duration::from_millis(10));
+    bench.network.power_off(0, bench.now);
+    ask.send(()).expect("the program listens");
+    bench.run_for(Duration::from_millis(200));
+    bench.network.restart(0, bench.now, Start::PowerOn);
+    bench.run_for(Duration::from_millis(1_000));
+    assert_eq!(told.try_iter().collect::<Vec<_>>(), [Err(NxMessageError::NotReachable)]);
+    let mut bench = bench.into_pre_op();
+    assert_eq!(bench.upload(0x3000, 1), Ok(vec![0; 200]), "no message has come from the CPU Unit");
+    // With power the same write is executed.
+    ask.send(()).expect("the program listens");
+    bench.run_for(Duration::from_millis(10));
+    assert_eq!(told.try_iter().collect::<Vec<_>>(), [Ok(())]);
+    assert_eq!(bench.upload(0x3000, 1), Ok(message(1, TO_MASTER)));
 }

@@ -34,6 +34,7 @@ pub(super) const FUNCTIONS: &[Function] = &[
     row("_NxBusResult", &[], STATUS, "whether that is complete", |call| {
         Ok(if call.scan.host.nx_bus_is_reset() { DONE } else { PENDING })
     }),
+    row("_NxForget", &[MADE], STATUS, "drops a call that timed out", forget),
     row("_NxWriteResult", &[MADE], STATUS, "what became of a call, whatever was read", write_result),
 ];
 
@@ -104,6 +105,11 @@ fn write_result(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
         Poll::Ready(Err(fault)) => status_of(fault),
         Poll::Ready(Ok(_)) => DONE,
     })
+}
+
+fn forget(call: &mut Call<'_, '_>) -> Result<u64, Fault> {
+    call.scan.host.nx_forget(call.bits(0));
+    Ok(DONE)
 }
 
 /// The slot and the layout of the variable referred to by the reference at `place`.

@@ -86,6 +86,8 @@ pub(super) struct Recorder {
     pub(super) refusal: Option<NxFault>,
     /// The available answers, by the numbers of their calls.
     pub(super) answers: Vec<(NxCallNumber, Result<Vec<u8>, NxFault>)>,
+    /// The calls that were dropped.
+    pub(super) forgotten: Vec<NxCallNumber>,
 }
 
 impl Recorder {
@@ -117,6 +119,10 @@ impl Host for Recorder {
             value[..octets.len()].copy_from_slice(&octets);
             octets.len()
         }))
+    }
+
+    fn nx_forget(&mut self, call: NxCallNumber) {
+        self.forgotten.push(call);
     }
 
     fn set_alarm(&mut self, alarm: Alarm) {

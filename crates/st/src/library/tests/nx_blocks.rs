@@ -113,12 +113,28 @@ fn a_call_without_an_answer_times_out() {
                 assert_eq!(bench.scan(), "Busy");
             }
             assert_eq!(bench.scan(), "Error 16#2C02 16#0", "{block}, TimeOut {limit}");
-            // The late answer is taken, and has no effect.
+            assert_eq!(bench.host.forgotten, [1]);
+            // A late answer has no effect.
             bench.host.answers.push((1, Ok(vec![9, 9])));
             assert_eq!(bench.scan(), "Error 16#2C02 16#0");
-            assert!(bench.host.answers.is_empty());
             assert_eq!(bench.instance.value("Octets").unwrap(), "0");
         }
+    }
+}
+
+#[test]
+fn each_call_that_timed_out_is_dropped() {
+    for block in ["NX_ReadObj", "NX_WriteObj"] {
+        let mut bench = Bench::new(block, "UINT");
+        bench.set("Limit", "1");
+        for _ in 0..9 {
+            bench.set("Go", "TRUE");
+            for _ in 0..101 {
+                bench.scan();
+            }
+            bench.set("Go", "FALSE").scan();
+        }
+        assert_eq!(bench.host.forgotten, [1, 2, 3, 4, 5, 6, 7, 8, 9], "{block}");
     }
 }
 
