@@ -19,30 +19,35 @@ const USE_ALIAS: u8 = 1;
 const RESET_READBACK: [u8; 3] = [0, 1, 2];
 
 impl Esc {
-    /// Closes a valid frame: its writes take effect. Returns whether registers are among them.
+    /// Closes a valid frame: its writes take effect. Returns whether registers are among them. If the ESC does not wait for
+    /// it ([`Esc::awaits_end_of_frame`]), nothing happens.
     #[inline]
     pub fn end_of_frame(&mut self, passage: &Passage) -> bool {
         let registers_written = self.hot.registers_written;
-        if self.awaits_end_of_frame() {
-            self.commit(passage);
-        }
+        self.commit(passage);
         registers_written
     }
 
+    #[inline]
     fn commit(&mut self, passage: &Passage) {
         let mut complete = core::mem::take(&mut self.hot.complete);
         while complete != 0 {
             self.hand_over(complete.trailing_zeros() as usize, passage.arrival);
             complete &= complete - 1;
         }
-        if core::mem::take(&mut self.hot.registers_written)
-            && let Some(mut shadow) = self.shadow.take()
-        {
-            self.commit_registers(&shadow, passage);
-            shadow.clear();
-            self.shadow = Some(shadow);
+        if core::mem::take(&mut self.hot.registers_written) {
+            self.commit_shadow(passage);
         }
         self.update_masked_events();
+    }
+
+    // A call of its own: most frames write process data alone.
+    #[inline(never)]
+    fn commit_shadow(&mut self, passage: &Passage) {
+        let Some(mut shadow) = self.shadow.take() else { return };
+        self.commit_registers(&shadow, passage);
+        shadow.clear();
+        self.shadow = Some(shadow);
     }
 
     fn hand_over(&mut self, n: usize, now: Instant) {

@@ -1,6 +1,6 @@
 //! The controller: its parts, power-on, and what the ECAT side and the PDI side share.
 
-use core::ops::Range;
+use core::ops::{BitOrAssign, Range};
 
 use arrayvec::ArrayVec;
 use time::Instant;
@@ -59,6 +59,20 @@ pub struct Changes {
     pub addresses: bool,
     /// Its FMMUs map other bytes.
     pub mappings: bool,
+}
+
+impl Changes {
+    /// Nothing has changed.
+    pub const NONE: Self = Self { ports: false, addresses: false, mappings: false };
+}
+
+impl BitOrAssign for Changes {
+    #[inline]
+    fn bitor_assign(&mut self, others: Self) {
+        self.ports |= others.ports;
+        self.addresses |= others.addresses;
+        self.mappings |= others.mappings;
+    }
 }
 
 /// The values that every datagram needs, in one cache line, so that passing an ESC that is not addressed costs little.
@@ -270,6 +284,13 @@ impl Esc {
         }
     }
 
+    /// Whether [`Esc::take_changes`] has something to return.
+    #[inline]
+    #[must_use]
+    pub fn has_changes(&self) -> bool {
+        self.changes != Changes::NONE
+    }
+
     /// Takes what has changed for frames since the last call; after power-on and reset everything has.
     #[inline]
     pub fn take_changes(&mut self) -> Changes {
@@ -381,8 +402,13 @@ impl Esc {
         self.update_masked_events();
     }
 
+    #[inline]
     pub(crate) fn update_masked_events(&mut self) {
-        let mask = self.hot.event_mask;
-        self.hot.masked_events = if mask == 0 { 0 } else { self.all_ecat_events().bits() & mask };
+        self.hot.masked_events = if self.hot.event_mask == 0 { 0 } else { self.unmasked_events() };
+    }
+
+    #[inline(never)]
+    fn unmasked_events(&self) -> u16 {
+        self.all_ecat_events().bits() & self.hot.event_mask
     }
 }

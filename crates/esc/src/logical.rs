@@ -51,9 +51,9 @@ impl Esc {
         for n in (0..self.read_mappings.len()).rev() {
             let mapping = self.read_mappings[n];
             any |= if mapping.is_whole_buffer_in(datagram) {
-                self.read_whole_buffer(&mapping, datagram, data)
+                self.read_whole_buffer(mapping, datagram, data)
             } else {
-                self.read_mapping(&mapping, datagram, data, now)
+                self.read_mapping(mapping, datagram, data, now)
             };
         }
         any
@@ -61,7 +61,7 @@ impl Esc {
 
     /// The usual case: a datagram that covers all inputs of a unit.
     #[inline]
-    fn read_whole_buffer(&mut self, mapping: &Mapping, datagram: Span, data: &mut [u8]) -> bool {
+    fn read_whole_buffer(&mut self, mapping: Mapping, datagram: Span, data: &mut [u8]) -> bool {
         let n = mapping.sync_manager.unwrap_or_default() & 0x0F;
         let length_bytes = usize::from(mapping.length_bytes);
         let Some(at) = self.sync_managers[usize::from(n)].ecat_read_whole() else { return false };
@@ -77,12 +77,12 @@ impl Esc {
     }
 
     #[inline(never)]
-    fn read_mapping(&mut self, mapping: &Mapping, datagram: Span, data: &mut [u8], now: Instant) -> bool {
+    fn read_mapping(&mut self, mapping: Mapping, datagram: Span, data: &mut [u8], now: Instant) -> bool {
         if !mapping.logical_bytes().overlaps(datagram) {
             return false;
         }
         if mapping.bytewise {
-            let Some((range, physical)) = byte_overlap(mapping, datagram) else { return false };
+            let Some((range, physical)) = byte_overlap(&mapping, datagram) else { return false };
             return self.read(physical, &mut data[range], now);
         }
         let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];
@@ -107,9 +107,9 @@ impl Esc {
         for n in 0..self.write_mappings.len() {
             let mapping = self.write_mappings[n];
             any |= if mapping.is_whole_buffer_in(datagram) && !self.hot.protected {
-                self.write_whole_buffer(&mapping, datagram, data)
+                self.write_whole_buffer(mapping, datagram, data)
             } else {
-                self.write_mapping(&mapping, datagram, data, now)
+                self.write_mapping(mapping, datagram, data, now)
             };
         }
         any
@@ -117,7 +117,7 @@ impl Esc {
 
     /// The usual case: a datagram that covers all outputs of a unit.
     #[inline]
-    fn write_whole_buffer(&mut self, mapping: &Mapping, datagram: Span, data: &[u8]) -> bool {
+    fn write_whole_buffer(&mut self, mapping: Mapping, datagram: Span, data: &[u8]) -> bool {
         let n = mapping.sync_manager.unwrap_or_default() & 0x0F;
         let length_bytes = usize::from(mapping.length_bytes);
         let Some(at) = self.sync_managers[usize::from(n)].ecat_write_whole() else { return false };
@@ -134,12 +134,12 @@ impl Esc {
 
     /// A bit-wise write accesses whole bytes; bits that are not mapped keep the value in the buffer.
     #[inline(never)]
-    fn write_mapping(&mut self, mapping: &Mapping, datagram: Span, data: &[u8], now: Instant) -> bool {
+    fn write_mapping(&mut self, mapping: Mapping, datagram: Span, data: &[u8], now: Instant) -> bool {
         if !mapping.logical_bytes().overlaps(datagram) {
             return false;
         }
         if mapping.bytewise {
-            let Some((range, physical)) = byte_overlap(mapping, datagram) else { return false };
+            let Some((range, physical)) = byte_overlap(&mapping, datagram) else { return false };
             return self.write(physical, &data[range], now);
         }
         let fmmu = self.fmmus[usize::from(mapping.fmmu & 0x0F)];

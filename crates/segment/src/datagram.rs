@@ -6,9 +6,13 @@ use esc::{Access, Esc, Passage};
 use time::{Duration, Instant};
 use wire::{Command, Datagram};
 
-use crate::index::Index;
-use crate::positions::{Positions, Word};
-use crate::waiting::Waiting;
+use crate::index::{Index, WALKS_PER_FIND};
+use crate::positions::{Gathered, Positions};
+
+/// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of magnitude of a real ESC.
+const HOP: Duration = Duration::from_nanos(500);
+/// From the processing unit of the last ESC to its closed port 1.
+const TURN: Duration = Duration::from_nanos(100);
 
 /// The ESCs that a frame passes, the first one at `now`, each next one a hop later (reference 1.4, 1.5).
 pub(crate) struct Stretch<'a> {
@@ -16,9 +20,11 @@ pub(crate) struct Stretch<'a> {
     pub(crate) first: usize,
     pub(crate) escs: &'a mut [Esc],
     pub(crate) index: &'a mut Index,
-    pub(crate) waiting: &'a mut Waiting,
+    /// Those at which something takes effect at the end of the frame, of those that a datagram found by the index.
+    pub(crate) waiting: Gathered<'a>,
+    /// A datagram went through all of them, and some of them wait: each has to be asked.
+    pub(crate) walked: bool,
     pub(crate) now: Instant,
-    pub(crate) hop: Duration,
 }
 
 /// What adds up along the line.
@@ -32,17 +38,36 @@ impl Stretch<'_> {
     /// Passes a datagram through the processing units: of all ESCs, or of those that it means.
     #[inline]
     pub(crate) fn pass(&mut self, datagram: &mut Datagram<'_>) {
-        let command = datagram.header.command;
-        let logical = datagram.header.logical_address();
+        let passed = match datagram.header.command {
+            Command::Other(_) => return,
+            Command::Lrd | Command::Lwr | Command::Lrw => self.pass_logical(datagram),
+            command => self.pass_physical(command, datagram),
+        };
+        datagram.header.events |= passed.events;
+        datagram.working_counter = datagram.working_counter.wrapping_add(passed.count);
+    }
+
+    #[inline]
+    fn pass_logical(&mut self, datagram: &mut Datagram<'_>) -> Passed {
+        let address = datagram.header.logical_address();
+        let data = &mut *datagram.data;
+        let bytes = u64::from(address)..u64::from(address) + data.len() as u64;
+        match datagram.header.command {
+            Command::Lrd => self.mapping(bytes, |esc, now| u16::from(esc.logical_read(address, data, now))),
+            Command::Lwr => self.mapping(bytes, |esc, now| u16::from(esc.logical_write(address, data, now))),
+            _ => self
+                .mapping(bytes, |esc, now| read_write_increment(esc.logical_read_write(address, data, now))),
+        }
+    }
+
+    #[inline]
+    fn pass_physical(&mut self, command: Command, datagram: &mut Datagram<'_>) -> Passed {
         let address = datagram.header.address;
         if command.increments_position() {
             datagram.header.address = address.wrapping_add(self.escs.len() as u16);
         }
         let mut memory = Memory { offset: datagram.header.offset, data: &mut *datagram.data };
-        let bytes = u64::from(logical)..u64::from(logical) + memory.data.len() as u64;
-        let passed = match command {
-            Command::Other(_) => return,
-            Command::Nop => Passed { events: self.events(), count: 0 },
+        match command {
             Command::Aprd => self.at(address, |esc, now| memory.read(esc, now)),
             Command::Apwr => self.at(address, |esc, now| memory.write(esc, now)),
             Command::Aprw => self.at(address, |esc, now| memory.read_write(esc, now)),
@@ -52,76 +77,67 @@ impl Stretch<'_> {
             Command::Brd => self.walk(|_, esc, now| memory.read_or(esc, now)),
             Command::Bwr => self.walk(|_, esc, now| memory.write(esc, now)),
             Command::Brw => self.walk(|_, esc, now| memory.read_or_write(esc, now)),
-            Command::Lrd => {
-                self.mapping(bytes, |esc, now| u16::from(esc.logical_read(logical, memory.data, now)))
-            }
-            Command::Lwr => {
-                self.mapping(bytes, |esc, now| u16::from(esc.logical_write(logical, memory.data, now)))
-            }
-            Command::Lrw => self.mapping(bytes, |esc, now| {
-                read_write_increment(esc.logical_read_write(logical, memory.data, now))
-            }),
             Command::Armw => self.walk(|number, esc, now| {
                 memory.read_or_else_write(address.wrapping_add(number) == 0, esc, now)
             }),
             Command::Frmw => {
                 self.walk(|_, esc, now| memory.read_or_else_write(esc.answers_to(address), esc, now))
             }
-        };
-        datagram.header.events |= passed.events;
-        datagram.working_counter = datagram.working_counter.wrapping_add(passed.count);
+            _ => Passed { events: self.events(), count: 0 },
+        }
     }
 
     /// What the frame has written takes effect, as far as its ESCs wait for that; those are touched. Whether
     /// registers are among it.
     #[inline]
-    pub(crate) fn end_of_frame(&mut self, turn: Duration, touched: &mut Positions) -> bool {
-        let walked = core::mem::take(&mut self.waiting.walked);
-        if core::mem::take(&mut self.waiting.found) {
-            if !walked {
-                return self.end_at_found(turn, touched);
-            }
-            self.waiting.some.clear();
+    pub(crate) fn end_of_frame(&mut self, touched: &mut Positions) -> bool {
+        if self.walked {
+            return self.end_at_all(touched);
         }
-        walked && self.end_at_all(turn, touched)
+        !self.waiting.is_empty() && self.end_at_waiting(touched)
     }
 
     #[inline]
-    fn end_at_all(&mut self, turn: Duration, touched: &mut Positions) -> bool {
-        let mut back = self.hop * self.escs.len().saturating_sub(1) as u64;
-        let (turned, mut arrival) = (self.now + back + turn, self.now);
-        let (mut registers_written, mut members) = (false, Word::at(self.first));
-        for (position, esc) in (self.first..).zip(self.escs.iter_mut()) {
+    fn end_at_all(&mut self, touched: &mut Positions) -> bool {
+        if !self.waiting.is_empty() {
+            self.waiting.clear();
+        }
+        let way = self.way();
+        let (mut registers_written, mut members) = (false, Gathered::new(touched));
+        for (number, esc) in self.escs.iter_mut().enumerate() {
             if esc.awaits_end_of_frame() {
-                if esc.end_of_frame(&Passage { arrival, returned_out: turned + back }) {
+                let position = self.first + number;
+                if esc.end_of_frame(&way.passage(number)) {
                     self.index.has_changed(position);
                     registers_written = true;
                 }
-                touched.gather(&mut members, position);
+                members.insert(position);
             }
-            arrival += self.hop;
-            back = back - self.hop;
         }
-        touched.insert_word(members);
+        members.finish();
         registers_written
     }
 
-    fn end_at_found(&mut self, turn: Duration, touched: &mut Positions) -> bool {
-        let hops = |hops: usize| self.hop * hops as u64;
-        let behind = self.escs.len().saturating_sub(1);
-        let (mut registers_written, mut from) = (false, self.first);
-        while let Some(position) = self.waiting.some.next(from) {
-            from = position + 1;
-            let number = position - self.first;
-            let arrival = self.now + hops(number);
-            let returned_out = self.now + hops(behind) + turn + hops(behind - number);
-            if self.escs[number].end_of_frame(&Passage { arrival, returned_out }) {
-                self.index.has_changed(position);
-                registers_written = true;
+    #[inline(never)]
+    fn end_at_waiting(&mut self, touched: &mut Positions) -> bool {
+        let way = self.way();
+        let mut registers_written = false;
+        while let Some(mut waiting) = self.waiting.take_word() {
+            touched.insert_word(waiting);
+            while let Some(position) = waiting.take_first() {
+                let number = position - self.first;
+                if self.escs[number].end_of_frame(&way.passage(number)) {
+                    self.index.has_changed(position);
+                    registers_written = true;
+                }
             }
         }
-        touched.take_all(&mut self.waiting.some);
         registers_written
+    }
+
+    #[inline]
+    fn way(&self) -> Way {
+        Way { arrival: self.now, hops: 2 * (self.escs.len() as u64 - 1) }
     }
 
     /// Every ESC takes part, with its number in the stretch.
@@ -133,9 +149,9 @@ impl Stretch<'_> {
             passed.count = passed.count.wrapping_add(increment);
             passed.events |= esc.masked_events();
             waits |= esc.awaits_end_of_frame();
-            arrival += self.hop;
+            arrival += HOP;
         }
-        self.waiting.walked |= waits;
+        self.walked |= waits;
         passed
     }
 
@@ -160,10 +176,11 @@ impl Stretch<'_> {
     /// The ESCs that map some of these logical bytes take part.
     #[inline]
     fn mapping(&mut self, bytes: Range<u64>, mut visit: impl FnMut(&mut Esc, Instant) -> u16) -> Passed {
-        if !self.index.find_mapping(bytes, self.first..self.first + self.escs.len()) {
-            return self.walk(|_, esc, now| visit(esc, now));
+        let length = self.escs.len();
+        if length > WALKS_PER_FIND && self.index.find_mapping(bytes, self.first..self.first + length) {
+            return self.found(visit);
         }
-        self.found(visit)
+        self.walk(|_, esc, now| visit(esc, now))
     }
 
     /// The ESCs that the index has found take part.
@@ -181,10 +198,9 @@ impl Stretch<'_> {
     fn visit(&mut self, position: usize, visit: &mut impl FnMut(&mut Esc, Instant) -> u16) -> u16 {
         let number = position - self.first;
         let Some(esc) = self.escs.get_mut(number) else { return 0 };
-        let increment = visit(esc, self.now + self.hop * number as u64);
+        let increment = visit(esc, self.now + HOP * number as u64);
         if esc.awaits_end_of_frame() {
-            self.waiting.some.insert(position);
-            self.waiting.found = true;
+            self.waiting.insert(position);
         }
         increment
     }
@@ -193,6 +209,27 @@ impl Stretch<'_> {
     #[inline]
     fn events(&mut self) -> u16 {
         self.index.events(self.escs, self.first)
+    }
+}
+
+/// The way of a frame along the stretch and back.
+struct Way {
+    /// When it arrives at the first ESC.
+    arrival: Instant,
+    /// From there to the last one and back.
+    hops: u64,
+}
+
+impl Way {
+    /// When it passes an ESC, by the number in the stretch.
+    #[inline]
+    fn passage(&self, number: usize) -> Passage {
+        let after = |hops: u64| Duration::from_nanos(HOP.as_nanos() * hops);
+        let number = number as u64;
+        Passage {
+            arrival: self.arrival + after(number),
+            returned_out: self.arrival + (after(self.hops - number) + TURN),
+        }
     }
 }
 

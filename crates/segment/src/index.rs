@@ -2,14 +2,14 @@
 
 use core::ops::Range;
 
-use esc::Esc;
+use esc::{Changes, Esc};
 
 use crate::positions::Positions;
 
 /// Up to this many ESCs at once find their places in a table one by one; more than that are sorted in.
 const FEW: usize = 8;
 /// A walk along the line passes as many ESCs as this in the time in which the index finds one.
-const WALKS_PER_FIND: usize = 4;
+pub(crate) const WALKS_PER_FIND: usize = 4;
 
 /// Station addresses, logical addresses and event fields of a line. What slaves do to their ESCs is followed up by
 /// [`Index::settle`] before the next frame, what a frame does by [`Index::has_changed`] at its end. Nothing is
@@ -23,10 +23,12 @@ pub(crate) struct Index {
     /// ESCs that put something into the event field of datagrams, and maybe some that do not any more. Data that a
     /// frame reads or writes clear events; only registers and the application raise some.
     raising: Positions,
-    /// ESCs that are not followed up yet.
-    changed: Positions,
+    /// The ESC that changed first since the last follow-up: mostly there is one.
+    changed: Option<usize>,
+    /// Those that changed after it.
+    changed_too: Positions,
     /// There are such.
-    is_unsettled: bool,
+    are_many: bool,
     /// Logical bytes for which a walk was the shorter way: the same frame comes in each cycle.
     walked: Range<u64>,
     /// For the moment: ESCs whose addresses change, or that a datagram means.
@@ -56,8 +58,9 @@ impl Index {
             mappings: Table::with_capacity(fmmus),
             ends: Vec::with_capacity(fmmus),
             raising: Positions::new(escs.len()),
-            changed: Positions::new(escs.len()),
-            is_unsettled: true,
+            changed: None,
+            changed_too: Positions::new(escs.len()),
+            are_many: false,
             walked: 0..0,
             some: Positions::new(escs.len()),
         };
@@ -68,47 +71,63 @@ impl Index {
     /// An ESC may have other addresses or events than before.
     #[inline]
     pub(crate) fn has_changed(&mut self, position: usize) {
-        self.changed.insert(position);
-        self.is_unsettled = true;
+        if *self.changed.get_or_insert(position) != position {
+            self.changed_too.insert(position);
+            self.are_many = true;
+        }
     }
 
     /// Follows up what has changed. Whether frames may take another path than before.
     #[inline]
     pub(crate) fn settle(&mut self, escs: &mut [Esc]) -> bool {
-        core::mem::take(&mut self.is_unsettled) && self.follow_up(escs)
+        match self.changed {
+            None => false,
+            Some(position) => self.settle_from(position, escs),
+        }
     }
 
-    fn follow_up(&mut self, escs: &mut [Esc]) -> bool {
-        let (mut ports, mut addresses, mut mappings) = (false, false, false);
-        let mut from = 0;
-        while let Some(position) = self.changed.next(from) {
-            from = position + 1;
-            let Some(esc) = escs.get_mut(position) else { continue };
-            if esc.masked_events() != 0 {
-                self.raising.insert(position);
-            }
-            let changes = esc.take_changes();
-            ports |= changes.ports;
-            if changes.addresses || changes.mappings {
-                (addresses, mappings) = (addresses | changes.addresses, mappings | changes.mappings);
-                self.some.insert(position);
+    #[inline]
+    fn settle_from(&mut self, position: usize, escs: &mut [Esc]) -> bool {
+        self.changed = None;
+        let is_known = |esc: &Esc| esc.masked_events() == 0 && !esc.has_changes();
+        (self.are_many || !escs.get(position).is_some_and(is_known)) && self.follow_up(escs, position)
+    }
+
+    #[inline(never)]
+    fn follow_up(&mut self, escs: &mut [Esc], position: usize) -> bool {
+        let mut changes = self.changes_of(escs, position);
+        while let Some(mut others) = self.changed_too.take_word() {
+            while let Some(position) = others.take_first() {
+                changes |= self.changes_of(escs, position);
             }
         }
-        self.changed.clear();
-        if addresses || mappings {
-            self.sort_in(escs, addresses, mappings);
+        self.are_many = false;
+        if changes.addresses || changes.mappings {
+            self.sort_in(escs, changes);
         }
-        ports
+        changes.ports
+    }
+
+    fn changes_of(&mut self, escs: &mut [Esc], position: usize) -> Changes {
+        let Some(esc) = escs.get_mut(position) else { return Changes::NONE };
+        if esc.masked_events() != 0 {
+            self.raising.insert(position);
+        }
+        let changes = esc.take_changes();
+        if changes.addresses || changes.mappings {
+            self.some.insert(position);
+        }
+        changes
     }
 
     /// Enters those whose addresses or mappings are others than before.
-    fn sort_in(&mut self, escs: &[Esc], addresses: bool, mappings: bool) {
-        if addresses {
+    fn sort_in(&mut self, escs: &[Esc], changes: Changes) {
+        if changes.addresses {
             self.stations.replace(&self.some, escs, |position, esc| {
                 esc.answering_addresses().map(move |address| Station { address, position })
             });
         }
-        if mappings {
+        if changes.mappings {
             self.mappings.replace(&self.some, escs, |position, esc| {
                 esc.mapped_bytes().map(move |bytes| Mapped { start: bytes.start, end: bytes.end, position })
             });
@@ -134,7 +153,7 @@ impl Index {
     /// False if a walk along the stretch is the shorter way.
     #[inline]
     pub(crate) fn find_mapping(&mut self, bytes: Range<u64>, stretch: Range<usize>) -> bool {
-        stretch.len() > WALKS_PER_FIND && bytes != self.walked && self.bisect(bytes, stretch)
+        bytes != self.walked && self.bisect(bytes, stretch)
     }
 
     fn bisect(&mut self, bytes: Range<u64>, stretch: Range<usize>) -> bool {

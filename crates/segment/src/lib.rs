@@ -8,7 +8,6 @@ mod datagram;
 mod index;
 mod positions;
 mod segment;
-mod waiting;
 
 pub use activity::PortActivity;
 pub use positions::Positions;

@@ -19,11 +19,69 @@ pub(crate) struct Word {
     members: u64,
 }
 
-impl Word {
-    /// No position yet of the word of this one.
+/// Positions that are gathered in order or nearly so: the set is used only for what the last word does not hold, which
+/// is nothing on a short line.
+pub(crate) struct Gathered<'a> {
+    last: Word,
+    /// Empty in the end, and before.
+    others: &'a mut Positions,
+}
+
+impl<'a> Gathered<'a> {
+    /// None yet.
     #[inline]
-    pub(crate) const fn at(position: usize) -> Self {
-        Self { number: position / WORD, members: 0 }
+    pub(crate) const fn new(others: &'a mut Positions) -> Self {
+        Self { last: Word { number: 0, members: 0 }, others }
+    }
+
+    /// Whether there is none: as long as no word has been taken out, some of the last word are here.
+    #[inline]
+    pub(crate) const fn is_empty(&self) -> bool {
+        self.last.members == 0
+    }
+
+    /// Adds a position.
+    #[inline]
+    pub(crate) fn insert(&mut self, position: usize) {
+        if position / WORD != self.last.number {
+            self.others.insert_word(self.last);
+            self.last = Word { number: position / WORD, members: 0 };
+        }
+        self.last.members |= 1 << (position % WORD);
+    }
+
+    /// Puts those of the last word into the set too.
+    #[inline]
+    pub(crate) fn finish(self) {
+        self.others.insert_word(self.last);
+    }
+
+    /// Takes all out.
+    #[inline]
+    pub(crate) fn clear(&mut self) {
+        while self.take_word().is_some() {}
+    }
+
+    /// Takes the positions of a word out, some word that has some.
+    #[inline]
+    pub(crate) fn take_word(&mut self) -> Option<Word> {
+        if self.last.members == 0 {
+            return self.others.take_word();
+        }
+        Some(Word { members: core::mem::take(&mut self.last.members), ..self.last })
+    }
+}
+
+impl Word {
+    /// Takes the first position out.
+    #[inline]
+    pub(crate) fn take_first(&mut self) -> Option<usize> {
+        if self.members == 0 {
+            return None;
+        }
+        let position = self.number * WORD + self.members.trailing_zeros() as usize;
+        self.members &= self.members - 1;
+        Some(position)
     }
 }
 
@@ -51,15 +109,6 @@ impl Positions {
         self.insert_word(Word { number: position / WORD, members: 1 << (position % WORD) });
     }
 
-    /// Adds a position to those that are gathered for one word; if it is of another word, these are inserted first.
-    #[inline]
-    pub(crate) fn gather(&mut self, gathered: &mut Word, position: usize) {
-        if position / WORD != gathered.number {
-            self.insert_word(core::mem::replace(gathered, Word::at(position)));
-        }
-        gathered.members |= 1 << (position % WORD);
-    }
-
     /// Adds the positions of a word.
     #[inline]
     pub(crate) fn insert_word(&mut self, Word { number, members }: Word) {
@@ -69,6 +118,15 @@ impl Positions {
             *word |= members;
             self.filled[number / WORD] |= 1 << (number % WORD);
         }
+    }
+
+    /// Takes the positions of the first word that has some out.
+    #[inline]
+    pub(crate) fn take_word(&mut self) -> Option<Word> {
+        let (at, filled) = self.filled.iter_mut().enumerate().find(|(_, filled)| **filled != 0)?;
+        let number = at * WORD + filled.trailing_zeros() as usize;
+        *filled &= *filled - 1;
+        Some(Word { number, members: core::mem::take(&mut self.words[number]) })
     }
 
     /// Takes a position out.
@@ -127,22 +185,15 @@ impl Positions {
 
     /// Takes all members out.
     pub fn clear(&mut self) {
-        let mut from = 0;
-        while let Some(word) = self.next_filled(from) {
-            self.words[word] = 0;
-            from = word + 1;
-        }
-        self.filled.fill(0);
+        while self.take_word().is_some() {}
     }
 
     /// Moves all members of `others` here, which is empty then. Both are of one line.
+    #[inline]
     pub fn take_all(&mut self, others: &mut Self) {
-        let mut from = 0;
-        while let Some(word) = others.next_filled(from) {
-            self.insert_word(Word { number: word, members: core::mem::take(&mut others.words[word]) });
-            from = word + 1;
+        while let Some(word) = others.take_word() {
+            self.insert_word(word);
         }
-        others.filled.fill(0);
     }
 }
 

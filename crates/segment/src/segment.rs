@@ -3,19 +3,13 @@
 use core::ops::Range;
 
 use esc::{Esc, LoopState, Port};
-use time::{Duration, Instant};
+use time::Instant;
 use wire::{Defect, FrameKind, Layout, mark_source_address};
 
 use crate::activity::{Activity, PortActivity};
 use crate::datagram::Stretch;
 use crate::index::Index;
-use crate::positions::Positions;
-use crate::waiting::Waiting;
-
-/// From one processing unit to the next: forwarding and 100BASE-TX PHYs, the order of magnitude of a real ESC.
-const HOP: Duration = Duration::from_nanos(500);
-/// From the processing unit of the last ESC to its closed port 1.
-const TURN: Duration = Duration::from_nanos(100);
+use crate::positions::{Gathered, Positions};
 
 /// The fate of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +29,8 @@ pub struct Segment {
     way: Way,
     activity: Activity,
     index: Index,
-    waiting: Waiting,
+    /// ESCs that wait for the end of the frame that is passing.
+    waiting: Positions,
     /// ESCs at which something took effect at the end of a frame, since [`Segment::take_touched`].
     touched: Positions,
     overlong_frames: u64,
@@ -74,7 +69,7 @@ impl Segment {
             way: Way { reach: 0, cables: 0, end: WayEnd::Lost },
             activity: Activity::new(escs.len()),
             index: Index::new(&escs),
-            waiting: Waiting::new(escs.len()),
+            waiting: Positions::new(escs.len()),
             touched: Positions::new(escs.len()),
             overlong_frames: 0,
             escs,
@@ -256,13 +251,13 @@ impl Segment {
     fn pass_datagrams(&mut self, positions: Range<usize>, now: Instant, frame: &mut [u8], layout: &Layout) {
         let first = positions.start;
         let Some(escs) = self.escs.get_mut(positions) else { return };
-        let (index, waiting) = (&mut self.index, &mut self.waiting);
-        let mut stretch = Stretch { first, escs, index, waiting, now, hop: HOP };
+        let (index, waiting) = (&mut self.index, Gathered::new(&mut self.waiting));
+        let mut stretch = Stretch { first, escs, index, waiting, walked: false, now };
         for mut datagram in layout.datagrams(frame) {
             stretch.pass(&mut datagram);
-            datagram.close();
+            datagram.close_passed();
         }
-        if stretch.end_of_frame(TURN, &mut self.touched) {
+        if stretch.end_of_frame(&mut self.touched) {
             self.settle();
         }
     }

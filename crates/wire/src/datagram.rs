@@ -116,6 +116,15 @@ impl<'a> Datagram<'a> {
         *self.head = self.header.pack();
         *self.tail = self.working_counter.to_le_bytes();
     }
+
+    /// Writes back only what slaves change in a datagram that passes them: address, event field and working counter.
+    #[inline]
+    pub fn close_passed(self) {
+        let [_, _, address_low, address_high, _, _, _, _, events_low, events_high] = self.head;
+        [*address_low, *address_high] = self.header.address.to_le_bytes();
+        [*events_low, *events_high] = self.header.events.to_le_bytes();
+        *self.tail = self.working_counter.to_le_bytes();
+    }
 }
 
 /// A datagram opened for reading only.
