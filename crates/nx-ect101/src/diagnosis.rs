@@ -6,11 +6,12 @@
 
 mod current_errors;
 mod faults;
-mod history;
+mod message;
 mod occurrence;
 mod standing;
 
 use arrayvec::ArrayVec;
+use coe_kit::history::HistoryRequests;
 use unit_model::CurrentError;
 use wire::{Emergency, SdoAbort};
 
@@ -20,7 +21,7 @@ use crate::memory::{ErrorLog, LogRecord};
 use crate::settings::{EventLevels, NewestAcknowledged};
 
 pub use current_errors::{CURRENT_ERRORS_MAX, current_error_bytes};
-pub use history::DIAGNOSIS_MESSAGE_BYTES;
+pub use message::DIAGNOSIS_MESSAGE_BYTES;
 pub(crate) use occurrence::Occurrence;
 
 use current_errors::CurrentErrors;
@@ -54,12 +55,8 @@ pub(crate) struct Diagnosis {
     emergencies_lost: u64,
     /// The events since the last query.
     occurred: ArrayVec<EventCode, OCCURRED_MAX>,
-    /// 10F3:05.
-    emergencies_enabled: bool,
-    /// The value that a master has last written to 10F3:03 since the start.
-    last_acknowledged: u8,
-    /// The value that 10F3:03 reads.
-    acknowledged_reads: NewestAcknowledged,
+    /// 10F3:03 and :05.
+    requests: HistoryRequests,
     levels: EventLevels,
     /// System time of the CPU Unit in nanoseconds since 1970-01-01 00:00:00; 0: not known.
     time_ns: u64,
@@ -77,9 +74,7 @@ impl Diagnosis {
         self.current.clear();
         self.standing.clear();
         self.emergencies.clear();
-        self.emergencies_enabled = false;
-        self.last_acknowledged = 0;
-        self.acknowledged_reads = acknowledged_reads;
+        self.requests.start(acknowledged_reads);
         self.levels = levels;
         self.find_at_start();
     }
@@ -102,7 +97,7 @@ impl Diagnosis {
         let _ = self.occurred.try_push(event.code);
         self.record(event, level, &occurrence);
         self.list(event, &occurrence);
-        if self.emergencies_enabled && event.emergency_notified == Notified::Possible {
+        if self.requests.emergencies_enabled() && event.emergency_notified == Notified::Possible {
             self.send_emergency(event);
         }
     }
@@ -135,7 +130,7 @@ impl Diagnosis {
             details: occurrence.details.clone(),
         };
         if event.logged {
-            self.log.add(record());
+            self.log.system.add(record());
             self.log_changed = true;
         }
         if event.event_log == EventLog::Access {
@@ -215,7 +210,7 @@ impl Diagnosis {
 
     /// 10F3:04 New Messages Available.
     pub(crate) const fn has_new_messages(&self) -> bool {
-        self.log.newest != 0 && !self.log.acknowledged
+        self.log.system.has_new()
     }
 
     /// Both logs.
@@ -230,43 +225,30 @@ impl Diagnosis {
 
     /// The value of 10F3:03 as read.
     pub(crate) const fn newest_acknowledged(&self) -> u8 {
-        match self.acknowledged_reads {
-            NewestAcknowledged::NewestRecord => self.log.newest,
-            NewestAcknowledged::LastAcknowledged => self.last_acknowledged,
-        }
+        self.requests.newest_acknowledged(&self.log.system)
     }
 
     /// Writes 10F3:03: acknowledges a record, or clears the history by 0.
     pub(crate) fn acknowledge(&mut self, sub: u8) -> Result<(), SdoAbort> {
-        if sub == 0 {
-            self.clear_history();
-            return Ok(());
-        }
-        self.log.record_at(sub).ok_or(SdoAbort::VALUE_OUT_OF_RANGE)?;
-        self.last_acknowledged = sub;
-        if sub == self.log.newest && !self.log.acknowledged {
-            self.log.acknowledged = true;
-            self.log_changed = true;
-        }
+        self.log_changed |= self.requests.acknowledge(&mut self.log.system, sub)?;
         Ok(())
     }
 
     /// Clears the diagnosis history (10F3:03, 2100). The current errors are kept (A53), and no event reports
     /// this (A54).
     pub(crate) fn clear_history(&mut self) {
-        self.log.clear_system();
-        self.last_acknowledged = 0;
+        self.requests.clear(&mut self.log.system);
         self.log_changed = true;
     }
 
     /// 10F3:05 Flags: whether emergency messages are sent.
     pub(crate) const fn emergencies_enabled(&self) -> bool {
-        self.emergencies_enabled
+        self.requests.emergencies_enabled()
     }
 
     /// Writes 10F3:05.
     pub(crate) const fn enable_emergencies(&mut self, enabled: bool) {
-        self.emergencies_enabled = enabled;
+        self.requests.enable_emergencies(enabled);
     }
 }
 

@@ -105,7 +105,7 @@ impl UnitObjects {
         let count = |level| diagnosis.current(level).len() as u64;
         Some(match (index.0, sub.0) {
             (0x10F3, 1) => diagnosis.log().system.len() as u64,
-            (0x10F3, 2) => diagnosis.log().newest.into(),
+            (0x10F3, 2) => diagnosis.log().system.newest.into(),
             (0x10F3, 3) => diagnosis.newest_acknowledged().into(),
             (0x10F3, 4) => diagnosis.has_new_messages().into(),
             (0x10F3, 5) => diagnosis.emergencies_enabled().into(),

@@ -12,7 +12,6 @@ use crate::description::description;
 use crate::settings::UnitSettings;
 
 pub use codec::Damage;
-pub(crate) use error_log::FIRST_RECORD;
 pub use error_log::{ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, LogRecord, SYSTEM_RECORDS_MAX};
 
 /// Bytes of SII word 4, the station alias.

@@ -2,10 +2,11 @@
 
 use std::sync::LazyLock;
 
+use coe_kit::object_rows::{expand, subs};
 use serde::Deserialize;
 use wire::{ObjectIndex, SubIndex};
 
-use crate::tables::{self, expand};
+use crate::tables;
 
 pub use unit_model::tables::{NxAccess, NxEntry, NxObject};
 
@@ -77,7 +78,7 @@ impl ObjectRow {
 
 impl EntryRow {
     fn entries(&self, index: u16) -> impl Iterator<Item = NxEntry> + '_ {
-        let subs = tables::subs([self.sub, self.from, self.to]).unwrap_or_else(|| {
+        let subs = subs([self.sub, self.from, self.to]).unwrap_or_else(|| {
             panic!("tables/nx_objects.toml: {index:04X}: an entry has sub, or from and to")
         });
         (1..).zip(subs).map(|(place, sub)| NxEntry {

@@ -1,5 +1,6 @@
 //! The settings of a unit, before it is powered on.
 
+pub use coe_kit::history::NewestAcknowledged;
 use device::StartUp;
 use time::Duration;
 pub use unit_model::LevelNotChangeable;
@@ -36,18 +37,8 @@ pub struct UnitSettings {
     pub io_allocation: IoAllocation,
     /// Event levels that the user has changed.
     pub event_levels: EventLevels,
-    /// The value of object 10F3:03.
+    /// The value of object 10F3:03: the manual describes both (A-6-4).
     pub newest_acknowledged: NewestAcknowledged,
-}
-
-/// The value of 10F3:03, Newest Acknowledged Message: the manual describes both (A-6-4).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NewestAcknowledged {
-    /// The subindex of the most recent record; 0 if there is none.
-    #[default]
-    NewestRecord,
-    /// The value that a master has last written since the unit started; 0 if none.
-    LastAcknowledged,
 }
 
 /// The Event Level Settings (manual, 6-5-1), effective from the start of the unit.

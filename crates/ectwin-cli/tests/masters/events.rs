@@ -55,7 +55,7 @@ impl Unit {
         line.run_master(python, "events.py", arguments);
         if signal == "KILL" {
             // The contents of the disk are those after a power failure.
-            self.wait_for_log(|log| log.system.is_full() && log.acknowledged);
+            self.wait_for_log(|log| log.system.is_full() && log.system.acknowledged);
         }
         let ended = line.end(signal);
         assert_eq!(ended, if signal == "KILL" { None } else { Some(0) }, "ectwin after SIG{signal}");

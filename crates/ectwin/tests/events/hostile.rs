@@ -243,9 +243,13 @@ impl Hostile {
 }
 
 fn check_log(log: &ErrorLog) {
-    assert_eq!(log.newest == 0, log.system.is_empty());
-    assert_eq!(log.history().last(), log.record_at(log.newest));
-    assert!(log.system.is_full() || log.newest == 0 || usize::from(log.newest) == 5 + log.system.len());
+    assert_eq!(log.system.newest == 0, log.system.is_empty());
+    assert_eq!(log.history().last(), log.record_at(log.system.newest));
+    assert!(
+        log.system.is_full()
+            || log.system.newest == 0
+            || usize::from(log.system.newest) == 5 + log.system.len()
+    );
     assert!(log.history().is_sorted_by_key(|record| record.time_ns), "time goes back");
     let is_logged = |event| Event::find(event).is_some_and(|event| event.logged);
     assert!(log.system.iter().all(|record| is_logged(record.event)));

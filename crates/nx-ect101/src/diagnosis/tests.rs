@@ -40,16 +40,16 @@ fn observations(diagnosis: &Diagnosis) -> Vec<EventCode> {
 }
 
 fn newest_message(diagnosis: &Diagnosis) -> [u8; DIAGNOSIS_MESSAGE_BYTES] {
-    diagnosis.log().record_at(diagnosis.log().newest).expect("a record").diagnosis_message()
+    diagnosis.log().record_at(diagnosis.log().system.newest).expect("a record").diagnosis_message()
 }
 
 #[test]
 fn the_33rd_record_goes_to_subindex_06() {
     let mut diagnosis = with_minor_faults(32);
-    assert_eq!(diagnosis.log().newest, 0x25);
+    assert_eq!(diagnosis.log().system.newest, 0x25);
     diagnosis.raise(order_of(32));
     let log = diagnosis.log();
-    assert_eq!((log.newest, log.system.len()), (0x06, 32));
+    assert_eq!((log.system.newest, log.system.len()), (0x06, 32));
     let detail = |sub| log.record_at(sub).map(|record| record.details[0]);
     assert_eq!((detail(0x06), detail(0x07), detail(0x25)), (Some(32), Some(1), Some(31)));
     let in_order: Vec<u32> = log.history().map(|record| record.details[0]).collect();
@@ -122,10 +122,10 @@ fn acknowledging_a_subindex_without_a_record_is_refused() {
 fn acknowledging_0_clears_the_history_and_no_error() {
     let mut diagnosis = with_minor_faults(40);
     assert_eq!(diagnosis.acknowledge(0), Ok(()));
-    assert_eq!((diagnosis.log().system.len(), diagnosis.log().newest), (0, 0));
+    assert_eq!((diagnosis.log().system.len(), diagnosis.log().system.newest), (0, 0));
     assert_eq!((diagnosis.has_new_messages(), minor_faults(&diagnosis).len()), (false, 10));
     diagnosis.raise(order_of(40));
-    assert_eq!(diagnosis.log().newest, 0x06);
+    assert_eq!(diagnosis.log().system.newest, 0x06);
 }
 
 #[test]

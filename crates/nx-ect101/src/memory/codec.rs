@@ -3,11 +3,10 @@
 use core::fmt;
 
 use arrayvec::ArrayVec;
+use coe_kit::history::DiagnosisHistory;
 use crc::{CRC_32_ISO_HDLC, Crc};
 
-use super::{
-    ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, FIRST_RECORD, LogRecord, NonVolatileMemory, SYSTEM_RECORDS_MAX,
-};
+use super::{ACCESS_RECORDS_MAX, DETAILS_MAX, ErrorLog, LogRecord, NonVolatileMemory, SYSTEM_RECORDS_MAX};
 use crate::events::{Event, EventCode, EventLevel, EventLog};
 
 const MAGIC: &[u8; 8] = b"ectwnvm\0";
@@ -116,7 +115,8 @@ impl NonVolatileMemory {
 }
 
 fn put_log(log: &ErrorLog, bytes: &mut Vec<u8>) {
-    bytes.extend_from_slice(&[log.newest, u8::from(log.acknowledged), log.system.len() as u8]);
+    let history = &log.system;
+    bytes.extend_from_slice(&[history.newest, u8::from(history.acknowledged), history.len() as u8]);
     log.system.iter().for_each(|record| put_record(record, bytes));
     bytes.push(log.access.len() as u8);
     log.access.iter().for_each(|record| put_record(record, bytes));
@@ -150,7 +150,8 @@ impl Reader<'_> {
     fn log(&mut self) -> Option<ErrorLog> {
         let newest = self.u8()?;
         let acknowledged = self.bool()?;
-        let log = ErrorLog { newest, acknowledged, system: self.records()?, access: self.records()? };
+        let system = DiagnosisHistory { records: self.records()?, newest, acknowledged };
+        let log = ErrorLog { system, access: self.records()? };
         is_possible(&log).then_some(log)
     }
 
@@ -205,19 +206,12 @@ impl Reader<'_> {
     }
 }
 
-/// Whether such a log is possible for a unit: until it is full the newest record is the last, and each event
-/// belongs in that log.
+/// Whether such a log is possible for a unit: its history is, and each event belongs in that log.
 fn is_possible(log: &ErrorLog) -> bool {
-    let place = log.newest.checked_sub(FIRST_RECORD).map(usize::from);
-    let newest_is_right = match log.system.len() {
-        0 => log.newest == 0,
-        SYSTEM_RECORDS_MAX => place.is_some_and(|place| place < SYSTEM_RECORDS_MAX),
-        count => place.is_some_and(|place| place + 1 == count),
-    };
     let all_are = |records: &[LogRecord], goes_there: fn(&Event) -> bool| {
         records.iter().all(|record| Event::find(record.event).is_some_and(goes_there))
     };
-    newest_is_right
+    log.system.is_possible()
         && all_are(&log.system, |event| event.logged)
         && all_are(&log.access, |event| event.event_log == EventLog::Access)
 }

@@ -1,6 +1,7 @@
 //! The error log: the recorded events of a unit (manual, 8-3-2 and 8-4-2).
 
 use arrayvec::ArrayVec;
+use coe_kit::history::DiagnosisHistory;
 
 use crate::events::{EventCode, EventLevel};
 
@@ -10,9 +11,6 @@ pub const SYSTEM_RECORDS_MAX: usize = 32;
 pub const ACCESS_RECORDS_MAX: usize = 5;
 /// Maximum number of pieces of attached information of one event.
 pub const DETAILS_MAX: usize = 4;
-
-/// Subindex of object 10F3 with the first record.
-pub(crate) const FIRST_RECORD: u8 = 0x06;
 
 /// One event that occurred.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,12 +28,29 @@ pub struct LogRecord {
 /// Both logs of a unit.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ErrorLog {
-    /// System events by their position in object 10F3: record 0 is subindex 0x06.
-    pub system: ArrayVec<LogRecord, SYSTEM_RECORDS_MAX>,
-    /// Subindex of the newest of them, 0x06 to 0x25; 0: there is none.
-    pub newest: u8,
-    /// The master has acknowledged the newest one.
-    pub acknowledged: bool,
+    /// System events: the diagnosis history.
+    pub system: DiagnosisHistory<LogRecord, SYSTEM_RECORDS_MAX>,
     /// Access events, the oldest first.
     pub access: ArrayVec<LogRecord, ACCESS_RECORDS_MAX>,
+}
+
+impl ErrorLog {
+    /// The record at a subindex of 10F3; none if none has been stored there.
+    #[must_use]
+    pub fn record_at(&self, sub: u8) -> Option<&LogRecord> {
+        self.system.record_at(sub)
+    }
+
+    /// The records of the diagnosis history, the oldest first.
+    pub fn history(&self) -> impl Iterator<Item = &LogRecord> {
+        self.system.in_order()
+    }
+
+    /// Adds a record to the access log; the sixth replaces the oldest.
+    pub(crate) fn add_access(&mut self, record: LogRecord) {
+        if self.access.is_full() {
+            self.access.remove(0);
+        }
+        self.access.push(record);
+    }
 }

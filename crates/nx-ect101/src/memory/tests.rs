@@ -1,6 +1,7 @@
 //! Round trips of the bytes, damage of every kind, and the effect of a start on a memory.
 
 use arrayvec::ArrayVec;
+use coe_kit::history::DiagnosisHistory;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -42,7 +43,7 @@ fn log() -> impl Strategy<Value = ErrorLog> {
             count => 5 + count as u8,
         };
         let (system, access) = (ArrayVec::from_iter(system), ArrayVec::from_iter(access));
-        ErrorLog { system, newest, acknowledged, access }
+        ErrorLog { system: DiagnosisHistory { records: system, newest, acknowledged }, access }
     })
 }
 
@@ -95,7 +96,7 @@ fn after_storage(system: &[u32], newest: u8, access: &[u32]) -> Result<(), Damag
     let mut memory = NonVolatileMemory::factory(&UnitSettings::default());
     memory.error_log.system.extend(records(system));
     memory.error_log.access.extend(records(access));
-    memory.error_log.newest = newest;
+    memory.error_log.system.newest = newest;
     NonVolatileMemory::decode(&encoded(&memory)).map(drop)
 }
 

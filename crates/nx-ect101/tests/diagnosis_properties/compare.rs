@@ -102,7 +102,7 @@ impl Run {
         let memory = nx_ect101::NonVolatileMemory::decode(&self.bench.stored);
         let memory = memory.map_err(|damage| TestCaseError::fail(damage.to_string()))?;
         prop_assert!(self.bench.stored.len() <= memory.sii_image().len() + LOGS_BYTES_MAX);
-        prop_assert_eq!(memory.error_log().acknowledged, self.model.stored.acknowledged);
+        prop_assert_eq!(memory.error_log().system.acknowledged, self.model.stored.acknowledged);
         compare_log(memory.error_log(), self.model.stored.shown())
     }
 }
