@@ -3,20 +3,20 @@
 //! A unit file makes a [`Twin`]. It processes frames in virtual time:
 //!
 //! ```
-//! use ectwin::{FrameFate, Twin};
+//! use ectwin::master::Master;
+//! use ectwin::{AlState, Duration, Twin};
 //!
-//! let mut twin = Twin::from_toml("model = \"nx-ect101\"")?;
-//! // BRD of two bytes at register 0x0130, AL status.
-//! let mut frame = [0u8; 60];
-//! frame[..6].fill(0xFF);
-//! frame[12..14].copy_from_slice(&[0x88, 0xA4]);
-//! frame[14..16].copy_from_slice(&[0x0E, 0x10]);
-//! frame[16..26].copy_from_slice(&[7, 0, 0, 0, 0x30, 0x01, 2, 0, 0, 0]);
-//! assert_eq!(twin.frame(&mut frame), FrameFate::Returned);
-//! assert_eq!(frame[26..28], [1, 0], "INIT");
-//! assert_eq!(frame[28..30], [1, 0], "one unit has answered");
-//! # Ok::<(), ectwin::SetupError>(())
+//! let twin = Twin::from_toml("model = \"nx-ect101\"")?;
+//! let mut bench = twin.connect(Master::default());
+//! assert_eq!(bench.search()?, 1);
+//! bench.take_to(0, AlState::Op)?;
+//! bench.master.outputs_mut(0)[..2].copy_from_slice(&[0x34, 0x12]);
+//! bench.run_for(Duration::from_millis(10));
+//! assert_eq!(bench.line.unit(0).outputs()[..2], [0x34, 0x12]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! [`Twin::frame`] takes the Ethernet frames of any other master.
 //!
 //! It can also answer a link in real time: [`Twin::serve`] for any [`link::FramePort`], such as one end of
 //! [`link::memory::pair`], and `Twin::serve_ethercrab` for an ethercrab master in the same process. The test
@@ -26,6 +26,7 @@
 mod ethercrab_port;
 pub mod explain;
 mod live;
+mod master_in_memory;
 mod memory_file;
 #[cfg(feature = "modbus")]
 mod modbus_clients;
@@ -41,10 +42,12 @@ pub mod user_files;
 mod watched_program;
 
 pub use coe_kit::indicators::Pattern;
+pub use esi;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
 pub use link::{self, FrameFate};
 pub use live::Live;
+pub use master;
 #[cfg(feature = "modbus")]
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
 #[cfg(feature = "opcua")]
@@ -64,4 +67,4 @@ pub use time::{Duration, Instant};
 pub use twin::Twin;
 pub use unit_model::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable};
 pub use unit_side::UnitSide;
-pub use wire::{AlState, AlStatus, AlStatusCode};
+pub use wire::{self, AlState, AlStatus, AlStatusCode};

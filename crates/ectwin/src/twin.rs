@@ -87,12 +87,16 @@ impl Twin {
 
     /// Advances virtual time; work that becomes due is done at its time.
     pub fn run_for(&mut self, duration: Duration) {
-        let end = self.now + duration;
+        self.run_to(self.now + duration);
+    }
+
+    /// Advances virtual time to `end`; nothing happens if that has passed.
+    pub(crate) fn run_to(&mut self, end: Instant) {
         while self.deadline() <= end {
             self.now = self.now.max(self.deadline());
             self.poll(self.now);
         }
-        self.now = end;
+        self.now = self.now.max(end);
     }
 
     /// The present time, counted from power-on.
@@ -148,7 +152,7 @@ impl Twin {
         self.line.poll(now);
     }
 
-    fn deadline(&self) -> Instant {
+    pub(crate) fn deadline(&self) -> Instant {
         self.line.deadline().min(cpu_deadline(&self.cpus))
     }
 }

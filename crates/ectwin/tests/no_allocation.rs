@@ -1,6 +1,7 @@
 //! After power-on nothing is allocated: not for frames, not for refresh and CPU Unit, not for SDOs, not for an ESC reset.
 
 use allocation_counter::measure;
+use ectwin::master::{Connected, Master};
 use ectwin::{AlState, Duration, EventLog, Fault, FrameFate, Setup, Twin};
 use wire::{Command, FrameBuilder};
 
@@ -9,6 +10,8 @@ const UNIT: &str =
 const RECEIVE: u16 = 0x1000;
 const SEND: u16 = 0x1200;
 const MAILBOX_BYTES: usize = 400;
+/// Outputs and inputs of the unit, one after the other as the master maps them.
+const PROCESS_DATA_BYTES: usize = 180 + 183;
 
 fn apwr(offset: u16, data: &[u8]) -> Vec<u8> {
     FrameBuilder::new().physical(Command::Apwr, 0, offset, data).finish()
@@ -21,25 +24,13 @@ fn send(twin: &mut Twin, frame: &[u8], buffer: &mut [u8; 1518]) {
     assert_eq!(twin.frame(buffer), FrameFate::Returned);
 }
 
-/// Takes the unit to OP with its factory setting: mailboxes, process data, FMMUs.
+/// Takes the unit to OP with its factory setting, and enables the events of the AL status in the IRQ field.
 fn to_op(twin: &mut Twin) {
-    let mut buffer = [0; 1518];
-    let steps: [(u16, &[u8]); 9] = [
-        (0x0800, &[0x00, 0x10, 0x90, 0x01, 0x26, 0, 1, 0, 0x00, 0x12, 0x90, 0x01, 0x22, 0, 1, 0]),
-        (0x0120, &[2, 0]),
-        (0x0810, &[0xA0, 0x13, 180, 0, 0x64, 0, 1, 0]),
-        (0x0818, &[0xB0, 0x21, 183, 0, 0x20, 0, 1, 0]),
-        (0x0600, &[0, 0, 0, 0, 180, 0, 0, 7, 0xA0, 0x13, 0, 2, 1, 0, 0, 0]),
-        (0x0610, &[0, 0, 0, 0, 183, 0, 0, 7, 0xB0, 0x21, 0, 1, 1, 0, 0, 0]),
-        (0x0120, &[4, 0]),
-        (0x0120, &[8, 0]),
-        (0x0200, &[0xFF, 0x0F]),
-    ];
-    for (offset, data) in steps {
-        send(twin, &apwr(offset, data), &mut buffer);
-        twin.run_for(Duration::from_millis(1));
-    }
-    assert_eq!(twin.unit(0).state(), AlState::Op);
+    let now = twin.now();
+    let mut bench = Connected::new(Master::default(), twin, now);
+    assert_eq!(bench.search(), Ok(1));
+    assert_eq!(bench.take_to(0, AlState::Op), Ok(()));
+    assert_eq!(bench.write(0, 0x0200, &[0xFF, 0x0F]), Ok(()));
 }
 
 /// A mailbox message: an SDO request with mailbox header, counter 0.
@@ -58,7 +49,7 @@ fn frames_refresh_and_cpu_unit_allocate_nothing() {
     to_op(&mut twin);
     let frames = [
         FrameBuilder::new()
-            .logical(Command::Lrw, 0, &[1; 183])
+            .logical(Command::Lrw, 0, &[1; PROCESS_DATA_BYTES])
             .physical(Command::Frmw, 0, 0x0910, &[0; 8])
             .finish(),
         FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish(),
@@ -188,7 +179,7 @@ fn events_allocate_nothing() {
     let mut twin = Twin::power_on([setup.with_storage(&folder).expect("a usable folder")]);
     to_op(&mut twin);
     let mut buffer = [0; 1518];
-    let outputs = FrameBuilder::new().logical(Command::Lrw, 0, &[1; 183]).finish();
+    let outputs = FrameBuilder::new().logical(Command::Lrw, 0, &[1; PROCESS_DATA_BYTES]).finish();
     let requests = [[0x05, 0], [0x13, 0], [0x18, 0]].map(|request| apwr(0x0120, &request));
     let counted = measure(|| {
         for _ in 0..60 {

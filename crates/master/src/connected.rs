@@ -21,6 +21,20 @@ pub trait Line {
     fn deadline(&self) -> Instant;
 }
 
+impl<L: Line + ?Sized> Line for &mut L {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> bool {
+        (**self).frame(now, frame)
+    }
+
+    fn poll(&mut self, now: Instant) {
+        (**self).poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        (**self).deadline()
+    }
+}
+
 /// A master with a line. Time advances only while an order is executed, or when the caller advances it.
 #[derive(Debug)]
 pub struct Connected<L> {
@@ -54,6 +68,7 @@ impl<L: Line> Connected<L> {
             self.now = self.deadline();
         }
         self.now = end;
+        self.line.poll(end);
     }
 
     /// Sends the due frames, and passes on the answers; returns when something is due next.

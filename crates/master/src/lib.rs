@@ -5,11 +5,13 @@
 //! [`Master::receive`], and calls again at [`Master::deadline`].
 //!
 //! All communication of a master with a slave is a [`Dialogue`]: one access at a time, without a clock. Each
-//! dialogue can be used separately, also for sequences that a correct master never uses.
+//! dialogue can be used separately, also for sequences that a correct master never uses: by [`DirectAccess`] in virtual
+//! time.
 
 mod access;
 mod channels;
 mod connected;
+mod direct_access;
 mod event;
 mod flight;
 mod habits;
@@ -36,6 +38,7 @@ mod walk;
 pub use access::{Access, Address, Answer, Dialogue, Patience, Progress, Wait};
 pub use channels::{FmmuSettings, SyncManagerSettings};
 pub use connected::{Connected, Line};
+pub use direct_access::DirectAccess;
 pub use event::{Event, Failure, Outcome, RequestId};
 pub use flight::Ticket;
 pub use habits::{Addressing, Habits, Indexes};

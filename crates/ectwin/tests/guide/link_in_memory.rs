@@ -1,4 +1,5 @@
 use ectwin::link::{FRAME_BUFFER_BYTES, FramePort, memory};
+use ectwin::wire::{Command, FrameBuilder, returned_datagrams};
 use ectwin::{Duration, Setup, Twin};
 
 #[test]
@@ -8,11 +9,7 @@ fn three_units_answer_a_broadcast() {
     let live = Twin::power_on(setups).serve(units).unwrap();
 
     // BRD of AL status. Any master that sends and receives whole Ethernet frames can be used here.
-    let mut frame = [0u8; 60];
-    frame[..6].fill(0xFF);
-    frame[12..16].copy_from_slice(&[0x88, 0xA4, 0x0E, 0x10]);
-    frame[16..26].copy_from_slice(&[7, 0, 0, 0, 0x30, 0x01, 2, 0, 0, 0]);
-    ours.send(&frame).unwrap();
+    ours.send(&FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish()).unwrap();
 
     let mut answer = [0; FRAME_BUFFER_BYTES];
     let length = loop {
@@ -20,7 +17,6 @@ fn three_units_answer_a_broadcast() {
             break length;
         }
     };
-    assert_eq!(length, 60);
-    assert_eq!(answer[16 + 12..16 + 14], [3, 0], "three units have answered");
+    assert_eq!(returned_datagrams(&answer[..length])[0].working_counter, 3, "three units have answered");
     assert_eq!(live.stop().unwrap().frames, 1);
 }

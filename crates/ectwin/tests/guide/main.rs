@@ -12,6 +12,7 @@ mod ethercrab_in_memory;
 mod events;
 mod frames_in_virtual_time;
 mod link_in_memory;
+mod master_in_virtual_time;
 mod messages;
 #[cfg(feature = "modbus")]
 mod modbus;

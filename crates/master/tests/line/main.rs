@@ -4,6 +4,7 @@
 
 mod allocation;
 mod bench;
+mod direct_access;
 mod exchange;
 mod faults;
 mod mailbox;
