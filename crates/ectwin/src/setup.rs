@@ -60,6 +60,15 @@ impl Setup {
         Self::read(text, Some(folder))
     }
 
+    /// Takes a unit file that has been read, for example one of a model that is not in the registry
+    /// ([`UnitFile::parse_with`]). Storage and `program` are as in [`Setup::from_toml`].
+    ///
+    /// # Errors
+    /// The mistakes in the program, with their places.
+    pub fn from_unit_file(file: UnitFile) -> Result<Self, SetupError> {
+        Self::without_program(file).with_program_of_file(None)
+    }
+
     /// Reads the text of a unit file, and the user program in these files and folders instead of the one in the text.
     ///
     /// # Errors

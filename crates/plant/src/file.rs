@@ -26,7 +26,15 @@ impl UnitFile {
     /// # Errors
     /// Everything that is wrong, in the order of the file. Of a file without a known model only that is reported.
     pub fn parse(text: &str) -> Result<Self, FileErrors> {
-        read_toml(text, Wanted::UnitFile, Self::read)
+        Self::parse_with(models(), text)
+    }
+
+    /// The same with these models in place of those of the registry.
+    ///
+    /// # Errors
+    /// As [`UnitFile::parse`].
+    pub fn parse_with(models: &[&'static dyn UnitFiles], text: &str) -> Result<Self, FileErrors> {
+        read_toml(text, Wanted::UnitFile, |reader, file| Self::read_with(models, reader, file))
     }
 
     /// The shortest file of the default model: its factory setting.
@@ -43,8 +51,16 @@ impl UnitFile {
 
     /// Reads a unit that is a table of another file. What is wrong is refused by `reader`.
     pub fn read(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> Option<Self> {
-        let model = model(reader, table)?;
-        refuse_keys_of_others(reader, table, model);
+        Self::read_with(models(), reader, table)
+    }
+
+    fn read_with(
+        models: &[&'static dyn UnitFiles],
+        reader: &mut Reader<'_>,
+        table: &Section<'_, '_>,
+    ) -> Option<Self> {
+        let model = model(models, reader, table)?;
+        refuse_keys_of_others(models, reader, table, model);
         let WithCpu { unit: section, cpu } =
             WithCpu::read(reader, table, |reader, table| model.read(reader, table))?;
         let variables = DeviceVariables::of(section.variables());
@@ -83,21 +99,31 @@ impl UnitFile {
 }
 
 /// The model that the file names.
-fn model(reader: &mut Reader<'_>, table: &Section<'_, '_>) -> Option<&'static dyn UnitFiles> {
-    let choices: Vec<(&str, &dyn UnitFiles)> = models().iter().map(|&model| (model.name(), model)).collect();
+fn model(
+    models: &[&'static dyn UnitFiles],
+    reader: &mut Reader<'_>,
+    table: &Section<'_, '_>,
+) -> Option<&'static dyn UnitFiles> {
+    let choices: Vec<(&str, &'static dyn UnitFiles)> =
+        models.iter().map(|&model| (model.name(), model)).collect();
     if table.get(MODEL).is_none() {
         let names: Vec<String> =
-            models().iter().map(|model| format!("`model = \"{}\"`", model.name())).collect();
+            models.iter().map(|model| format!("`model = \"{}\"`", model.name())).collect();
         reader.require(table, MODEL, &names.join(" or "));
     }
     reader.value(table, MODEL, |place, value| values::choice(place, value, &choices)).map(|model| model.value)
 }
 
 /// A key of another model is refused in other words than one that no model has.
-fn refuse_keys_of_others(reader: &mut Reader<'_>, table: &Section<'_, '_>, model: &dyn UnitFiles) {
+fn refuse_keys_of_others(
+    models: &[&'static dyn UnitFiles],
+    reader: &mut Reader<'_>,
+    table: &Section<'_, '_>,
+    model: &dyn UnitFiles,
+) {
     let own = model.keys();
     for (key, _) in table.entries().into_iter().filter(|(key, _)| !own.contains(&key.value)) {
-        if let Some(other) = models().iter().find(|other| other.keys().contains(&key.value)) {
+        if let Some(other) = models.iter().find(|other| other.keys().contains(&key.value)) {
             let message =
                 format!("`{}` is a key of the model {}, not of {}", key.value, other.name(), model.name());
             reader.refuse_key(&key, Problem::new(message, ""));

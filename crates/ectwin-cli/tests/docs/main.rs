@@ -1,4 +1,4 @@
-//! The pages for users are correct: every example of README.md and docs/user is run, read or found in a test.
+//! The pages are correct: every example of README.md, docs/user and docs/add-a-unit-model.md is run, read or found in a test.
 //!
 //! The test of a block depends on its language and on the file name after it:
 //!

@@ -32,10 +32,11 @@ pub(crate) fn top_folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// README.md and the pages of docs/user.
+/// README.md, the pages of docs/user, and the page for authors of unit models.
 pub(crate) fn read() -> Vec<Page> {
     let mut names = vec!["README.md".to_owned()];
     names.extend(files("docs/user", "md"));
+    names.push("docs/add-a-unit-model.md".to_owned());
     let page = |name: String| Page { blocks: blocks(&text(&name)), name };
     names.into_iter().map(page).collect()
 }
@@ -44,6 +45,7 @@ pub(crate) fn read() -> Vec<Page> {
 pub(crate) fn rust_tests() -> Vec<String> {
     let mut names = files("crates/ectwin/tests", "rs");
     names.extend(files("crates/ectwin/tests/guide", "rs"));
+    names.extend(files("crates/ectwin/tests/new_model", "rs"));
     names.iter().map(|name| text(name)).collect()
 }
 
