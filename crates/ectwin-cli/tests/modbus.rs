@@ -1,5 +1,7 @@
 //! The server uses the map of docs/user/modbus.md, and the command reports what it cannot serve.
 
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
 use std::collections::BTreeMap;
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream, UdpSocket};
@@ -8,9 +10,10 @@ use std::path::Path;
 use std::process::Command;
 
 use ectwin::link::memory;
+use ectwin::master::{Connected, Master};
 use ectwin::modbus::{ModbusMap, Table};
 use ectwin::unit_file::UnitFile;
-use ectwin::{Setup, Twin};
+use ectwin::{AlState, Duration, Setup, Twin};
 use plc::{DeviceVariables, Series, Variable};
 
 /// The maximum of each data set; the setting rules do not matter here.
@@ -99,6 +102,78 @@ fn each_unit_of_a_line_has_its_unit_identifier() {
     }
     let written: Vec<u8> = (0..3).map(|position| live.look(position, |unit| unit.io().c_to_m()[0])).collect();
     assert_eq!(written, [1, 2, 3]);
+}
+
+/// A unit file of the project.
+fn unit_file(name: &str) -> String {
+    format!("{}/../../units/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The table and the first address of a variable, from `ectwin map --json`.
+fn address(unit_file: &str, variable: &str) -> (String, u16) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+    let output = command.args(["map", unit_file, "--json"]).output().unwrap();
+    let map: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rows = map["variables"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["variable"] == variable).unwrap();
+    let first = row["modbus_first"].as_u64().unwrap();
+    (row["modbus_table"].as_str().unwrap().to_owned(), u16::try_from(first).unwrap())
+}
+
+/// Sends a request of function, address and value to a unit, and returns the answer after the unit identifier. Virtual
+/// time advances until it is there.
+fn ask(
+    bench: &mut Connected<Twin>,
+    client: &mut TcpStream,
+    unit: u8,
+    (function, address, value): (u8, u16, u16),
+) -> Vec<u8> {
+    let ([a0, a1], [v0, v1]) = (address.to_be_bytes(), value.to_be_bytes());
+    client.write_all(&[0, 1, 0, 0, 0, 6, unit, function, a0, a1, v0, v1]).unwrap();
+    std::thread::scope(|scope| {
+        let answer = scope.spawn(|| {
+            let mut header = [0; 7];
+            client.read_exact(&mut header).unwrap();
+            let mut body = vec![0; usize::from(header[5]) - 1];
+            client.read_exact(&mut body).unwrap();
+            body
+        });
+        while !answer.is_finished() {
+            bench.run_for(Duration::from_millis(1));
+        }
+        answer.join().unwrap()
+    })
+}
+
+#[test]
+fn a_client_sets_inputs_and_reads_outputs_of_terminals_by_their_names() {
+    const WRITE_COIL: u8 = 0x05;
+    const READ_DISCRETE_INPUTS: u8 = 0x02;
+    let files = ["digital-coupler", "digital-8-outputs", "digital-8-inputs"].map(unit_file);
+    let setup = |file: &String| Setup::from_toml(&std::fs::read_to_string(file).unwrap()).unwrap();
+    let mut twin = Twin::power_on(files.iter().map(setup));
+    let modbus = twin.serve_modbus(TcpListener::bind("127.0.0.1:0").unwrap()).unwrap();
+    let mut client = TcpStream::connect(modbus.address()).unwrap();
+    let mut bench = twin.connect(Master::default());
+    assert_eq!(bench.search(), Ok(3));
+    bench.take_all_to(AlState::Op).unwrap();
+
+    // The client sets input 1 of the third unit; the master reads it.
+    let (table, input) = address(&files[2], "I1_Input_1");
+    assert_eq!(table, "coil");
+    assert_eq!(bench.master.inputs(2), [0]);
+    let answer = ask(&mut bench, &mut client, 3, (WRITE_COIL, input, 0xFF00));
+    assert_eq!(answer[0], WRITE_COIL);
+    bench.run_for(Duration::from_millis(10));
+    assert_eq!(bench.master.inputs(2), [1]);
+
+    // The master sets output 2 of the second unit; the client reads outputs 1 to 3.
+    let (table, output) = address(&files[1], "O1_Output_1");
+    assert_eq!(table, "discrete_input");
+    bench.master.outputs_mut(1)[0] = 0b010;
+    bench.run_for(Duration::from_millis(10));
+    let answer = ask(&mut bench, &mut client, 2, (READ_DISCRETE_INPUTS, output, 3));
+    assert_eq!(answer, [READ_DISCRETE_INPUTS, 1, 0b010]);
 }
 
 #[test]
