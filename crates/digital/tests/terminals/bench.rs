@@ -1,9 +1,11 @@
-//! A line of terminals, and the operations of a master that uses only their SII.
+//! A line of terminals, and single accesses of a master that uses only their SII.
 
-use device::{Network, SmIndex, Unit};
+use device::{Network, Unit};
 use digital::{BitImages, Channels, Terminal, TerminalSettings, device_config};
-use time::{Duration, Instant};
-use wire::{Command, FrameBuilder, Returned, returned_datagrams};
+use master::{Address, DirectAccess, FmmuSettings, Line, SlaveSettings};
+use segment::FrameFate;
+use time::Instant;
+use wire::{Command, FrameBuilder};
 
 pub(crate) fn channels(count: u8) -> Channels {
     Channels::new(count).expect("0 to 64 channels")
@@ -13,10 +15,26 @@ pub(crate) fn terminal(outputs: u8, inputs: u8) -> TerminalSettings {
     TerminalSettings { outputs: channels(outputs), inputs: channels(inputs), ..TerminalSettings::default() }
 }
 
-pub(crate) struct Bench<U> {
+pub(crate) struct Terminals<U> {
     pub(crate) network: Network<U>,
-    pub(crate) now: Instant,
-    stations: u16,
+}
+
+impl<U: Unit> Line for Terminals<U> {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> bool {
+        self.network.frame(now, frame) == FrameFate::Returned
+    }
+
+    fn poll(&mut self, now: Instant) {
+        self.network.poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.network.deadline()
+    }
+}
+
+pub(crate) struct Bench<U> {
+    pub(crate) access: DirectAccess<Terminals<U>>,
 }
 
 impl Bench<Terminal<BitImages>> {
@@ -39,41 +57,23 @@ impl Bench<Terminal<BitImages>> {
     }
 
     pub(crate) fn wiring(&mut self, position: usize) -> &mut BitImages {
-        self.network.device_mut(position).expect("a terminal").unit_mut().wiring_mut()
+        self.access.line.network.device_mut(position).expect("a terminal").unit_mut().wiring_mut()
     }
 }
 
 impl<U: Unit> Bench<U> {
     pub(crate) fn around(network: Network<U>) -> Self {
-        let stations = u16::try_from(network.len()).expect("a short line");
-        let mut bench = Self { network, now: Instant::ZERO, stations };
-        for position in 0..stations {
-            let address = (0x1000 + position).to_le_bytes();
-            let frame =
-                FrameBuilder::new().physical(Command::Apwr, position.wrapping_neg(), 0x0010, &address);
-            assert_eq!(bench.exchange(frame).working_counter, 1);
-        }
-        bench
-    }
-
-    pub(crate) fn exchange(&mut self, frame: FrameBuilder) -> Returned {
-        let mut frame = frame.finish();
-        self.network.frame(self.now, &mut frame);
-        self.network.poll(self.now);
-        returned_datagrams(&frame).remove(0)
+        Self { access: DirectAccess::new(Terminals { network }, Instant::ZERO) }
     }
 
     pub(crate) fn write(&mut self, position: u16, offset: u16, data: &[u8]) -> u16 {
-        let frame = FrameBuilder::new().physical(Command::Fpwr, 0x1000 + position, offset, data);
-        self.exchange(frame).working_counter
+        self.access.write(Address::Position(position), offset, data)
     }
 
-    pub(crate) fn read(&mut self, position: u16, offset: u16, length_bytes: usize) -> Vec<u8> {
-        let frame =
-            FrameBuilder::new().physical(Command::Fprd, 0x1000 + position, offset, &vec![0; length_bytes]);
-        let returned = self.exchange(frame);
-        assert_eq!(returned.working_counter, 1, "{offset:#06X}");
-        returned.data
+    pub(crate) fn read(&mut self, position: u16, offset: u16, length_bytes: u16) -> Vec<u8> {
+        let (data, working_counter) = self.access.read(Address::Position(position), offset, length_bytes);
+        assert_eq!(working_counter, 1, "{offset:#06X}");
+        data
     }
 
     pub(crate) fn word(&mut self, position: u16, offset: u16) -> u16 {
@@ -91,12 +91,13 @@ impl<U: Unit> Bench<U> {
     }
 
     pub(crate) fn request_all(&mut self, al_control: u16) {
-        (0..self.stations).for_each(|position| self.request(position, al_control));
+        self.access.write(Address::All, 0x0120, &al_control.to_le_bytes());
     }
 
     /// One LRW from logical address 0.
     pub(crate) fn cycle(&mut self, data: &[u8]) -> (Vec<u8>, u16) {
-        let returned = self.exchange(FrameBuilder::new().logical(Command::Lrw, 0, data));
+        let mut frame = FrameBuilder::new().logical(Command::Lrw, 0, data).finish();
+        let returned = self.access.pass(&mut frame).remove(0);
         (returned.data, returned.working_counter)
     }
 
@@ -115,46 +116,27 @@ impl<U: Unit> Bench<U> {
     /// Sets SyncManagers and FMMUs from the SII, with the bits of the terminal from `first_bit` of the logical
     /// addresses on. Returns the bit after them.
     pub(crate) fn set_up(&mut self, position: u16, first_bit: u32) -> u32 {
-        let image = self.sii(position);
-        let contents = esi::sii::parse(&image).expect("a readable SII");
+        let contents = esi::sii::parse(&self.sii(position)).expect("a readable SII");
         let mut at_bit = first_bit;
-        for (index, sync_manager) in (0u8..).map(SmIndex).zip(&contents.sync_managers) {
-            let [start, length] = [sync_manager.start, sync_manager.length_bytes].map(u16::to_le_bytes);
-            let settings =
-                [start[0], start[1], length[0], length[1], sync_manager.control, 0, sync_manager.enable, 0];
-            assert_eq!(self.write(position, 0x0800 + 8 * u16::from(index.0), &settings), 1);
-            let pdos = contents.rx_pdos.iter().chain(&contents.tx_pdos);
-            let of_this = pdos.filter(|pdo| pdo.sync_manager == Some(index.0));
-            let entries = of_this.flat_map(|pdo| &pdo.entries);
-            let bits = entries.map(|entry| u32::from(entry.bit_length)).sum::<u32>();
-            let writes = sync_manager.usage == esi::SyncManagerType::Outputs;
-            self.set_fmmu(position, u16::from(index.0), at_bit, bits, sync_manager.start, writes);
-            at_bit += bits;
+        for area in SlaveSettings::from_sii(&contents).process_data {
+            let sync_manager = area.sync_manager;
+            let registers = 0x0800 + 8 * u16::from(sync_manager.number);
+            assert_eq!(self.write(position, registers, &sync_manager.pack()), 1);
+            let last_bit = at_bit + area.bits - 1;
+            let fmmu = FmmuSettings {
+                number: area.fmmu,
+                logical_start: at_bit / 8,
+                length_bytes: u16::try_from(last_bit / 8 - at_bit / 8 + 1).expect("at most 9 bytes"),
+                logical_start_bit: (at_bit % 8) as u8,
+                logical_stop_bit: (last_bit % 8) as u8,
+                physical_start: sync_manager.start,
+                physical_start_bit: 0,
+                kind: area.direction.fmmu_kind(),
+                activate: 1,
+            };
+            assert_eq!(self.write(position, 0x0600 + 16 * u16::from(fmmu.number), &fmmu.pack()), 1);
+            at_bit = last_bit + 1;
         }
         at_bit
-    }
-
-    fn set_fmmu(&mut self, position: u16, n: u16, at_bit: u32, bits: u32, start: u16, writes: bool) {
-        let last_bit = at_bit + bits - 1;
-        let length_bytes = last_bit / 8 - at_bit / 8 + 1;
-        let mut fmmu = [0; 16];
-        fmmu[..4].copy_from_slice(&(at_bit / 8).to_le_bytes());
-        fmmu[4] = u8::try_from(length_bytes).expect("at most 9 bytes");
-        fmmu[6] = (at_bit % 8) as u8;
-        fmmu[7] = (last_bit % 8) as u8;
-        fmmu[8..10].copy_from_slice(&start.to_le_bytes());
-        fmmu[11] = if writes { 2 } else { 1 };
-        fmmu[12] = 1;
-        assert_eq!(self.write(position, 0x0600 + 16 * n, &fmmu), 1);
-    }
-
-    /// Advances the time, with a poll at every deadline.
-    pub(crate) fn run_for(&mut self, duration: Duration) {
-        let end = self.now + duration;
-        while self.network.deadline() <= end {
-            self.now = self.network.deadline().max(self.now);
-            self.network.poll(self.now);
-        }
-        self.now = end;
     }
 }

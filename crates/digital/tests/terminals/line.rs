@@ -39,7 +39,7 @@ fn line<const N: usize>(settings: [TerminalSettings; N]) -> (Bench<Box<dyn Unit>
 
 /// The bits of all units, one after the other.
 fn to_op(bench: &mut Bench<Box<dyn Unit>>) -> u32 {
-    let stations = u16::try_from(bench.network.len()).expect("a short line");
+    let stations = u16::try_from(bench.access.line.network.len()).expect("a short line");
     let bits = (0..stations).fold(0, |at_bit, position| bench.set_up(position, at_bit));
     for state in [2, 4, 8] {
         bench.request_all(state);
@@ -57,7 +57,7 @@ fn a_line_of_terminals_exchanges_its_bits() {
     assert_eq!(to_op(&mut bench), 32);
     inputs.images().inputs = 0x5A;
     more_inputs.images().inputs = 0xC001;
-    bench.run_for(Duration::from_millis(1));
+    bench.access.run_for(Duration::from_millis(1));
     assert_eq!(bench.cycle(&[0xA5, 0, 0, 0]), (vec![0xA5, 0x5A, 0x01, 0xC0], 4));
     assert_eq!(outputs.images().outputs, 0xA5);
 }
@@ -69,7 +69,7 @@ fn terminals_share_a_byte_of_logical_memory() {
     assert_eq!(to_op(&mut bench), 12);
     c.images().inputs = 0b101;
     d.images().inputs = 0b10;
-    bench.run_for(Duration::from_millis(1));
+    bench.access.run_for(Duration::from_millis(1));
     // Bits 0 to 3 and 4 to 5 are outputs, 6 to 8 inputs, 9 an output, 10 and 11 inputs.
     let (returned, working_counter) = bench.cycle(&[0b0010_1001, 0b0000_0010]);
     assert_eq!(working_counter, 2 + 2 + 1 + 3);
@@ -87,8 +87,8 @@ fn a_terminal_without_power_ends_the_line() {
     let (mut bench, [_, outputs, _]) = line([terminal(0, 0), terminal(8, 0), terminal(8, 0)]);
     to_op(&mut bench);
     assert_eq!(bench.cycle(&[1, 2]).1, 4);
-    let now = bench.now;
-    bench.network.power_off(2, now);
+    let now = bench.access.now();
+    bench.access.line.network.power_off(2, now);
     assert_eq!(bench.cycle(&[1, 2]).1, 2);
     assert_eq!(outputs.images().outputs, 1);
 }

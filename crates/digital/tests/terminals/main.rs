@@ -1,4 +1,4 @@
-//! Terminals by hand-made frames: one of each kind, and a line of them.
+//! Terminals by single accesses: one of each kind, and a line of them.
 
 #![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
 

@@ -18,7 +18,7 @@ fn outputs_go_out_with_their_frame() {
 fn inputs_are_there_within_a_millisecond() {
     let mut bench = Bench::in_op(&terminal(0, 16));
     bench.wiring(0).inputs = 0xFFFF_1234;
-    bench.run_for(Duration::from_millis(1));
+    bench.access.run_for(Duration::from_millis(1));
     assert_eq!(bench.cycle(&[0, 0]), (vec![0x34, 0x12], 1));
 }
 
@@ -39,8 +39,8 @@ fn outputs_are_off_below_op() {
 fn outputs_are_off_without_power() {
     let mut bench = Bench::in_op(&terminal(8, 0));
     bench.cycle(&[0xFF]);
-    let now = bench.now;
-    bench.network.power_off(0, now);
+    let now = bench.access.now();
+    bench.access.line.network.power_off(0, now);
     assert_eq!(bench.wiring(0).outputs, 0);
 }
 
@@ -58,16 +58,17 @@ fn an_esc_reset_switches_the_outputs_off() {
 #[test]
 fn a_terminal_without_inputs_sleeps_until_its_watchdog() {
     let mut bench = Bench::in_op(&terminal(8, 0));
-    assert_eq!(bench.network.deadline(), time::Instant::NEVER);
+    assert_eq!(bench.access.line.network.deadline(), time::Instant::NEVER);
     bench.cycle(&[1]);
-    assert_eq!(bench.network.deadline(), bench.now + Duration::from_millis(100));
+    assert_eq!(bench.access.line.network.deadline(), bench.access.now() + Duration::from_millis(100));
 }
 
 #[test]
 fn process_data_are_valid_where_the_state_has_them_and_outputs_have_come() {
     let mut bench = Bench::in_op(&terminal(8, 8));
-    let valid =
-        |bench: &Bench<Terminal<BitImages>>| bench.network.device(0).expect("a terminal").unit().data_valid();
+    let valid = |bench: &Bench<Terminal<BitImages>>| {
+        bench.access.line.network.device(0).expect("a terminal").unit().data_valid()
+    };
     assert_eq!(valid(&bench), DataValid { outputs: false, inputs: true });
     bench.cycle(&[1, 0]);
     assert_eq!(valid(&bench), DataValid { outputs: true, inputs: true });
@@ -83,7 +84,7 @@ proptest! {
     fn every_channel_is_its_own(outputs in 1..=64u8, inputs in 1..=64u8, levels: u64, wired: u64) {
         let mut bench = Bench::in_op(&terminal(outputs, inputs));
         bench.wiring(0).inputs = wired;
-        bench.run_for(Duration::from_millis(1));
+        bench.access.run_for(Duration::from_millis(1));
         let (out_bits, all_bits) = (usize::from(outputs), usize::from(outputs) + usize::from(inputs));
         let mut data = vec![0; all_bits.div_ceil(8)];
         for bit in (0..out_bits).filter(|bit| levels >> bit & 1 != 0) {

@@ -20,9 +20,9 @@ fn a_coupler_comes_to_op_without_any_settings() {
 fn the_watchdog_switches_the_outputs_off_and_drops_to_safe_op() {
     let mut bench = Bench::in_op(&terminal(8, 0));
     bench.cycle(&[0xFF]);
-    bench.run_for(Duration::from_micros(99_999));
+    bench.access.run_for(Duration::from_micros(99_999));
     assert_eq!((bench.status(0), bench.wiring(0).outputs), ((0x08, 0), 0xFF));
-    bench.run_for(Duration::from_micros(2));
+    bench.access.run_for(Duration::from_micros(2));
     assert_eq!((bench.status(0), bench.wiring(0).outputs), ((0x14, 0x1B), 0));
     assert_eq!(bench.cycle(&[0xFF]).1, 0);
     bench.request(0, 0x18);
@@ -37,7 +37,7 @@ fn a_watchdog_that_is_off_leaves_the_outputs() {
     let mut bench = Bench::in_op(&terminal(8, 0));
     bench.write(0, 0x0420, &[0, 0]);
     bench.cycle(&[0xFF]);
-    bench.run_for(Duration::from_secs(10));
+    bench.access.run_for(Duration::from_secs(10));
     assert_eq!((bench.status(0), bench.wiring(0).outputs), ((0x08, 0), 0xFF));
 }
 
@@ -83,7 +83,7 @@ fn dc_activation_is_refused() {
 #[test]
 fn op_comes_without_outputs_unless_they_are_required() {
     let mut bench = Bench::in_op(&terminal(8, 0));
-    bench.run_for(Duration::from_secs(10));
+    bench.access.run_for(Duration::from_secs(10));
     assert_eq!((bench.status(0), bench.wiring(0).outputs), ((0x08, 0), 0));
 
     let outputs_before_op = OutputsBeforeOp::Within(Duration::from_millis(200));
@@ -93,7 +93,7 @@ fn op_comes_without_outputs_unless_they_are_required() {
         bench.request(0, state);
     }
     assert_eq!(bench.status(0), (0x04, 0));
-    bench.run_for(Duration::from_millis(200));
+    bench.access.run_for(Duration::from_millis(200));
     assert_eq!(bench.status(0), (0x14, 0x1B));
     bench.request(0, 0x18);
     bench.cycle(&[3]);

@@ -54,17 +54,17 @@ impl Case {
 }
 
 fn inject(stage: &mut Stage, fault: Fault) {
-    stage.twin.unit(0).inject(fault);
+    stage.unit().inject(fault);
     stage.run_for_ms(2);
 }
 
 fn remove(stage: &mut Stage, fault: Fault) {
-    stage.twin.unit(0).remove(fault);
+    stage.unit().remove(fault);
 }
 
 fn break_and_start(stage: &mut Stage, fault: Fault) {
     inject(stage, fault);
-    stage.twin.unit(0).cycle_power();
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
 }
 
@@ -181,11 +181,11 @@ pub(crate) const CASES: &[Case] = &[
     case("85000000", When::Op, |stage| stage.run_for_ms(200)),
     case("80220000", When::Op, |stage| inject(stage, Fault::MessageCommunications)).telling(0),
     case("90400000", When::Op, |stage| {
-        stage.twin.unit(0).clear_event_log(EventLog::System);
+        stage.unit().clear_event_log(EventLog::System);
         stage.run_for_ms(2);
     }).telling(1),
     case("94B80000", When::Op, |stage| {
-        stage.twin.unit(0).restart();
+        stage.unit().restart();
         stage.run_for_ms(2);
     }),
 ];

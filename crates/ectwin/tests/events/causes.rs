@@ -11,7 +11,7 @@ fn text_ids(stage: &mut Stage) -> Vec<u16> {
 }
 
 fn indicators(stage: &mut Stage) -> Indicators {
-    stage.twin.unit(0).indicators()
+    stage.unit().indicators()
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn a_master_that_spoils_the_sii_has_a_unit_that_stays_in_init() {
     stage.write(0x0502, &[0x01, 0x02, 7, 0, 0, 0, 0xAA, 0]);
     stage.set_mailboxes();
     assert_eq!(stage.request(PRE_OP), (PRE_OP, 0), "what was loaded at power-on counts");
-    stage.twin.unit(0).cycle_power();
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     assert_eq!(stage.al(), (INIT, 0));
     stage.set_mailboxes();
@@ -36,20 +36,20 @@ fn a_cpu_unit_that_stops_io_refreshing_is_an_io_communications_error() {
     let mut stage = Stage::power_on("");
     stage.enter_pre_op();
     stage.enter_op();
-    stage.twin.unit(0).cpu().set_io_refreshing(false);
+    stage.unit().cpu().set_io_refreshing(false);
     let inputs = stage.exchange(&[1; 180]);
     assert_eq!(inputs[0] & 0x06, 0, "no data is valid");
     assert_eq!((text_ids(&mut stage), stage.al()), (vec![0x8020], (OP, 0)));
     assert_eq!(indicators(&mut stage).ts_red, Pattern::Flashing1s);
-    stage.twin.unit(0).reset_errors();
+    stage.unit().reset_errors();
     assert_eq!(text_ids(&mut stage), [0x8020, 0x8020], "the cause is still there");
 
-    stage.twin.unit(0).cpu().set_io_refreshing(true);
+    stage.unit().cpu().set_io_refreshing(true);
     let inputs = stage.exchange(&[2; 180]);
     assert_eq!(inputs[0] & 0x06, 0, "until the error is reset");
     assert_eq!(stage.download(0x2002, 2, &[1]), Ok(()));
     let inputs = stage.exchange(&[3; 180]);
-    assert_eq!((inputs[0] & 0x06, stage.twin.unit(0).outputs()), (0x06, &[3; 180][..]));
+    assert_eq!((inputs[0] & 0x06, stage.unit().outputs()), (0x06, &[3; 180][..]));
     assert_eq!(indicators(&mut stage).ts_green, Pattern::Lit);
 }
 
@@ -72,7 +72,7 @@ fn the_level_of_a_mismatch_can_be_observation_from_the_next_start_on() {
     let code = EventCode(0x3917_0000);
     let four = "io_allocation.m_to_c.uints = 4\nio_allocation.c_to_m.uints = 6";
     let mut stage = Stage::power_on(four);
-    let mut side = stage.twin.unit(0);
+    let mut side = stage.unit();
     assert!(side.set_event_level(EventCode(0x3919_0000), EventLevel::Observation).is_err());
     assert!(side.set_event_level(code, EventLevel::Information).is_err());
     side.set_event_level(code, EventLevel::Observation).expect("changeable");
@@ -80,7 +80,7 @@ fn the_level_of_a_mismatch_can_be_observation_from_the_next_start_on() {
     stage.enter_op();
     assert_eq!(stage.upload(0x2002, 1), [0x20], "not before the start");
     assert_eq!(stage.take_emergencies().len(), 1);
-    stage.twin.unit(0).restart();
+    stage.unit().restart();
     stage.run_for_ms(2);
     stage.enter_pre_op();
     stage.enter_op();
@@ -107,7 +107,7 @@ fn the_history_outlives_the_power_and_the_current_errors_do_not() {
     stage.request(OP);
     let before = (stage.upload(0x10F3, 6), stage.upload(0x10F3, 2), stage.upload(0x2004, 0));
     assert_eq!((&before.1[..], &before.2[..], stage.upload(0x10F3, 5)), (&[6][..], &[1][..], vec![1, 0]));
-    stage.twin.unit(0).cycle_power();
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     stage.set_mailboxes();
     assert_eq!(stage.request(PRE_OP), (PRE_OP, 0));
@@ -144,5 +144,5 @@ fn the_master_acknowledges_and_clears_by_the_rules_of_the_manual() {
     assert_eq!(flags(&mut stage), [0, 0, 0, 0]);
     assert_eq!(stage.download(0x2002, 2, &[0]), Err(0x0609_0030));
     assert_eq!((stage.download(0x2002, 2, &[1]), stage.upload(0x2004, 0)), (Ok(()), vec![0]));
-    assert!(stage.twin.unit(0).error_log().access.is_empty(), "the master's clearing is no user's");
+    assert!(stage.unit().error_log().access.is_empty(), "the master's clearing is no user's");
 }

@@ -12,7 +12,7 @@ fn text_ids(stage: &mut Stage) -> Vec<u16> {
 }
 
 fn minor_faults(stage: &mut Stage) -> Vec<EventCode> {
-    stage.twin.unit(0).current_errors(EventLevel::MinorFault).iter().map(|error| error.event).collect()
+    stage.unit().current_errors(EventLevel::MinorFault).iter().map(|error| error.event).collect()
 }
 
 fn reset_esc(stage: &mut Stage) {
@@ -32,7 +32,7 @@ fn write_sii(stage: &mut Stage, words: &[(u16, u16)]) {
 fn a_device_id_that_equals_the_code_of_a_fault_does_not_hide_it() {
     let mut stage = Stage::power_on("id_switch = 0x01");
     assert_eq!(stage.request(INIT | 0x20), (INIT | 0x20, 0x0001), "the ID");
-    stage.twin.unit(0).inject(Fault::Processing);
+    stage.unit().inject(Fault::Processing);
     stage.run_for_ms(2);
     assert_eq!(stage.al(), (INIT | 0x10, 0x0001), "NX Unit Processing Error");
 }
@@ -40,13 +40,13 @@ fn a_device_id_that_equals_the_code_of_a_fault_does_not_hide_it() {
 #[test]
 fn an_esc_error_does_not_hide_the_code_of_another_fault() {
     let mut stage = Stage::power_on("");
-    stage.twin.unit(0).inject(Fault::Esc);
-    stage.twin.unit(0).inject(Fault::Processing);
-    stage.twin.unit(0).cycle_power();
+    stage.unit().inject(Fault::Esc);
+    stage.unit().inject(Fault::Processing);
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     assert_eq!(stage.al(), (INIT | 0x10, 0x0001));
-    stage.twin.unit(0).remove(Fault::Processing);
-    stage.twin.unit(0).cycle_power();
+    stage.unit().remove(Fault::Processing);
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     assert_eq!(stage.al(), (INIT, 0), "it has no code of its own");
 }
@@ -58,7 +58,7 @@ fn no_status_is_older_than_the_response_to_what_changed_it() {
     stage.enter_op();
     let keep_alive = |stage: &mut Stage| stage.write(layout::OUTPUTS_START, &[0; OUTPUTS_BYTES as usize]);
     for (index, sub, value) in [(0x10F3, 3, &[6][..]), (0x10F3, 3, &[0]), (0x2100, 0, b"elcl")] {
-        stage.twin.unit(0).inject(Fault::MessageCommunications);
+        stage.unit().inject(Fault::MessageCommunications);
         assert_eq!(stage.exchange(&[0; 180])[182], 1, "1BFE is set");
         keep_alive(&mut stage);
         stage.download(index, sub, value).expect("taken");
@@ -78,7 +78,7 @@ fn sync_managers_2_and_3_that_go_together_are_both_recorded() {
     stage.enter_op();
     let frame = FrameBuilder::new().physical(Command::Apwr, 0, 0x0816, &[0]);
     let mut frame = frame.physical(Command::Apwr, 0, 0x081E, &[0]).finish();
-    stage.twin.frame(&mut frame);
+    stage.access.pass(&mut frame);
     assert_eq!(stage.al(), (PRE_OP | 0x10, 0x001D), "the first one");
     assert_eq!(text_ids(&mut stage), [0x3505, 0x3506]);
 }
@@ -86,7 +86,7 @@ fn sync_managers_2_and_3_that_go_together_are_both_recorded() {
 #[test]
 fn sii_and_mailbox_that_are_both_wrong_are_both_recorded() {
     let mut stage = Stage::power_on("");
-    stage.twin.unit(0).inject(Fault::SiiVerification);
+    stage.unit().inject(Fault::SiiVerification);
     assert_eq!(stage.request(PRE_OP), (INIT | 0x10, 0x0014), "no SyncManagers either");
     assert_eq!(text_ids(&mut stage), [0x0946, 0x3934]);
     assert_eq!(stage.request(PRE_OP | 0x10), (INIT | 0x10, 0x0014));
@@ -101,7 +101,7 @@ fn the_sii_of_another_product_is_an_sii_verification_error() {
         write_sii(&mut stage, &[(word, 0x5678)]);
         stage.set_mailboxes();
         assert_eq!(stage.request(PRE_OP), (PRE_OP, 0), "what was loaded at power-on counts");
-        stage.twin.unit(0).cycle_power();
+        stage.unit().cycle_power();
         stage.run_for_ms(2);
         stage.set_mailboxes();
         assert_eq!(stage.request(PRE_OP), (INIT | 0x10, 0x0014), "word {word:#04X}");
@@ -109,7 +109,7 @@ fn the_sii_of_another_product_is_an_sii_verification_error() {
     }
     let mut stage = Stage::power_on("");
     write_sii(&mut stage, &[(0x0E, 0x5678)]);
-    stage.twin.unit(0).cycle_power();
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     stage.set_mailboxes();
     assert_eq!(stage.request(PRE_OP), (PRE_OP, 0), "the serial number may be any");
@@ -118,11 +118,11 @@ fn the_sii_of_another_product_is_an_sii_verification_error() {
 #[test]
 fn two_restarts_in_a_row_are_two_records() {
     let mut stage = Stage::power_on("");
-    let before_ns = stage.twin.now().as_nanos() + crate::stage::SYSTEM_TIME_NS;
-    stage.twin.unit(0).restart();
-    stage.twin.unit(0).restart();
-    stage.twin.unit(0).cycle_power();
-    let side = stage.twin.unit(0);
+    let before_ns = stage.access.now().as_nanos() + crate::stage::SYSTEM_TIME_NS;
+    stage.unit().restart();
+    stage.unit().restart();
+    stage.unit().cycle_power();
+    let side = stage.unit();
     let access = &side.error_log().access;
     assert_eq!(access.iter().map(|record| record.event.to_string()).collect::<Vec<_>>(), ["94B80000"; 2]);
     let times = before_ns - 2_000_000..=before_ns;
@@ -143,13 +143,13 @@ fn a_reset_of_the_esc_keeps_errors_faults_and_flags() {
     assert_eq!((stage.upload(0x10F3, 5), stage.upload(0x2002, 1)), (vec![1, 0], vec![0x20]));
     assert_eq!(stage.history().len(), 1, "it is no event");
 
-    stage.twin.unit(0).inject(Fault::ClockNotSynchronized);
+    stage.unit().inject(Fault::ClockNotSynchronized);
     stage.run_for_ms(2);
-    stage.twin.unit(0).remove(Fault::ClockNotSynchronized);
+    stage.unit().remove(Fault::ClockNotSynchronized);
     reset_esc(&mut stage);
     assert_eq!(stage.al(), (INIT | 0x10, 0x8004), "the fault is still found");
     assert_eq!(stage.history().len(), 2);
-    stage.twin.unit(0).cycle_power();
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     assert_eq!((stage.al(), minor_faults(&mut stage)), ((INIT, 0), vec![]));
 }
@@ -157,19 +157,19 @@ fn a_reset_of_the_esc_keeps_errors_faults_and_flags() {
 #[test]
 fn a_reset_without_the_cause_keeps_a_fault_and_does_not_record_it() {
     let mut stage = Stage::power_on("");
-    stage.twin.unit(0).inject(Fault::Processing);
+    stage.unit().inject(Fault::Processing);
     stage.run_for_ms(2);
-    stage.twin.unit(0).reset_errors();
+    stage.unit().reset_errors();
     assert_eq!(text_ids(&mut stage), [0x4020, 0x4020], "its cause is there");
-    stage.twin.unit(0).remove(Fault::Processing);
+    stage.unit().remove(Fault::Processing);
     for _ in 0..3 {
-        stage.twin.unit(0).reset_errors();
+        stage.unit().reset_errors();
         stage.run_for_ms(2);
     }
     assert_eq!(text_ids(&mut stage), [0x4020, 0x4020], "it does not occur again");
     assert_eq!(minor_faults(&mut stage), [EventCode(0x4020_0000)], "and lasts until the unit starts");
-    assert_eq!((stage.al(), stage.twin.unit(0).error_status()), ((INIT | 0x10, 0x0001), 0x20));
-    stage.twin.unit(0).cycle_power();
+    assert_eq!((stage.al(), stage.unit().error_status()), ((INIT | 0x10, 0x0001), 0x20));
+    stage.unit().cycle_power();
     stage.run_for_ms(2);
     assert_eq!((stage.al(), minor_faults(&mut stage)), ((INIT, 0), vec![]));
 }
@@ -178,13 +178,13 @@ fn a_reset_without_the_cause_keeps_a_fault_and_does_not_record_it() {
 fn io_communications_that_fail_again_are_recorded_again_without_a_reset() {
     let mut stage = Stage::power_on("");
     for _ in 0..3 {
-        stage.twin.unit(0).cpu().set_io_refreshing(false);
+        stage.unit().cpu().set_io_refreshing(false);
         stage.run_for_ms(5);
-        stage.twin.unit(0).cpu().set_io_refreshing(true);
+        stage.unit().cpu().set_io_refreshing(true);
         stage.run_for_ms(5);
     }
-    stage.twin.unit(0).inject(Fault::IoCommunications);
-    stage.twin.unit(0).inject(Fault::IoCommunications);
+    stage.unit().inject(Fault::IoCommunications);
+    stage.unit().inject(Fault::IoCommunications);
     assert_eq!(text_ids(&mut stage), [0x8020; 4]);
     assert_eq!(minor_faults(&mut stage), [EventCode(0x8020_0000)], "listed once");
 }
@@ -197,12 +197,12 @@ fn emergencies_that_are_lost_are_counted() {
         let mut stage = Stage::power_on(six);
         stage.enter_pre_op();
         for _ in 0..20 / resets_at_once {
-            (0..resets_at_once).for_each(|_| stage.twin.unit(0).reset_errors());
+            (0..resets_at_once).for_each(|_| stage.unit().reset_errors());
             stage.run_for_ms(1);
         }
         let occurred = 20 * minor_faults(&mut stage).len() as u64;
         let received = stage.take_emergencies().len() as u64;
-        let lost = stage.twin.unit(0).emergencies_lost();
+        let lost = stage.unit().emergencies_lost();
         assert_eq!((received + lost, lost > 0), (occurred, true), "{resets_at_once} at once");
     }
 }

@@ -13,12 +13,13 @@ mod stage;
 
 use std::collections::BTreeSet;
 
+use ectwin::wire::Emergency;
 use ectwin::{EventCode, EventLevel, Pattern};
 use nx_ect101::{EcatEffect, Event, Notified};
 
 use cases::{CASES, Case, When, state_before};
 use expectations::Expected;
-use stage::{Emergency, INIT, OP, PRE_OP, SAFE_OP, Stage};
+use stage::{INIT, OP, PRE_OP, SAFE_OP, Stage};
 
 fn event(case: &Case) -> &'static Event {
     let code = u32::from_str_radix(case.code, 16).expect("eight digits");
@@ -100,12 +101,12 @@ fn each_event_is_recorded_once_with_the_bytes_of_its_row() {
         assert_eq!(records, wanted, "{}", case.code);
         for record in &history {
             let time_ns = u64::from_le_bytes(record[8..16].try_into().expect("8 bytes"));
-            let now_ns = stage.twin.now().as_nanos();
+            let now_ns = stage.access.now().as_nanos();
             let times = stage::SYSTEM_TIME_NS..=stage::SYSTEM_TIME_NS + now_ns;
             assert!(times.contains(&time_ns), "{}: {time_ns}", case.code);
         }
         let access: Vec<EventCode> =
-            stage.twin.unit(0).error_log().access.iter().map(|record| record.event).collect();
+            stage.unit().error_log().access.iter().map(|record| record.event).collect();
         assert_eq!(access, expected.access_log, "{}", case.code);
     }
 }
@@ -118,7 +119,7 @@ fn each_event_is_a_current_error_where_its_row_says() {
             stage.enter_pre_op();
             stage.enter_op();
         }
-        let side = stage.twin.unit(0);
+        let side = stage.unit();
         assert_eq!(side.error_status(), expected.error_status, "{}", case.code);
         let listed = [EventLevel::Observation, EventLevel::MinorFault].map(|level| {
             side.current_errors(level).iter().map(nx_ect101::current_error_bytes).collect::<Vec<_>>()
@@ -151,7 +152,7 @@ fn the_master_sees_each_event_in_its_process_data() {
         let valid = expected.io_data_active;
         assert_eq!(inputs[0] & 0x02 != 0, valid, "{}: C to M valid", case.code);
         assert_eq!(inputs[0] & 0x04 != 0, valid && is_op, "{}: M to C valid", case.code);
-        let moved = stage.twin.unit(0).outputs().first() == Some(&0x5A);
+        let moved = stage.unit().outputs().first() == Some(&0x5A);
         assert_eq!(moved, valid && is_op, "{}: data M to C", case.code);
     }
 }
@@ -165,7 +166,7 @@ fn the_indicators_show_each_event_as_its_row_says() {
             stage.enter_op();
         }
         let state = stage.al().0 & 0x0F;
-        let shown = stage.twin.unit(0).indicators();
+        let shown = stage.unit().indicators();
         // The rows of 10410000 and 80200000 have RUN not lit, which means INIT: they do not affect EtherCAT (A21).
         let run = match state {
             OP => Pattern::Lit,
@@ -212,9 +213,8 @@ fn emergencies_are_sent_where_the_row_says_and_only_if_they_are_enabled() {
         }
         let wanted = match (event.emergency_notified, event.emergency_code) {
             (Notified::Possible, Some(code)) => {
-                let [c0, c1] = code.to_le_bytes();
                 let [e0, e1, e2, e3] = event.code.0.to_le_bytes();
-                vec![Emergency([c0, c1, 0, 0, e0, e1, e2, e3])]
+                vec![Emergency { code, error_register: 0, manufacturer: [0, e0, e1, e2, e3] }]
             }
             _ => vec![],
         };

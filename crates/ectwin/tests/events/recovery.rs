@@ -11,26 +11,26 @@ fn recover(event: &Event, case: &Case, mut stage: Stage) -> Stage {
     match event.recovery {
         // Error reset by the CPU Unit; the master's is another test.
         Recovery::ResetErrorInSlaveUnit | Recovery::ResetErrorByFailsoft => {
-            stage.twin.unit(0).reset_errors();
+            stage.unit().reset_errors();
         }
         Recovery::CycleUnitPowerOrRestartNxBus | Recovery::CycleSlaveUnitPower | Recovery::CycleUnitPower => {
-            stage.twin.unit(0).cycle_power()
+            stage.unit().cycle_power()
         }
         Recovery::CycleNxUnitPowerThenResetErrorInNxBusFm => {
-            stage.twin.unit(0).cycle_power();
+            stage.unit().cycle_power();
             stage.run_for_ms(2);
-            stage.twin.unit(0).reset_errors();
+            stage.unit().reset_errors();
         }
         Recovery::RestartNxUnitThenResetErrorByFailsoft => {
-            stage.twin.unit(0).restart();
+            stage.unit().restart();
             stage.run_for_ms(2);
-            stage.twin.unit(0).reset_errors();
+            stage.unit().reset_errors();
         }
         Recovery::RedoIoAllocationSettings => stage = Stage::power_on(""),
         Recovery::None => {
             // An observation or an information: nothing is broken, and a reset removes it from the list.
             assert!(!case.code.starts_with('3'));
-            stage.twin.unit(0).reset_errors();
+            stage.unit().reset_errors();
         }
     }
     stage.run_for_ms(2);
@@ -58,7 +58,7 @@ fn without_its_cause_and_after_its_recovery_nothing_of_an_event_is_left() {
         assert_eq!(stage.upload(0x2002, 1), [0], "{}", case.code);
         assert_eq!((stage.upload(0x2003, 0), stage.upload(0x2004, 0)), (vec![0], vec![0]), "{}", case.code);
         assert_eq!(stage.take_emergencies(), [], "{}", case.code);
-        let side = stage.twin.unit(0);
+        let side = stage.unit();
         assert!(side.io().io_data_active() && !side.io().unit_error(), "{}", case.code);
         assert_eq!(side.outputs(), [0xC3; 180], "{}", case.code);
     }
@@ -84,9 +84,9 @@ fn an_error_that_is_reset_with_its_cause_in_place_is_recorded_anew() {
             continue;
         }
         let before = stage.history().len();
-        stage.twin.unit(0).reset_errors();
+        stage.unit().reset_errors();
         assert_eq!(stage.history().len(), before + 1, "{}", case.code);
-        assert_eq!(stage.twin.unit(0).error_status(), 0x20, "{}", case.code);
-        assert!(stage.twin.unit(0).io().unit_error(), "{}", case.code);
+        assert_eq!(stage.unit().error_status(), 0x20, "{}", case.code);
+        assert!(stage.unit().io().unit_error(), "{}", case.code);
     }
 }

@@ -1,8 +1,12 @@
-//! The test environment: one unit in virtual time, and a master of frames that can do everything incorrectly.
+//! The test environment: one unit in virtual time, and single accesses of a master that can do everything incorrectly.
 
-use ectwin::{Duration, FrameFate, Io, Setup, Twin};
+use ectwin::master::{
+    Address, DirectAccess, MailboxConduct, MailboxDialogue, SdoTransfer, Service, ServiceFailure,
+    SyncManagerSettings,
+};
+use ectwin::wire::{Emergency, SdoTarget};
+use ectwin::{Duration, Io, Setup, Twin, UnitSide};
 use nx_ect101::layout;
-use wire::{Command, FrameBuilder, returned_datagrams};
 
 pub(crate) const INIT: u8 = 0x01;
 pub(crate) const PRE_OP: u8 = 0x02;
@@ -16,14 +20,21 @@ pub(crate) const INPUTS_BYTES: u16 = 184;
 
 const ALL_STATUS: [u16; 4] = [0x1A00, 0x1A01, 0x1BFE, 0x1BFF];
 
-/// An emergency message as the master receives it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Emergency(pub(crate) [u8; 8]);
+const UNIT: Address = Address::Position(0);
+const MAILBOX_OUT: SyncManagerSettings =
+    channel(0, layout::MAILBOX_RECEIVE_START, layout::MAILBOX_BYTES, layout::MAILBOX_RECEIVE_CONTROL);
+const MAILBOX_IN: SyncManagerSettings =
+    channel(1, layout::MAILBOX_SEND_START, layout::MAILBOX_BYTES, layout::MAILBOX_SEND_CONTROL);
+
+const fn channel(number: u8, start: u16, length_bytes: u16, control: u8) -> SyncManagerSettings {
+    SyncManagerSettings { number, start, length_bytes, control, activate: 1 }
+}
 
 pub(crate) struct Stage {
-    pub(crate) twin: Twin,
+    pub(crate) access: DirectAccess<Twin>,
+    /// The emergencies that the master has received.
     pub(crate) emergencies: Vec<Emergency>,
-    counter: u8,
+    mailbox: MailboxConduct,
 }
 
 impl Stage {
@@ -32,29 +43,29 @@ impl Stage {
         let setup = Setup::from_toml(&format!("model = \"nx-ect101\"\nstart_up = \"0ms\"\n{unit_file}"))
             .expect("a right file");
         let setup = setup.program(|_: &mut Io| {}).system_time_ns(SYSTEM_TIME_NS);
-        let mut stage = Self { twin: Twin::power_on([setup]), emergencies: Vec::new(), counter: 0 };
+        let twin = Twin::power_on([setup]);
+        let now = twin.now();
+        let mut access = DirectAccess::new(twin, now);
+        access.pace = Duration::from_micros(100);
+        let mut stage = Self { access, emergencies: Vec::new(), mailbox: MailboxConduct::NEW };
         stage.run_for_ms(2);
         stage
     }
 
-    pub(crate) fn run_for_ms(&mut self, milliseconds: u64) {
-        self.twin.run_for(Duration::from_millis(milliseconds));
+    pub(crate) fn unit(&mut self) -> UnitSide<'_> {
+        self.access.line.unit(0)
     }
 
-    fn send(&mut self, command: Command, offset: u16, data: &[u8]) -> (Vec<u8>, u16) {
-        self.twin.run_for(Duration::from_micros(100));
-        let mut frame = FrameBuilder::new().physical(command, 0, offset, data).finish();
-        assert_eq!(self.twin.frame(&mut frame), FrameFate::Returned);
-        let returned = returned_datagrams(&frame).remove(0);
-        (returned.data, returned.working_counter)
+    pub(crate) fn run_for_ms(&mut self, milliseconds: u64) {
+        self.access.run_for(Duration::from_millis(milliseconds));
     }
 
     pub(crate) fn write(&mut self, offset: u16, data: &[u8]) {
-        assert_eq!(self.send(Command::Apwr, offset, data).1, 1, "write to {offset:#06X}");
+        assert_eq!(self.access.write(UNIT, offset, data), 1, "write to {offset:#06X}");
     }
 
-    pub(crate) fn read(&mut self, offset: u16, length_bytes: usize) -> Vec<u8> {
-        self.send(Command::Aprd, offset, &vec![0; length_bytes]).0
+    pub(crate) fn read(&mut self, offset: u16, length_bytes: u16) -> Vec<u8> {
+        self.access.read(UNIT, offset, length_bytes).0
     }
 
     /// AL status and AL status code as the master reads them.
@@ -70,16 +81,19 @@ impl Stage {
         self.al()
     }
 
-    pub(crate) fn set_sync_manager(&mut self, number: u16, start: u16, length_bytes: u16, control: u8) {
-        let ([s0, s1], [l0, l1]) = (start.to_le_bytes(), length_bytes.to_le_bytes());
-        self.write(0x0800 + 8 * number + 6, &[0]);
-        self.write(0x0800 + 8 * number, &[s0, s1, l0, l1, control, 0, 1, 0]);
+    pub(crate) fn set_sync_manager(&mut self, number: u8, start: u16, length_bytes: u16, control: u8) {
+        self.set_channel(channel(number, start, length_bytes, control));
+    }
+
+    fn set_channel(&mut self, settings: SyncManagerSettings) {
+        let registers = 0x0800 + 8 * u16::from(settings.number);
+        self.write(registers + 6, &[0]);
+        self.write(registers, &settings.pack());
     }
 
     pub(crate) fn set_mailboxes(&mut self) {
-        let (receive, send) = (layout::MAILBOX_RECEIVE_START, layout::MAILBOX_SEND_START);
-        self.set_sync_manager(0, receive, layout::MAILBOX_BYTES, layout::MAILBOX_RECEIVE_CONTROL);
-        self.set_sync_manager(1, send, layout::MAILBOX_BYTES, layout::MAILBOX_SEND_CONTROL);
+        self.set_channel(MAILBOX_OUT);
+        self.set_channel(MAILBOX_IN);
     }
 
     pub(crate) fn set_process_data(&mut self, outputs_bytes: u16, inputs_bytes: u16) {
@@ -115,7 +129,7 @@ impl Stage {
     }
 
     pub(crate) fn inputs(&mut self) -> Vec<u8> {
-        self.read(layout::INPUTS_START, usize::from(INPUTS_BYTES))
+        self.read(layout::INPUTS_START, INPUTS_BYTES)
     }
 
     pub(crate) fn assign(&mut self, index: u16, pdos: &[u16]) {
@@ -134,61 +148,45 @@ impl Stage {
         self.download(pdo, 0, &[entries.len() as u8]).expect("their number");
     }
 
-    /// An expedited SDO download.
+    /// An SDO download, or the abort code.
     pub(crate) fn download(&mut self, index: u16, sub: u8, value: &[u8]) -> Result<(), u32> {
-        let command = 0x23 | (4 - value.len() as u8) << 2;
-        let mut data = value.to_vec();
-        data.resize(4, 0);
-        let response = self.sdo(command, index, sub, &data);
-        if response[8] == 0x80 { Err(little_endian(&response[12..16])) } else { Ok(()) }
+        match self.sdo(SdoTransfer::download(SdoTarget::entry(index, sub), value)) {
+            Ok(_) => Ok(()),
+            Err(ServiceFailure::Abort(code)) => Err(code.0),
+            Err(failure) => panic!("download of {index:04X}:{sub:02X}: {failure}"),
+        }
     }
 
-    /// An SDO upload.
     pub(crate) fn upload(&mut self, index: u16, sub: u8) -> Vec<u8> {
-        let response = self.sdo(0x40, index, sub, &[0; 4]);
-        assert_ne!(response[8], 0x80, "upload of {index:04X}:{sub:02X} {:02X?}", &response[12..16]);
-        if response[8] & 2 != 0 {
-            let length_bytes = 4 - usize::from(response[8] >> 2 & 3);
-            return response[12..12 + length_bytes].to_vec();
-        }
-        let length_bytes = little_endian(&response[12..16]) as usize;
-        response[16..16 + length_bytes].to_vec()
+        let value = self.sdo(SdoTransfer::upload(SdoTarget::entry(index, sub)));
+        value.unwrap_or_else(|failure| panic!("upload of {index:04X}:{sub:02X}: {failure}"))
     }
 
-    fn sdo(&mut self, command: u8, index: u16, sub: u8, data: &[u8]) -> Vec<u8> {
-        self.counter = self.counter % 7 + 1;
-        let ([l0, l1], [i0, i1]) = ((6 + data.len() as u16).to_le_bytes(), index.to_le_bytes());
-        let mut message = vec![l0, l1, 0, 0, 0, self.counter << 4 | 3, 0, 0x20, command, i0, i1, sub];
-        message.extend(data);
-        message.resize(usize::from(layout::MAILBOX_BYTES), 0);
-        self.write(layout::MAILBOX_RECEIVE_START, &message);
-        loop {
-            let message = self.receive().expect("a response within 50 ms");
-            // CoE service 1 is an emergency, which `receive` has stored.
-            if message[7] >> 4 != 1 {
-                return message;
-            }
-        }
+    fn sdo(&mut self, transfer: SdoTransfer) -> Result<Vec<u8>, ServiceFailure> {
+        self.service(Service::Sdo(transfer)).into_result()
     }
 
-    /// The next message in the mailbox, if there is one within 50 ms.
-    fn receive(&mut self) -> Option<Vec<u8>> {
-        for _ in 0..500 {
-            if self.read(0x080D, 1)[0] & 0x08 != 0 {
-                let message = self.read(layout::MAILBOX_SEND_START, usize::from(layout::MAILBOX_BYTES));
-                if message[7] >> 4 == 1 {
-                    self.emergencies.push(Emergency(message[8..16].try_into().expect("8 bytes")));
-                }
-                return Some(message);
-            }
-        }
-        None
+    /// Executes a mailbox service, and keeps the emergencies that are received meanwhile.
+    fn service(&mut self, service: Service) -> Service {
+        let mut dialogue = MailboxDialogue::new(MAILBOX_OUT, MAILBOX_IN, service);
+        dialogue.begin(self.mailbox);
+        let patience = Duration::from_millis(50);
+        assert!(self.access.execute(UNIT, &mut dialogue, patience), "no response within {patience}");
+        self.emergencies.extend(core::iter::from_fn(|| dialogue.take_emergency()));
+        self.mailbox = dialogue.conduct();
+        dialogue.into_service()
     }
 
-    /// Reads the messages in the mailbox; returns the emergencies among them.
+    /// Reads the messages in the mailbox, until none has come for 20 ms; returns the emergencies among them.
     pub(crate) fn take_emergencies(&mut self) -> Vec<Emergency> {
-        while self.receive().is_some() {}
-        std::mem::take(&mut self.emergencies)
+        loop {
+            let before = self.emergencies.len();
+            self.run_for_ms(20);
+            self.service(Service::Listen);
+            if self.emergencies.len() == before {
+                return std::mem::take(&mut self.emergencies);
+            }
+        }
     }
 
     /// Whether the state has a mailbox.
@@ -198,10 +196,6 @@ impl Stage {
 
     /// Messages in the diagnosis history, the oldest first, as stored in the unit.
     pub(crate) fn history(&mut self) -> Vec<[u8; 24]> {
-        self.twin.unit(0).error_log().history().map(|record| record.diagnosis_message()).collect()
+        self.unit().error_log().history().map(|record| record.diagnosis_message()).collect()
     }
-}
-
-pub(crate) fn little_endian(value: &[u8]) -> u32 {
-    value.iter().take(4).rev().fold(0, |number, &byte| number << 8 | u32::from(byte))
 }

@@ -1,21 +1,57 @@
-//! The bench: one unit, its CPU Unit, and a master of frames.
+//! The bench: one unit, its CPU Unit, and single accesses of a master.
 
-use device::{Network, Unit};
+use device::{Network, Start, Unit};
+use master::{
+    Address, DirectAccess, Line, MailboxConduct, MailboxDialogue, SdoTransfer, Service, ServiceFailure,
+    SyncManagerSettings,
+};
 use nx_ect101::{IoAllocation, NxEct101, UnitSettings, device_config, layout};
 use plc::{CpuSettings, CpuUnit, DeviceVariables, Echo, Program};
+use segment::FrameFate;
 use time::{Duration, Instant};
-use wire::{Command, FrameBuilder, Returned, returned_datagrams};
+use wire::SdoTarget;
 
 pub(crate) const PRE_OP: u8 = 0x02;
 pub(crate) const SAFE_OP: u8 = 0x04;
 pub(crate) const OP: u8 = 0x08;
 
-/// A master that sends a frame every 100 µs, and the line that it is connected to.
-pub(crate) struct Bench {
+const UNIT: Address = Address::Position(0);
+const MAILBOX_OUT: SyncManagerSettings =
+    channel(0, layout::MAILBOX_RECEIVE_START, layout::MAILBOX_BYTES, layout::MAILBOX_RECEIVE_CONTROL);
+const MAILBOX_IN: SyncManagerSettings =
+    channel(1, layout::MAILBOX_SEND_START, layout::MAILBOX_BYTES, layout::MAILBOX_SEND_CONTROL);
+
+const fn channel(number: u8, start: u16, length_bytes: u16, control: u8) -> SyncManagerSettings {
+    SyncManagerSettings { number, start, length_bytes, control, activate: 1 }
+}
+
+/// The unit and its CPU Unit.
+pub(crate) struct Rack {
     pub(crate) network: Network<NxEct101>,
     pub(crate) cpu: CpuUnit,
-    pub(crate) now: Instant,
-    counter: u8,
+}
+
+impl Line for Rack {
+    fn frame(&mut self, now: Instant, frame: &mut [u8]) -> bool {
+        self.network.frame(now, frame) == FrameFate::Returned
+    }
+
+    fn poll(&mut self, now: Instant) {
+        if self.cpu.deadline() <= now {
+            self.cpu.cycle(now);
+        }
+        self.network.poll(now);
+    }
+
+    fn deadline(&self) -> Instant {
+        self.network.deadline().min(self.cpu.deadline())
+    }
+}
+
+/// A master that sends a frame every 100 µs, and the rack that it is connected to.
+pub(crate) struct Bench {
+    pub(crate) access: DirectAccess<Rack>,
+    mailbox: MailboxConduct,
 }
 
 impl Bench {
@@ -32,62 +68,38 @@ impl Bench {
         let settings = UnitSettings { io_allocation, ..UnitSettings::default() };
         let (unit, cpu_end) = NxEct101::power_on(&settings);
         let now = Instant::ZERO;
-        Self {
-            network: Network::power_on([(device_config(&settings), unit)], now),
-            cpu: CpuUnit::power_on(now, cpu, variables, cpu_end, Box::new(program)),
-            now,
-            counter: 0,
-        }
+        let network = Network::power_on([(device_config(&settings), unit)], now);
+        let cpu = CpuUnit::power_on(now, cpu, variables, cpu_end, Box::new(program));
+        let mut access = DirectAccess::new(Rack { network, cpu }, now);
+        access.pace = Duration::from_micros(100);
+        Self { access, mailbox: MailboxConduct::NEW }
     }
 
-    pub(crate) fn run_for(&mut self, duration: Duration) {
-        self.run_to(self.now + duration);
+    pub(crate) fn power_off(&mut self) {
+        let now = self.access.now();
+        self.access.line.network.power_off(0, now);
     }
 
-    pub(crate) fn run_to(&mut self, end: Instant) {
-        loop {
-            let next = self.network.deadline().min(self.cpu.deadline());
-            if next > end {
-                self.now = end;
-                return;
-            }
-            self.now = next;
-            if self.cpu.deadline() <= next {
-                self.cpu.cycle(next);
-            }
-            self.network.poll(next);
-        }
+    pub(crate) fn power_on_again(&mut self) {
+        let now = self.access.now();
+        self.access.line.network.restart(0, now, Start::PowerOn);
     }
 
     /// T_slave of the unit.
     pub(crate) fn refresh_period(&self) -> Duration {
-        self.network.device(0).expect("a unit").unit().refresh_period().expect("a period")
-    }
-
-    fn send(&mut self, command: Command, offset: u16, data: &[u8]) -> Returned {
-        self.run_for(Duration::from_micros(100));
-        let mut frame = FrameBuilder::new().physical(command, 0, offset, data).finish();
-        self.pass(&mut frame).remove(0)
-    }
-
-    /// Sends a frame at this time.
-    pub(crate) fn pass(&mut self, frame: &mut [u8]) -> Vec<Returned> {
-        self.network.frame(self.now, frame);
-        self.network.poll(self.now);
-        returned_datagrams(frame)
+        self.access.line.network.device(0).expect("a unit").unit().refresh_period().expect("a period")
     }
 
     pub(crate) fn write(&mut self, offset: u16, data: &[u8]) {
-        assert_eq!(self.send(Command::Apwr, offset, data).working_counter, 1, "write to {offset:#06X}");
+        assert_eq!(self.access.write(UNIT, offset, data), 1, "write to {offset:#06X}");
     }
 
-    pub(crate) fn read(&mut self, offset: u16, length_bytes: usize) -> Vec<u8> {
-        self.send(Command::Aprd, offset, &vec![0; length_bytes]).data
+    pub(crate) fn read(&mut self, offset: u16, length_bytes: u16) -> Vec<u8> {
+        self.access.read(UNIT, offset, length_bytes).0
     }
 
-    fn set_sync_manager(&mut self, number: u16, start: u16, length_bytes: u16, control: u8) {
-        let ([s0, s1], [l0, l1]) = (start.to_le_bytes(), length_bytes.to_le_bytes());
-        self.write(0x0800 + 8 * number, &[s0, s1, l0, l1, control, 0, 1, 0]);
+    fn set_sync_manager(&mut self, settings: SyncManagerSettings) {
+        self.write(0x0800 + 8 * u16::from(settings.number), &settings.pack());
     }
 
     /// Requests a state; returns AL status and AL status code after it.
@@ -98,21 +110,15 @@ impl Bench {
     }
 
     pub(crate) fn into_pre_op(mut self) -> Self {
-        let length_bytes = layout::MAILBOX_BYTES;
-        self.set_sync_manager(
-            0,
-            layout::MAILBOX_RECEIVE_START,
-            length_bytes,
-            layout::MAILBOX_RECEIVE_CONTROL,
-        );
-        self.set_sync_manager(1, layout::MAILBOX_SEND_START, length_bytes, layout::MAILBOX_SEND_CONTROL);
+        self.set_sync_manager(MAILBOX_OUT);
+        self.set_sync_manager(MAILBOX_IN);
         assert_eq!(self.request(PRE_OP), (PRE_OP, 0));
         self
     }
 
     pub(crate) fn set_process_data(&mut self, outputs_bytes: u16, inputs_bytes: u16) {
-        self.set_sync_manager(2, layout::OUTPUTS_START, outputs_bytes, layout::OUTPUTS_CONTROL);
-        self.set_sync_manager(3, layout::INPUTS_START, inputs_bytes, layout::INPUTS_CONTROL);
+        self.set_sync_manager(channel(2, layout::OUTPUTS_START, outputs_bytes, layout::OUTPUTS_CONTROL));
+        self.set_sync_manager(channel(3, layout::INPUTS_START, inputs_bytes, layout::INPUTS_CONTROL));
     }
 
     pub(crate) fn into_op(mut self, outputs_bytes: u16, inputs_bytes: u16) -> Self {
@@ -126,53 +132,32 @@ impl Bench {
 
     /// An SDO download by complete access; returns the time until the response.
     pub(crate) fn download_complete(&mut self, index: u16, value: &[u8]) -> Duration {
-        let sent = self.now;
-        let length_bytes = (value.len() as u32).to_le_bytes();
-        let response = self.sdo(0x31, index, 0, &[&length_bytes, value].concat());
-        assert_eq!(response[8] & 0xE0, 0x60, "download response to {index:#06X}: {:02X?}", &response[8..16]);
-        self.now.saturating_since(sent)
+        let sent = self.access.now();
+        let written = self.sdo(SdoTransfer::download(SdoTarget::complete(index, 0), value));
+        written.unwrap_or_else(|failure| panic!("{index:04X}: {failure}"));
+        self.access.now().saturating_since(sent)
     }
 
-    /// An SDO download of a value longer than 4 bytes.
+    /// An SDO download, or the abort code.
     pub(crate) fn download(&mut self, index: u16, sub: u8, value: &[u8]) -> Result<(), u32> {
-        let length_bytes = (value.len() as u32).to_le_bytes();
-        let response = self.sdo(0x21, index, sub, &[&length_bytes, value].concat());
-        refusal(&response).map_or(Ok(()), Err)
+        abort_code(self.sdo(SdoTransfer::download(SdoTarget::entry(index, sub), value))).map(drop)
     }
 
-    /// An SDO upload of a value longer than 4 bytes.
+    /// An SDO upload, or the abort code.
     pub(crate) fn upload(&mut self, index: u16, sub: u8) -> Result<Vec<u8>, u32> {
-        let response = self.sdo(0x40, index, sub, &[0; 4]);
-        if let Some(code) = refusal(&response) {
-            return Err(code);
-        }
-        let length_bytes = u32::from_le_bytes(response[12..16].try_into().expect("4 bytes"));
-        Ok(response[16..16 + length_bytes as usize].to_vec())
+        abort_code(self.sdo(SdoTransfer::upload(SdoTarget::entry(index, sub))))
     }
 
-    /// One SDO request and the mailbox with its response.
-    fn sdo(&mut self, command: u8, index: u16, sub: u8, data: &[u8]) -> Vec<u8> {
-        let request = self.sdo_request(command, index, sub, data);
-        self.write(layout::MAILBOX_RECEIVE_START, &request);
-        let sent = self.now;
-        while self.read(0x080D, 1)[0] & 0x08 == 0 {
-            assert!(self.now.saturating_since(sent) < Duration::from_millis(100), "no response");
-        }
-        self.read(layout::MAILBOX_SEND_START, usize::from(layout::MAILBOX_BYTES))
-    }
-
-    /// The mailbox with an SDO request.
-    pub(crate) fn sdo_request(&mut self, command: u8, index: u16, sub: u8, data: &[u8]) -> Vec<u8> {
-        self.counter = self.counter % 7 + 1;
-        let ([l0, l1], [i0, i1]) = ((6 + data.len() as u16).to_le_bytes(), index.to_le_bytes());
-        let mut message = vec![l0, l1, 0, 0, 0, self.counter << 4 | 3, 0, 0x20, command, i0, i1, sub];
-        message.extend(data);
-        message.resize(usize::from(layout::MAILBOX_BYTES), 0);
-        message
+    fn sdo(&mut self, transfer: SdoTransfer) -> Result<Vec<u8>, ServiceFailure> {
+        let mut dialogue = MailboxDialogue::new(MAILBOX_OUT, MAILBOX_IN, Service::Sdo(transfer));
+        dialogue.begin(self.mailbox);
+        assert!(self.access.execute(UNIT, &mut dialogue, Duration::from_millis(100)), "no response");
+        self.mailbox = dialogue.conduct();
+        dialogue.into_service().into_result()
     }
 
     /// Sends outputs for long enough that they return; returns the inputs after that.
-    pub(crate) fn exchange(&mut self, outputs: &[u8], inputs_bytes: usize) -> Vec<u8> {
+    pub(crate) fn exchange(&mut self, outputs: &[u8], inputs_bytes: u16) -> Vec<u8> {
         for _ in 0..100 {
             self.write(layout::OUTPUTS_START, outputs);
         }
@@ -180,10 +165,11 @@ impl Bench {
     }
 }
 
-/// The abort code of a response.
-fn refusal(response: &[u8]) -> Option<u32> {
-    let code = u32::from_le_bytes(response[12..16].try_into().expect("4 bytes"));
-    (response[8] == 0x80).then_some(code)
+fn abort_code<T>(result: Result<T, ServiceFailure>) -> Result<T, u32> {
+    result.map_err(|failure| match failure {
+        ServiceFailure::Abort(code) => code.0,
+        other => panic!("{other}"),
+    })
 }
 
 /// The same numbers in every run (SplitMix64).

@@ -3,7 +3,6 @@
 use core::task::Poll;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use device::Start;
 use nx_ect101::IoAllocation;
 use plc::{
     CpuSettings, DeviceVariables, Io, NxCall, NxMessageError, ObjectIndex, Program, StructuredText, SubIndex,
@@ -144,7 +143,7 @@ fn a_write_while_not_ready_is_refused_and_the_first_message_stays() {
     bench.set_process_data(180, 183);
     assert_eq!(bench.request(SAFE_OP), (SAFE_OP, 0));
     // A unit refreshes before it answers, so the following messages are in order.
-    bench.run_for(Duration::from_millis(2));
+    bench.access.run_for(Duration::from_millis(2));
     assert_eq!(status(&mut bench) & READY_TO_WRITE, READY_TO_WRITE);
     assert_eq!(status(&mut bench) & NX_MESSAGES_ENABLED, NX_MESSAGES_ENABLED);
     bench.download(0x3001, 1, &message(1, TO_CPU)).expect("ready");
@@ -186,17 +185,17 @@ fn calls_that_timed_out_leave_room_for_the_next_ones() {
     let program = StructuredText::compile(AGAIN_AND_AGAIN, &variables).expect("a program");
     let mut bench = Bench::with_program(allocation, CpuSettings::default(), program);
     let count = |bench: &Bench, name: &str| {
-        let text = bench.cpu.program_variable(name).expect("declared");
+        let text = bench.access.line.cpu.program_variable(name).expect("declared");
         text.parse::<u32>().expect("a number")
     };
-    bench.run_for(Duration::from_millis(100));
+    bench.access.run_for(Duration::from_millis(100));
     assert!(count(&bench, "Served") > 10);
-    bench.network.power_off(0, bench.now);
-    bench.run_for(Duration::from_millis(2_000));
+    bench.power_off();
+    bench.access.run_for(Duration::from_millis(2_000));
     let (late, served) = (count(&bench, "Late"), count(&bench, "Served"));
     assert!(late > 9, "{late}");
-    bench.network.restart(0, bench.now, Start::PowerOn);
-    bench.run_for(Duration::from_millis(1_000));
+    bench.power_on_again();
+    bench.access.run_for(Duration::from_millis(1_000));
     assert!(count(&bench, "Served") > served + 100, "{} and {served}", count(&bench, "Served"));
     assert_eq!(count(&bench, "Refused"), 0, "16#2C01, resources exceeded");
 }
@@ -226,18 +225,18 @@ fn a_write_to_a_unit_without_power_is_not_executed_after_power_on() {
     let ((ask, asked), (tell, told)) = (channel(), channel());
     let program = OneMessage { asked, writing: None, tell };
     let mut bench = Bench::with_program(IoAllocation::factory(), CpuSettings::default(), program);
-    bench.run_for(Duration::from_millis(10));
-    bench.network.power_off(0, bench.now);
+    bench.access.run_for(Duration::from_millis(10));
+    bench.power_off();
     ask.send(()).expect("the program listens");
-    bench.run_for(Duration::from_millis(200));
-    bench.network.restart(0, bench.now, Start::PowerOn);
-    bench.run_for(Duration::from_millis(1_000));
+    bench.access.run_for(Duration::from_millis(200));
+    bench.power_on_again();
+    bench.access.run_for(Duration::from_millis(1_000));
     assert_eq!(told.try_iter().collect::<Vec<_>>(), [Err(NxMessageError::NotReachable)]);
     let mut bench = bench.into_pre_op();
     assert_eq!(bench.upload(0x3000, 1), Ok(vec![0; 200]), "no message has come from the CPU Unit");
     // With power the same write is executed.
     ask.send(()).expect("the program listens");
-    bench.run_for(Duration::from_millis(10));
+    bench.access.run_for(Duration::from_millis(10));
     assert_eq!(told.try_iter().collect::<Vec<_>>(), [Ok(())]);
     assert_eq!(bench.upload(0x3000, 1), Ok(message(1, TO_MASTER)));
 }

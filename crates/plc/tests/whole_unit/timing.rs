@@ -27,8 +27,8 @@ impl Master {
     fn cycle(&mut self, outputs: &[u8]) -> (Instant, Vec<u8>) {
         let sent = self.next;
         let mut frame = exchange_frame(outputs);
-        self.bench.run_to(sent + self.to_unit);
-        let inputs = self.bench.pass(&mut frame).remove(1).data;
+        self.bench.access.run_to(sent + self.to_unit);
+        let inputs = self.bench.access.pass(&mut frame).remove(1).data;
         self.next = sent + self.period;
         (sent, inputs)
     }
@@ -74,13 +74,13 @@ fn measure_io_response(random: &mut Random) -> (Duration, Duration) {
         cpu: task_period,
         transmission,
     };
-    bench.run_for(random.time(0, 20_000));
+    bench.access.run_for(random.time(0, 20_000));
     let to_unit = Duration::from_nanos(random.below(transmission.as_nanos()));
-    let next = bench.now;
+    let next = bench.access.now();
     let mut master = Master { bench, period: times.master, to_unit, transmission, next };
     // Until data are exchanged; then a new value.
     master.response(&[0x11; BYTES]);
-    master.next = master.bench.now + random.time(100, 20_000);
+    master.next = master.bench.access.now() + random.time(100, 20_000);
     (master.response(&[0x22; BYTES]), times.maximum())
 }
 
@@ -97,36 +97,13 @@ fn an_io_response_never_takes_longer_than_the_formula_and_comes_close_to_it() {
     assert!(closest >= 0.9, "the longest response is only {closest:.3} of the formula");
 }
 
-/// The master's mailbox access in a cycle.
-enum Step {
-    Request,
-    LookForResponse,
-    TakeResponse,
-}
-
-/// Sends an SDO request in one cycle of `period`, checks for the response in each of the following cycles, and
-/// reads it; a frame is received at the start of the next cycle. Returns the total time.
+/// An SDO with one access of the mailbox in each cycle of `period`: the request, reads of its status, and the read of the
+/// response. Returns the total time.
 fn sdo_response(bench: &mut Bench, period: Duration) -> Duration {
-    let request = bench.sdo_request(0x40, 0x1018, 1, &[0; 4]);
-    let start = bench.now;
-    let mut step = Step::Request;
-    loop {
-        let (command, offset, data) = match step {
-            Step::Request => (Command::Apwr, layout::MAILBOX_RECEIVE_START, request.clone()),
-            Step::LookForResponse => (Command::Aprd, 0x080D, vec![0]),
-            Step::TakeResponse => (Command::Aprd, layout::MAILBOX_SEND_START, vec![0; 400]),
-        };
-        let mut frame = FrameBuilder::new().physical(command, 0, offset, &data).finish();
-        let returned = bench.pass(&mut frame).remove(0);
-        assert_eq!(returned.working_counter, 1);
-        bench.run_for(period);
-        step = match step {
-            Step::Request => Step::LookForResponse,
-            Step::LookForResponse if returned.data[0] & 0x08 == 0 => Step::LookForResponse,
-            Step::LookForResponse => Step::TakeResponse,
-            Step::TakeResponse => return bench.now.saturating_since(start),
-        };
-    }
+    let start = bench.access.now();
+    bench.access.pace = period;
+    assert_eq!(bench.upload(0x1018, 1), Ok(vec![0x83, 0, 0, 0]));
+    bench.access.now().saturating_since(start)
 }
 
 #[test]
@@ -138,6 +115,6 @@ fn an_sdo_response_takes_the_time_of_the_formula() {
     for period in periods {
         let measured = sdo_response(&mut bench, period);
         assert_eq!(measured, sdo_response_time(period, 16), "cycle of {period}");
-        bench.run_for(Duration::from_micros(250));
+        bench.access.run_for(Duration::from_micros(250));
     }
 }
