@@ -20,8 +20,8 @@ use crate::{Setup, SetupError};
 
 /// Units with power, in the order of the chain, with their CPU Units.
 ///
-/// Time advances only through [`Twin::run_for`]. The same calls produce the same bytes, on every machine. In
-/// real time [`Twin::serve`] answers a link.
+/// Time advances only through [`Twin::run_for`], or with the master of [`Twin::connect`]. The same calls produce the
+/// same bytes, on every machine. In real time [`Twin::serve`] answers a link.
 #[derive(Debug)]
 pub struct Twin {
     line: Line,
