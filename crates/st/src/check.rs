@@ -3,6 +3,7 @@
 //! The library's blocks and the device variables are added as separate trees, read by the same parser.
 
 mod calls;
+mod case_labels;
 mod configuration;
 mod constants;
 mod declarations;

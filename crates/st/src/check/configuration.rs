@@ -1,9 +1,12 @@
 //! Which PROGRAMs run, and when: according to a CONFIGURATION, or all of them in each scan.
 
+use std::collections::{HashMap, HashSet};
+
 use super::constants::Constants;
 use super::scope::{Scope, key};
 use super::unknown_names::nearest;
 use super::{Checker, Origin, Pending};
+use crate::SOURCE_BYTES_MAX;
 use crate::code::Task;
 use crate::problem::{Problem, Span};
 use crate::syntax::ast::{
@@ -17,6 +20,10 @@ const PRIORITY_LAST: i128 = i128::MAX;
 /// The shortest task period of a CPU Unit.
 const INTERVAL_MIN_NS: u64 = 125_000;
 
+/// Maximum text of all instances of PROGRAMs together: each instance has code of its own, so that a long PROGRAM with
+/// many instances would fill any memory.
+const INSTANCES_BYTES_MAX: usize = 8 * SOURCE_BYTES_MAX;
+
 /// A task of a CONFIGURATION.
 struct Planned<'t> {
     name: &'t Name,
@@ -24,6 +31,45 @@ struct Planned<'t> {
     interval: Option<(u64, Span)>,
     priority: i128,
     programs: Vec<u32>,
+}
+
+/// What a CONFIGURATION runs, and what it can name: each is found by its name in capitals.
+struct Plan<'t, 'p> {
+    programs: &'p [&'t Pou],
+    program_names: HashMap<String, &'t Pou>,
+    tasks: Vec<Planned<'t>>,
+    task_places: HashMap<String, usize>,
+    /// PROGRAMs without a task.
+    free: Vec<u32>,
+    /// The text of the instances so far.
+    text_bytes: usize,
+}
+
+impl<'t, 'p> Plan<'t, 'p> {
+    fn of(programs: &'p [&'t Pou]) -> Self {
+        let mut program_names = HashMap::new();
+        for pou in programs {
+            program_names.entry(key(&pou.name.text)).or_insert(*pou);
+        }
+        Self {
+            programs,
+            program_names,
+            tasks: Vec::new(),
+            task_places: HashMap::new(),
+            free: Vec::new(),
+            text_bytes: 0,
+        }
+    }
+
+    /// Whether its instances have too much text; the rest is not checked.
+    const fn is_full(&self) -> bool {
+        self.text_bytes > INSTANCES_BYTES_MAX
+    }
+
+    fn add_task(&mut self, task: Planned<'t>) {
+        self.task_places.insert(key(&task.name.text), self.tasks.len());
+        self.tasks.push(task);
+    }
 }
 
 impl<'t> Checker<'t> {
@@ -40,10 +86,8 @@ impl<'t> Checker<'t> {
             self.refuse::<()>(problem.help("a CPU Unit has one: put its tasks into the first"));
         }
         self.configure(configuration, &programs);
-        let is_run = |pou: &Pou| {
-            configuration.programs.iter().any(|own| own.program.text.eq_ignore_ascii_case(&pou.name.text))
-        };
-        for pou in programs.into_iter().filter(|pou| !is_run(pou)) {
+        let run: HashSet<String> = configuration.programs.iter().map(|own| key(&own.program.text)).collect();
+        for pou in programs.into_iter().filter(|pou| !run.contains(&key(&pou.name.text))) {
             self.program(pou, &pou.name);
         }
     }
@@ -57,35 +101,38 @@ impl<'t> Checker<'t> {
     }
 
     fn configure(&mut self, configuration: &'t Configuration, programs: &[&'t Pou]) {
-        let mut tasks = Vec::<Planned<'t>>::new();
+        let mut plan = Plan::of(programs);
         for declaration in &configuration.tasks {
-            if tasks.iter().any(|task| is_same(task.name, &declaration.name)) {
+            if plan.task_places.contains_key(&key(&declaration.name.text)) {
                 self.refuse_second(&declaration.name);
             } else {
-                tasks.extend(self.task(declaration));
+                plan.add_task(self.task(declaration));
             }
         }
-        let mut free = Vec::new();
-        for (place, instance) in configuration.programs.iter().enumerate() {
-            if configuration.programs[..place].iter().any(|before| is_same(&before.name, &instance.name)) {
-                self.refuse_second(&instance.name);
+        let mut instances = HashSet::new();
+        for instance in &configuration.programs {
+            if self.is_given_up() || plan.is_full() {
+                return;
+            }
+            if instances.insert(key(&instance.name.text)) {
+                self.program_of_configuration(instance, &mut plan);
             } else {
-                self.program_of_configuration(instance, programs, &mut tasks, &mut free);
+                self.refuse_second(&instance.name);
             }
         }
         if configuration.programs.is_empty() {
             let problem = Problem::new(configuration.span, "this CONFIGURATION runs no PROGRAM");
             self.refuse::<()>(problem.help("write PROGRAM name WITH task : program;"));
         }
-        self.order(tasks, free);
+        self.order(plan.tasks, plan.free);
     }
 
-    fn task(&mut self, declaration: &'t TaskDeclaration) -> Option<Planned<'t>> {
+    fn task(&mut self, declaration: &'t TaskDeclaration) -> Planned<'t> {
         let scope = Scope::default();
         let priority = declaration.priority.as_ref().and_then(|priority| self.priority(priority, &scope));
         let priority = priority.unwrap_or(PRIORITY_LAST);
         let interval = declaration.interval.as_ref().and_then(|interval| self.interval(interval, &scope));
-        Some(Planned { name: &declaration.name, interval, priority, programs: Vec::new() })
+        Planned { name: &declaration.name, interval, priority, programs: Vec::new() }
     }
 
     /// The priority, a UINT.
@@ -114,22 +161,32 @@ impl<'t> Checker<'t> {
     fn program_of_configuration(
         &mut self,
         instance: &'t ProgramInstance,
-        programs: &[&'t Pou],
-        tasks: &mut [Planned<'t>],
-        free: &mut Vec<u32>,
+        plan: &mut Plan<'t, '_>,
     ) -> Option<()> {
-        let Some(pou) = programs.iter().find(|pou| is_same(&pou.name, &instance.program)) else {
-            return self.unknown("PROGRAM", &instance.program, programs.iter().map(|pou| &pou.name));
+        let Some(pou) = plan.program_names.get(&key(&instance.program.text)).copied() else {
+            return self.unknown("PROGRAM", &instance.program, plan.programs.iter().map(|pou| &pou.name));
         };
+        plan.text_bytes += (pou.span.end - pou.span.start) as usize;
+        if plan.is_full() {
+            return self.refuse_size(instance, plan.text_bytes);
+        }
         let unit = self.program(pou, &instance.name);
         match &instance.task {
-            None => free.push(unit),
-            Some(name) => match tasks.iter_mut().find(|task| is_same(task.name, name)) {
-                Some(task) => task.programs.push(unit),
-                None => return self.unknown("TASK", name, tasks.iter().map(|task| task.name)),
+            None => plan.free.push(unit),
+            Some(name) => match plan.task_places.get(&key(&name.text)) {
+                Some(place) => plan.tasks[*place].programs.push(unit),
+                None => return self.unknown("TASK", name, plan.tasks.iter().map(|task| task.name)),
             },
         }
         Some(())
+    }
+
+    fn refuse_size(&mut self, instance: &ProgramInstance, bytes: usize) -> Option<()> {
+        let message = format!(
+            "up to here, the instances of PROGRAMs have {bytes} bytes of text together, {INSTANCES_BYTES_MAX} are the most"
+        );
+        let help = "move code to a FUNCTION_BLOCK, whose instances share it, or remove instances";
+        self.refuse(Problem::new(instance.name.span, message).help(help))
     }
 
     fn unknown<'n>(&mut self, what: &str, name: &Name, known: impl Iterator<Item = &'n Name>) -> Option<()> {
@@ -165,8 +222,4 @@ impl<'t> Checker<'t> {
         self.out.tasks.push(Task { every: 1, programs: free });
         self.out.period_ns = shortest;
     }
-}
-
-fn is_same(one: &Name, other: &Name) -> bool {
-    key(&one.text) == key(&other.text)
 }

@@ -1,5 +1,6 @@
 //! Statements.
 
+use super::case_labels::CaseLabels;
 use super::expressions::Body;
 use super::numbers::{coerce, elementary_of, operand_of};
 use super::scope::Located;
@@ -102,13 +103,15 @@ impl Body<'_, '_> {
             _ => None,
         });
         let mut checked = Vec::<CaseArm>::new();
+        let mut above = CaseLabels::default();
         for arm in arms {
             let mut labels = Vec::new();
             for label in &arm.labels {
                 if let Some(type_) = &type_ {
-                    labels.extend(self.label(label, type_, &checked));
+                    labels.extend(self.label(label, type_, &above));
                 }
             }
+            labels.iter().for_each(|(from, to)| above.take(*from, *to));
             let body = self.statements(&arm.body);
             checked.push(CaseArm { labels, body });
         }
@@ -128,7 +131,7 @@ impl Body<'_, '_> {
         Some(StatementKind::Case { selector: Case { value, elementary }, arms: checked, otherwise })
     }
 
-    fn label(&mut self, label: &CaseLabel, type_: &Type, before: &[CaseArm]) -> Option<(i128, i128)> {
+    fn label(&mut self, label: &CaseLabel, type_: &Type, above: &CaseLabels) -> Option<(i128, i128)> {
         let (from, to, span) = match label {
             CaseLabel::Value(value) => {
                 let number = self.label_value(value, type_)?;
@@ -142,11 +145,7 @@ impl Body<'_, '_> {
         if to < from {
             return self.checker.refuse(Problem::new(span, format!("the range {from}..{to} is empty")));
         }
-        let taken = before
-            .iter()
-            .flat_map(|arm| &arm.labels)
-            .any(|(other_from, other_to)| from <= *other_to && *other_from <= to);
-        if taken {
+        if above.has_any(from, to) {
             return self.checker.refuse(Problem::new(span, "an arm above has this value already"));
         }
         Some((from, to))

@@ -65,6 +65,8 @@ pub(crate) struct Pou {
     pub(crate) result: Option<TypeName>,
     pub(crate) sections: Vec<VarSection>,
     pub(crate) body: Vec<Statement>,
+    /// Its text, from its first word to its last.
+    pub(crate) span: Span,
 }
 
 impl Pou {

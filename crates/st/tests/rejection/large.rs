@@ -18,6 +18,13 @@ fn expect(source: &str, message: &str) {
     assert!(told.contains(message), "{name}: {}", told.lines().take(5).collect::<Vec<_>>().join("\n"));
 }
 
+/// Compiles a source that is correct.
+fn accept(source: &str) {
+    if let Err(problems) = st::compile(source, &[]) {
+        panic!("{:?}", problems.list().first());
+    }
+}
+
 /// A program with one INT and one BOOL.
 fn with_statements(statements: &str) -> String {
     format!("VAR x : INT; b : BOOL; a : ARRAY[0..1] OF INT; END_VAR {statements}")
@@ -98,6 +105,38 @@ fn types_with_too_many_names() {
     );
     let values = pieces(100_000, |place| format!(", v{place}"));
     expect(&format!("TYPE T : (v{values}); END_TYPE PROGRAM Main END_PROGRAM"), "2048 are the most");
+}
+
+/// If each name were searched for among all names before it, each of these would take minutes.
+#[test]
+fn lists_as_long_as_a_source() {
+    let labels = pieces(90_000, |place| format!("{place}:;"));
+    let case = |last: &str| format!("VAR x : DINT; END_VAR CASE x OF {labels}{last} END_CASE;");
+    accept(&case(""));
+    expect(&case("70000:;"), "an arm above has this value already");
+    let instances = pieces(40_000, |place| format!("PROGRAM P{place} WITH F:A;"));
+    let tasks = pieces(20_000, |place| format!("TASK T{place}(PRIORITY:=1);"));
+    let configuration = |items: &str| {
+        format!("CONFIGURATION C TASK F(PRIORITY:=1); {items} END_CONFIGURATION PROGRAM A END_PROGRAM")
+    };
+    accept(&configuration(&instances));
+    expect(&configuration(&format!("{instances} PROGRAM p7 : A;")), "the name `p7` is declared twice");
+    accept(&configuration(&format!("{tasks} PROGRAM P WITH T7 : A;")));
+    expect(&configuration(&format!("{tasks} TASK t7(PRIORITY:=1);")), "the name `t7` is declared twice");
+    let programs = pieces(15_000, |place| format!("PROGRAM A{place} END_PROGRAM\n"));
+    let unknown = pieces(15_000, |place| format!("PROGRAM P{place} : B{place};"));
+    expect(&(configuration(&unknown) + " " + &programs), "there is no PROGRAM `B0`");
+}
+
+#[test]
+fn instances_with_too_much_text() {
+    let instances = pieces(30_000, |place| format!("PROGRAM P{place}:A;"));
+    let statements = "x := 1;".repeat(50_000);
+    let program = format!("PROGRAM A VAR x : INT; END_VAR {statements} END_PROGRAM");
+    expect(
+        &format!("CONFIGURATION C {instances} END_CONFIGURATION {program}"),
+        "the instances of PROGRAMs have 8401032 bytes of text together, 8388608 are the most",
+    );
 }
 
 #[test]

@@ -93,7 +93,7 @@ impl Parser<'_> {
         let result = self.result(opener);
         self.accept(Token::Semicolon);
         self.skip_inheritance();
-        let mut pou = Pou { kind, name, result, sections: Vec::new(), body: Vec::new() };
+        let mut pou = Pou { kind, name, result, sections: Vec::new(), body: Vec::new(), span: start };
         loop {
             match self.keyword() {
                 Some(word) if word.opens_variables() => {
@@ -110,6 +110,7 @@ impl Parser<'_> {
             }
         }
         self.close();
+        pou.span = self.since(start);
         self.accept(Token::Semicolon);
         pou
     }
@@ -143,5 +144,5 @@ impl Parser<'_> {
 fn unnamed_program(here: Span) -> Pou {
     let span = Span { start: here.start, end: here.start };
     let name = Name { text: String::new(), span };
-    Pou { kind: PouKind::Program, name, result: None, sections: Vec::new(), body: Vec::new() }
+    Pou { kind: PouKind::Program, name, result: None, sections: Vec::new(), body: Vec::new(), span }
 }
