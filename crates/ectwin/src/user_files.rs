@@ -29,7 +29,7 @@ const STRUCTURED_TEXT: &str = "st";
 const fn limit_bytes(wanted: Wanted) -> u64 {
     match wanted {
         Wanted::UnitFile | Wanted::Scenario | Wanted::Program => 4 * MIB,
-        Wanted::Capture | Wanted::Results => 256 * MIB,
+        Wanted::Capture | Wanted::Results | Wanted::Trace => 256 * MIB,
     }
 }
 
@@ -68,6 +68,15 @@ pub fn bytes(path: &Path, wanted: Wanted) -> Result<Vec<u8>, Unreadable> {
 /// As [`bytes`], or the file is of another kind than required, or not UTF-8.
 pub fn text(path: &Path, wanted: Wanted) -> Result<String, Unreadable> {
     let text = user_file::text(bytes(path, wanted)?, &path.to_string_lossy(), wanted);
+    text.map_err(|refusal| Unreadable { reason: Reason::OfAnotherKind(refusal), wanted })
+}
+
+/// The text of a file that is compared with another text: of any kind, and with its byte order mark.
+///
+/// # Errors
+/// As [`bytes`], or the text is not UTF-8.
+pub fn exact_text(path: &Path, wanted: Wanted) -> Result<String, Unreadable> {
+    let text = user_file::exact_text(bytes(path, wanted)?, wanted);
     text.map_err(|refusal| Unreadable { reason: Reason::OfAnotherKind(refusal), wanted })
 }
 
@@ -193,6 +202,7 @@ const fn not_found(wanted: Wanted) -> &'static str {
         Wanted::Program => "give the path of a user program, such as scenarios/programs/a-3-3.st",
         Wanted::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
         Wanted::Results => "give the files that the parts have written by `ectwin replay --json`",
+        Wanted::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
     }
 }
 

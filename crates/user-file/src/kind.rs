@@ -18,6 +18,8 @@ pub enum Wanted {
     Capture,
     /// Results of a campaign.
     Results,
+    /// The golden trace of a scenario.
+    Trace,
 }
 
 impl Wanted {
@@ -29,6 +31,7 @@ impl Wanted {
             Self::Program => "a program is Structured Text in UTF-8, such as scenarios/programs/a-3-3.st",
             Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
             Self::Results => "give the files that the parts of a campaign wrote with `ectwin replay --json`",
+            Self::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
         }
     }
 }
@@ -201,8 +204,14 @@ fn is_sii(bytes: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    const ALL: [Wanted; 5] =
-        [Wanted::UnitFile, Wanted::Scenario, Wanted::Program, Wanted::Capture, Wanted::Results];
+    const ALL: [Wanted; 6] = [
+        Wanted::UnitFile,
+        Wanted::Scenario,
+        Wanted::Program,
+        Wanted::Capture,
+        Wanted::Results,
+        Wanted::Trace,
+    ];
 
     /// The header words of a real device, with its checksum 0x40 (reference 4.2).
     fn sii_of_a_drive() -> Vec<u8> {

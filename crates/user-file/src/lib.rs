@@ -27,6 +27,6 @@ pub use kind::{Refusal, Wanted, of_another_kind};
 pub use located::Located;
 pub use mistakes::{MISTAKES_MAX, Mistakes, and_more};
 pub use reader::{Reader, Section, Value, read_toml, wrong_type};
-pub use text::text;
+pub use text::{exact_text, text};
 pub use toml::de::DeValue;
 pub use words::{LineNumbers, escaped, line_and_column, shortened, shown};

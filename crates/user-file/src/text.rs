@@ -15,9 +15,18 @@ pub fn text(bytes: Vec<u8>, name: &str, wanted: Wanted) -> Result<String, Refusa
     if let Some(refusal) = of_another_kind(&bytes, name, wanted) {
         return Err(refusal);
     }
+    let text = exact_text(bytes, wanted)?;
+    Ok(text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text))
+}
+
+/// The text of a file that is compared with another text: of any kind, and with its byte order mark.
+///
+/// # Errors
+/// The text is not UTF-8.
+pub fn exact_text(bytes: Vec<u8>, wanted: Wanted) -> Result<String, Refusal> {
     match String::from_utf8(bytes) {
         Ok(text) if text.contains('\0') => Err(with_zeros(text.as_bytes(), wanted)),
-        Ok(text) => Ok(text.strip_prefix(BYTE_ORDER_MARK).map(str::to_owned).unwrap_or(text)),
+        Ok(text) => Ok(text),
         Err(error) => Err(not_utf8(error.as_bytes(), error.utf8_error().valid_up_to(), wanted)),
     }
 }

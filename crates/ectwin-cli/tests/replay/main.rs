@@ -7,6 +7,7 @@ mod bench;
 mod campaigns;
 mod captures;
 mod contrary;
+mod golden_traces;
 
 use bench::Bench;
 
@@ -107,31 +108,4 @@ fn unit_files_are_seen_from_the_scenario() {
     );
     let ended = bench.ectwin(&["replay", "scenarios/serial.toml"]);
     assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
-}
-
-#[test]
-fn a_golden_trace_is_blessed_and_the_first_line_that_differs_is_told() {
-    let bench = Bench::new("golden");
-    bench.put("a.toml", WATCHDOG);
-    bench.put("b.toml", WATCHDOG);
-    let ended = bench.ectwin(&["replay", "a.toml", "--bless"]);
-    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), "blessed a.trace\n"), "{}", ended.stderr);
-    let ended = bench.ectwin(&["replay", "."]);
-    assert_eq!(ended.code, Some(0), "{}", ended.stdout);
-
-    let golden = bench.text("a.trace");
-    bench.put("a.trace", &golden.replacen("take all units to OP", "take none", 1));
-    let ended = bench.ectwin(&["replay", "a.toml"]);
-    assert_eq!(ended.code, Some(1));
-    for fragment in [
-        "`the trace is the golden one`",
-        "line 1 of the trace is `",
-        "take all units to OP`, golden `",
-        "take none`",
-    ] {
-        assert!(ended.stdout.contains(fragment), "`{fragment}` is not in:\n{}", ended.stdout);
-    }
-    let ended = bench.ectwin(&["replay", ".", "--bless"]);
-    assert_eq!(ended.stdout, "blessed ./a.trace\n", "{}", ended.stderr);
-    assert_eq!(bench.text("a.trace"), golden);
 }

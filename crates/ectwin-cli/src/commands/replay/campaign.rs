@@ -1,5 +1,6 @@
 //! The cases to be replayed: scenario files, read and checked, times seeds.
 
+use std::io;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
@@ -30,6 +31,15 @@ struct Loaded {
     scenario: Scenario,
 }
 
+/// The use of golden traces.
+#[derive(Clone, Copy)]
+enum GoldenTraces {
+    /// They are compared.
+    Compared,
+    /// They are written, so that it does not matter what is in them.
+    Written,
+}
+
 /// The seeds of each scenario.
 enum Seeds {
     /// The one in its file.
@@ -57,9 +67,10 @@ impl Campaign {
         let seeds = Seeds::wanted(args);
         let mut fingerprint = Fingerprint::new();
         fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
+        let golden = if args.bless { GoldenTraces::Written } else { GoldenTraces::Compared };
         let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), FileProblems::default());
         for path in files(&args.files)? {
-            match load(&path, &mut fingerprint, &mut inputs) {
+            match load(&path, golden, &mut fingerprint, &mut inputs) {
                 Ok(scenario) => scenarios.push(Loaded { path, scenario }),
                 Err(found) => problems.append(found),
             }
@@ -175,12 +186,13 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Reads one scenario, and its files, relative to its folder.
 pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
-    load(path, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
+    load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
 }
 
 /// Reads a scenario, and its files, relative to its folder.
 fn load(
     path: &Path,
+    golden: GoldenTraces,
     fingerprint: &mut Fingerprint,
     inputs: &mut Vec<PathBuf>,
 ) -> Result<Scenario, FileProblems> {
@@ -215,14 +227,25 @@ fn load(
             FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)
         })?;
     }
-    // Beside the file, if there is one.
-    let golden = path.with_extension("trace");
-    if let Ok(trace) = user_files::text(&golden, Wanted::Results) {
-        inputs.push(golden);
-        fingerprint.add(trace.as_bytes());
-        scenario.golden_trace = Some(trace);
+    let trace = path.with_extension("trace");
+    scenario.golden_trace = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
+    if let Some(text) = &scenario.golden_trace {
+        fingerprint.add(text.as_bytes());
+        inputs.push(trace);
     }
     Ok(scenario)
+}
+
+/// The golden trace beside a scenario; none if there is no such file. A file that cannot be read is not compared,
+/// so it must not count as none.
+fn read_golden(trace: &Path, scenario: &Path, golden: GoldenTraces) -> Result<Option<String>, Unreadable> {
+    let is_missing = trace.symlink_metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+    match golden {
+        // A scenario with that ending is not its own trace.
+        _ if is_missing || trace == scenario => Ok(None),
+        GoldenTraces::Compared => user_files::exact_text(trace, Wanted::Trace).map(Some),
+        GoldenTraces::Written => Ok(Some(String::new())),
+    }
 }
 
 fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerprint) -> Result<(), String> {
