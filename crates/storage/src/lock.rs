@@ -3,7 +3,7 @@
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use rustix::fs::{FlockOperation, OFlags, flock};
 use rustix::io::Errno;
@@ -26,7 +26,7 @@ impl Lock {
             let (file, was_left) = match create(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => match open(&path) {
                     Err(error) if error.kind() == io::ErrorKind::NotFound => continue,
-                    opened => (opened?, true),
+                    opened => (own(opened, &path)?, true),
                 },
                 created => (created?, false),
             };
@@ -60,6 +60,22 @@ fn create(path: &PathBuf) -> io::Result<File> {
 fn open(path: &PathBuf) -> io::Result<File> {
     let flags = (OFlags::NOFOLLOW | OFlags::NONBLOCK).bits() as i32;
     OpenOptions::new().read(true).custom_flags(flags).open(path)
+}
+
+/// A lock that an owner has left. Anything else with its name belongs to the user, and is neither locked nor
+/// removed: a lock is a file without contents.
+fn own(opened: io::Result<File>, path: &Path) -> io::Result<File> {
+    let is_lock = |file: &File| file.metadata().is_ok_and(|found| found.is_file() && found.len() == 0);
+    let is_link = || path.symlink_metadata().is_ok_and(|found| found.is_symlink());
+    match opened {
+        Ok(file) if is_lock(&file) => Ok(file),
+        Err(error) if !is_link() => Err(error),
+        _ => {
+            let name = path.file_name().unwrap_or_default().display();
+            let words = format!("its lock {name} is not a lock but another file; move it away");
+            Err(io::Error::new(io::ErrorKind::AlreadyExists, words))
+        }
+    }
 }
 
 /// Locks an open file for this owner alone, and does not wait for another.

@@ -2,7 +2,7 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
-use std::os::unix::fs::OpenOptionsExt;
+use std::os::unix::fs::{MetadataExt, OpenOptionsExt};
 use std::path::{Path, PathBuf};
 
 use rustix::fs::OFlags;
@@ -28,6 +28,8 @@ pub struct StoredFile {
     /// The file that was found or written last, locked; none if there was none yet.
     latest: Option<File>,
     reserve: Reserve,
+    /// It has been logged that the folder cannot be flushed.
+    is_unflushed: bool,
     _lock: Lock,
 }
 
@@ -45,7 +47,7 @@ impl StoredFile {
         let latest = open(&path)?;
         latest.as_ref().map_or(Ok(()), lock::exclusively)?;
         let reserve = Reserve::beside(&path, latest.as_ref())?;
-        Ok(Self { path, latest, reserve, _lock: lock })
+        Ok(Self { path, latest, reserve, is_unflushed: false, _lock: lock })
     }
 
     /// Its location, after all symbolic links.
@@ -76,11 +78,13 @@ impl StoredFile {
         read(open(&path)?)
     }
 
-    /// Replaces the contents. When it returns, a loss of power does not undo it; if the program is killed
-    /// before, the file has its old contents or the new ones. Permissions are kept. No free file descriptor is needed.
+    /// Replaces the contents. When it returns, a loss of power does not undo it, if the file system can flush
+    /// folders; if the program is killed before, the file has its old contents or the new ones. Permissions are
+    /// kept. No free file descriptor is needed.
     ///
     /// # Errors
-    /// The folder cannot be written, or the disk is full; the file is unchanged.
+    /// The folder cannot be written, the disk is full, or a file that is not this one has the name; the file is
+    /// unchanged.
     pub fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
         let replaced = match self.replace(bytes) {
             Ok(replaced) => replaced,
@@ -91,7 +95,14 @@ impl StoredFile {
             }
         };
         self.reserve.refill(replaced);
-        self.reserve.sync_folder()
+        // From here on it is stored: an error would make the owner store it again.
+        match self.reserve.sync_folder() {
+            Err(error) if !std::mem::replace(&mut self.is_unflushed, true) => {
+                tracing::warn!("{}: stored, but its folder cannot be flushed: {error}", self.path.display());
+            }
+            _ => {}
+        }
+        Ok(())
     }
 
     /// Returns the file that has been replaced.
@@ -102,6 +113,7 @@ impl StoredFile {
         lock::exclusively(&temporary.file)?;
         temporary.file.write_all(bytes)?;
         temporary.file.sync_all()?;
+        refuse_another(path, latest.as_ref())?;
         Ok(latest.replace(temporary.replace(path)?))
     }
 
@@ -125,6 +137,22 @@ impl StoredFile {
         let words = format!("{ASIDE_MAX} damaged files are beside it; remove some");
         Err(io::Error::new(io::ErrorKind::AlreadyExists, words))
     }
+}
+
+/// Refuses to replace a file, a folder or a link that somebody has put there since the last write.
+fn refuse_another(path: &Path, latest: Option<&File>) -> io::Result<()> {
+    let Ok(found) = fs::symlink_metadata(path) else { return Ok(()) };
+    let own = latest.map(File::metadata).transpose()?;
+    if own.is_some_and(|own| (own.dev(), own.ino()) == (found.dev(), found.ino())) {
+        return Ok(());
+    }
+    let what = match found.file_type() {
+        kind if kind.is_dir() => "directory",
+        kind if kind.is_symlink() => "symbolic link",
+        _ => "file",
+    };
+    let words = format!("another {what} is in its place, and is not replaced; move it away");
+    Err(io::Error::new(io::ErrorKind::AlreadyExists, words))
 }
 
 fn read(file: Option<File>) -> io::Result<Option<Vec<u8>>> {

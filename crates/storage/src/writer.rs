@@ -24,6 +24,8 @@ pub struct Writer {
     newest: Input<Vec<u8>>,
     stop: Arc<AtomicBool>,
     thread: Option<JoinHandle<Result<(), ChangesLost>>>,
+    /// The file, for a thread that panicked.
+    path: PathBuf,
 }
 
 /// The last changes are not in the file: it could not be written until the end.
@@ -44,10 +46,10 @@ impl Writer {
     pub fn start(file: StoredFile, room_bytes: usize) -> io::Result<Self> {
         let (newest, contents) = triple_buffer(&vec![0; room_bytes]);
         let stop = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stop);
+        let (stopped, path) = (Arc::clone(&stop), file.path().to_owned());
         let thread = thread::Builder::new().name("storage".to_owned());
         let thread = thread.spawn(move || keep(Kept { file, refused: None }, contents, &stopped))?;
-        Ok(Self { newest, stop, thread: Some(thread) })
+        Ok(Self { newest, stop, thread: Some(thread), path })
     }
 
     /// Provides new contents: `fill` writes them into a buffer that holds older ones. They are stored soon.
@@ -72,8 +74,13 @@ impl Writer {
         // Release: a thread that sees the flag also sees the contents that were published before it.
         self.stop.store(true, Ordering::Release);
         thread.thread().unpark();
-        // A thread that panicked has already reported it.
-        thread.join().unwrap_or(Ok(()))
+        thread.join().unwrap_or_else(|_| Err(self.lost_in_panic()))
+    }
+
+    /// It is not known what a thread that panicked has stored.
+    fn lost_in_panic(&self) -> ChangesLost {
+        tracing::error!("{}: the last changes are lost: the storage thread panicked", self.path.display());
+        ChangesLost { path: self.path.clone(), source: io::Error::other("the storage thread panicked") }
     }
 }
 
@@ -127,7 +134,7 @@ impl Kept {
     fn end(self) -> Result<(), ChangesLost> {
         let Some(source) = self.refused else { return Ok(()) };
         let path = self.file.path().to_owned();
-        tracing::error!("{}: the last changes are lost, nothing made room for them", path.display());
+        tracing::error!("{}: the last changes are lost: {source}", path.display());
         Err(ChangesLost { path, source })
     }
 }
@@ -164,6 +171,17 @@ mod tests {
         let lost = refused.finish().expect_err("a folder is in the way");
         assert_eq!(lost.path, folder.file("N1.nvm"));
         assert!(lost.source.to_string().contains("directory"), "{}", lost.source);
+    }
+
+    #[test]
+    fn a_thread_that_panics_has_lost_the_changes() {
+        let folder = Folder::of_test("panic");
+        let mut writer = Writer::start(folder.claim("N1.nvm").expect("free"), 64).expect("a thread");
+        assert!(writer.end().is_ok());
+        writer.thread = Some(thread::spawn(|| panic!("in a test")));
+        let lost = writer.finish().expect_err("it has not stored anything");
+        assert_eq!(lost.path, folder.file("N1.nvm"));
+        assert!(lost.source.to_string().contains("panicked"), "{}", lost.source);
     }
 
     #[test]

@@ -100,9 +100,10 @@ fn a_file_that_is_replaced_stays_claimed() {
 fn what_a_kill_has_left_is_removed_and_nothing_else_is() {
     let folder = Folder::of_test("left");
     let others = [".N1.nvm.ectwin-12", ".N1.nvm.ectwin-wxyz", "N1.nvm.new", ".N2.nvm.ectwin-12ab"];
-    for name in others.into_iter().chain(["N1.nvm", ".N1.nvm.ectwin-lock", ".N1.nvm.ectwin-12ab"]) {
+    for name in others.into_iter().chain(["N1.nvm", ".N1.nvm.ectwin-12ab"]) {
         fs::write(folder.file(name), "half of a very long one").expect("writable");
     }
+    fs::write(folder.file(".N1.nvm.ectwin-lock"), "").expect("writable");
     let mut file = folder.claim("N1.nvm").expect("free");
     file.write(b"new").expect("writable");
     drop(file);
@@ -125,9 +126,46 @@ fn a_link_in_the_way_of_a_new_file_is_not_followed() {
     file.write(b"new").expect("there are more names");
     assert_eq!(folder.contents("precious").as_deref(), Some(&b"precious"[..]));
     drop(file);
-    // A lock is not a file of another owner either.
-    symlink("precious", folder.file(".N2.nvm.ectwin-lock")).expect("linked");
-    folder.claim("N2.nvm").expect_err("a link in the place of the lock");
+}
+
+#[test]
+fn what_is_no_lock_is_refused_by_its_name_and_not_removed() {
+    let folder = Folder::of_test("no-lock");
+    fs::write(folder.file("precious"), "precious").expect("writable");
+    fs::write(folder.file(".file.nvm.ectwin-lock"), "my notes").expect("writable");
+    symlink("precious", folder.file(".link.nvm.ectwin-lock")).expect("linked");
+    symlink("gone", folder.file(".dangling.nvm.ectwin-lock")).expect("linked");
+    fs::create_dir(folder.file(".folder.nvm.ectwin-lock")).expect("writable");
+    let before = folder.names();
+    for name in ["file", "link", "dangling", "folder"] {
+        let refused = folder.claim(&format!("{name}.nvm")).expect_err(name).to_string();
+        assert!(refused.contains(&format!("its lock .{name}.nvm.ectwin-lock is not a lock")), "{refused}");
+        assert_eq!(folder.names(), before);
+    }
+    assert_eq!(folder.contents(".file.nvm.ectwin-lock").as_deref(), Some(&b"my notes"[..]));
+}
+
+#[test]
+fn what_is_put_in_its_place_is_not_replaced_until_it_is_moved_away() {
+    let folder = Folder::of_test("another");
+    fs::write(folder.file("precious"), "precious").expect("writable");
+    let (file, aside) = (folder.file("N1.nvm"), folder.file("aside"));
+    let mut stored = folder.claim("N1.nvm").expect("free");
+    for (contents, generation) in [(&b"first"[..], 0), (b"second", 1), (b"third", 2), (b"fourth", 3)] {
+        match generation {
+            0 | 1 => fs::write(&aside, "another").and_then(|()| fs::rename(&aside, &file)).expect("writable"),
+            2 => fs::remove_file(&file).and_then(|()| symlink("precious", &file)).expect("linked"),
+            _ => fs::remove_file(&file).and_then(|()| fs::create_dir(&file)).expect("made"),
+        }
+        let refused = stored.write(contents).expect_err("it is not this file").to_string();
+        assert!(refused.contains("is in its place, and is not replaced; move it away"), "{refused}");
+        assert_eq!(folder.contents("precious").as_deref(), Some(&b"precious"[..]));
+        fs::rename(&file, &aside).expect("moved away");
+        stored.write(contents).expect("nothing is in the way");
+        assert_eq!(folder.contents("N1.nvm").as_deref(), Some(contents));
+        let _gone = fs::remove_file(&aside).or_else(|_| fs::remove_dir(&aside));
+    }
+    assert_eq!(folder.names(), [".N1.nvm.ectwin-lock", "N1.nvm", "precious"]);
 }
 
 #[test]
