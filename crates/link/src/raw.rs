@@ -8,6 +8,7 @@ mod vlan;
 use std::io;
 use std::sync::Arc;
 use std::task::Waker;
+use std::time::{Duration as WallDuration, Instant};
 
 use time::Duration;
 
@@ -25,8 +26,13 @@ pub(crate) struct RawPort {
     interface: Arc<Interface>,
     bell: Option<Bell>,
     wake: WakeEvent,
+    /// When a frame without carrier was the last reason to look for the carrier, without finding it.
+    looked_at: Option<Instant>,
     _watch: Option<Watch>,
 }
+
+/// The shortest time between two such looks: each asks the system for all interfaces.
+const LOOK_AGAIN: WallDuration = WallDuration::from_millis(10);
 
 impl RawPort {
     pub(crate) fn open(name: &str) -> Result<Self, OpenError> {
@@ -56,7 +62,28 @@ impl RawPort {
             tracing::warn!("{name} has no carrier: the cable to the master is pulled");
         }
         let interface = Arc::new(bound);
-        Ok(Self { name: name.to_owned(), socket, interface, bell: Some(bell), wake, _watch: None })
+        Ok(Self {
+            name: name.to_owned(),
+            socket,
+            interface,
+            bell: Some(bell),
+            wake,
+            looked_at: None,
+            _watch: None,
+        })
+    }
+}
+
+impl RawPort {
+    /// A frame has arrived, perhaps faster than the notice of the carrier. Frames that waited in the socket when the
+    /// cable was pulled arrive without one.
+    fn look_for_carrier(&mut self) {
+        let is_too_soon = || self.looked_at.is_some_and(|at| at.elapsed() < LOOK_AGAIN);
+        if self.interface.carrier() || is_too_soon() {
+            return;
+        }
+        self.interface.look();
+        self.looked_at = (!self.interface.carrier()).then(Instant::now);
     }
 }
 
@@ -76,10 +103,7 @@ impl FramePort for RawPort {
                 Ok(None)
             }
             Ok(Some(length_bytes)) => {
-                // A frame can be faster than the notice of the carrier.
-                if !self.interface.carrier() {
-                    self.interface.look();
-                }
+                self.look_for_carrier();
                 Ok(Some(length_bytes))
             }
             other => other,

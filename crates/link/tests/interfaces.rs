@@ -190,6 +190,27 @@ fn an_interface_that_is_deleted_and_made_again_is_answered_every_time() {
 }
 
 #[test]
+fn an_interface_that_has_another_name_is_left_as_it_was() {
+    in_network_namespace("an_interface_that_has_another_name_is_left_as_it_was", || {
+        let is_promiscuous = |name: &str| {
+            let shown = std::process::Command::new("ip").args(["-d", "link", "show", name]).output().unwrap();
+            let shown = String::from_utf8(shown.stdout).unwrap();
+            assert!(shown.contains("promiscuity "), "{shown}");
+            !shown.contains("promiscuity 0 ")
+        };
+        add_veth_pair("veth0", "veth1");
+        let mut unit = open_link("raw:veth1");
+        assert!(is_promiscuous("veth1"));
+        ip(&["link", "set", "veth1", "down"]);
+        ip(&["link", "set", "veth1", "name", "other"]);
+        wait_until(&mut unit, |unit| !unit.carrier());
+        add_veth_pair("veth2", "veth1");
+        wait_until(&mut unit, |unit| unit.carrier());
+        assert!(is_promiscuous("veth1") && !is_promiscuous("other"));
+    });
+}
+
+#[test]
 fn an_interface_answers_to_one_port_alone_as_long_as_that_lives() {
     in_network_namespace("an_interface_answers_to_one_port_alone_as_long_as_that_lives", || {
         add_veth_pair("veth0", "veth1");

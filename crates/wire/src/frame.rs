@@ -13,7 +13,8 @@ pub const FRAME_BYTES_MAX: usize = 1518;
 /// Bytes of the EtherCAT header before the datagrams.
 pub const ETHERCAT_HEADER_BYTES: usize = 2;
 
-const ETHERTYPE_VLAN: u16 = 0x8100;
+/// The tags of 802.1Q and 802.1ad, of which a frame has at most one.
+const ETHERTYPES_VLAN: [u16; 2] = [0x8100, 0x88A8];
 const ETHERTYPE_IPV4: u16 = 0x0800;
 const IP_PROTOCOL_UDP: u8 = 17;
 const MAC_BYTES: usize = 12;
@@ -140,7 +141,7 @@ struct Located {
 fn locate(frame: &[u8]) -> Result<Option<Located>, Defect> {
     let mut at = MAC_BYTES;
     let mut ethertype = be_u16(frame, at).ok_or(Defect::TooShort)?;
-    if ethertype == ETHERTYPE_VLAN {
+    if ETHERTYPES_VLAN.contains(&ethertype) {
         at += 4;
         ethertype = be_u16(frame, at).ok_or(Defect::TooShort)?;
     }

@@ -26,8 +26,12 @@ fn padding_behind_the_datagrams_is_ignored() {
 #[test]
 fn a_vlan_tag_is_stepped_over() {
     let plain = brd();
-    let tagged = [&plain[..12], &[0x81, 0x00, 0x00, 0x01], &plain[12..]].concat();
-    assert_eq!(returned_datagrams(&tagged), returned_datagrams(&plain));
+    for tag in [[0x81, 0x00, 0x00, 0x01], [0x88, 0xA8, 0x0F, 0xFF]] {
+        let tagged = [&plain[..12], &tag, &plain[12..]].concat();
+        assert_eq!(returned_datagrams(&tagged), returned_datagrams(&plain));
+        let twice = [&plain[..12], &tag, &[0x81, 0x00, 0x00, 0x01], &plain[12..]].concat();
+        assert_eq!(FrameKind::of(&twice), FrameKind::NotEtherCat);
+    }
 }
 
 #[test]

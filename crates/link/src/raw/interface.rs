@@ -82,9 +82,12 @@ impl Interface {
         let renamed = interfaces.iter().find(|interface| Some(interface.index) == bound.index());
         let new_name = renamed.map(|interface| &*interface.name).filter(|name| *name != self.name);
         if index != bound.index() {
-            let was_bound = bound.claimed.take().is_some();
+            let before = bound.claimed.take().map(|(index, _)| index);
+            if let Some(before) = before {
+                self.socket.leave(before);
+            }
             if let Some(index) = index {
-                if was_bound {
+                if before.is_some() {
                     tracing::warn!("{} is another interface now", self.name);
                 }
                 self.bind_again(&mut bound, index);

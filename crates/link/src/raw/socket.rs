@@ -59,13 +59,15 @@ impl PacketSocket {
         };
         uapi::bind(self.socket.as_raw_fd(), &address)?;
         self.refuse_other_headers()?;
-        let promiscuous = c::packet_mreq {
-            mr_ifindex: index,
-            mr_type: c::PACKET_MR_PROMISC as u16,
-            mr_alen: 0,
-            mr_address: [0; 8],
-        };
-        self.set(c::PACKET_ADD_MEMBERSHIP, &promiscuous)
+        self.set(c::PACKET_ADD_MEMBERSHIP, &promiscuous(index))
+    }
+
+    /// No longer asks for frames for any address on this interface, to which the socket was bound. An interface that
+    /// was removed asks for nothing.
+    pub(super) fn leave(&self, interface_index: u32) {
+        if let Ok(index) = i32::try_from(interface_index) {
+            let _gone = self.set(c::PACKET_DROP_MEMBERSHIP, &promiscuous(index));
+        }
     }
 
     /// Refuses an interface whose frames have no Ethernet header, such as a TUN interface.
@@ -132,6 +134,10 @@ impl PacketSocket {
     fn set<T>(&self, option: i32, value: &T) -> io::Result<()> {
         Ok(uapi::setsockopt(self.socket.as_raw_fd(), c::SOL_PACKET, option, value)?)
     }
+}
+
+fn promiscuous(index: i32) -> c::packet_mreq {
+    c::packet_mreq { mr_ifindex: index, mr_type: c::PACKET_MR_PROMISC as u16, mr_alen: 0, mr_address: [0; 8] }
 }
 
 /// How to enlarge the receive buffer.

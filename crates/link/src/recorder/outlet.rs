@@ -2,6 +2,8 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 /// Number of bytes that are collected before a write.
@@ -41,6 +43,8 @@ pub(super) struct Outlet<M> {
     /// Bytes on the medium before `waiting`.
     before: u64,
     refusal: Option<Refusal>,
+    /// Bytes that the medium has accepted, for another thread.
+    accepted: Arc<AtomicU64>,
 }
 
 /// The medium has refused a write.
@@ -50,9 +54,15 @@ struct Refusal {
 }
 
 impl<M: Medium> Outlet<M> {
-    pub(super) fn new(medium: M, name: &str) -> Self {
+    /// Nothing has been written. `accepted` counts the bytes that the medium accepts.
+    pub(super) fn new(medium: M, name: &str, accepted: Arc<AtomicU64>) -> Self {
         let (waiting, name) = (Vec::with_capacity(2 * BUFFER_BYTES), name.to_owned());
-        Self { medium, name, waiting, taken: 0, before: 0, refusal: None }
+        Self { medium, name, waiting, taken: 0, before: 0, refusal: None, accepted }
+    }
+
+    /// Whether no bytes wait.
+    pub(super) const fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
     }
 
     pub(super) const fn has_room(&self) -> bool {
@@ -94,7 +104,11 @@ impl<M: Medium> Outlet<M> {
         while let Some(rest) = self.waiting.get(self.taken..).filter(|rest| !rest.is_empty()) {
             match self.medium.write(rest) {
                 Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-                Ok(taken) => self.taken += taken,
+                Ok(taken) => {
+                    self.taken += taken;
+                    // No other data depend on it.
+                    self.accepted.fetch_add(taken as u64, Ordering::Relaxed);
+                }
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
                 Err(error) => return Err(error),
             }

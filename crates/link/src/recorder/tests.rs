@@ -114,7 +114,7 @@ impl Medium for Disk {
 fn writing(room_bytes: usize) -> (Disk, Writing<Disk>) {
     let disk = Disk::default();
     disk.make_room(room_bytes);
-    let writer = PcapngWriter::new(Outlet::new(disk.clone(), "memory"), "memory").unwrap();
+    let writer = PcapngWriter::new(Outlet::new(disk.clone(), "memory", Arc::default()), "memory").unwrap();
     (disk, Writing::new(writer))
 }
 
@@ -169,5 +169,47 @@ fn a_disk_that_stays_full_ends_the_capture_with_a_whole_frame() {
             let (numbers, _) = disk.frames();
             assert_eq!(numbers, (0..numbers.len() as u64).collect::<Vec<_>>());
         }
+    }
+}
+
+#[test]
+fn a_medium_that_accepts_nothing_does_not_hold_up_the_end() {
+    let (_nobody_reads, stuck) = std::sync::mpsc::channel();
+    let mut recorder = Recorder::start(Stuck(stuck), "pipe", "memory", &Clock::start()).unwrap();
+    recorder.patience = Duration::from_millis(1);
+    recorder.frame(exchange(b"request", None));
+    let lost = recorder.finish().unwrap_err();
+    assert_eq!(lost.kind(), io::ErrorKind::TimedOut);
+    assert!(lost.to_string().contains("it has accepted nothing for 0.001 s"), "{lost}");
+}
+
+#[test]
+fn a_medium_that_is_slow_gets_all_frames_at_the_end() {
+    let (go, stuck) = std::sync::mpsc::channel();
+    let mut recorder = Recorder::start(Stuck(stuck), "pipe", "memory", &Clock::start()).unwrap();
+    recorder.frame(exchange(b"request", None));
+    drop(go);
+    assert_eq!(recorder.finish().unwrap(), Recording { written: 1, lost: 0 });
+}
+
+#[test]
+fn a_frame_is_written_in_time_even_if_others_follow_without_a_pause() {
+    let (disk, mut writing) = writing(1 << 20);
+    let start = WallInstant::now();
+    let mut written = |number: u64, after: Duration| {
+        take_frames(&mut writing, number..number + 1);
+        writing.flush_if_due(start + after);
+        if disk.0.lock().unwrap().0.is_empty() { Vec::new() } else { disk.frames().0 }
+    };
+    let half = FLUSH_AFTER / 2;
+    for (number, after, on_disk) in [
+        (0, Duration::ZERO, 0),
+        (1, half, 0),
+        (2, 2 * half, 3),
+        (3, 3 * half, 3),
+        (4, 4 * half, 3),
+        (5, 5 * half, 6),
+    ] {
+        assert_eq!(written(number, after), (0..on_disk).collect::<Vec<_>>(), "frame {number}");
     }
 }
