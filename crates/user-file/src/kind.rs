@@ -152,6 +152,13 @@ const KINDS: &[Kind] = &[
         wanted_as: &[Wanted::Results],
         help: "`ectwin merge` reads the results of `ectwin replay --json`",
     },
+    // Its later lines may look like TOML, and no TOML file begins like a program.
+    Kind {
+        name: "a program in Structured Text",
+        is: |file| structured_text::begins(file.start()),
+        wanted_as: &[Wanted::Program],
+        help: "`ectwin st check FILE` reads it",
+    },
     Kind {
         name: "a scenario",
         is: |file| file.has_list("steps"),
@@ -163,12 +170,6 @@ const KINDS: &[Kind] = &[
         is: |file| file.has_top_key("model"),
         wanted_as: &[Wanted::UnitFile],
         help: "`ectwin check FILE` and `ectwin run FILE` read it",
-    },
-    Kind {
-        name: "a program in Structured Text",
-        is: |file| structured_text::begins(file.start()),
-        wanted_as: &[Wanted::Program],
-        help: "`ectwin st check FILE` reads it",
     },
     Kind {
         name: "a TOML file",
@@ -254,9 +255,9 @@ mod tests {
             ("a.bin", sii_of_a_drive()),
             ("README.md", b"# Units\n\n```toml\nmodel = \"nx-ect101\"\n```\n".to_vec()),
             ("a.jsonl", b"{\"case\":1}\n".to_vec()),
+            ("a.st", b"function_block B\n".to_vec()),
             ("a.toml", b"title = \"x\"\n[[units]]\nmodel = \"nx-ect101\"\n[[steps]]\n".to_vec()),
             ("a.toml", b"# a unit\nmodel = \"nx-ect101\"\n".to_vec()),
-            ("a.st", b"function_block B\n".to_vec()),
             ("a.toml", b"# nothing in it\n".to_vec()),
         ]
     }
@@ -274,6 +275,26 @@ mod tests {
                 let refusal = refusal.unwrap_or_else(|| panic!("{} is taken for {wanted:?}", kind.name));
                 assert_eq!(refusal.message, format!("this is {}", kind.name));
                 assert!(refusal.help.ends_with(wanted.help()), "{}", refusal.help);
+            }
+        }
+    }
+
+    #[test]
+    fn a_program_whose_later_lines_look_like_toml_is_a_program() {
+        for program in [
+            "b := a AND\nsteps = 3;",
+            "b := (a +\n  1) * // twice\n2 =\nmodel = 3;",
+            "IF a THEN\nb := c =\nsteps = d; END_IF;",
+            "PROGRAM P\nVAR b : BOOL; END_VAR\nb :=\nmodel = 1;\nEND_PROGRAM",
+            "f(x :=\nsteps = 3);",
+        ] {
+            assert_eq!(of_another_kind(program.as_bytes(), "a.st", Wanted::Program), None, "{program}");
+            for wanted in [Wanted::Scenario, Wanted::UnitFile] {
+                let refusal = of_another_kind(program.as_bytes(), "a.st", wanted);
+                assert!(
+                    refusal.is_some_and(|refusal| refusal.message.contains("Structured Text")),
+                    "{program}"
+                );
             }
         }
     }

@@ -29,4 +29,4 @@ pub use mistakes::{MISTAKES_MAX, Mistakes, and_more};
 pub use reader::{Reader, Section, Value, read_toml, wrong_type};
 pub use text::{exact_text, text};
 pub use toml::de::DeValue;
-pub use words::{LineNumbers, escaped, line_and_column, shortened, shown};
+pub use words::{LineNumbers, escaped, line_and_column, on_one_line, shortened, shown};

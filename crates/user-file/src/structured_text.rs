@@ -78,7 +78,7 @@ fn begins_with_statement(text: &str) -> bool {
     }
 }
 
-/// `a.b[3] := 4;` in a line, or `a(b := 4);` in one or more.
+/// `a.b[3] := 4;` or `a(b := 4);`, each in one line or more.
 fn is_assignment_or_call(text: &str) -> bool {
     let Some(rest) = behind_variable(text) else { return false };
     let rest = rest.trim_start();
@@ -88,7 +88,33 @@ fn is_assignment_or_call(text: &str) -> bool {
             .next()
             .is_some_and(|call| call.contains(":=") && call.trim_end().ends_with(')'));
     }
-    rest.starts_with(":=") && rest.lines().next().is_some_and(|line| line.contains(';'))
+    let Some((statement, _)) = rest.strip_prefix(":=").and_then(|value| value.split_once(';')) else {
+        return false;
+    };
+    is_one_expression(statement)
+}
+
+/// Whether each line of the text continues the one before it: TOML with `:=` in place of `=` has a value in each line.
+fn is_one_expression(text: &str) -> bool {
+    let code = |line: &'_ str| line.split("//").next().unwrap_or_default().trim().to_owned();
+    let lines: Vec<String> = text.lines().map(code).filter(|line| !line.is_empty()).collect();
+    lines.windows(2).all(|pair| match pair {
+        [line, next] => ends_open(line) || begins_open(next),
+        _ => true,
+    })
+}
+
+const OPERATORS: [&str; 5] = ["AND", "OR", "XOR", "MOD", "NOT"];
+const OPERATOR_SIGNS: &str = "+-*/=<>&(,:";
+
+fn ends_open(line: &str) -> bool {
+    let word = line.rsplit(|character| !is_letter(character)).next().unwrap_or_default();
+    line.ends_with(|last| OPERATOR_SIGNS.contains(last)) || is_one_of(word, &OPERATORS)
+}
+
+fn begins_open(line: &str) -> bool {
+    let (word, _) = first_word(line);
+    line.starts_with(|first| first == ')' || OPERATOR_SIGNS.contains(first)) || is_one_of(word, &OPERATORS)
 }
 
 /// The text behind a variable with its members and indices.
@@ -161,6 +187,8 @@ mod tests {
             "x:=4; y := 5;",
             "a[1, b[2]].c := TRUE; // on",
             "Zähler := 1;",
+            "b := a AND\n steps = 3;",
+            "b := a\n AND NOT c\n OR (d +\n 1) > 2;",
             "Timer(IN := a,\n  PT := T#1s);",
             "a.timer[2](IN := a);",
         ] {
@@ -179,6 +207,7 @@ mod tests {
             "if.then = \":=\"",
             "variable = 1",
             "model := \"nx-ect101\"\n# a; b",
+            "model := \"nx-ect101\"\nserial = 3\n# a; b",
             "a.b = \"x := 1;\"",
             "[a]\nx := 1;",
             "// a sketch\nint main() {}",

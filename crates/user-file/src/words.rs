@@ -12,15 +12,15 @@ pub fn shown(text: &str) -> String {
 }
 
 /// Longest text that [`shortened`] leaves unchanged.
-const WHOLE_BYTES_MAX: usize = 600;
+const WHOLE_CHARACTERS_MAX: usize = 600;
 
 /// A message without its middle part if it is long: the text quoted from a file may have any length.
 #[must_use]
 pub fn shortened(message: String) -> String {
-    if message.len() <= WHOLE_BYTES_MAX {
+    if message.chars().nth(WHOLE_CHARACTERS_MAX).is_none() {
         return message;
     }
-    let kept = WHOLE_BYTES_MAX / 3;
+    let kept = WHOLE_CHARACTERS_MAX / 3;
     let start: String = message.chars().take(kept).collect();
     let end: Vec<char> = message.chars().rev().take(kept).collect();
     start + "…" + &end.into_iter().rev().collect::<String>()
@@ -37,6 +37,13 @@ pub fn escaped(text: &str) -> String {
         if obeyed(character) { character.escape_debug().collect() } else { character.into() }
     };
     text.chars().map(write).collect()
+}
+
+/// The text with all its control characters escaped, line ends too: it cannot begin a line of an output.
+#[must_use]
+pub fn on_one_line(text: &str) -> String {
+    let text = escaped(text);
+    if text.contains('\n') { text.replace('\n', r"\n") } else { text }
 }
 
 /// Line and column of a byte, both from 1, columns in characters.
@@ -79,14 +86,18 @@ mod tests {
         assert_eq!(shown(&"x".repeat(41)), format!("{}...", "x".repeat(40)));
         assert_eq!(escaped("a\u{1b}[2J\r\nb\u{9b}"), "a\\u{1b}[2J\\r\nb\\u{9b}");
         assert_eq!(escaped("plain ü"), "plain ü");
+        assert_eq!(on_one_line("a\nok  b\r\n\u{7}"), r"a\nok  b\r\n\u{7}");
+        assert_eq!(on_one_line("plain ü"), "plain ü");
     }
 
     #[test]
     fn a_long_message_keeps_its_beginning_and_its_end() {
-        assert_eq!(shortened("short".to_owned()), "short");
+        for whole in ["short".to_owned(), "漢".repeat(250), "ü".repeat(WHOLE_CHARACTERS_MAX)] {
+            assert_eq!(shortened(whole.clone()), whole);
+        }
         let long = format!("unknown field `{}`, expected `title`", "ü".repeat(1_000));
         let short = shortened(long);
-        assert!(short.len() <= 2 * WHOLE_BYTES_MAX, "{short}");
+        assert!(short.chars().count() <= WHOLE_CHARACTERS_MAX, "{short}");
         assert!(short.starts_with("unknown field `ü") && short.ends_with("ü`, expected `title`"), "{short}");
     }
 
