@@ -185,8 +185,15 @@ impl Setup {
     /// The files of the user program, including those in its folders; none if it has no files.
     #[must_use]
     pub fn program_paths(&self) -> Vec<PathBuf> {
-        let paths = self.program_files.as_ref().map_or(&[][..], |files| &files.paths);
+        let paths = self.named_program_paths();
         user_files::program_files(paths).unwrap_or_else(|_| paths.to_vec())
+    }
+
+    /// The files and folders of the user program as they are named, those of a unit file from its folder on; none if
+    /// it has no files. They are read again when they change.
+    #[must_use]
+    pub fn named_program_paths(&self) -> &[PathBuf] {
+        self.program_files.as_ref().map_or(&[][..], |files| &files.paths)
     }
 
     /// The files of the user program, if it has files; they are moved out.

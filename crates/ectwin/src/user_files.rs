@@ -131,9 +131,22 @@ fn open_regular(path: &Path, limit_bytes: u64) -> Result<File, Reason> {
         return Err(Reason::Stdin);
     }
     refuse_irregular(&fs::metadata(path).map_err(Reason::Io)?, limit_bytes)?;
-    let file = File::open(path).map_err(Reason::Io)?;
+    let file = open(path).map_err(Reason::Io)?;
     refuse_irregular(&file.metadata().map_err(Reason::Io)?, limit_bytes)?;
     Ok(file)
+}
+
+/// Without waiting: some files of `/proc` claim to be regular, and their readers wait for the next message.
+#[cfg(unix)]
+fn open(path: &Path) -> io::Result<File> {
+    use std::os::unix::fs::OpenOptionsExt;
+    let flags = rustix::fs::OFlags::NONBLOCK.bits() as i32;
+    File::options().read(true).custom_flags(flags).open(path)
+}
+
+#[cfg(not(unix))]
+fn open(path: &Path) -> io::Result<File> {
+    File::open(path)
 }
 
 fn refuse_irregular(metadata: &fs::Metadata, limit_bytes: u64) -> Result<(), Reason> {

@@ -62,6 +62,8 @@ pub(crate) struct Watch {
     users: Vec<User>,
     /// The last logged error about files that cannot be read.
     logged: Option<String>,
+    /// A file or a folder was missing at the last check.
+    is_gone: bool,
     /// The last change was wrong, or could not be read.
     is_wrong: bool,
 }
@@ -95,7 +97,7 @@ impl Watch {
 
     fn new(paths: Vec<PathBuf>, read: Option<Stamps>) -> Self {
         let seen = read.clone().ok_or_else(String::new);
-        Self { paths, read, seen, users: Vec::new(), logged: None, is_wrong: false }
+        Self { paths, read, seen, users: Vec::new(), logged: None, is_gone: false, is_wrong: false }
     }
 
     fn same_text(&self, text: ProgramText) -> Arc<ProgramText> {
@@ -115,12 +117,14 @@ impl Watch {
         self.seen = now;
         match &self.seen {
             _ if !rests => None,
-            Ok(stamps) if self.read.as_ref() == Some(stamps) => {
+            Ok(stamps) if self.read.as_ref() == Some(stamps) && !self.is_gone => {
                 self.logged = None;
                 None
             }
+            // Files that come back are read again, changed or not, so that the log shows what runs.
             Ok(stamps) => self.read(stamps.clone()),
             Err(reason) => {
+                self.is_gone = true;
                 self.log_once(reason.clone());
                 None
             }
@@ -128,6 +132,7 @@ impl Watch {
     }
 
     fn read(&mut self, stamps: Stamps) -> Option<Change> {
+        self.is_gone = false;
         match ProgramText::read(&self.paths) {
             Ok(text) => {
                 self.read = Some(stamps);

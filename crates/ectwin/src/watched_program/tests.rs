@@ -209,7 +209,7 @@ fn a_link_to_nothing_in_the_folder_is_logged_once_and_the_program_is_loaded_when
 }
 
 #[test]
-fn a_link_to_nothing_that_goes_again_changes_nothing() {
+fn a_link_to_nothing_that_goes_again_loads_nothing() {
     let mut bench = Bench::new("passing-link");
     let link = bench.folder.join("link.st");
     for _ in 0..2 {
@@ -218,7 +218,35 @@ fn a_link_to_nothing_that_goes_again_changes_nothing() {
         assert_eq!(lines.len(), 1, "{lines:?}");
         fs::remove_file(&link).expect("removed");
         let lines = logged(|| assert_eq!(bench.loads(), 0));
-        assert_eq!(lines.len(), 0, "{lines:?}");
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines[0].ends_with("is correct again, and is the program that runs"), "{lines:?}");
+    }
+}
+
+#[test]
+fn a_folder_that_goes_and_comes_back_is_logged_both_times() {
+    let mut bench = Bench::new("moved");
+    let elsewhere = bench.folder.with_extension("elsewhere");
+    let _gone = fs::remove_dir_all(&elsewhere);
+    for is_wrong in [false, true] {
+        if is_wrong {
+            bench.save("main.st", "PROGRAM Main Misspelt := 1; END_PROGRAM");
+            assert_eq!(bench.loads(), 0);
+        }
+        for _ in 0..2 {
+            fs::rename(&bench.folder, &elsewhere).expect("moved");
+            let lines = logged(|| assert_eq!(bench.loads(), 0));
+            assert_eq!(lines.len(), 1, "{lines:?}");
+            assert!(lines[0].contains("cannot be read: "), "{lines:?}");
+            fs::rename(&elsewhere, &bench.folder).expect("moved back");
+            let lines = logged(|| assert_eq!(bench.loads(), 0));
+            let end = if is_wrong {
+                "is wrong: the old program continues in unit 1"
+            } else {
+                "is the program that runs"
+            };
+            assert!(lines.last().is_some_and(|line| line.ends_with(end)), "{lines:?}");
+        }
     }
 }
 
