@@ -12,7 +12,7 @@ use link::OpenError;
 use user_file::escaped;
 
 use crate::descriptors;
-use crate::file_problem::FileProblems;
+use crate::file_problem::{FileProblem, FileProblems};
 
 /// Why a command failed.
 pub(crate) enum Failure {
@@ -64,6 +64,34 @@ impl Failure {
         // If stderr is closed, the message cannot be delivered.
         let _ = io::stderr().write_all(text.as_bytes());
         ExitCode::from(self.exit_code())
+    }
+
+    /// Whether user files are at fault, so that other files can be examined beside them.
+    pub(crate) fn is_of_files(&self) -> bool {
+        matches!(self, Self::BadFile(_) | Self::Unreadable { .. })
+            && !self.source().is_some_and(descriptors::are_exhausted)
+    }
+
+    /// This failure of a file, and then that of another one. A failure of another kind takes precedence.
+    pub(crate) fn and(self, other: Self) -> Self {
+        match (self.into_problems(), other.into_problems()) {
+            (Ok(mut problems), Ok(more)) => {
+                problems.append_new(more);
+                Self::BadFile(problems)
+            }
+            (Err(failure), _) | (_, Err(failure)) => failure,
+        }
+    }
+
+    fn into_problems(self) -> Result<FileProblems, Self> {
+        match self {
+            Self::BadFile(problems) => Ok(problems),
+            failure if failure.is_of_files() => {
+                let (message, help) = failure.words();
+                Ok(FileProblem::of_file(&message, help.as_deref().unwrap_or_default()).into())
+            }
+            failure => Err(failure),
+        }
     }
 
     fn exit_code(&self) -> u8 {

@@ -76,6 +76,13 @@ impl FileProblems {
         self.have_stopped |= other.have_stopped;
     }
 
+    /// Adds those of another file, unless all of them are known: two units run the same program.
+    pub(crate) fn append_new(&mut self, other: Self) {
+        if !other.list.iter().all(|problem| self.list.contains(problem)) {
+            self.append(other);
+        }
+    }
+
     /// The first ones as data.
     pub(crate) fn rows(&self) -> impl Iterator<Item = ProblemRow<'_>> {
         self.list.iter().map(FileProblem::row)
@@ -125,7 +132,7 @@ impl From<FileProblem> for FileProblems {
 }
 
 /// One mistake in a file, with its place.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 pub(crate) struct FileProblem {
     message: String,
     label: String,

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tracing_subscriber::EnvFilter;
-use user_file::escaped;
+use user_file::{escaped, on_one_line};
 
 use crate::colour::colour_on_stderr;
 use crate::failure::Failure;
@@ -66,6 +66,11 @@ pub(crate) fn print_text(text: &str) -> Result<(), Failure> {
 /// Prints a line for display immediately.
 pub(crate) fn print_line(line: impl std::fmt::Display) -> Result<(), Failure> {
     print_text(&format!("{line}\n"))
+}
+
+/// The path of a file in a line of a text for display: a name can contain line ends.
+pub(crate) fn shown(path: &Path) -> String {
+    on_one_line(&path.to_string_lossy())
 }
 
 fn for_terminals(text: &str) -> String {

@@ -13,6 +13,26 @@ use crate::descriptors;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
 
+/// All results, or the mistakes of all files together, in their order. A mistake of a program that several units run
+/// is reported once.
+pub(crate) fn all<T>(results: impl IntoIterator<Item = Result<T, Failure>>) -> Result<Vec<T>, Failure> {
+    let (mut read, mut failed) = (Vec::new(), None::<Failure>);
+    for result in results {
+        match (result, failed.take()) {
+            (Ok(value), before) => {
+                read.push(value);
+                failed = before;
+            }
+            (Err(failure), None) => failed = Some(failure),
+            (Err(failure), Some(before)) => failed = Some(before.and(failure)),
+        }
+        if failed.as_ref().is_some_and(|failed| !failed.is_of_files()) {
+            break;
+        }
+    }
+    failed.map_or(Ok(read), Err)
+}
+
 /// Reads one unit file, and its user program, relative to its folder. Files of a program that are given replace
 /// those in the unit file. The non-volatile memory is not accessed before [`with_storage`].
 pub(crate) fn read(path: &Path, programs: &[PathBuf]) -> Result<Setup, Failure> {

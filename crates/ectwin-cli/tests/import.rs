@@ -194,3 +194,25 @@ fn a_capture_of_more_units_than_there_can_be_makes_no_scenario_of_them() {
         assert_eq!(says, code == 2, "{}", ended.stderr);
     }
 }
+
+#[test]
+fn a_path_that_is_not_utf_8_is_refused_and_one_of_any_characters_is_written() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+    let bench = with_capture("import-names");
+    let odd = "odd\u{7F}\u{1}\"name.pcapng";
+    std::fs::copy(bench.folder.join("captures/live.pcapng"), bench.folder.join(odd)).unwrap();
+    let units = [["--unit", "units/unit.toml"]; 3].concat();
+    assert_eq!(bench.ectwin(&[&["import", odd, "-o", "odd.toml"], units.as_slice()].concat()).code, Some(0));
+    let ended = bench.ectwin(&["replay", "odd.toml"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+
+    let latin = bench.folder.join(OsStr::from_bytes(b"z\xE4hler"));
+    std::fs::create_dir(&latin).unwrap();
+    std::fs::rename(bench.folder.join(odd), latin.join("live.pcapng")).unwrap();
+    std::os::unix::fs::symlink(&latin, bench.folder.join("link")).unwrap();
+    let ended = bench.ectwin(&["import", "link/live.pcapng", "-o", "latin.toml"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stdout);
+    assert!(ended.stderr.contains("is not UTF-8, so no scenario can name it"), "{}", ended.stderr);
+    assert!(!bench.folder.join("latin.toml").exists());
+}

@@ -82,13 +82,44 @@ fn the_file_is_beside_the_scenario_and_never_over_another() {
     let text = bench.text(&written);
     assert!(text.contains(&format!("seed = {seed}\n")), "{text}");
 
-    for arguments in [&["search", "sub/never.toml"][..], &["search", "sub/never.toml", "-o", &written]] {
-        let ended = bench.ectwin(arguments);
-        assert_eq!(ended.code, Some(2), "{}", ended.stdout);
-        assert!(ended.stderr.contains(&format!("{written} is there already")), "{}", ended.stderr);
-        assert!(ended.stderr.contains("help: give another path with -o"), "{}", ended.stderr);
-    }
+    let ended = bench.ectwin(&["search", "sub/never.toml", "-o", &written]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stdout);
+    assert!(ended.stderr.contains(&format!("{written} is there already")), "{}", ended.stderr);
+    assert!(ended.stderr.contains("help: give another path with -o"), "{}", ended.stderr);
     assert_eq!(bench.text(&written), text);
+}
+
+#[test]
+fn a_failure_that_is_found_again_is_told_again() {
+    let bench = Bench::new("search-again");
+    bench.put("never.toml", NEVER_AN_ERROR);
+    let told = bench.ectwin(&["search", "never.toml"]).stdout;
+    let seed = told.lines().find_map(|line| line.trim().strip_prefix("seed    ")).unwrap();
+    let written = format!("never-{seed}.toml");
+    let text = bench.text(&written);
+    let again = |name: &str| {
+        let ended = bench.ectwin(&["search", "never.toml"]);
+        assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
+        assert_eq!(ended.stdout, told.replace(&written, name));
+        assert_eq!(bench.text(name), text);
+    };
+    again(&written);
+    bench.put(&written, "another scenario");
+    again(&format!("never-{seed}-2.toml"));
+    again(&format!("never-{seed}-2.toml"));
+    assert_eq!(bench.text(&written), "another scenario");
+}
+
+#[test]
+fn a_failure_whose_file_cannot_be_written_is_told() {
+    let bench = Bench::new("search-unwritable");
+    // The name with the seed is too long.
+    let name = format!("{}.toml", "n".repeat(250));
+    bench.put(&name, NEVER_AN_ERROR);
+    let ended = bench.ectwin(&["search", &name]);
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    assert!(ended.stdout.starts_with("FAILED  ") && ended.stdout.contains("seed    "), "{}", ended.stdout);
+    assert!(ended.stderr.contains("cannot write ") && ended.stderr.contains("again"), "{}", ended.stderr);
 }
 
 #[test]

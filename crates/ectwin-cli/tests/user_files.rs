@@ -274,3 +274,60 @@ fn a_text_with_a_byte_order_mark_or_with_crlf_is_read() {
     let ended = bench.ectwin(&["st", "check", "program.st", "--unit", "unit.toml"]);
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
 }
+
+#[test]
+fn the_mistakes_of_all_unit_files_are_told_in_their_order() {
+    let bench = bench("several-units");
+    bench.put(
+        "live.toml",
+        "title = \"live\"\nsteps = [ { master = \"take unit 1 to PRE-OP\" }, \
+        { expect = \"unit 1 is in PRE-OP\", within = \"1s\" } ]\n",
+    );
+    assert_eq!(bench.ectwin(&["replay", "live.toml", "--pcap", "live.pcapng"]).code, Some(0));
+    bench.put("x1.toml", "model = \"nx-ect101\"\nserail = 1\n");
+    bench.put("x2.toml", "model = \"nx-ect101\"\nnaem = \"N2\"\n");
+    bench.put("good.toml", "model = \"nx-ect101\"\n");
+    bench.put("wrong.st", "PROGRAM P\nMisspelt := 1;\nEND_PROGRAM\n");
+    for arguments in [
+        &["run", "x1.toml", "good.toml", "gone.toml", "x2.toml", "--link", "udp:127.0.0.1:0"][..],
+        &[
+            "import",
+            "live.pcapng",
+            "-o",
+            "out.toml",
+            "--unit",
+            "x1.toml",
+            "--unit",
+            "gone.toml",
+            "--unit",
+            "x2.toml",
+        ],
+    ] {
+        let ended = bounded(&bench, arguments);
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        let places = ["serail", "cannot read gone.toml", "naem"].map(|words| ended.stderr.find(words));
+        assert!(places.iter().all(Option::is_some) && places.is_sorted(), "{}", ended.stderr);
+    }
+    // The program that all units run is reported once.
+    let arguments = ["run", "good.toml", "good.toml", "--program", "wrong.st", "--link", "udp:127.0.0.1:0"];
+    let ended = bounded(&bench, &arguments);
+    assert_eq!(ended.stderr.matches("there is no variable").count(), 1, "{}", ended.stderr);
+}
+
+#[test]
+fn a_file_name_cannot_begin_a_line_of_a_result() {
+    let bench = bench("forged");
+    let name = |ending: &str| format!("a\nok      b.{ending}");
+    bench.put(&name("toml"), "title = \"x\"\nsteps = [ { expect = \"unit 1 is in OP\" } ]\n");
+    bench.put(&format!("unit{}", name("toml")), "model = \"nx-ect101\"\n");
+    bench.put(&name("st"), "PROGRAM P\nEND_PROGRAM\n");
+    for arguments in [
+        &["replay", &name("toml")][..],
+        &["check", &format!("unit{}", name("toml"))],
+        &["st", "check", &name("st")],
+    ] {
+        let ended = bounded(&bench, arguments);
+        assert!(ended.stdout.contains(r"a\nok      b."), "{}{}", ended.stdout, ended.stderr);
+        assert!(!ended.stdout.contains("\nok "), "{}", ended.stdout);
+    }
+}

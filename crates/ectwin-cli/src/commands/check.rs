@@ -42,7 +42,7 @@ fn without_rules(args: &CheckArgs, file: &plant::UnitFile) -> Result<(), Failure
     let size = |bytes: usize| if bytes == 1 { "1 byte".to_owned() } else { format!("{bytes} bytes") };
     output::print_text(&format!(
         "{}: no problems\n{} ({}): {} from the master, {} to the master\n",
-        args.unit.display(),
+        output::shown(&args.unit),
         file.name(),
         description.name,
         size(outputs),
@@ -56,7 +56,7 @@ fn for_people(path: &Path, text: &str, check: &SettingsCheck) -> String {
         findings.iter().take(MISTAKES_MAX).map(|finding| report::picture(path, text, finding)).collect();
     let more = and_more(findings.len().saturating_sub(MISTAKES_MAX));
     told.extend(more.map(|more| format!("{more}\n\n")));
-    told.push_str(&format!("{}: {}\n", path.display(), check.consequence));
+    told.push_str(&format!("{}: {}\n", output::shown(path), check.consequence));
     told.push_str(&exchange::table(check));
     told
 }

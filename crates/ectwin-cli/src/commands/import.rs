@@ -35,9 +35,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
             help: "if the capture is correct, give the unit files with --unit".to_owned(),
         });
     }
-    for unit in &args.units {
-        unit_files::parse(unit)?;
-    }
+    unit_files::all(args.units.iter().map(|unit| unit_files::parse(unit)))?;
     let text = text(args, &frames)?;
     if is_stdout {
         output::print(text.as_bytes())?;
@@ -46,7 +44,7 @@ pub(crate) fn run(args: &ImportArgs) -> Result<(), Failure> {
     }
     People::beside([args.output.as_path()]).print_line(format_args!(
         "{}: {} frames, {} of them answered, in {}",
-        args.output.display(),
+        output::shown(&args.output),
         frames.len(),
         frames.answers(),
         frames.duration()
@@ -105,7 +103,12 @@ fn seen_from(folder: &Path, path: &Path) -> Result<String, Failure> {
         path.canonicalize().map_err(|source| Failure::Unwritable { path: path.to_owned(), source })
     };
     let (folder, path) = (whole(folder)?, whole(path)?);
-    Ok(toml_string(&relative(&folder, &path).display().to_string()))
+    let relative = relative(&folder, &path);
+    let name = relative.to_str().ok_or_else(|| Failure::Refused {
+        message: format!("the path {} is not UTF-8, so no scenario can name it", relative.display()),
+        help: "rename the file or its folder".to_owned(),
+    })?;
+    Ok(toml_string(name))
 }
 
 /// The relative path from a folder to a file, both given from the root.
@@ -115,9 +118,9 @@ fn relative(folder: &Path, path: &Path) -> PathBuf {
     up.chain(path.components().skip(same)).collect()
 }
 
-/// A string in JSON is written as in TOML.
+/// A string in JSON is written as in TOML, which also has U+007F as an escape only.
 fn toml_string(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+    serde_json::Value::from(text).to_string().replace('\u{7F}', r"\u007F")
 }
 
 #[cfg(test)]
@@ -139,5 +142,6 @@ mod tests {
     #[test]
     fn strings_are_escaped() {
         assert_eq!(toml_string("a \"b\"\\\n"), r#""a \"b\"\\\n""#);
+        assert_eq!(toml_string("a\u{7F}\u{1}"), r#""a\u007F\u0001""#);
     }
 }

@@ -8,6 +8,7 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{Lines, Unreadable, Wanted};
+use user_file::on_one_line;
 
 use super::replay::{
     CASES_MAX, CaseResult, JunitReport, Partition, Totals, Verdict, case_count, failure_story,
@@ -64,7 +65,11 @@ fn print(result: &CaseResult, people: People) -> Result<(), Failure> {
         Verdict::Passed => Ok(()),
         Verdict::Failed => {
             let story = failure_story(result);
-            people.print_text(&format!("FAILED  {}: {}\n{story}", result.file, result.title))
+            people.print_text(&format!(
+                "FAILED  {}: {}\n{story}",
+                on_one_line(&result.file),
+                on_one_line(&result.title)
+            ))
         }
     }
 }

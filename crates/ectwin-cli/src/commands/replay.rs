@@ -27,7 +27,7 @@ use captures::Captures;
 use partition::Shard;
 use results::Results;
 
-pub(crate) use campaign::read_scenario;
+pub(crate) use campaign::{read_scenario, scenario_in};
 pub(crate) use case::CASES_MAX;
 pub(crate) use junit::{JunitReport, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};

@@ -3,11 +3,11 @@
 mod servers;
 mod signals;
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use ectwin::{ChangesLost, Ended, ModbusServer, Runtime, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
-use plc::Builtin;
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
@@ -80,12 +80,12 @@ fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
         Ok(if args.fast { setup.fast() } else { setup })
     };
     descriptors::make_room(args.units.len());
-    args.units.iter().map(read).collect()
+    unit_files::all(args.units.iter().map(read))
 }
 
 fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failure> {
     let pairs = args.units.iter().zip(setups);
-    pairs.map(|(path, setup)| unit_files::with_storage(path, setup)).collect()
+    unit_files::all(pairs.map(|(path, setup)| unit_files::with_storage(path, setup)))
 }
 
 fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
@@ -101,11 +101,12 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
     pairs.filter_map(|(path, setup)| unit_files::storage_path(path, setup.file()))
 }
 
-/// The files that are read or written while the units run. Paths of programs in unit files are relative to these files.
+/// The files that are read or written while the units run.
 fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
-    let is_file = |program: &&PathBuf| Builtin::named(&program.display().to_string()).is_none();
-    let read = args.units.iter().chain(args.programs.iter().filter(is_file)).cloned();
-    memories(args, setups).map(LaterUse::Written).chain(read.map(LaterUse::Read)).collect()
+    let units = args.units.iter().cloned().map(LaterUse::Read);
+    let programs: BTreeSet<_> = setups.iter().map(|setup| setup.named_program_paths().to_vec()).collect();
+    let programs = programs.into_iter().map(LaterUse::Program);
+    memories(args, setups).map(LaterUse::Written).chain(units).chain(programs).collect()
 }
 
 fn record(capture: BegunFile, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {

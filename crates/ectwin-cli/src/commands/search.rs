@@ -5,12 +5,16 @@ use std::path::{Path, PathBuf};
 use ectwin::user_files::{self, Beside, Wanted};
 use scenario::{Found, Recording, Scenario};
 use time::Duration;
+use user_file::on_one_line;
 
-use super::replay::{quoted, read_scenario};
+use super::replay::{quoted, read_scenario, scenario_in};
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
-use crate::output;
+use crate::output::{self, shown};
 use crate::output_file::OutputFile;
+
+/// Number of names for the scenarios that one seed has given.
+const BESIDE_MAX: u64 = 999;
 
 /// Replays seed after seed; the first one that fails is reduced and written.
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
@@ -48,7 +52,7 @@ fn search(scenario: &Scenario, text: &str, args: &SearchArgs) -> (Option<Found>,
 }
 
 fn tell_nothing(args: &SearchArgs, lasted: Duration) -> Result<(), Failure> {
-    let (path, runs) = (args.scenario.display(), args.runs);
+    let (path, runs) = (shown(&args.scenario), args.runs);
     let runs = if runs.get() == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
     output::print_line(format_args!(
         "{path}: nothing found in {runs} from seed {} on, {lasted} of virtual time",
@@ -56,11 +60,12 @@ fn tell_nothing(args: &SearchArgs, lasted: Duration) -> Result<(), Failure> {
     ))
 }
 
-/// The failure with the line numbers of the written file, which differ from those of the file with random steps.
+/// The failure with the line numbers of the written file, which differ from those of the file with random steps. It
+/// is printed before the file is written: whatever is wrong with the file, the failure of a long search is known.
 fn tell_found(args: &SearchArgs, scenario: &Scenario, found: &Found) -> Result<(), Failure> {
-    let output = args.output.clone().unwrap_or_else(|| beside(&args.scenario, found.seed));
-    write_new(&output, &found.text)?;
-    let failure = read_scenario(&output)?.replay(found.seed, Recording::new(false, false)).failure;
+    let output = args.output.clone().unwrap_or_else(|| free_beside(&args.scenario, found));
+    let written = scenario_in(&output, &found.text);
+    let failure = written.ok().and_then(|it| it.replay(found.seed, Recording::new(false, false)).failure);
     let failure = failure.as_ref().unwrap_or(&found.failure);
     let Found { seed, steps, steps_before, .. } = found;
     let title = scenario.title.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -68,21 +73,44 @@ fn tell_found(args: &SearchArgs, scenario: &Scenario, found: &Found) -> Result<(
         "FAILED  {}: {title}\n        {}:{}: `{}`\n        seen    {}\n        at      {}\n        \
          seed    {seed}\n        steps   {steps} of {steps_before} are left\n        \
          repeat  ectwin replay {}",
-        args.scenario.display(),
-        output.display(),
+        shown(&args.scenario),
+        shown(&output),
         failure.line,
-        failure.text,
+        on_one_line(&failure.text),
         failure.seen,
         failure.at,
-        quoted(&output.display().to_string())
+        quoted(&shown(&output))
     ))?;
+    if let Err(failure) = write_unless_equal(&output, &found.text) {
+        let (message, _) = failure.words();
+        let again = format!("--seed {seed} --runs 1 -o OUT");
+        tracing::error!("{}; `ectwin search` with {again} finds the steps again", on_one_line(&message));
+    }
     Err(Failure::CasesFailed)
 }
 
-/// `whatever-happens.toml` and seed 7: `whatever-happens-7.toml` in the same folder.
-fn beside(path: &Path, seed: u64) -> PathBuf {
-    let stem = path.file_stem().unwrap_or_default().display();
-    path.with_file_name(format!("{stem}-{seed}.toml"))
+/// `whatever-happens.toml` and seed 7: `whatever-happens-7.toml` in the same folder; if that is another file,
+/// `whatever-happens-7-2.toml` and so on.
+fn free_beside(path: &Path, found: &Found) -> PathBuf {
+    let numbered = |number: u64| {
+        let mut name = path.file_stem().unwrap_or_default().to_owned();
+        name.push(format!("-{}", found.seed));
+        if number > 1 {
+            name.push(format!("-{number}"));
+        }
+        name.push(".toml");
+        path.with_file_name(name)
+    };
+    let is_free = |path: &PathBuf| path.symlink_metadata().is_err() || has_text(path, &found.text);
+    (1..=BESIDE_MAX).map(numbered).find(is_free).unwrap_or_else(|| numbered(1))
+}
+
+fn has_text(path: &Path, text: &str) -> bool {
+    user_files::text(path, Wanted::Scenario).is_ok_and(|own| own == text)
+}
+
+fn write_unless_equal(path: &Path, text: &str) -> Result<(), Failure> {
+    if has_text(path, text) { Ok(()) } else { write_new(path, text) }
 }
 
 /// Writes a file that does not exist yet.

@@ -43,7 +43,7 @@ pub(crate) fn run(args: &StCheckArgs) -> Result<(), Failure> {
     match judged {
         Ok(()) if args.json => Ok(()),
         Ok(()) => {
-            let names: Vec<_> = args.programs.iter().map(|path| path.display().to_string()).collect();
+            let names: Vec<_> = args.programs.iter().map(|path| output::shown(path)).collect();
             output::print_line(format_args!("{}: no problems", names.join(", ")))
         }
         Err(_) if args.json => Err(Failure::ProgramWrong(FileProblems::default())),

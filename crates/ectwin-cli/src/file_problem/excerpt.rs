@@ -10,7 +10,7 @@ use super::shown_lines::{ShownLines, boundary, start_of_line};
 const LINES_MAX: usize = 12;
 
 /// A few lines of a file with a marked place.
-#[derive(Debug)]
+#[derive(Debug, PartialEq, Eq)]
 pub(super) struct Excerpt {
     name: String,
     text: String,
@@ -42,7 +42,7 @@ impl Excerpt {
         let marked = lines.marks().next().unwrap_or_default();
         let column = source.get(own..start).unwrap_or_default().chars().count();
         let (first_line, line) = (lines_before(first), lines_before(own));
-        Self { name: user_file::escaped(name), text: lines.into_text(), first_line, marked, line, column }
+        Self { name: user_file::on_one_line(name), text: lines.into_text(), first_line, marked, line, column }
     }
 
     /// This line of a file, from 1, alone.

@@ -41,7 +41,7 @@ impl ShownFile {
             |start| source.get(start_of_line(source, start)..start).unwrap_or_default().chars().count();
         let marks = lines.marks().zip(&places);
         let marks = marks.map(|(shown, place)| Mark { shown, column: column(place.start) }).collect();
-        Self { name: user_file::escaped(name), text: lines.into_text(), marks }
+        Self { name: user_file::on_one_line(name), text: lines.into_text(), marks }
     }
 
     /// The places, in the order in which they were added.

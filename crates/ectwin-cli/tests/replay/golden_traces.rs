@@ -80,7 +80,7 @@ fn a_golden_trace_that_cannot_be_read_is_refused_and_not_replaced() {
         ("it is a pipe", &|| assert!(Command::new("mkfifo").arg(&trace).status().unwrap().success())),
         ("Permission denied", &|| {
             put(golden.as_bytes());
-            fs::set_permissions(&trace, fs::Permissions::from_mode(0)).unwrap();
+            fs::set_permissions(&trace, fs::Permissions::from_mode(0o000)).unwrap();
         }),
     ];
     for (reason, make) in make {

@@ -12,6 +12,7 @@ use super::seeds::SeedChoice;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
+use crate::output::shown;
 use crate::overwrite::{self, Output};
 use crate::{output, unit_files};
 
@@ -110,7 +111,7 @@ impl Campaign {
             // A scenario with that name is not a golden trace.
             overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
             output::write(Some(&trace), report.recording.trace().unwrap_or_default().as_bytes())?;
-            output::print_line(format_args!("blessed {}", trace.display()))?;
+            output::print_line(format_args!("blessed {}", shown(&trace)))?;
         }
         Ok(())
     }
@@ -189,6 +190,11 @@ pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
     load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
 }
 
+/// The scenario that a file at this path would be, with this text.
+pub(crate) fn scenario_in(path: &Path, text: &str) -> Result<Scenario, Failure> {
+    parse(path, text, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
+}
+
 /// Reads a scenario, and its files, relative to its folder.
 fn load(
     path: &Path,
@@ -200,6 +206,23 @@ fn load(
     let text = user_files::text(path, Wanted::Scenario).map_err(|error| unreadable(path, &error))?;
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
+    let mut scenario = parse(path, &text, fingerprint, inputs)?;
+    let trace = path.with_extension("trace");
+    scenario.golden_trace = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
+    if let Some(text) = &scenario.golden_trace {
+        fingerprint.add(text.as_bytes());
+        inputs.push(trace);
+    }
+    Ok(scenario)
+}
+
+/// The scenario in this text, with the files that it names, relative to the folder of `path`.
+fn parse(
+    path: &Path,
+    text: &str,
+    fingerprint: &mut Fingerprint,
+    inputs: &mut Vec<PathBuf>,
+) -> Result<Scenario, FileProblems> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut named = Beside::new(folder, |name, wanted, text| {
         let path = folder.join(name);
@@ -211,10 +234,10 @@ fn load(
         inputs.push(path);
         fingerprint.add(text.as_bytes());
     });
-    let parsed = Scenario::parse_with(&text, &mut named);
+    let parsed = Scenario::parse_with(text, &mut named);
     let mut scenario = parsed.map_err(|errors| {
         let problem = |error: &scenario::ScenarioError| {
-            FileProblem::in_text(path, &text, error.span(), &error.message, &error.help)
+            FileProblem::in_text(path, text, error.span(), &error.message, &error.help)
         };
         FileProblems::new(errors.iter().map(problem), errors.more())
     })?;
@@ -224,14 +247,8 @@ fn load(
             let at = text.find(&name).unwrap_or_default();
             let help =
                 "a capture from `ectwin run --pcap` or `ectwin replay --pcap`, relative to this file's folder";
-            FileProblem::in_text(path, &text, at..at + name.len(), &reason, help)
+            FileProblem::in_text(path, text, at..at + name.len(), &reason, help)
         })?;
-    }
-    let trace = path.with_extension("trace");
-    scenario.golden_trace = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
-    if let Some(text) = &scenario.golden_trace {
-        fingerprint.add(text.as_bytes());
-        inputs.push(trace);
     }
     Ok(scenario)
 }
@@ -239,7 +256,9 @@ fn load(
 /// The golden trace beside a scenario; none if there is no such file. A file that cannot be read is not compared,
 /// so it must not count as none.
 fn read_golden(trace: &Path, scenario: &Path, golden: GoldenTraces) -> Result<Option<String>, Unreadable> {
-    let is_missing = trace.symlink_metadata().is_err_and(|error| error.kind() == io::ErrorKind::NotFound);
+    // A file whose name is too long cannot exist.
+    let is_none = |kind| matches!(kind, io::ErrorKind::NotFound | io::ErrorKind::InvalidFilename);
+    let is_missing = trace.symlink_metadata().is_err_and(|error| is_none(error.kind()));
     match golden {
         // A scenario with that ending is not its own trace.
         _ if is_missing || trace == scenario => Ok(None),

@@ -61,8 +61,8 @@ impl<W: Write> JunitReport<W> {
 
     /// Writes the next result.
     pub(crate) fn take(&mut self, result: &CaseResult) -> io::Result<()> {
-        let name = XmlString::new(format!("{} (seed {})", result.title, result.seed));
-        let file = XmlString::new(&result.file);
+        let name = xml(format!("{} (seed {})", result.title, result.seed));
+        let file = xml(&result.file);
         let time = seconds(result.virtual_ns);
         let mut case = BytesStart::new(CASE);
         case.extend_attributes([("name", name.as_str()), ("classname", file.as_str()), ("time", &time)]);
@@ -76,9 +76,8 @@ impl<W: Write> JunitReport<W> {
     }
 
     fn failure(&mut self, result: &CaseResult, step: &FailedStep) -> io::Result<()> {
-        let message =
-            XmlString::new(format!("{}:{}: `{}`: {}", result.file, step.line, step.step, step.seen));
-        let told = XmlString::new(story::failure(result));
+        let message = xml(format!("{}:{}: `{}`: {}", result.file, step.line, step.step, step.seen));
+        let told = xml(story::failure(result));
         // Line ends stay line ends, which readers have always seen here.
         let message = escape(message.as_str());
         let mut failure = BytesStart::new(FAILURE);
@@ -98,6 +97,11 @@ impl<W: Write> JunitReport<W> {
         self.writer.write_indent()?;
         self.writer.into_inner().flush()
     }
+}
+
+/// A text without the characters that XML 1.0 does not allow. The library omits all but the two noncharacters.
+fn xml(text: impl AsRef<str>) -> XmlString {
+    XmlString::new(text.as_ref().replace(['\u{FFFE}', '\u{FFFF}'], ""))
 }
 
 fn seconds(nanos: u64) -> String {
@@ -184,5 +188,14 @@ mod tests {
         for count in 0..=results.len() {
             assert_eq!(streamed(&results[..count]), at_once(&results[..count]), "{count} results");
         }
+    }
+
+    #[test]
+    fn what_xml_does_not_allow_is_left_out_of_titles_names_and_results() {
+        let mut failed = result(1, "a\u{FFFE}b\u{FFFF}c\u{7}d", Some("e\u{FFFE}f"));
+        failed.file = "g\u{FFFF}.toml".to_owned();
+        let report = streamed(&[failed]);
+        assert!(report.contains("name=\"abcd (seed 1)\" classname=\"g.toml\""), "{report}");
+        assert!(report.contains(": ef\"") && !report.contains(['\u{FFFE}', '\u{FFFF}', '\u{7}']), "{report}");
     }
 }

@@ -1,6 +1,7 @@
 //! The text output of a case: one line, and more if it failed.
 
 use time::Duration;
+use user_file::on_one_line;
 
 use super::result::{CaseResult, Difference, Verdict};
 
@@ -12,7 +13,7 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
         Verdict::Passed => "ok    ",
         Verdict::Failed => "FAILED",
     };
-    let mut story = format!("{word}  {}: {} ({lasted})\n", result.file, result.title);
+    let mut story = format!("{word}  {}: {} ({lasted})\n", on_one_line(&result.file), result.title);
     story.push_str(&failure(result));
     if result.failure.is_none() {
         story.push_str(&differences(result));
@@ -27,9 +28,9 @@ pub(crate) fn failure(result: &CaseResult) -> String {
     let at = Duration::from_nanos(failed.at_ns);
     let told = format!(
         "        {}:{}: `{}`\n        seen    {}\n        at      {at}\n        seed    {}\n        repeat  {}\n",
-        result.file,
+        on_one_line(&result.file),
         failed.line,
-        failed.step,
+        on_one_line(&failed.step),
         failed.seen,
         result.seed,
         repeat(result)
@@ -48,7 +49,7 @@ fn differences(result: &CaseResult) -> String {
 
 /// The single command that repeats it.
 fn repeat(result: &CaseResult) -> String {
-    format!("ectwin replay {} --seed {}", quoted(&result.file), result.seed)
+    format!("ectwin replay {} --seed {}", quoted(&on_one_line(&result.file)), result.seed)
 }
 
 /// A path quoted for a shell.
