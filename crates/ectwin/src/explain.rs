@@ -2,11 +2,12 @@
 //!
 //! A text may have several meanings: 0x0020 is an AL status code, an ESC register, and in a diagnosis message
 //! the event 00200000. [`explain`] returns all of them, as facts under headings; [`event_pages`] writes the
-//! same facts as the pages of docs/events. Names and meanings come from the tables of the model,
-//! docs/glossary.md and docs/user/unit-file.md.
+//! same facts as the pages of docs/events. Names and meanings come from the tables of the model and from tables in
+//! the pages of docs.
 
 mod al_status;
 mod al_status_codes;
+mod documented;
 mod emergency;
 mod event;
 mod explanation;
@@ -22,6 +23,8 @@ mod page;
 mod pages;
 mod port;
 mod register;
+mod register_bits;
+mod rule;
 mod sdo_abort_codes;
 mod subject;
 mod tables;
@@ -36,7 +39,7 @@ pub use explanation::Explanation;
 use kind::Kind;
 use number::Number;
 pub use pages::{Page, event_pages};
-pub use subject::Subject;
+pub use subject::{DocumentedKind, Subject};
 pub use unexplained::Unexplained;
 pub use unit_model::tables::{Advice, Fact, Section};
 
@@ -143,6 +146,8 @@ fn explanation(subject: Subject) -> Option<Explanation> {
         Subject::Port(name) => port::explanation(name),
         Subject::Key(path) => key::explanation(path),
         Subject::Library(name) => library::explanation(name),
+        Subject::Rule(name) => rule::explanation(name),
+        Subject::Documented(kind, names) => documented::explanation(kind, names),
         Subject::Word(word) => glossary::explanation(word),
     }
 }

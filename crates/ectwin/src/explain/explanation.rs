@@ -26,7 +26,7 @@ impl fmt::Display for Explanation {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{}: {}", self.subject, self.name)?;
         let line = |formatter: &mut fmt::Formatter<'_>, label: &str, text: &str| {
-            write!(formatter, "\n  {label:<12}{text}")
+            write!(formatter, "\n  {label:<11} {text}")
         };
         for fact in &self.facts {
             line(formatter, &fact.label, &fact.text)?;

@@ -1,6 +1,6 @@
 //! Kinds as words before a name or a number: `NX 6000:01`, `event 391E0000`, `AL status code 1B`.
 
-use super::Subject;
+use super::{DocumentedKind, Subject};
 
 /// The words of a kind, and the included meanings.
 pub(super) struct Kind {
@@ -36,6 +36,14 @@ const KINDS: &[Kind] = &[
     kind("i/o port", |subject| matches!(subject, Subject::Port(_))),
     kind("key", |subject| matches!(subject, Subject::Key(_))),
     kind("structured text", |subject| matches!(subject, Subject::Library(_))),
+    kind("setting rule", |subject| matches!(subject, Subject::Rule(_))),
+    kind("rule", |subject| matches!(subject, Subject::Rule(_))),
+    kind("errorid", |subject| matches!(subject, Subject::Documented(DocumentedKind::ErrorId, _))),
+    kind("data type", |subject| matches!(subject, Subject::Documented(DocumentedKind::DataType, _))),
+    kind("fault of scenarios", |subject| matches!(subject, Subject::Documented(DocumentedKind::Fault, _))),
+    kind("fault", |subject| matches!(subject, Subject::Documented(DocumentedKind::Fault, _))),
+    kind("variable", |subject| matches!(subject, Subject::Documented(DocumentedKind::Variable, _) | Subject::Port(_))),
+    kind("counter", |subject| matches!(subject, Subject::Documented(DocumentedKind::Counter, _))),
     kind("word", |subject| matches!(subject, Subject::Word(_))),
 ];
 

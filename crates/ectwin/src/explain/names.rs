@@ -7,7 +7,7 @@ use esc::REGISTERS;
 use objects::ObjectCode;
 
 use super::tables::tables;
-use super::{Subject, glossary, indicator, key, library, port};
+use super::{Subject, documented, glossary, indicator, key, library, port, rule};
 
 static ALL: LazyLock<Vec<Name>> = LazyLock::new(|| all().map(Name::new).collect());
 
@@ -100,7 +100,9 @@ pub(super) fn all() -> impl Iterator<Item = (String, Subject)> {
     let of_model = events.chain(objects).chain(nx_objects).chain(entries()).chain(ports).chain(named_bits);
     let lights = indicator::lights().map(|(words, name)| (words, Subject::Indicator(name)));
     let of_unit = indicators.chain(lights).chain(patterns).chain(words).chain(keys).chain(of_model);
-    of_unit.chain(registers).chain(library)
+    let rules = rule::names().map(|name| (name.to_owned(), Subject::Rule(name)));
+    let documented = documented::names().map(|(name, subject)| (name.to_owned(), subject));
+    of_unit.chain(registers).chain(library).chain(rules).chain(documented)
 }
 
 /// The entries of all objects. That of a variable is the object, with the same name.

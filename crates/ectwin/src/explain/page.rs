@@ -13,6 +13,8 @@ pub(super) struct PageSection {
 /// A table of a page.
 #[derive(Debug)]
 pub(super) struct Table {
+    /// The last line of the text above it.
+    pub(super) title: Option<&'static str>,
     pub(super) header: Vec<&'static str>,
     pub(super) rows: Vec<Vec<&'static str>>,
 }
@@ -25,16 +27,20 @@ pub(super) fn sections(page: &'static str) -> Vec<PageSection> {
 
 fn section((heading, text): (&'static str, &'static str)) -> PageSection {
     let blocks: Vec<&str> = text.split("\n\n").map(str::trim).filter(|block| !block.is_empty()).collect();
-    let tables = text.split("\n\n").filter_map(table).collect();
+    let titles = text
+        .split("\n\n")
+        .map(|block| block.lines().last())
+        .scan(None, |title, last| Some(core::mem::replace(title, last)));
+    let tables = text.split("\n\n").zip(titles).filter_map(|(block, title)| table(block, title)).collect();
     let first = blocks.first().filter(|block| !block.starts_with(['|', '`']));
     let sentence = first.map_or_else(String::new, |block| first_sentence(&plain(block)));
     PageSection { heading, sentence, tables }
 }
 
 /// The table of a block, with or without a line of text above it.
-fn table(block: &'static str) -> Option<Table> {
+fn table(block: &'static str, title: Option<&'static str>) -> Option<Table> {
     let mut rows = block.lines().filter_map(cells);
-    Some(Table { header: rows.next()?, rows: rows.collect() })
+    Some(Table { title, header: rows.next()?, rows: rows.collect() })
 }
 
 /// The cells of a row; none for any other line, and for the one below the header.

@@ -2,7 +2,7 @@
 
 use esc::{EcatAccess, PdiAccess, REGISTERS, Register};
 
-use super::{Explanation, Fact, Subject};
+use super::{Explanation, Fact, Subject, register_bits};
 
 /// The register with a byte at `offset`; none if there is none.
 pub(super) fn explanation(offset: u16) -> Option<Explanation> {
@@ -31,7 +31,8 @@ pub(super) fn explanation(offset: u16) -> Option<Explanation> {
     ));
     facts.push(Fact::new("power-on", format!("0x{:X}", register.reset)));
     let (subject, name) = (Subject::Register(offset), register.name.into());
-    Some(Explanation { subject, name, facts, advice: Vec::new(), sections: Vec::new() })
+    let sections = register_bits::sections(register);
+    Some(Explanation { subject, name, facts, advice: Vec::new(), sections })
 }
 
 /// The first byte of the register in a bank that has a byte at `offset`.

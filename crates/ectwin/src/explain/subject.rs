@@ -6,6 +6,34 @@ use coe_kit::indicators::Pattern;
 use unit_model::EventCode;
 use wire::{AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
+/// Kind of a name in a table of the user's pages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DocumentedKind {
+    /// Fault that a scenario can inject.
+    Fault,
+    /// Elementary type of Structured Text.
+    DataType,
+    /// Variable that exists without a declaration.
+    Variable,
+    /// ErrorID of NX_ReadObj and NX_WriteObj.
+    ErrorId,
+    /// Counter that `ectwin run` prints.
+    Counter,
+}
+
+impl DocumentedKind {
+    /// Its words before a name.
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Fault => "fault of scenarios",
+            Self::DataType => "data type",
+            Self::Variable => "variable",
+            Self::ErrorId => "ErrorID",
+            Self::Counter => "counter",
+        }
+    }
+}
+
 /// Something that can be explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Subject {
@@ -37,6 +65,10 @@ pub enum Subject {
     Key(&'static str),
     /// Function or function block of Structured Text.
     Library(&'static str),
+    /// Setting rule between I/O allocation and PDO mapping.
+    Rule(&'static str),
+    /// Name in a table of the user's pages: its kind, and all names of its row as in the page.
+    Documented(DocumentedKind, &'static str),
     /// Word of the glossary.
     Word(&'static str),
 }
@@ -60,6 +92,8 @@ impl fmt::Display for Subject {
             Self::Port(name) => write!(formatter, "I/O port {name}"),
             Self::Key(path) => write!(formatter, "key {path}"),
             Self::Library(name) => write!(formatter, "Structured Text {name}"),
+            Self::Rule(name) => write!(formatter, "setting rule {name}"),
+            Self::Documented(kind, names) => write!(formatter, "{} {}", kind.words(), names.replace('`', "")),
             Self::Word(word) => write!(formatter, "word {word}"),
         }
     }

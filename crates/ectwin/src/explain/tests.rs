@@ -511,3 +511,49 @@ fn a_text_longer_than_every_name_is_repeated_in_part() {
     let longest = names::all().map(|(name, _)| name.len()).max();
     assert!(longest <= Some(TEXT_BYTES_MAX), "{longest:?}");
 }
+
+#[test]
+fn names_of_rules_and_of_tables_in_the_pages_are_explained() {
+    for (text, expected) in [
+        ("sm_order", "setting rule sm_order: "),
+        ("IoCommunications", "fault of scenarios IoCommunications: causes the event 80200000"),
+        ("UINT", "data type UINT: 0 to 65535"),
+        ("bool", "data type BOOL: FALSE, TRUE"),
+        ("P_PRGER", "variable P_PRGER: TRUE after an error of the program"),
+        ("P_Off", "variable P_On; P_Off: TRUE always; never"),
+        ("_EC_PDSlavTbl", "variable _EC_PDSlavTbl: element n is TRUE while the slave"),
+        ("16#2C00", "ErrorID 16#2C00: the unit refuses"),
+        ("ErrorID 2C02", "ErrorID 16#2C02: no answer within TimeOut"),
+        ("late_polls", "counter late_polls: number of polls"),
+        ("destroyed", "counter destroyed: number of frames that did not return"),
+        ("unsent", "counter unsent: number of answers"),
+    ] {
+        assert!(told(text).contains(expected), "{text}: {}", told(text));
+    }
+}
+
+/// The tables in the pages are complete: every fault of the model, and every elementary type.
+#[test]
+fn every_fault_and_every_type_is_explained() {
+    let faults = plant::default_model().faults().iter().map(|name| (*name, DocumentedKind::Fault));
+    let types = plc::Elementary::ALL.iter().map(|known| (known.name(), DocumentedKind::DataType));
+    for (name, kind) in faults.chain(types) {
+        let is_it = |subject: &Subject| matches!(subject, Subject::Documented(known, _) if *known == kind);
+        assert!(subjects(name).iter().any(is_it), "{name}");
+    }
+}
+
+#[test]
+fn the_bits_of_a_register_are_those_of_its_tables() {
+    for (text, expected) in [
+        ("0x0120", "\nAL control 0x0120\n  bit 3:0     requested state: 1 INIT"),
+        ("AL status", "\n  bit 4       error indication"),
+        ("DL status", "\n  bit 0       PDI operational / EEPROM loaded"),
+        ("0x0502", "\n  bit 15      busy (r)"),
+        ("0x0806", "\nActivate 0x0806+8n\n  bit 0       enable"),
+        ("0x080E", "\nActivate 0x0806+8n\n  bit 0       enable"),
+    ] {
+        assert!(told(text).contains(expected), "{text}: {}", told(text));
+    }
+    assert!(!told("AL status").contains("acknowledge"), "{}", told("AL status"));
+}

@@ -9,9 +9,10 @@ const SHOWN_PARTS: usize = 3;
 const KNOWN: &str = "codes and indexes in hexadecimal digits, such as 391E0000 (event code), 0x001B (AL status code), 0xA000 \
     (emergency error code), 0x0602_0000 (SDO abort code), 0x1018 or 10F3:05 (objects), NX 6000:01 (NX \
     objects), 0x0130 (register); indicators and \
-    their patterns, such as ERR; names of events, objects, entries, I/O ports and registers; functions and blocks of Structured \
-    Text, such as CTU; keys of the unit file, such as \
-    fail_soft; words of the glossary, such as watchdog";
+    their patterns, such as ERR; names of events, objects, entries, I/O ports and registers; functions, blocks, data types \
+    and variables of Structured Text, such as CTU or P_PRGER; ErrorIDs, such as 16#2C00; keys of the unit file, such as fail_soft; \
+    setting rules, such as sm_order; faults of scenarios, such as IoCommunications; counters of `run`, such as late_polls; words of the \
+    glossary, such as watchdog";
 
 /// A number that is not a code, object or register.
 pub(super) fn number(number: Number, near: Option<Explanation>) -> Unexplained {
