@@ -8,15 +8,16 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use ectwin::master::{Address, DirectAccess};
 use ectwin::{Duration, EventLog, Fault, Setup, SetupError, Twin};
 use nx_ect101::NonVolatileMemory;
-use wire::{Command as Datagram, FrameBuilder, returned_datagrams};
 
 const UNIT: &str = "model = \"nx-ect101\"\nstart_up = \"0ms\"\nid_switch = 0x00\nstorage = \"N1.nvm\"\n";
 /// A word of the EEPROM without meaning.
 const SPARE_WORD: u32 = 0x03F0;
 const ALIAS_WORD: u32 = 4;
 
+const UNIT_1: Address = Address::Position(0);
 const STATION_ALIAS: u16 = 0x0012;
 const AL_CONTROL: u16 = 0x0120;
 const AL_STATUS: u16 = 0x0130;
@@ -40,22 +41,21 @@ fn stored(folder: &Path) -> Option<NonVolatileMemory> {
     Some(NonVolatileMemory::decode(&bytes).expect("whole"))
 }
 
-fn send(twin: &mut Twin, command: Datagram, offset: u16, data: &[u8]) -> Vec<u8> {
-    let mut frame = FrameBuilder::new().physical(command, 0, offset, data).finish();
-    twin.frame(&mut frame);
-    returned_datagrams(&frame).remove(0).data
+fn access(twin: &mut Twin) -> DirectAccess<&mut Twin> {
+    let now = twin.now();
+    DirectAccess::new(twin, now)
 }
 
 /// AL status and AL status code.
 fn al_status(twin: &mut Twin) -> (u8, u16) {
-    let status = send(twin, Datagram::Aprd, AL_STATUS, &[0; 6]);
+    let status = access(twin).read(UNIT_1, AL_STATUS, 6).0;
     (status[0], u16::from_le_bytes([status[4], status[5]]))
 }
 
 fn write_sii(twin: &mut Twin, word_address: u32, word: u16) {
     let command = 0x0201_u16.to_le_bytes();
     let write = [&command[..], &word_address.to_le_bytes(), &word.to_le_bytes()].concat();
-    send(twin, Datagram::Apwr, SII_CONTROL, &write);
+    access(twin).write(UNIT_1, SII_CONTROL, &write);
 }
 
 /// Sets the station alias like a master's tool: word 4, and the checksum in word 7.
@@ -77,7 +77,7 @@ fn what_a_master_writes_outlives_power_off() {
     drop(twin);
 
     let mut twin = start(&folder);
-    assert_eq!(send(&mut twin, Datagram::Aprd, STATION_ALIAS, &[0; 2]), 0x0456_u16.to_le_bytes());
+    assert_eq!(access(&mut twin).read(UNIT_1, STATION_ALIAS, 2).0, 0x0456_u16.to_le_bytes());
     drop(twin);
     let memory = stored(&folder).expect("stored");
     assert_eq!(memory.software_id(), 0x0456);
@@ -95,7 +95,7 @@ fn a_damaged_file_is_a_fault_and_is_kept_aside() {
 
     let mut twin = start(&folder);
     assert_eq!(al_status(&mut twin), (0x11, 0x0002));
-    send(&mut twin, Datagram::Apwr, AL_CONTROL, &[0x12, 0]);
+    access(&mut twin).write(UNIT_1, AL_CONTROL, &[0x12, 0]);
     assert_eq!(al_status(&mut twin), (0x11, 0x0002), "no way out of INIT");
     write_sii(&mut twin, SPARE_WORD, 1);
     drop(twin);
