@@ -86,6 +86,10 @@ impl Judge {
     }
 
     fn entries_of_complete(self, object: &Object, first: SubIndex) -> Result<&[Entry], SdoAbort> {
+        // Beckhoff's slave stack looks at this first, also for objects without complete access.
+        if first > object.max_sub() {
+            return Err(SdoAbort::SUBINDEX_DOES_NOT_EXIST);
+        }
         if !object.complete_access {
             return Err(self.aborts.complete_access_unsupported);
         }

@@ -29,10 +29,12 @@ fn sync_manager_types_come_as_soem_expects_them() {
 #[test]
 fn a_beginning_above_subindex_1_is_refused() {
     let mut bench = Bench::in_pre_op();
-    for first in [2, 3, 4, 255] {
+    let beyond = SdoAbort::SUBINDEX_DOES_NOT_EXIST;
+    let rows = [2, 3, 4].map(|first| (first, SdoAbort::UNSUPPORTED_ACCESS));
+    for (first, abort) in rows.into_iter().chain([(5, beyond), (255, beyond)]) {
         let target = SdoTarget::complete(0x1018, first);
-        assert_eq!(bench.upload(target), Err(SdoAbort::UNSUPPORTED_ACCESS));
-        assert_eq!(bench.download(target, &[0; 4]), Err(SdoAbort::UNSUPPORTED_ACCESS));
+        assert_eq!(bench.upload(target), Err(abort), "from subindex {first}");
+        assert_eq!(bench.download(target, &[0; 4]), Err(abort), "from subindex {first}");
     }
 }
 
@@ -43,6 +45,9 @@ fn an_object_without_complete_access_says_so() {
     assert_eq!(bench.upload(target), Err(SdoAbort::COMPLETE_ACCESS_UNSUPPORTED));
     assert_eq!(bench.download(target, &[0; 4]), Err(SdoAbort::COMPLETE_ACCESS_UNSUPPORTED));
     assert_eq!(bench.upload(SdoTarget::complete(0x9999, 0)), Err(SdoAbort::OBJECT_DOES_NOT_EXIST));
+    let from_1 = SdoTarget::complete(0x1000, 1);
+    assert_eq!(bench.upload(from_1), Err(SdoAbort::SUBINDEX_DOES_NOT_EXIST));
+    assert_eq!(bench.download(from_1, &[0; 4]), Err(SdoAbort::SUBINDEX_DOES_NOT_EXIST));
 }
 
 #[test]
