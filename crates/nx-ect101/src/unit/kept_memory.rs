@@ -18,6 +18,9 @@ pub(super) struct KeptMemory {
     identity: Option<[u8; IDENTITY_BYTES]>,
     /// The SII matched the unit when the unit started.
     sii_is_own: bool,
+    /// The slave has a blank EEPROM of its own as a condition of a test: the SII of the memory is neither read nor stored,
+    /// so that it is there again after the test.
+    is_sii_apart: bool,
 }
 
 impl KeptMemory {
@@ -29,7 +32,9 @@ impl KeptMemory {
             MemoryAtPowerOn::Stored(contents) => (*contents, false),
             MemoryAtPowerOn::Factory | MemoryAtPowerOn::Damaged => (factory, true),
         };
-        let mut kept = Self { contents, is_unsaved, sii_words_seen: 0, identity, sii_is_own: true };
+        let is_sii_apart = settings.slave.is_sii_blank;
+        let mut kept =
+            Self { contents, is_unsaved, sii_words_seen: 0, identity, sii_is_own: true, is_sii_apart };
         let identification = kept.start(settings);
         (kept, identification)
     }
@@ -43,7 +48,7 @@ impl KeptMemory {
     ) -> Identification {
         self.take_over(&mut identification, Some(sii_image));
         let identification = self.start(settings);
-        if sii_image.len() == self.contents.sii_image().len() {
+        if !self.is_sii_apart && sii_image.len() == self.contents.sii_image().len() {
             sii_image.copy_from_slice(self.contents.sii_image());
         }
         identification
@@ -52,13 +57,13 @@ impl KeptMemory {
     fn start(&mut self, settings: &UnitSettings) -> Identification {
         let identification = Identification::at_power_on(settings.id_switch, self.contents.software_id());
         self.is_unsaved |= self.contents.start(settings, identification.explicit_device_id().unwrap_or(0));
-        self.sii_is_own = self.contents.identity() == self.identity;
+        self.sii_is_own = self.is_sii_apart || self.contents.identity() == self.identity;
         identification
     }
 
     /// Copies the software ID, and the EEPROM if the master has written it.
     fn take_over(&mut self, identification: &mut Identification, sii_image: Option<&[u8]>) {
-        if let Some(image) = sii_image {
+        if let Some(image) = sii_image.filter(|_| !self.is_sii_apart) {
             self.is_unsaved |= image != self.contents.sii_image();
             if let Some(alias) = self.contents.follow_sii(image) {
                 identification.take_alias_of_sii(alias);

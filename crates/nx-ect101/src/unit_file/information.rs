@@ -20,7 +20,7 @@ fn number(place: &str, value: &DeValue<'_>) -> Result<u32, Problem> {
 }
 
 fn unit_version(place: &str, value: &DeValue<'_>) -> Result<UnitVersion, Problem> {
-    values::parsed(place, value, "a version, \"1.0\" to \"255.255\"", UnitVersion::parse)
+    values::parsed(place, value, "a version, \"0.0\" to \"255.255\"", UnitVersion::parse)
 }
 
 fn version(place: &str, value: &DeValue<'_>) -> Result<VersionText, Problem> {

@@ -1,11 +1,14 @@
 //! The sections `io_allocation` and `pdo` of a unit file, key by key.
 
-use user_file::{Located, Problem, Reader, Section, Value, values, wrong_type};
+use user_file::{DeValue, Located, Problem, Reader, Section, Value, values, wrong_type};
 use wire::ObjectIndex;
 
 use super::entries::{DataSetEntries, Entries, IoAllocationSection, MappingEntries, PdoSection};
 use super::keys;
 use crate::data_sets::DataSet;
+
+/// Maximum entries of a list: subindexes are one byte.
+const ENTRIES_MAX: usize = 255;
 
 pub(super) fn io_allocation(
     reader: &mut Reader<'_>,
@@ -34,7 +37,7 @@ fn data_sets(reader: &mut Reader<'_>, parent: &Section<'_, '_>, key: &str) -> Ve
 /// Short form or long form.
 fn entries(reader: &mut Reader<'_>, place: &str, value: &Value<'_>) -> Option<Located<Entries>> {
     if value.get_ref().is_array() {
-        let list = reader.array(place, value, values::entry_address);
+        let list = list(reader, place, value, values::entry_address)?;
         return Some(Located::at(value.span(), Entries::List(list)));
     }
     reader.read(place, value, |place, value| {
@@ -44,6 +47,22 @@ fn entries(reader: &mut Reader<'_>, place: &str, value: &Value<'_>) -> Option<Lo
         }
         values::integer(place, value, 0..=255, "0 to 255").map(Entries::Count)
     })
+}
+
+/// Every element of a list, which is not longer than an object can be.
+fn list<T>(
+    reader: &mut Reader<'_>,
+    place: &str,
+    value: &Value<'_>,
+    read: impl FnMut(&str, &DeValue<'_>) -> Result<T, Problem>,
+) -> Option<Vec<Located<T>>> {
+    let count = value.get_ref().as_array().map_or(0, |array| array.len());
+    if count <= ENTRIES_MAX {
+        return Some(reader.array(place, value, read));
+    }
+    let problem = Problem::new(format!("`{place}` has {count} entries"), format!("{ENTRIES_MAX} at most"));
+    reader.refuse(value.span(), problem);
+    None
 }
 
 pub(super) fn pdo(reader: &mut Reader<'_>, file: &Section<'_, '_>) -> Option<Located<PdoSection>> {
@@ -72,7 +91,7 @@ fn assignment(
         reader.refuse(value.span(), wrong_type(&place, value.get_ref(), expected));
         return None;
     }
-    Some(Located::at(value.span(), reader.array(&place, value, values::object_index)))
+    Some(Located::at(value.span(), list(reader, &place, value, values::object_index)?))
 }
 
 fn mappings(reader: &mut Reader<'_>, section: &Section<'_, '_>) -> Vec<MappingEntries> {

@@ -289,6 +289,28 @@ fn a_wrong_file_is_told_with_place_value_and_expectation() {
     insta::assert_snapshot!(told.join("\n"));
 }
 
+/// An object has 255 subindexes at most, and so has a list of entries.
+#[test]
+fn a_list_has_255_entries_at_most() {
+    for (key, entry) in [("io_allocation.m_to_c.uints", "6000:01"), ("pdo.mapping.1601", "7000:01")] {
+        let text = |count: usize| {
+            format!("model = \"nx-ect101\"\n{key} = [{}]", format!("{entry:?},").repeat(count))
+        };
+        assert_eq!(UnitFile::parse(&text(255)).err(), None, "{key}");
+        let errors = UnitFile::parse(&text(256)).unwrap_err().in_file("u.toml").to_string();
+        assert_eq!(
+            errors.trim_end(),
+            format!("u.toml:2:{}: `{key}` has 256 entries, expected 255 at most", key.len() + 4)
+        );
+    }
+}
+
+#[test]
+fn the_least_unit_version_is_the_one_in_the_message() {
+    let file = UnitFile::parse("model = \"nx-ect101\"\nunit_version = \"0.0\"").expect("as the message says");
+    assert_eq!(file.information.unit_version, UnitVersion::parse("0.0"));
+}
+
 #[test]
 fn spans_point_at_what_is_wrong() {
     let text = "model = \"nx-ect101\"\n[times]\nsii = \"walk\"";

@@ -5,6 +5,7 @@ use wire::SdoAbort;
 use super::*;
 use crate::memory::{MemoryAtPowerOn, NonVolatileMemory};
 use nx_bus::{NxMessageError, NxRequest, NxValue};
+use unit_model::keys::SlaveKeys;
 
 impl Bench {
     fn sdo_read(&mut self, index: u16, sub: u8) -> Vec<u8> {
@@ -227,6 +228,31 @@ fn what_a_unit_stores_it_finds_again() {
     assert_eq!(unit.explicit_device_id(), Some(500));
     assert_eq!(unit.memory().sii_image()[8..10], 500_u16.to_le_bytes());
     assert_eq!(unit.memory().sii_image()[1000], written[1000]);
+}
+
+/// A blank EEPROM is a condition of a test, after which the SII of the memory is there again.
+#[test]
+fn a_blank_sii_changes_nothing_in_the_memory() {
+    let (bench, image) = without_switch();
+    let mut bytes = Vec::new();
+    bench.unit.memory().encode_into(&mut bytes);
+    let stored = MemoryAtPowerOn::Stored(Box::new(NonVolatileMemory::decode(&bytes).expect("whole")));
+    let slave = SlaveKeys { is_sii_blank: true, ..SlaveKeys::default() };
+    let settings = UnitSettings { id_switch: 0, slave, ..UnitSettings::default() };
+    let (unit, cpu) = NxEct101::power_on_with(&settings, stored);
+    let mut bench = Bench { unit, cpu, inputs: Vec::new(), links: PortLinks::default() };
+
+    let mut blank = vec![0xFF; image.len()];
+    blank[0x0120..0x0122].copy_from_slice(&0xBEEF_u16.to_le_bytes());
+    assert!(!bench.unit.take_memory_change(&blank, 1), "a word that the master has written is not stored");
+    bench.sdo_write(0x10E0, 1, &500_u16.to_le_bytes()).expect("the switch is at 0x00");
+    assert!(bench.unit.take_memory_change(&blank, 1), "the ID is stored as ever");
+    let written = blank.clone();
+    bench.unit.restart(NOW, Start::Restart, &mut blank);
+    assert_eq!(blank, written, "a restart does not fill the EEPROM");
+    assert_eq!(bench.unit.explicit_device_id(), Some(500));
+    assert_eq!(bench.unit.memory().sii_image()[8..10], 500_u16.to_le_bytes());
+    assert_eq!(bench.unit.memory().sii_image()[16..], image[16..]);
 }
 
 #[test]
