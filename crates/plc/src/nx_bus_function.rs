@@ -3,7 +3,8 @@
 //! For two families of errors, Control Parameter Error in Master (10410000) and NX Unit I/O Communications
 //! Error (80200000), the reaction depends on the fail-soft operation. With *Stop*, I/O refreshing stops on the
 //! NX bus, and continues when the error has been reset in the NX Bus Function Module. With *Fail-soft*, only
-//! the unit with the error stops, and a reset in the unit is sufficient.
+//! the unit with the error stops, and a reset in the unit is sufficient. After 10410000 the unit needs a restart before
+//! the reset: it finds its settings only when it starts.
 
 use nx_bus::{CpuHeader, UnitHeader};
 

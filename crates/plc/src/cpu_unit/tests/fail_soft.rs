@@ -95,6 +95,24 @@ fn with_stop_lost_control_parameters_need_a_restart_of_the_unit_before_the_reset
 }
 
 #[test]
+fn with_fail_soft_lost_control_parameters_need_a_restart_before_the_reset_in_the_unit() {
+    let mut bench = bench(FailSoftOperation::FailSoft);
+    let restart = |bench: &mut Bench| {
+        bench.unit.restart(Instant::ZERO, device::Start::Restart, &mut [0; 2048]);
+    };
+    bench.unit.inject(Fault::ControlParameters);
+    restart(&mut bench);
+    assert!(!exchanges(&mut bench, 20, 2));
+    bench.unit.remove(Fault::ControlParameters);
+    bench.unit.reset_errors();
+    assert!(!exchanges(&mut bench, 30, 3), "the unit has not been restarted");
+    restart(&mut bench);
+    bench.unit.reset_errors();
+    assert!(exchanges(&mut bench, 40, 4));
+    assert_eq!((flags(&bench), events(&mut bench)), (vec![0, 0], vec![]));
+}
+
+#[test]
 fn other_errors_stop_nothing_on_the_nx_bus() {
     let mut bench = bench(FailSoftOperation::Stop);
     bench.unit.inject(Fault::MessageCommunications);
