@@ -71,6 +71,10 @@ impl UnitSection for UnitFile {
         &self.name
     }
 
+    fn node_address(&self) -> u16 {
+        self.settings.alias
+    }
+
     fn description(&self) -> DeviceDescription {
         description(&self.settings)
     }

@@ -128,7 +128,7 @@ impl UnitSection for UnitFile {
         self.storage.as_ref()
     }
 
-    fn explicit_device_id(&self) -> u16 {
+    fn node_address(&self) -> u16 {
         UnitSettings::from_unit_file(self).explicit_device_id()
     }
 

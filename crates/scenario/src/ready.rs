@@ -7,6 +7,7 @@ mod master;
 mod model_words;
 mod nodes;
 mod problem;
+mod process_data;
 mod program_values;
 mod programs;
 mod reach;

@@ -293,6 +293,49 @@ fn the_node_address_of_a_unit_is_its_id_and_not_its_place() {
     assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
 }
 
+/// The seed draws the phase within the period that runs, which a CONFIGURATION sets.
+#[test]
+fn the_phase_of_a_task_is_within_its_interval() {
+    let program = "CONFIGURATION C TASK Fast(INTERVAL := T#2ms, PRIORITY := 1); PROGRAM P WITH Fast : Count;\n\
+        END_CONFIGURATION\nPROGRAM Count VAR n : INT; END_VAR n := n + 1; END_PROGRAM";
+    let text = "title = \"t\"\nunits = [{ model = \"nx-ect101\", cpu = { program = \"p.st\", task_period = \"32ms\" } }]\n\
+        steps = [{ at = \"40ms\", expect = \"program variable P.n of unit 1 is 20\" }]";
+    let scenario =
+        Scenario::parse(text, |_| Ok(program.to_owned())).unwrap_or_else(|errors| panic!("{errors}"));
+    for seed in 1..=20 {
+        assert_eq!(scenario.replay(seed, Recording::new(false, false)).failure, None, "seed {seed}");
+    }
+}
+
+/// A terminal has no ID switch: its node address is its station alias.
+#[test]
+fn a_terminal_has_its_alias_as_the_node_address() {
+    let line = |keys: &str| {
+        format!("{{ model = \"nx-ect101\" }},\n{{ model = \"digital\", outputs = 12{keys} }},\n")
+    };
+    let refused = |keys: &str| errors_of_line(&line(keys), ";");
+    let way_out = "`alias = 2`: each unit needs a different node address if the master has a program";
+    assert_eq!(
+        refused(""),
+        [format!("unit 2 has no alias: the master's program needs it as the node address / {way_out}")]
+    );
+    assert_eq!(
+        refused(", alias = 193"),
+        [format!("unit 2 has the alias 193: a node address is 1 to 192 / {way_out}")]
+    );
+    assert_eq!(refused(", alias = 1"), [format!("units 1 and 2 both have the node address 1 / {way_out}")]);
+    let text = format!(
+        "title = \"t\"\nmaster = {{ program = \"m.st\" }}\nunits = [\n{}]\nsteps = [\n\
+         {{ master = \"take unit 2 to OP\" }},\n\
+         {{ expect = \"program variable here of the master is TRUE\", within = \"300ms\" }}]",
+        line(", alias = 7")
+    );
+    let program = "VAR here : BOOL; END_VAR here := _EC_PDSlavTbl[7];";
+    let scenario = Scenario::parse(&text, |_| Ok(program.to_owned()));
+    let report = scenario.unwrap_or_else(|errors| panic!("{errors}")).replay(1, Recording::new(true, false));
+    assert_eq!(report.failure, None, "{}", report.recording.trace().unwrap_or_default());
+}
+
 #[test]
 fn missing_equal_and_too_large_ids_are_mistakes_when_the_master_has_a_program() {
     let unit = |keys: &str| format!("{{ model = \"nx-ect101\"{keys} }},\n");
@@ -300,8 +343,8 @@ fn missing_equal_and_too_large_ids_are_mistakes_when_the_master_has_a_program() 
     assert_eq!(
         two("", ", id_switch = 1"),
         [
-            "units 1 and 2 both have the ID 1: it is the node address / `id_switch = 2`, or `id_switch = 0` and \
-          `alias = 2`: each unit needs a different ID if the master has a program"
+            "units 1 and 2 both have the node address 1 / `id_switch = 2`, or `id_switch = 0` and `alias = 2`: each \
+             unit needs a different node address if the master has a program"
         ]
     );
     assert!(two("", ", id_switch = 0")[0].starts_with("unit 2 has no ID: the master's program needs it"));

@@ -65,6 +65,20 @@ fn what_a_hand_does_to_it_has_an_effect() {
     }
 }
 
+/// A switch that is on cannot be switched on: the unit is not restarted.
+#[test]
+fn a_unit_with_power_gets_none() {
+    let steps = [
+        "{ master = \"take unit 1 to OP\" }",
+        "{ when = \"unit 1 is in OP\", unit = \"power on unit 1\" }",
+        "{ expect = \"unit 1 is in OP\", for = \"500ms\" }",
+    ];
+    let report = replay(&steps.map(str::to_owned));
+    let trace = report.recording.trace().unwrap_or_default();
+    assert_eq!(report.failure, None, "{trace}");
+    assert_eq!(trace.matches("unit 1    has power: the order has no effect").count(), 1, "{trace}");
+}
+
 /// A restart by support software does not bring the power back.
 #[test]
 fn a_restart_starts_no_unit_without_power() {

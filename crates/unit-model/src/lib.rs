@@ -16,7 +16,7 @@ mod unit_files;
 
 pub use event::{CurrentError, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable};
 pub use model::Model;
-pub use section::{MemoryAtPowerOn, MemoryDamage, PowerOn, PoweredUnit, UnitSection};
+pub use section::{MemoryAtPowerOn, MemoryDamage, PowerOn, PoweredUnit, ProcessDataBytes, UnitSection};
 pub use settings_check::{DirectionSizes, ExchangedData, FilePlace, SettingsCheck, SettingsFinding};
 pub use slave_view::SlaveView;
 pub use tables::ModelTables;

@@ -6,13 +6,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use device::DeviceConfig;
-use esi::{DeviceDescription, KnownDevice, NamedBit};
+use esi::{DeviceDescription, KnownDevice, NamedBit, SyncManagerType};
 use nx_bus::CpuEnd;
 use objects::ObjectTable;
 use time::Duration;
 use user_file::Located;
 use variables::VariableTable;
 
+use crate::keys::Shape;
 use crate::model::Model;
 use crate::settings_check::SettingsCheck;
 use crate::unit::ModelUnit;
@@ -30,8 +31,9 @@ pub trait UnitSection: Any + Debug + Send + Sync {
         None
     }
 
-    /// The Explicit Device ID at power-on; 0: none.
-    fn explicit_device_id(&self) -> u16 {
+    /// The node address of the unit, by which a master with its own program identifies it: its ID at power-on, or its
+    /// Configured Station Alias; 0: none.
+    fn node_address(&self) -> u16 {
         0
     }
 
@@ -83,11 +85,42 @@ impl dyn UnitSection {
         KnownDevice { description: self.description(), objects: self.objects(), bits: self.named_bits() }
     }
 
+    /// The features of the unit as a slave, by its description.
+    #[must_use]
+    pub fn shape(&self) -> Shape {
+        let mailbox = self.description().mailbox;
+        Shape {
+            boot: mailbox.as_ref().is_some_and(|mailbox| mailbox.bootstrap.is_some()),
+            mailbox: mailbox.is_some(),
+        }
+    }
+
+    /// The most process data that a master can exchange with the unit, by its description. Data of a direction without
+    /// bytes are never valid.
+    #[must_use]
+    pub fn process_data_bytes(&self) -> ProcessDataBytes {
+        let sync_managers = self.description().sync_managers;
+        let bytes = |usage| {
+            let those = sync_managers.iter().filter(|sync_manager| sync_manager.usage == usage);
+            those.map(|those| those.max_bytes.unwrap_or(those.default_bytes)).sum()
+        };
+        ProcessDataBytes { outputs: bytes(SyncManagerType::Outputs), inputs: bytes(SyncManagerType::Inputs) }
+    }
+
     /// The section as that of this model, for whoever knows the model.
     #[must_use]
     pub fn as_model<S: UnitSection>(&self) -> Option<&S> {
         (self as &dyn Any).downcast_ref()
     }
+}
+
+/// Process data of a unit in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ProcessDataBytes {
+    /// From the master.
+    pub outputs: u16,
+    /// To the master.
+    pub inputs: u16,
 }
 
 /// The conditions of the first power-on. The default is what the unit file says, with a new memory.

@@ -48,6 +48,8 @@ pub enum UnitOrder {
 pub(crate) enum Needs<'a> {
     /// Any: a hand changes its hardware, its supply or its settings.
     Nothing,
+    /// One without power: it gets it.
+    NoPower,
     /// One with power: its software or its communication carries out the order.
     Power,
     /// One in which this fault can occur.
@@ -81,8 +83,8 @@ impl UnitOrder {
             | Self::PowerOff { .. } => Needs::Power,
             Self::InjectFault { fault, .. } => Needs::PowerForFault(fault),
             Self::Conduct { conduct, .. } => conduct.needs(),
+            Self::PowerOn { .. } => Needs::NoPower,
             Self::CyclePower { .. }
-            | Self::PowerOn { .. }
             | Self::SetIdSwitch { .. }
             | Self::InvertSiiWord { .. }
             | Self::EraseSii { .. }

@@ -1,13 +1,14 @@
 //! Words of steps that mean something to some models only: faults, the ID switch, indicators, events.
 
-use unit_model::{EventCode, Model};
+use unit_model::{EventCode, UnitSection};
+use wire::AlState;
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{Condition, ID_SWITCH, UnitOrder, UnitSet};
+use crate::model::{Condition, ConductOrder, ID_SWITCH, UnitOrder, UnitSet};
 
-/// Whether a model knows a word.
-type IsKnown = Box<dyn Fn(&dyn Model) -> bool>;
+/// Whether a unit knows a word.
+type IsKnown = Box<dyn Fn(&dyn UnitSection) -> bool>;
 
 /// A word that the model of each unit has to know.
 struct Needed {
@@ -26,13 +27,17 @@ impl Maker<'_> {
                 Needed {
                     units: *units,
                     words: format!("fault {fault}"),
-                    is_known: Box::new(move |model| model.faults().contains(&name.as_str())),
+                    is_known: Box::new(move |unit| unit.model().faults().contains(&name.as_str())),
                 }
             }
             UnitOrder::SetIdSwitch { unit, .. } => Needed {
                 units: UnitSet::One(*unit),
                 words: format!("{ID_SWITCH} switch"),
-                is_known: Box::new(|model| model.switches().contains(&ID_SWITCH)),
+                is_known: Box::new(|unit| unit.model().switches().contains(&ID_SWITCH)),
+            },
+            UnitOrder::Conduct { units, conduct } => match needed_by(conduct) {
+                Some((words, is_known)) => Needed { units: *units, words: words.to_owned(), is_known },
+                None => return Some(()),
             },
             UnitOrder::Restart { .. }
             | UnitOrder::CyclePower { .. }
@@ -41,8 +46,7 @@ impl Maker<'_> {
             | UnitOrder::ResetErrors { .. }
             | UnitOrder::ClearEventLog { .. }
             | UnitOrder::InvertSiiWord { .. }
-            | UnitOrder::EraseSii { .. }
-            | UnitOrder::Conduct { .. } => return Some(()),
+            | UnitOrder::EraseSii { .. } => return Some(()),
         };
         self.check_words(&needed, part)
     }
@@ -51,13 +55,13 @@ impl Maker<'_> {
     pub(super) fn check_words_of_condition(&mut self, condition: &Condition, part: Part) -> Option<()> {
         if let Condition::Indicator { indicator, units, .. } = condition {
             let name = indicator.as_str();
-            let is_known = Box::new(move |model: &dyn Model| model.indicators().contains(&name));
+            let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().indicators().contains(&name));
             return self
                 .check_words(&Needed { units: *units, words: format!("indicator {name}"), is_known }, part);
         }
         if let Condition::Recorded { units, event, .. } | Condition::HasError { units, event } = condition {
             let code = EventCode(event.0);
-            let is_known = Box::new(move |model: &dyn Model| model.event(code).is_some());
+            let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
             return self
                 .check_words(&Needed { units: *units, words: format!("event {event}"), is_known }, part);
         }
@@ -66,12 +70,38 @@ impl Maker<'_> {
 
     fn check_words(&mut self, needed: &Needed, part: Part) -> Option<()> {
         let positions = needed.units.positions(self.units.len());
-        let models = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section().model())));
-        let missing = models.into_iter().find(|(_, model)| !(needed.is_known)(*model));
-        let Some((at, model)) = missing else { return Some(()) };
-        let message = format!("unit {} is a {}, which has no {}", at + 1, model.name(), needed.words);
-        self.refuse(part, message, "name the units that have it, such as `unit 1`");
+        let units = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section())));
+        let missing = units.into_iter().find(|(_, unit)| !(needed.is_known)(*unit));
+        let Some((at, unit)) = missing else { return Some(()) };
+        let message = format!("unit {} is a {}, which has no {}", at + 1, unit.model().name(), needed.words);
+        self.refuse(part, message, self.who_knows(needed));
         None
+    }
+
+    /// The units of the line that know the words.
+    fn who_knows(&self, needed: &Needed) -> String {
+        let knows = |at: &usize| (needed.is_known)(self.units[*at].file.section());
+        match (0..self.units.len()).find(knows) {
+            Some(at) => format!("name only units that have it, such as `unit {}`", at + 1),
+            None => "no unit of this scenario has it".to_owned(),
+        }
+    }
+}
+
+/// The feature that a slave needs for a conduct, and whether a unit has it; none: every slave can do it.
+fn needed_by(conduct: &ConductOrder) -> Option<(&'static str, IsKnown)> {
+    match conduct {
+        ConductOrder::Refuse { state: AlState::Boot, .. } => {
+            Some(("state BOOT", Box::new(|unit| unit.shape().boot)))
+        }
+        ConductOrder::Sdos { .. } => Some(("mailbox", Box::new(|unit| unit.shape().mailbox))),
+        ConductOrder::EveryTransition { .. }
+        | ConductOrder::Transition { .. }
+        | ConductOrder::SiiCommands { .. }
+        | ConductOrder::SiiBusy { .. }
+        | ConductOrder::Refuse { .. }
+        | ConductOrder::IgnoreAcknowledges
+        | ConductOrder::Behave => None,
     }
 }
 
@@ -100,6 +130,8 @@ mod tests {
                 "unit = \"turn the ID switch of unit 2 to 0x05\"",
                 "expect = \"TS green of unit 2 is lit\"",
                 "expect = \"unit 2 has recorded 85000000\"",
+                "unit = \"let the SDOs of unit 2 take 5ms\"",
+                "unit = \"let unit 1 refuse BOOT with AL status code 0x0013\"",
             ]),
             [
                 "unit 2 is a digital, which has no fault Processing",
@@ -107,8 +139,33 @@ mod tests {
                 "unit 2 is a digital, which has no ID switch",
                 "unit 2 is a digital, which has no indicator TS green",
                 "unit 2 is a digital, which has no event 85000000",
+                "unit 2 is a digital, which has no mailbox",
+                "unit 1 is a nx-ect101, which has no state BOOT",
             ]
         );
+    }
+
+    /// The help names a unit that has the word, or says that there is none.
+    #[test]
+    fn the_help_names_no_unit_without_the_word() {
+        let terminal = "{ model = \"digital\", inputs = 8 }";
+        for (units, help) in [
+            (format!("{terminal}, {terminal}"), "no unit of this scenario has it"),
+            (
+                format!("{terminal}, {terminal}, {{ model = \"nx-ect101\" }}"),
+                "name only units that have it, such as `unit 3`",
+            ),
+        ] {
+            for step in [
+                "expect = \"unit 1 has recorded 85000000\"",
+                "unit = \"turn the ID switch of unit 1 to 0x05\"",
+            ] {
+                let text = format!("title = \"t\"\nunits = [{units}]\nsteps = [{{ {step} }}]\n");
+                let errors = Scenario::parse(&text, |name| Err(name.to_owned())).err();
+                let told: Vec<_> = errors.iter().flat_map(|errors| errors.iter()).map(|e| &e.help).collect();
+                assert_eq!(told, [help], "{step}");
+            }
+        }
     }
 
     #[test]

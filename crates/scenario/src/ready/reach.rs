@@ -55,8 +55,8 @@ pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
 /// Whether the cable of an order exists.
 pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
     match order {
-        // There is also a cable after the last unit.
-        LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() <= units,
+        // The master of a scenario has one port: no cable leads back from the last unit.
+        LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() < units,
         LineOrder::Disturb(disturbance) => match disturbance.fault {
             FrameFault::Corrupt { cable } => cable.position() < units,
             FrameFault::Lose

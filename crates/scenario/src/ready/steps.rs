@@ -134,6 +134,7 @@ impl Maker<'_> {
 
     fn order(&mut self, order: &Order, part: Part, ground: Ground) -> Option<()> {
         let units = self.units.len();
+        let mut way_out = line_of(units);
         let is_there = match order {
             Order::Master(order) => {
                 self.said(order, part)?;
@@ -150,6 +151,7 @@ impl Maker<'_> {
             Order::Line(order) => {
                 self.check_count(order, part)?;
                 self.said(order, part)?;
+                way_out = format!("{way_out}; each cable has the number of the unit behind it");
                 is_cable_there(order, units)
             }
             Order::Expect(_) => true,
@@ -158,13 +160,17 @@ impl Maker<'_> {
             return None;
         }
         if !is_there {
-            self.refuse(part, "it refers to a unit or a cable that does not exist", line_of(units));
+            self.refuse(part, "it refers to a unit or a cable that does not exist", way_out);
             return None;
         }
         match order {
-            Order::Cpu(order) => self.check_variables(order, part),
+            Order::Cpu(order) => {
+                self.check_inputs(order, part)?;
+                self.check_variables(order, part)
+            }
             Order::Unit(order) => self.check_words_of_order(order, part),
-            Order::Master(_) | Order::Line(_) | Order::Expect(_) => Some(()),
+            Order::Master(order) => self.check_outputs(order, part),
+            Order::Line(_) | Order::Expect(_) => Some(()),
         }
     }
 
@@ -200,6 +206,7 @@ impl Maker<'_> {
             return None;
         }
         self.check_words_of_condition(condition, part)?;
+        self.check_process_data(condition, part)?;
         self.resolve(condition, part)?;
         if lasting == Lasting::ToTheEnd {
             self.value_lasts(condition, part);

@@ -168,12 +168,16 @@ impl World {
 fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> Powered {
     let file = &source.file;
     let refresh_phase = dice.phase(file.section().refresh_period().unwrap_or(Duration::ZERO));
+    let program = source.program.start();
+    // A CONFIGURATION sets the period, whatever the unit file says.
+    let own_period = program.task_period().filter(|period| !period.is_zero());
+    let task_period = own_period.unwrap_or(file.cpu().task_period.value);
     let conditions = PowerConditions {
         unit: PowerOn { refresh_phase, ..PowerOn::default() },
-        task_phase: dice.phase(file.cpu().task_period.value),
+        task_phase: dice.phase(task_period),
         system_time_ns: Some(SYSTEM_TIME_NS),
     };
-    file.power_on(now, &conditions, source.program.start())
+    file.power_on(now, &conditions, program)
 }
 
 pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {

@@ -24,24 +24,32 @@ impl World {
         &mut self.master
     }
 
-    /// An order to each of its units. One without power does nothing, unless a hand carries out the order.
+    /// An order to each of its units. One without power does nothing, unless a hand carries out the order; a switch
+    /// that is on cannot be switched on.
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
         for at in order.units().positions(self.count()) {
-            if self.is_off(at) && self.needs_power(order, at) {
-                let words = "has no power: the order has no effect";
-                self.recording.tell(self.now, &format!("unit {}", at + 1), words);
-            } else {
-                self.act_on_unit(order, at);
+            match self.why_without_effect(order, at) {
+                Some(reason) => {
+                    let words = format!("{reason}: the order has no effect");
+                    self.recording.tell(self.now, &format!("unit {}", at + 1), &words);
+                }
+                None => self.act_on_unit(order, at),
             }
         }
         self.happen();
     }
 
-    fn needs_power(&self, order: &UnitOrder, at: usize) -> bool {
-        match order.needs() {
-            Needs::Nothing => false,
-            Needs::Power => true,
-            Needs::PowerForFault(fault) => self.unit(at).model().is_fault_of_operation(fault),
+    fn why_without_effect(&self, order: &UnitOrder, at: usize) -> Option<&'static str> {
+        let (no_power, power) = ("has no power", "has power");
+        match (order.needs(), self.is_off(at)) {
+            (Needs::NoPower, false) => Some(power),
+            (Needs::Power, true) => Some(no_power),
+            (Needs::PowerForFault(fault), true) => {
+                self.unit(at).model().is_fault_of_operation(fault).then_some(no_power)
+            }
+            (Needs::Nothing, _)
+            | (Needs::NoPower, true)
+            | (Needs::Power | Needs::PowerForFault(_), false) => None,
         }
     }
 

@@ -8,10 +8,10 @@ use crate::words::sentence::{Sentence, row};
 #[rustfmt::skip]
 pub const LINE: &[Sentence<LineOrder>] = &[
     row!("unplug cable {cable}", "unplug cable 1",
-        "the cable before a unit, 1 for the one to the master",
+        "the cable before a unit, 1 for the one to the master; the last unit has no other",
         |cable| Unplug { cable }),
     row!("plug cable {cable}", "plug cable 1",
-        "the cable before a unit, 1 for the one to the master",
+        "the cable before a unit, 1 for the one to the master; the last unit has no other",
         |cable| Plug { cable }),
     row!("lose {frames}", "lose the next 3 frames",
         "they do not reach the units",

@@ -17,7 +17,7 @@ pub const UNIT: &[Sentence<UnitOrder>] = &[
         "no frame passes it any more",
         |units| PowerOff { units }),
     row!("power on {units}", "power on unit 1",
-        "the unit starts; the non-volatile memory stays",
+        "the unit starts; the non-volatile memory is kept. Without effect on a unit that has power",
         |units| PowerOn { units }),
     row!("reset the errors of {units}", "reset the errors of unit 1",
         "from the side of the CPU Unit (manual, 8-6)",
