@@ -53,6 +53,11 @@ impl Agenda {
         self.to_look_at.next(from)
     }
 
+    /// Whether no slave is to be looked at.
+    pub(crate) fn is_looked_through(&self) -> bool {
+        self.to_look_at.is_empty()
+    }
+
     /// All slaves that are to be looked at.
     pub(crate) fn to_look_at(&self) -> impl Iterator<Item = usize> + '_ {
         self.to_look_at.iter()

@@ -77,8 +77,13 @@ impl<U: Unit> Network<U> {
     /// The latest time at which [`Network::poll`] must be called.
     #[must_use]
     pub fn deadline(&self) -> Instant {
-        let to_look_at = self.agenda.to_look_at().chain(self.segment.touched().iter());
-        to_look_at.map(|position| self.deadline_of(position)).fold(self.agenda.first(), Instant::min)
+        let (known, touched) = (self.agenda.first(), self.segment.touched());
+        // Asked again and again between two frames, when there is nothing to look at.
+        if self.agenda.is_looked_through() && touched.is_empty() {
+            return known;
+        }
+        let to_look_at = self.agenda.to_look_at().chain(touched.iter());
+        to_look_at.map(|position| self.deadline_of(position)).fold(known, Instant::min)
     }
 
     fn deadline_of(&self, position: usize) -> Instant {
