@@ -108,12 +108,23 @@ pub enum NotSent {
     NotReachable,
 }
 
+/// What each end may know of the other without a look into a queue, which costs much more.
+#[derive(Debug, Default)]
+struct Signals {
+    /// There may be requests.
+    requests: AtomicBool,
+    /// There may be responses, or the unit no longer exists.
+    responses: AtomicBool,
+    /// A request was given up.
+    discarded: AtomicBool,
+}
+
 /// The CPU Unit's end: it sends requests.
 #[derive(Debug)]
 pub struct CpuMessages {
     requests: SyncSender<NxRequest>,
     responses: Receiver<NxResponse>,
-    discarded: Arc<AtomicBool>,
+    signals: Arc<Signals>,
 }
 
 impl CpuMessages {
@@ -125,13 +136,16 @@ impl CpuMessages {
         self.requests.try_send(request).map_err(|error| match error {
             TrySendError::Full(_) => NotSent::Full,
             TrySendError::Disconnected(_) => NotSent::NotReachable,
-        })
+        })?;
+        // Release: who sees it also finds the request.
+        self.signals.requests.store(true, Ordering::Release);
+        Ok(())
     }
 
     /// A request for which there was no room is not sent again: the unit detects this.
     pub fn discard(&mut self) {
         // Only a flag: no other data depend on it.
-        self.discarded.store(true, Ordering::Relaxed);
+        self.signals.discarded.store(true, Ordering::Relaxed);
     }
 
     /// The next response received; none if there is none yet.
@@ -139,11 +153,17 @@ impl CpuMessages {
     /// # Errors
     /// [`NxMessageError::NotReachable`] if the unit no longer exists and there are no further responses.
     pub fn receive(&mut self) -> Result<Option<NxResponse>, NxMessageError> {
-        match self.responses.try_recv() {
-            Ok(response) => Ok(Some(response)),
-            Err(TryRecvError::Empty) => Ok(None),
-            Err(TryRecvError::Disconnected) => Err(NxMessageError::NotReachable),
+        let signal = &self.signals.responses;
+        if !is_given(signal) {
+            return Ok(None);
         }
+        let received = match self.responses.try_recv() {
+            Ok(response) => Ok(Some(response)),
+            Err(TryRecvError::Empty) => return Ok(None),
+            Err(TryRecvError::Disconnected) => Err(NxMessageError::NotReachable),
+        };
+        look_again(signal);
+        received
     }
 }
 
@@ -156,21 +176,33 @@ pub struct UnitMessages {
     held: ArrayVec<NxResponse, REQUESTS_MAX>,
     /// The unit has left the bus, and has not answered the requests sent meanwhile yet.
     has_left: bool,
-    discarded: Arc<AtomicBool>,
+    /// Dropped after the queues: the CPU Unit looks into them once more when the unit no longer exists.
+    signals: UnitSignals,
+}
+
+/// The signals in the hands of the unit: its end is one.
+#[derive(Debug)]
+struct UnitSignals(Arc<Signals>);
+
+impl Drop for UnitSignals {
+    fn drop(&mut self) {
+        self.0.responses.store(true, Ordering::Release);
+    }
 }
 
 impl UnitMessages {
     /// Whether a request was discarded since the last call.
     #[must_use]
     pub fn take_discarded(&self) -> bool {
-        self.discarded.load(Ordering::Relaxed) && self.discarded.swap(false, Ordering::Relaxed)
+        let UnitSignals(signals) = &self.signals;
+        is_given(&signals.discarded)
     }
 
     /// Answers the received requests, the oldest first, and holds the responses back. Requests that were sent while
     /// the unit had left the bus are refused. Returns whether there are any responses.
     pub fn answer(&mut self, mut answer: impl FnMut(&NxRequest) -> Result<NxValue, NxMessageError>) -> bool {
         while !self.held.is_full() {
-            let Ok(request) = self.requests.try_recv() else {
+            let Some(request) = self.next_request() else {
                 self.has_left = false;
                 break;
             };
@@ -178,6 +210,16 @@ impl UnitMessages {
             self.held.push(NxResponse { number: request.number, result });
         }
         !self.held.is_empty()
+    }
+
+    fn next_request(&mut self) -> Option<NxRequest> {
+        let UnitSignals(signals) = &self.signals;
+        if !is_given(&signals.requests) {
+            return None;
+        }
+        let request = self.requests.try_recv().ok()?;
+        look_again(&signals.requests);
+        Some(request)
     }
 
     /// The unit loses its power, or restarts: no request that it has not answered yet is executed later. Those that
@@ -193,7 +235,8 @@ impl UnitMessages {
     pub fn send(&mut self) {
         while !self.held.is_empty() {
             match self.responses.try_send(self.held.remove(0)) {
-                Ok(()) => {}
+                // Release: who sees it also finds the response.
+                Ok(()) => self.signals.0.responses.store(true, Ordering::Release),
                 Err(TrySendError::Full(response)) => return self.held.insert(0, response),
                 Err(TrySendError::Disconnected(_)) => return self.held.clear(),
             }
@@ -205,15 +248,25 @@ impl UnitMessages {
 pub(crate) fn connect() -> (UnitMessages, CpuMessages) {
     let (ask, requests) = sync_channel(REQUESTS_MAX);
     let (responses, hear) = sync_channel(REQUESTS_MAX);
-    let discarded = Arc::new(AtomicBool::new(false));
+    let signals = Arc::new(Signals::default());
     let unit = UnitMessages {
         requests,
         responses,
         held: ArrayVec::new(),
         has_left: false,
-        discarded: Arc::clone(&discarded),
+        signals: UnitSignals(Arc::clone(&signals)),
     };
-    (unit, CpuMessages { requests: ask, responses: hear, discarded })
+    (unit, CpuMessages { requests: ask, responses: hear, signals })
+}
+
+/// Takes a signal. A signal that nobody has given costs a look at a line of the cache that nobody writes.
+fn is_given(signal: &AtomicBool) -> bool {
+    signal.load(Ordering::Relaxed) && signal.swap(false, Ordering::Acquire)
+}
+
+/// There may be more in the queue. The signal that this replaces was meant for what is found then: hence a swap.
+fn look_again(signal: &AtomicBool) {
+    signal.swap(true, Ordering::Acquire);
 }
 
 #[cfg(test)]

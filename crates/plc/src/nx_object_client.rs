@@ -13,6 +13,8 @@ use wire::{ObjectIndex, SubIndex};
 pub struct NxObjectClient {
     calls: [Call; REQUESTS_MAX],
     last_number: u32,
+    /// Some calls may have to be sent: without them no task period looks for one.
+    has_made: bool,
     /// A call that waited for room was dropped; the bus does not know yet.
     has_discarded: bool,
 }
@@ -106,6 +108,7 @@ impl NxObjectClient {
         self.last_number = self.last_number.wrapping_add(1);
         let number = self.last_number;
         self.calls[place] = Call::Made(NxRequest { number, index, sub, value });
+        self.has_made = true;
         Ok(NxCall { place, number })
     }
 
@@ -125,6 +128,13 @@ impl NxObjectClient {
         if core::mem::take(&mut self.has_discarded) {
             bus.discard();
         }
+        if self.has_made {
+            self.send_made(bus);
+            self.has_made = self.oldest_made().is_some();
+        }
+    }
+
+    fn send_made(&mut self, bus: &mut CpuMessages) {
         while let Some(place) = self.oldest_made() {
             let (Call::Made(request) | Call::Waiting(request)) = core::mem::take(&mut self.calls[place])
             else {
@@ -266,6 +276,25 @@ mod tests {
         assert!(unit.messages.take_discarded());
         client.send(&mut bus.messages);
         assert!(!unit.messages.take_discarded(), "once");
+    }
+
+    #[test]
+    fn a_call_that_waits_for_room_is_sent_later() {
+        let (mut unit, mut bus) = NxEct101::power_on(&UnitSettings::default());
+        let mut client = NxObjectClient::default();
+        for _ in 0..REQUESTS_MAX {
+            let call = client.read(SERIAL.0, SERIAL.1).expect("room");
+            client.send(&mut bus.messages);
+            client.forget(call);
+        }
+        let waiting = client.read(SERIAL.0, SERIAL.1).expect("room");
+        client.send(&mut bus.messages);
+        for _ in 0..2 {
+            refresh(&mut unit);
+            client.receive(&mut bus.messages);
+            client.send(&mut bus.messages);
+        }
+        assert!(matches!(client.take(waiting), Poll::Ready(Ok(_))));
     }
 
     #[test]
