@@ -46,11 +46,12 @@ impl Deadlines {
     /// The first place from `from` on whose deadline has come at `now`.
     #[must_use]
     pub fn next_due(&self, from: usize, now: Instant) -> Option<usize> {
-        if from >= self.places {
+        // Mostly nothing is due at all, and the search begins at the first place.
+        if from >= self.places || self.first() > now {
             return None;
         }
         let leaves = self.leaves();
-        let mut node = leaves + from;
+        let mut node = if from == 0 { 1 } else { leaves + from };
         while self.nodes[node] > now {
             // Up, as long as there is nothing to the right; then to the subtree on the right.
             while node % 2 == 1 {
