@@ -61,6 +61,9 @@ impl<U: Unit> Network<U> {
             from = position + 1;
             let device = self.devices.get_mut(position);
             let (Some(device), Some(esc)) = (device, self.segment.esc_mut(position)) else { continue };
+            if esc.take_sii_written() {
+                self.agenda.has_changed(position);
+            }
             let is_due = device.deadline().min(esc.deadline()) <= now;
             if is_due || device.is_called(esc) {
                 reset |= esc.asks_for_reset();
@@ -93,11 +96,11 @@ impl<U: Unit> Network<U> {
         }
     }
 
-    /// Takes the next slave that may be another than when it was taken last: it has reacted, was started or switched
-    /// off, or was lent. At first that is every slave.
-    pub fn take_changed(&mut self) -> Option<(usize, &mut Device<U>)> {
+    /// Takes the next slave that may be another than when it was taken last: it has reacted, the master has written its
+    /// EEPROM, it was started or switched off, or was lent. At first that is every slave.
+    pub fn take_changed(&mut self) -> Option<(usize, &mut Device<U>, &Esc)> {
         let position = self.agenda.take_changed()?;
-        Some((position, self.devices.get_mut(position)?))
+        Some((position, self.devices.get_mut(position)?, self.segment.esc(position)?))
     }
 
     /// Number of slaves.

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use device::Network;
+use esc::Esc;
 use storage::{ChangesLost, StoredFile};
 use unit_model::{MemoryAtPowerOn, MemoryDamage, ModelUnit, UnitSection};
 
@@ -56,28 +56,23 @@ fn no_memory() -> io::Error {
 
 /// Stores the memory of one unit in its file.
 #[derive(Debug)]
-pub(crate) struct Keeper {
-    position: usize,
-    writer: storage::Writer,
-}
+pub(crate) struct Keeper(storage::Writer);
 
 impl Keeper {
-    /// Stores the memory of the unit at `position`, counted from the master.
-    pub(crate) const fn new(position: usize, writer: storage::Writer) -> Self {
-        Self { position, writer }
+    /// Stores a memory by this writer.
+    pub(crate) const fn new(writer: storage::Writer) -> Self {
+        Self(writer)
     }
 
-    /// Passes the memory to its writer, if it has changed. This does not wait for the disk.
-    pub(crate) fn keep(&mut self, network: &mut Network<Box<dyn ModelUnit>>) {
-        let Some((device, esc)) = network.slave_mut(self.position) else { return };
-        let unit = device.unit_mut();
+    /// Passes the memory of the unit to its writer, if it has changed. This does not wait for the disk.
+    pub(crate) fn keep(&mut self, unit: &mut dyn ModelUnit, esc: &Esc) {
         if unit.take_memory_change(esc.sii_image(), esc.sii_words_written()) {
-            self.writer.store(|bytes| unit.encode_memory(bytes));
+            self.0.store(|bytes| unit.encode_memory(bytes));
         }
     }
 
     /// Waits until the last change is stored, or refused again.
     pub(crate) fn finish(self) -> Result<(), ChangesLost> {
-        self.writer.finish()
+        self.0.finish()
     }
 }

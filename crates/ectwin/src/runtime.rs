@@ -57,7 +57,7 @@ impl Runtime {
     /// No thread can be started.
     pub fn start(twin: Twin, clock: Clock, stop: Arc<AtomicBool>) -> io::Result<Self> {
         let Parts { line, mut cpus, programs, error_reset } = twin.into_parts();
-        cpus.iter_mut().for_each(|cpu| cpu.switch_off_on(Arc::clone(&stop)));
+        cpus.each(|_, cpu| cpu.switch_off_on(Arc::clone(&stop)));
         let changes = ProgramChanges::watch(programs)?;
         let waiting = changes.waiting();
         let pulse = Arc::new(TaskPulse::of(&mut cpus));

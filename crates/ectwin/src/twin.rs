@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use device::{Device, Network};
 use link::{FrameFate, Responder};
 use plant::Powered;
-use plc::CpuUnit;
+use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
 use storage::ChangesLost;
@@ -25,7 +25,7 @@ use crate::{Setup, SetupError};
 #[derive(Debug)]
 pub struct Twin {
     line: Line,
-    cpus: Vec<CpuUnit>,
+    cpus: CpuUnits,
     programs: Vec<(usize, WatchedProgram)>,
     error_reset: ErrorReset,
     now: Instant,
@@ -34,7 +34,7 @@ pub struct Twin {
 /// The parts of a twin, for code that runs it in real time.
 pub(crate) struct Parts {
     pub(crate) line: Line,
-    pub(crate) cpus: Vec<CpuUnit>,
+    pub(crate) cpus: CpuUnits,
     /// User programs in files, with the positions of their units.
     pub(crate) programs: Vec<(usize, WatchedProgram)>,
     pub(crate) error_reset: ErrorReset,
@@ -72,10 +72,10 @@ impl Twin {
             let (Powered { config, unit, cpu }, writer) = setup.power_on(now);
             units.push((config, unit));
             cpus.push(cpu);
-            keepers.extend(writer.map(|writer| Keeper::new(position, writer)));
+            keepers.push(writer.map(Keeper::new));
         }
         let line = Line { network: Network::power_on(units, now), keepers };
-        Self { line, cpus, programs, error_reset: ErrorReset::default(), now }
+        Self { line, cpus: CpuUnits::new(cpus), programs, error_reset: ErrorReset::default(), now }
     }
 
     /// Sends one Ethernet frame, without FCS, to the line at the present time; the answer replaces it.
@@ -128,12 +128,13 @@ impl Twin {
     /// Attaches a gateway for runtimes on other threads to each CPU Unit, in the order of the line.
     #[cfg(any(feature = "modbus", feature = "opcua"))]
     pub(crate) fn connect_outside(&mut self) -> Vec<OutsideEnd> {
-        let connect = |cpu: &mut CpuUnit| {
+        let mut ends = Vec::with_capacity(self.cpus.len());
+        self.cpus.each(|_, cpu| {
             let (program, end) = outside::connect(cpu.io().variables());
             cpu.attach(Box::new(program));
-            end
-        };
-        self.cpus.iter_mut().map(connect).collect()
+            ends.push(end);
+        });
+        ends
     }
 
     /// Lets [`crate::Runtime`] reset the errors of all NX Bus Function Modules, and of their units, whenever this
@@ -148,61 +149,63 @@ impl Twin {
     }
 
     fn poll(&mut self, now: Instant) {
-        cycle(&mut self.cpus, now);
+        self.cpus.cycle(now, |_, cpu| cpu.cycle(now));
         self.line.poll(now);
     }
 
     pub(crate) fn deadline(&self) -> Instant {
-        self.line.deadline().min(cpu_deadline(&self.cpus))
+        self.line.deadline().min(self.cpus.deadline())
     }
-}
-
-/// Runs the task of each CPU Unit that is due.
-pub(crate) fn cycle(cpus: &mut [CpuUnit], now: Instant) {
-    for cpu in cpus.iter_mut().filter(|cpu| cpu.deadline() <= now) {
-        cpu.cycle(now);
-    }
-}
-
-/// The time of the next task.
-pub(crate) fn cpu_deadline(cpus: &[CpuUnit]) -> Instant {
-    cpus.iter().map(CpuUnit::deadline).min().unwrap_or(Instant::NEVER)
 }
 
 /// The units without their CPU Units, for a link.
 #[derive(Debug)]
 pub(crate) struct Line {
     network: Network<Box<dyn ModelUnit>>,
-    /// The units whose memory is stored in a file.
-    keepers: Vec<Keeper>,
+    /// For each unit, who stores its memory in a file, if anybody does.
+    keepers: Vec<Option<Keeper>>,
 }
 
 impl Line {
     pub(crate) fn unit<'a>(
         &'a mut self,
-        cpus: &'a mut [CpuUnit],
+        cpus: &'a mut CpuUnits,
         position: usize,
         now: Instant,
     ) -> UnitSide<'a> {
         UnitSide::of(&mut self.network, cpus, position, now)
     }
 
-    /// Takes the next unit that may be another than when it was taken last. At first that is every unit.
-    pub(crate) fn take_changed(&mut self) -> Option<(usize, &mut Device<Box<dyn ModelUnit>>)> {
-        self.network.take_changed()
+    /// All units, in the order of the line.
+    pub(crate) fn devices(&self) -> impl Iterator<Item = (usize, &Device<Box<dyn ModelUnit>>)> {
+        (0..).map_while(|position| Some((position, self.network.device(position)?)))
+    }
+
+    /// Lets the units react, and nothing else: [`Line::each_changed`] is to follow.
+    pub(crate) fn react(&mut self, now: Instant) {
+        self.network.poll(now);
+    }
+
+    /// Stores the memories that have changed, and shows each unit that may be another than last time. The others are
+    /// not looked at.
+    pub(crate) fn each_changed(&mut self, mut show: impl FnMut(usize, &Device<Box<dyn ModelUnit>>)) {
+        while let Some((position, device, esc)) = self.network.take_changed() {
+            if let Some(Some(keeper)) = self.keepers.get_mut(position) {
+                keeper.keep(&mut **device.unit_mut(), esc);
+            }
+            show(position, device);
+        }
     }
 
     /// Stores the changes, and releases the files. Changes that cannot be stored are lost.
     pub(crate) fn finish(&mut self) -> Vec<ChangesLost> {
         self.keep();
-        self.keepers.drain(..).filter_map(|keeper| keeper.finish().err()).collect()
+        self.keepers.drain(..).flatten().filter_map(|keeper| keeper.finish().err()).collect()
     }
 
     /// Stores the memories that have changed.
     fn keep(&mut self) {
-        for keeper in &mut self.keepers {
-            keeper.keep(&mut self.network);
-        }
+        self.each_changed(|_, _| ());
     }
 }
 
@@ -219,7 +222,7 @@ impl Responder for Line {
     }
 
     fn poll(&mut self, now: Instant) {
-        self.network.poll(now);
+        self.react(now);
         self.keep();
     }
 

@@ -4,7 +4,7 @@ use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Network, Start};
 use esc::Port;
 use plant::{ErrorLog, Indicators};
-use plc::{CpuUnit, Io};
+use plc::{CpuUnit, CpuUnits, Io};
 use time::Instant;
 use unit_model::{
     CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable, ModelUnit, NotThere, SlaveView,
@@ -25,7 +25,7 @@ impl<'a> UnitSide<'a> {
     /// If there is no such unit.
     pub(crate) fn of(
         network: &'a mut Network<Box<dyn ModelUnit>>,
-        cpus: &'a mut [CpuUnit],
+        cpus: &'a mut CpuUnits,
         position: usize,
         now: Instant,
     ) -> Self {

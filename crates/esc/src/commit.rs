@@ -77,7 +77,9 @@ impl Esc {
         self.advance_reset(reset_step);
         // Address and data of the same frame are stored by now, whether they came before or after the command.
         if let Some(control) = sii_control {
+            let words_before = self.sii.words_written();
             self.sii.run_command(control, &mut self.memory, passage.arrival);
+            self.sii_written |= self.sii.words_written() != words_before;
         }
         if al_control_written {
             self.al_control_pending = true;

@@ -47,6 +47,8 @@ pub struct Esc {
     pub(crate) al_control_pending: bool,
     pub(crate) reset_progress: u8,
     pub(crate) reset_requested: bool,
+    /// The ECAT side has written words to the EEPROM, and nobody has asked about it yet.
+    pub(crate) sii_written: bool,
     pub(crate) config: EscConfig,
 }
 
@@ -207,6 +209,7 @@ impl Esc {
             al_control_pending: false,
             reset_progress: 0,
             reset_requested: false,
+            sii_written: false,
             config,
         };
         esc.load_constants();
@@ -254,6 +257,12 @@ impl Esc {
     #[must_use]
     pub const fn sii_words_written(&self) -> u32 {
         self.sii.words_written()
+    }
+
+    /// Whether the ECAT side has written words to the EEPROM since the last call.
+    #[must_use]
+    pub const fn take_sii_written(&mut self) -> bool {
+        core::mem::replace(&mut self.sii_written, false)
     }
 
     /// The configured station address, register 0x0010.
@@ -377,7 +386,8 @@ impl Esc {
 
     /// The AL event request: the events stored here, and those of the SyncManagers.
     pub(crate) fn all_al_events(&self) -> AlEvents {
-        let sync_managers = self.sync_managers.iter().enumerate();
+        let count = usize::from(self.config.sync_manager_count);
+        let sync_managers = self.sync_managers.iter().take(count).enumerate();
         let bits = sync_managers
             .filter(|(_, sm)| sm.active && sm.settings.pdi_event && sm.pdi_event)
             .fold(0, |bits, (n, _)| bits | 0x100 << n);

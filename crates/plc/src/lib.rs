@@ -7,6 +7,7 @@ mod builtin;
 mod cpu_event;
 mod cpu_section;
 mod cpu_unit;
+mod cpu_units;
 mod device_variables;
 mod echo;
 mod io;
@@ -24,6 +25,7 @@ pub use builtin::{Builtin, BuiltinRefused};
 pub use cpu_event::{CPU_EVENTS_MAX, CpuEvent, CpuRecord};
 pub use cpu_section::{CPU_KEYS, CpuSection, STATEMENT_BUDGET_DEFAULT, WithCpu};
 pub use cpu_unit::{CpuSettings, CpuUnit, NotInProgramMode, OperatingMode};
+pub use cpu_units::{CpuUnits, PeriodicTask};
 pub use device_variables::{
     Area, BusUnit, DeviceVariables, ModbusAddress, NodeLocation, Place, SYSTEM_TABLE_ELEMENTS, Series,
     StatusWord, Target, TextProblem, VALUE_BYTES_MAX, Validity, ValueText, ValueTextError, Variable,

@@ -210,3 +210,23 @@ proptest! {
         }
     }
 }
+
+/// Code that stores EEPROMs looks only at slaves that have changed.
+#[test]
+fn a_slave_has_changed_when_the_master_has_written_its_eeprom() {
+    let mut bench = line();
+    let changed = |bench: &mut Bench| {
+        let next = || bench.network.take_changed().map(|(position, ..)| position);
+        core::iter::from_fn(next).collect::<Vec<_>>()
+    };
+    let command = |bench: &mut Bench, position: u16, command: [u8; 2]| {
+        let data = [&command[..], &[8, 0, 0, 0, 0xFE, 0xCA]].concat();
+        bench.exchange(FrameBuilder::new().physical(Command::Apwr, position.wrapping_neg(), 0x0502, &data));
+    };
+    changed(&mut bench);
+    command(&mut bench, 1, [0x00, 0x01]);
+    assert_eq!(changed(&mut bench), [], "it is read");
+    command(&mut bench, 2, [0x01, 0x02]);
+    assert_eq!(changed(&mut bench), [2], "it is written");
+    assert_eq!(changed(&mut bench), [], "once");
+}

@@ -19,6 +19,11 @@ impl<'a> Frames<'a> {
     pub(super) fn own(shared: &'a Shared) -> Self {
         Self { line: shared.line.own(), units: &shared.units }
     }
+
+    fn publish_changed(&mut self) {
+        let units = self.units;
+        self.line.each_changed(|position, device| units.publish(position, device));
+    }
 }
 
 impl Responder for Frames<'_> {
@@ -27,8 +32,8 @@ impl Responder for Frames<'_> {
     }
 
     fn poll(&mut self, now: Instant) {
-        self.line.poll(now);
-        self.units.publish_changed(&mut self.line);
+        self.line.react(now);
+        self.publish_changed();
     }
 
     fn deadline(&self) -> Instant {
@@ -37,7 +42,7 @@ impl Responder for Frames<'_> {
 
     fn attend(&mut self) {
         if self.line.attend() {
-            self.units.publish_changed(&mut self.line);
+            self.publish_changed();
         }
     }
 

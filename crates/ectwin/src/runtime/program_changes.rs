@@ -7,7 +7,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel, sync_channel}
 use std::thread;
 use std::time::Duration as WallDuration;
 
-use plc::CpuUnit;
+use plc::CpuUnits;
 
 use crate::watched_program::{Change, Watch, WatchedProgram};
 
@@ -65,7 +65,7 @@ impl ProgramChanges {
     }
 
     /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it.
-    pub(super) fn apply(&mut self, cpus: &mut [CpuUnit]) {
+    pub(super) fn apply(&mut self, cpus: &mut CpuUnits) {
         while let Ok(Change { programs, report }) = self.changed.try_recv() {
             self.waiting.0.fetch_sub(1, Ordering::Relaxed);
             for (position, program) in programs {

@@ -1,6 +1,6 @@
 //! The log of what the CPU Units report.
 
-use plc::{CpuEvent, CpuRecord, CpuUnit, ProgramEvent};
+use plc::{CpuEvent, CpuRecord, CpuUnits, ProgramEvent};
 use time::{Duration, Instant};
 
 /// Interval at which the events are logged.
@@ -15,7 +15,7 @@ pub(super) struct Reports {
 
 impl Reports {
     /// Logs events, at most once a second: one that repeats is one line with its count.
-    pub(super) fn log(&mut self, cpus: &mut [CpuUnit], now: Instant) {
+    pub(super) fn log(&mut self, cpus: &mut CpuUnits, now: Instant) {
         if now < self.next {
             return;
         }
@@ -24,13 +24,14 @@ impl Reports {
     }
 
     /// Logs the events that have not been logged.
-    pub(super) fn log_all(&mut self, cpus: &mut [CpuUnit]) {
-        for (position, cpu) in cpus.iter_mut().enumerate() {
+    pub(super) fn log_all(&mut self, cpus: &mut CpuUnits) {
+        let mut lost = 0;
+        cpus.each(|position, cpu| {
             for record in cpu.take_events() {
                 log(position + 1, &record);
             }
-        }
-        let lost = cpus.iter().map(CpuUnit::events_lost).sum();
+            lost += cpu.events_lost();
+        });
         if lost > self.lost {
             tracing::warn!("{} events of CPU Units were lost: too many at once", lost - self.lost);
             self.lost = lost;

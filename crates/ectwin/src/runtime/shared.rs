@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::task::Waker;
 
-use plc::CpuUnit;
+use plc::CpuUnits;
 
 use super::handover::Handover;
 use super::status::Published;
@@ -14,7 +14,7 @@ use crate::twin::Line;
 #[derive(Debug)]
 pub(super) struct Shared {
     pub(super) line: Handover<Line>,
-    pub(super) cpus: Handover<Vec<CpuUnit>>,
+    pub(super) cpus: Handover<CpuUnits>,
     pub(super) units: Published,
     /// Ends all threads.
     pub(super) stop: Arc<AtomicBool>,
@@ -27,9 +27,9 @@ pub(super) struct Shared {
 }
 
 impl Shared {
-    pub(super) fn new(mut line: Line, cpus: Vec<CpuUnit>, stop: Arc<AtomicBool>) -> Self {
+    pub(super) fn new(line: Line, cpus: CpuUnits, stop: Arc<AtomicBool>) -> Self {
         let units = Published::of(cpus.len());
-        units.publish_changed(&mut line);
+        line.devices().for_each(|(position, device)| units.publish(position, device));
         let (line, cpus) = (Handover::new(line), Handover::new(cpus));
         let (frames, tasks, watch) = (OnceLock::new(), OnceLock::new(), OnceLock::new());
         Self { line, cpus, units, stop, frames, tasks, watch }

@@ -5,8 +5,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use device::Device;
 use wire::{AlStatus, AlStatusCode};
 
-use crate::twin::Line;
-
 /// What a unit shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct UnitStatus {
@@ -51,12 +49,10 @@ impl Published {
         Self((0..units).map(|_| AtomicU64::new(0)).collect())
     }
 
-    /// Publishes the units that may have changed; the others are not looked at.
-    pub(super) fn publish_changed(&self, line: &mut Line) {
-        while let Some((position, device)) = line.take_changed() {
-            if let Some(unit) = self.0.get(position) {
-                unit.store(UnitStatus::of(device).bits(), Ordering::Relaxed);
-            }
+    /// Publishes what a unit shows. A position beyond the line has no effect.
+    pub(super) fn publish<U: device::Unit>(&self, position: usize, device: &Device<U>) {
+        if let Some(unit) = self.0.get(position) {
+            unit.store(UnitStatus::of(device).bits(), Ordering::Relaxed);
         }
     }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
 use link::Clock;
-use plc::{CpuUnit, ScanWatch};
+use plc::{CpuUnits, ScanWatch};
 use time::{Duration, Instant};
 
 use super::program_changes::Waiting;
@@ -26,20 +26,20 @@ pub(super) struct TaskPulse {
 
 impl TaskPulse {
     /// The pulse of these CPU Units, which run their tasks by [`TaskPulse::cycle`].
-    pub(super) fn of(cpus: &mut [CpuUnit]) -> Self {
+    pub(super) fn of(cpus: &mut CpuUnits) -> Self {
         let scan = Arc::new(ScanWatch::default());
-        cpus.iter_mut().for_each(|cpu| cpu.watch_scans(Arc::clone(&scan)));
+        cpus.each(|_, cpu| cpu.watch_scans(Arc::clone(&scan)));
         Self { scan, position: AtomicUsize::new(0) }
     }
 
     /// Runs the task of each CPU Unit that is due at `now`.
-    pub(super) fn cycle(&self, cpus: &mut [CpuUnit], now: Instant, clock: &Clock) {
-        for (position, cpu) in cpus.iter_mut().enumerate().filter(|(_, cpu)| cpu.deadline() <= now) {
+    pub(super) fn cycle(&self, cpus: &mut CpuUnits, now: Instant, clock: &Clock) {
+        cpus.cycle(now, |position, cpu| {
             self.position.store(position, Ordering::Relaxed);
             self.scan.begin(clock.now());
             cpu.cycle(now);
             self.scan.finish();
-        }
+        });
     }
 
     /// The number of the unit whose task period is under way, and when it began.

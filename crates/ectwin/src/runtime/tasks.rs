@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
 use link::Clock;
-use plc::CpuUnit;
+use plc::CpuUnits;
 use time::{Duration, Instant};
 
 use super::handover::Owned;
@@ -13,7 +13,6 @@ use super::program_changes::ProgramChanges;
 use super::reports::Reports;
 use super::shared::Shared;
 use super::task_watch::TaskPulse;
-use crate::twin::cpu_deadline;
 
 /// Longest sleep, so that the stop flag is seen.
 const STOP_CHECK: Duration = Duration::from_millis(100);
@@ -44,15 +43,15 @@ impl Tasks {
     }
 
     /// Does what is due, and returns when the next task period begins.
-    fn turn(&mut self, cpus: &mut Owned<'_, Vec<CpuUnit>>, reports: &mut Reports) -> Instant {
+    fn turn(&mut self, cpus: &mut Owned<'_, CpuUnits>, reports: &mut Reports) -> Instant {
         let now = self.clock.now();
         self.changes.apply(cpus);
         if self.error_reset.swap(false, Ordering::Relaxed) {
-            cpus.iter_mut().for_each(CpuUnit::reset_errors);
+            cpus.each(|_, cpu| cpu.reset_errors());
             tracing::warn!("the errors of all NX Bus Function Modules are reset");
         }
         self.pulse.cycle(cpus, now, &self.clock);
         reports.log(cpus, now);
-        cpu_deadline(cpus)
+        cpus.deadline()
     }
 }

@@ -22,7 +22,7 @@ use super::recording::Recording;
 use super::scenario::{Scenario, UnitSource};
 use crate::model::{FrameKind, StateName};
 
-use cpus::Cpus;
+use cpus::{Cpu, Cpus};
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
@@ -53,7 +53,7 @@ impl World {
         let mut cpus = Vec::new();
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
             let Powered { config, unit, cpu } = powered(source, dice_of_phases(seed, participant), now);
-            cpus.push(cpu);
+            cpus.push(Cpu::running(cpu));
             (config, unit)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
@@ -122,7 +122,8 @@ impl World {
     /// Does everything that is due now, in a fixed order: CPU Units, units, late frames, master and its user program.
     fn happen(&mut self) {
         let now = self.now;
-        self.cpus.cycle(now, |at, words| self.recording.tell(now, &format!("cpu {}", at + 1), words));
+        let recording = &mut self.recording;
+        self.cpus.cycle(now, |at, cpu| cpu.period(now, |words| tell_of_cpu(recording, now, at, words)));
         self.network.poll(now);
         while let Some(delayed) = self.line.due(now) {
             self.pass(delayed.ticket, delayed.frame, &delayed.faults);
@@ -139,7 +140,7 @@ impl World {
 
     /// Records the changes.
     fn watch(&mut self) {
-        while let Some((at, device)) = self.network.take_changed() {
+        while let Some((at, device, _)) = self.network.take_changed() {
             let (status, code) = (device.al_status(), device.al_status_code());
             let unit = device.unit_mut();
             let watched = &mut self.watched[at];
@@ -178,6 +179,10 @@ fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> Powered {
         system_time_ns: Some(SYSTEM_TIME_NS),
     };
     file.power_on(now, &conditions, program)
+}
+
+fn tell_of_cpu(recording: &mut Recording, now: Instant, at: usize, words: &str) {
+    recording.tell(now, &format!("cpu {}", at + 1), words);
 }
 
 pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {

@@ -9,8 +9,8 @@ use time::Instant;
 use unit_model::{ModelUnit, NotThere};
 use wire::AlStatusCode;
 
-use super::World;
 use super::cpus::Cpu;
+use super::{World, tell_of_cpu};
 use crate::model::{
     ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, Needs, UnitOrder, UnitSet,
 };
@@ -114,14 +114,16 @@ impl World {
     fn load(&mut self, at: usize, file: &str) {
         let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
         let Some(program) = program else { return };
-        self.cpus.each(at..at + 1, |cpu| cpu.unit.change_program(Box::new(program.file.program.clone())));
+        if let Some(cpu) = self.cpus.get_mut(at) {
+            cpu.unit.change_program(Box::new(program.file.program.clone()));
+        }
         self.tell_of_cpus();
     }
 
     /// The reports of CPU Units since their last task periods.
     fn tell_of_cpus(&mut self) {
         let (recording, now) = (&mut self.recording, self.now);
-        self.cpus.report(|at, words| recording.tell(now, &format!("cpu {}", at + 1), words));
+        self.cpus.each(|at, cpu| cpu.between(|words| tell_of_cpu(recording, now, at, words)));
     }
 
     pub(crate) fn line_order(&mut self, order: &LineOrder) {
@@ -156,8 +158,10 @@ impl World {
         }
     }
 
-    fn each_cpu(&mut self, units: UnitSet, order: impl FnMut(&mut Cpu)) {
-        self.cpus.each(units.positions(self.count()), order);
+    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
+        for at in units.positions(self.count()) {
+            self.cpus.get_mut(at).into_iter().for_each(&mut order);
+        }
     }
 
     fn invert_sii_word(&mut self, at: usize, word: u16) {
@@ -177,10 +181,10 @@ impl World {
     fn cycle_rack_power(&mut self, at: usize) {
         self.start(at, Start::PowerOn);
         let now = self.now;
-        self.cpus.each(at..at + 1, |cpu| {
+        if let Some(cpu) = self.cpus.get_mut(at) {
             cpu.unit.cycle_power(now);
             cpu.is_running = true;
-        });
+        }
     }
 
     fn start(&mut self, at: usize, start: Start) {

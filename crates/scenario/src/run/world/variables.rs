@@ -44,7 +44,8 @@ impl World {
         text: &str,
         set: impl Fn(&mut Io, Target, &[u8]) -> Result<(), VariableError>,
     ) {
-        for io in self.cpus.ios() {
+        for at in 0..self.count() {
+            let Some(io) = self.io_mut(at) else { return };
             let Ok(target) = io.variables().find_target(name) else { continue };
             let value = io.type_of(target).map(|variable_type| variable_type.parse(text));
             if let Ok(Ok(value)) = value {
@@ -55,12 +56,17 @@ impl World {
     }
 
     pub(super) fn release(&mut self, name: &str) {
-        for io in self.cpus.ios() {
+        for at in 0..self.count() {
+            let Some(io) = self.io_mut(at) else { return };
             if let Ok(target) = io.variables().find_target(name) {
                 let _ = io.release(target);
                 return;
             }
         }
+    }
+
+    fn io_mut(&mut self, at: usize) -> Option<&mut Io> {
+        Some(self.cpus.get_mut(at)?.unit.io_mut())
     }
 
     fn find(&self, name: &str) -> Option<(&Io, Target)> {
