@@ -2,6 +2,9 @@
 //! units; each with its own user program and small process data, as in the factory setting.
 //!
 //! `cargo bench -p ectwin-scenario --bench lines`, or with other lengths: `… --bench lines -- 10 1000`
+//!
+//! `… --bench lines -- once 25 300` replays 25 units once until 300 ms after all are in OP, to count instructions: the
+//! difference between two durations is free of the start-up. docs/performance.md has the command.
 
 use std::time::Instant;
 
@@ -12,6 +15,13 @@ const SECONDS: u32 = 36;
 const LINES: [usize; 3] = [1, 25, 100];
 
 fn main() {
+    let arguments: Vec<String> = std::env::args().skip_while(|argument| argument != "once").collect();
+    if let [_, count, millis, ..] = arguments.as_slice()
+        && let (Ok(count), Ok(millis)) = (count.parse(), millis.parse())
+    {
+        replay(count, millis);
+        return;
+    }
     let named: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let lines = if named.is_empty() { LINES.to_vec() } else { named };
     let mut last: Option<(usize, f64)> = None;
@@ -31,10 +41,10 @@ fn main() {
 
 /// The time of the exchange alone: the time of a line that ends when all units are in OP is subtracted.
 fn measure(count: usize) -> f64 {
-    replay(count, SECONDS) - replay(count, 0)
+    replay(count, SECONDS * 1_000) - replay(count, 0)
 }
 
-fn replay(count: usize, seconds: u32) -> f64 {
+fn replay(count: usize, millis: u32) -> f64 {
     let units = vec![r#"{ model = "nx-ect101", start_up = "0ms" }"#; count].join(", ");
     let text = format!(
         r#"
@@ -44,7 +54,7 @@ units = [{units}]
 steps = [
   {{ master = "take all units to OP" }},
   {{ expect = "all units are in OP", within = "300s" }},
-  {{ after = "{seconds}s", expect = "all units are in OP" }},
+  {{ after = "{millis}ms", expect = "all units are in OP" }},
 ]
 "#
     );
