@@ -25,6 +25,8 @@ pub(crate) struct FileProblems {
     more: usize,
     /// A reader has stopped, so that the number of others is not known.
     have_stopped: bool,
+    /// The line of a program's reader after the last mistake.
+    closing_words: Option<String>,
 }
 
 impl FileProblems {
@@ -43,7 +45,8 @@ impl FileProblems {
             FileProblem::in_text(file, text, range, &problem.message, help.unwrap_or_default())
         };
         let list = problems.list().iter().map(problem);
-        Self { have_stopped: problems.are_cut(), ..Self::new(list, 0) }
+        let closing_words = problems.closing_words();
+        Self { have_stopped: problems.are_cut(), closing_words, ..Self::new(list, 0) }
     }
 
     pub(crate) fn push(&mut self, problem: FileProblem) {
@@ -74,6 +77,7 @@ impl FileProblems {
         other.list.into_iter().for_each(|problem| self.push(problem));
         self.more += other.more;
         self.have_stopped |= other.have_stopped;
+        self.closing_words = self.closing_words.take().or(other.closing_words);
     }
 
     /// Adds those of another file, unless all of them are known: two units run the same program.
@@ -101,8 +105,8 @@ impl FileProblems {
     pub(crate) fn pictures(&self) -> String {
         let mut text: String = self.list.iter().map(|problem| picture(problem)).collect();
         let more = if self.have_stopped { Some(st::stopped_words()) } else { and_more(self.more) };
-        if let Some(more) = more {
-            text.push_str(&format!("{more}\n"));
+        if let Some(words) = more.or_else(|| self.closing_words.clone()) {
+            text.push_str(&format!("{words}\n"));
         }
         text
     }

@@ -135,6 +135,8 @@ struct Checker<'t> {
     enum_values: HashMap<String, Vec<(std::sync::Arc<crate::types::Enumeration>, i64)>>,
     /// VAR_GLOBAL of the file.
     globals: HashMap<String, Symbol>,
+    /// Where the names of types, units and VAR_GLOBAL of the files are declared, by names in capitals.
+    first_places: HashMap<String, Span>,
     surroundings: &'t Surroundings<'t>,
     /// For each device variable in use: its symbol.
     devices: HashMap<usize, Symbol>,
@@ -170,6 +172,7 @@ impl<'t> Checker<'t> {
             named: HashMap::new(),
             enum_values: HashMap::new(),
             globals: HashMap::new(),
+            first_places: HashMap::new(),
             surroundings,
             devices: HashMap::new(),
             pending: Vec::new(),

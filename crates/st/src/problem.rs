@@ -58,13 +58,15 @@ pub struct Problem {
     pub message: String,
     /// The remedy, if there is one.
     pub help: Option<String>,
+    /// The first declaration of a name that is declared twice.
+    pub first: Option<Span>,
 }
 
 impl Problem {
     /// A problem without help.
     #[must_use]
     pub fn new(span: Span, message: impl Into<String>) -> Self {
-        Self { span, message: shortened(message.into()), help: None }
+        Self { span, message: shortened(message.into()), help: None, first: None }
     }
 
     /// The same with a remedy.

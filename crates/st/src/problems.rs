@@ -12,6 +12,7 @@ pub struct Problems {
     sources: Sources,
     list: Vec<Problem>,
     are_cut: bool,
+    is_syntax: bool,
 }
 
 impl Problems {
@@ -20,7 +21,14 @@ impl Problems {
         list.dedup();
         let are_cut = list.len() > PROBLEMS_MAX;
         list.truncate(PROBLEMS_MAX);
-        Self { sources: sources.into(), list, are_cut }
+        let sources = sources.into();
+        list.iter_mut().for_each(|problem| name_the_first(problem, &sources));
+        Self { sources, list, are_cut, is_syntax: false }
+    }
+
+    /// The problems of files that could not be read completely, so that names and types are not checked.
+    pub(crate) fn of_syntax(sources: impl Into<Sources>, list: Vec<Problem>) -> Self {
+        Self { is_syntax: true, ..Self::new(sources, list) }
     }
 
     /// The problems, in the order of the files.
@@ -40,6 +48,32 @@ impl Problems {
     pub const fn are_cut(&self) -> bool {
         self.are_cut
     }
+
+    /// The line after the last problem: that there are more, or that names and types are not checked yet.
+    #[must_use]
+    pub fn closing_words(&self) -> Option<String> {
+        match (self.are_cut, self.is_syntax) {
+            (true, _) => Some(stopped_words()),
+            (false, true) => Some("names and types are checked when the syntax is correct".to_owned()),
+            (false, false) => None,
+        }
+    }
+}
+
+/// The line after the last problem if there are more.
+#[must_use]
+pub fn stopped_words() -> String {
+    format!("stopped at {PROBLEMS_MAX} problems; there are more")
+}
+
+/// Adds to the remedy where the first declaration of a name is.
+fn name_the_first(problem: &mut Problem, sources: &Sources) {
+    let Some(first) = problem.first else { return };
+    let Place { file, line, column, .. } = sources.place(first);
+    let file = file.map(|file| format!("{file}:")).unwrap_or_default();
+    let first = format!("the first is at {file}{line}:{column}");
+    let help = problem.help.take().map(|help| format!("{first}; {help}"));
+    problem.help = Some(help.unwrap_or(first));
 }
 
 /// One line for each: `file:line:column: message (help)`, without the file if the source has none.
@@ -58,17 +92,11 @@ impl fmt::Display for Problems {
                 write!(formatter, " ({help})")?;
             }
         }
-        if self.are_cut {
-            write!(formatter, "\n{}", stopped_words())?;
+        if let Some(words) = self.closing_words() {
+            write!(formatter, "\n{words}")?;
         }
         Ok(())
     }
-}
-
-/// The line after the last problem if there are more.
-#[must_use]
-pub fn stopped_words() -> String {
-    format!("stopped at {PROBLEMS_MAX} problems; there are more")
 }
 
 impl core::error::Error for Problems {}

@@ -43,13 +43,9 @@ struct Inner {
 /// If a global has a type that cannot be parsed: the caller must pass valid types.
 pub fn compile(sources: impl Into<Sources>, globals: &[Global]) -> Result<Program, Problems> {
     let sources = sources.into();
-    match checked(&sources, globals, Purpose::Run) {
-        Ok(checked) => {
-            let retained = retain::of(&checked.variables);
-            Ok(Program { inner: Arc::new(Inner { sources, checked, retained }) })
-        }
-        Err(problems) => Err(Problems::new(sources, problems)),
-    }
+    let checked = checked(&sources, globals, Purpose::Run)?;
+    let retained = retain::of(&checked.variables);
+    Ok(Program { inner: Arc::new(Inner { sources, checked, retained }) })
 }
 
 /// Checks files that may be only part of a program: blocks, functions or types without a PROGRAM.
@@ -61,18 +57,16 @@ pub fn compile(sources: impl Into<Sources>, globals: &[Global]) -> Result<Progra
 /// As [`compile`].
 pub fn judge(sources: impl Into<Sources>, globals: &[Global]) -> Result<(), Problems> {
     let sources = sources.into();
-    match checked(&sources, globals, Purpose::Judge) {
-        Ok(_) => Ok(()),
-        Err(problems) => Err(Problems::new(sources, problems)),
-    }
+    checked(&sources, globals, Purpose::Judge).map(|_| ())
 }
 
-fn checked(sources: &Sources, globals: &[Global], purpose: Purpose) -> Result<Checked, Vec<Problem>> {
-    let file = read(sources)?;
+fn checked(sources: &Sources, globals: &[Global], purpose: Purpose) -> Result<Checked, Problems> {
+    let file = read(sources).map_err(|problems| Problems::of_syntax(sources.clone(), problems))?;
     let declarations = declarations(globals);
     let (declared, wrong) = parse(&declarations);
     assert!(wrong.is_empty(), "the device variables: {}", Problems::new(&declarations, wrong));
-    check(&file, &Surroundings { prelude: &PRELUDE, declared: &declared, globals }, purpose)
+    let surroundings = Surroundings { prelude: &PRELUDE, declared: &declared, globals };
+    check(&file, &surroundings, purpose).map_err(|problems| Problems::new(sources.clone(), problems))
 }
 
 /// All files as one tree. Each is read separately: a block left open in one does not extend into the next.

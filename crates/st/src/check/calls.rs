@@ -19,7 +19,7 @@ use crate::layout::Layout;
 use crate::library;
 use crate::machine::ARGUMENTS_MAX;
 use crate::problem::{Problem, Span};
-use crate::syntax::ast::{Argument, Call, Expression, ExpressionKind, Name};
+use crate::syntax::ast::{Argument, BinaryOperator, Call, Expression, ExpressionKind, Name};
 use crate::types::{Block, Member, Role, Type, member};
 
 /// Maximum number of values of a variable that is passed as ANY: more than the bytes of an NX object.
@@ -368,6 +368,7 @@ impl<'t> Body<'_, 't> {
                             format!("`{name}` has {} pins, but more arguments are given", pins.len());
                         return self.checker.refuse(Problem::new(expression.span, message));
                     };
+                    self.refuse_comparison(expression, |name| member(pins, name).is_some())?;
                     next += 1;
                     let value = if pin.role == Role::Output {
                         Given::Output { to: expression, negated: false, span: expression.span }
@@ -395,6 +396,23 @@ impl<'t> Body<'_, 't> {
             }
         }
         Some(given)
+    }
+
+    /// Refuses `Target = 80` as an argument, where `Target` is a pin and not a variable: a comparison is not meant.
+    pub(super) fn refuse_comparison(
+        &mut self,
+        argument: &Expression,
+        is_pin: impl Fn(&str) -> bool,
+    ) -> Option<()> {
+        let ExpressionKind::Binary { operator: BinaryOperator::Equal, left, .. } = &argument.kind else {
+            return Some(());
+        };
+        let ExpressionKind::Name(name) = &left.kind else { return Some(()) };
+        if !is_pin(name) || self.symbol(name).is_some() {
+            return Some(());
+        }
+        let problem = Problem::new(argument.span, format!("expected `:=` after the pin `{name}`, found `=`"));
+        self.checker.refuse(problem.help(format!("write {name} := value")))
     }
 
     /// The position of the pin with this name, if it is an output or, as `role` requires, not one.

@@ -1,6 +1,7 @@
 //! VAR sections: the positions of variables, and the meaning of their names.
 
 use super::scope::{Access, Located, Scope, Symbol, key};
+use super::unknown_names::{nearest_port, remedy, remedy_of_a_device};
 use super::{Checker, Origin, Pending, Shape, Signature};
 use crate::code::Base;
 use crate::layout::Layout;
@@ -59,17 +60,41 @@ impl<'t> Checker<'t> {
 
     fn declare_global(&mut self, section: &VarSection, declaration: &VarDeclaration) {
         if self.globals.contains_key(&key(&declaration.name.text)) {
-            return self.refuse_second(&declaration.name);
+            return self.refuse_second_global(&declaration.name);
         }
         let mut scope = Scope::default();
         let mut plan = Plan::new(Home::Memory { owner: None });
         self.declare(section, declaration, &mut plan, &mut scope);
+        self.refuse_without_a_device(declaration);
         self.globals.extend(scope.symbols);
+        self.first_places.insert(key(&declaration.name.text), declaration.name.span);
+    }
+
+    /// Refuses a global variable that has the name of a device variable which the unit does not have: nothing
+    /// would exchange it.
+    fn refuse_without_a_device(&mut self, declaration: &VarDeclaration) {
+        let name = &declaration.name;
+        let globals = self.surroundings.globals;
+        if declaration.at.is_some() || globals.iter().any(|own| own.name.eq_ignore_ascii_case(&name.text)) {
+            return;
+        }
+        if let Some(remedy) = remedy_of_a_device(&name.text, globals) {
+            let message = format!("the unit has no device variable `{}`, so nothing exchanges it", name.text);
+            self.refuse::<()>(Problem::new(name.span, message).help(remedy));
+        }
     }
 
     pub(super) fn refuse_second(&mut self, name: &Name) {
         let message = format!("the name `{}` is declared twice", name.text);
         self.refuse::<()>(Problem::new(name.span, message));
+    }
+
+    /// The same for a name of the whole program, whose first declaration may be in another file.
+    fn refuse_second_global(&mut self, name: &Name) {
+        let message = format!("the name `{}` is declared twice", name.text);
+        let problem = Problem::new(name.span, message);
+        let first = self.first_places.get(&key(&name.text)).copied();
+        self.refuse::<()>(Problem { first, ..problem });
     }
 
     /// The variables of a PROGRAM that runs under this name.
@@ -335,13 +360,10 @@ impl<'t> Checker<'t> {
         if given.is_some() {
             return given;
         }
-        let devices = self.surroundings.globals.iter().map(|global| global.name.clone());
-        let near = super::unknown_names::nearest(&name.text, devices.chain(self.globals.keys().cloned()));
+        let own = self.globals.keys().cloned();
+        let remedy = remedy(&name.text, own, self.surroundings.globals, "declare it in VAR_GLOBAL");
         let problem = Problem::new(name.span, format!("there is no global variable `{}`", name.text));
-        self.refuse(match near {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
-            None => problem.help("declare it in VAR_GLOBAL"),
-        })
+        self.refuse(problem.help(remedy))
     }
 
     fn device_at(&mut self, at: &crate::syntax::ast::Name) -> Option<Symbol> {
@@ -352,8 +374,8 @@ impl<'t> Checker<'t> {
         if let Some(place) = found {
             return self.device(place);
         }
-        let paths = globals.iter().filter_map(|global| global.at.clone());
-        let near = super::unknown_names::nearest(&at.text, paths);
+        let ports: Vec<_> = globals.iter().filter_map(|global| global.at.clone()).collect();
+        let near = nearest_port(&at.text, &ports);
         let problem = Problem::new(at.span, format!("there is no I/O port `{}`", at.text));
         self.refuse(match near {
             Some(near) => problem.help(format!("did you mean `{near}`?")),

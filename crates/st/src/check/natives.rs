@@ -102,6 +102,9 @@ impl Body<'_, '_> {
                     if next == given.len() && function.variadic && next < GIVEN_MAX {
                         given.push((&function.pins[function.pins.len() - 1], None));
                     }
+                    self.refuse_comparison(expression, |name| {
+                        function.pins.iter().any(|pin| pin.name.eq_ignore_ascii_case(name))
+                    })?;
                     next += 1;
                     (next - 1, expression, expression.span)
                 }

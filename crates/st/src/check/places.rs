@@ -92,7 +92,7 @@ impl Body<'_, '_> {
 
     pub(super) fn unknown<T>(&mut self, name: &str, span: Span) -> Option<T> {
         let own = self.scope.symbols.keys().chain(self.checker.globals.keys()).cloned();
-        let remedy = remedy(name, own, self.checker.surroundings.globals);
+        let remedy = remedy(name, own, self.checker.surroundings.globals, "declare it in VAR … END_VAR");
         self.checker.refuse(Problem::new(span, format!("there is no variable `{name}`")).help(remedy))
     }
 

@@ -42,7 +42,7 @@ impl<'t> Checker<'t> {
     /// Adds the names of a file's types and program organization units.
     pub(super) fn enter(&mut self, file: &'t File, origin: Origin) {
         for declaration in &file.types {
-            self.enter_name(&declaration.name, Named::Type(declaration));
+            self.enter_name(&declaration.name, Named::Type(declaration), origin);
         }
         for pou in file.units.iter().filter(|pou| !pou.name.text.is_empty()) {
             let named = match pou.kind {
@@ -50,7 +50,7 @@ impl<'t> Checker<'t> {
                 PouKind::Function => Named::Function(pou),
                 PouKind::FunctionBlock => Named::Block(pou, origin),
             };
-            self.enter_name(&pou.name, named);
+            self.enter_name(&pou.name, named, origin);
         }
     }
 
@@ -88,17 +88,21 @@ impl<'t> Checker<'t> {
         }
     }
 
-    fn enter_name(&mut self, name: &Name, named: Named<'t>) {
+    fn enter_name(&mut self, name: &Name, named: Named<'t>, origin: Origin) {
         let taken = library::function(&name.text).is_some()
             || library::Conversion::named(&name.text).is_some()
             || self.named.contains_key(&key(&name.text));
         if taken {
             let message = format!("the name `{}` is taken", name.text);
-            self.refuse::<()>(
-                Problem::new(name.span, message).help("each type, function and block needs a different name"),
-            );
+            let problem = Problem::new(name.span, message);
+            let problem = problem.help("each type, function and block needs a different name");
+            let first = self.first_places.get(&key(&name.text)).copied();
+            self.refuse::<()>(Problem { first, ..problem });
         } else {
             self.named.insert(key(&name.text), named);
+            if origin == Origin::User {
+                self.first_places.insert(key(&name.text), name.span);
+            }
         }
     }
 

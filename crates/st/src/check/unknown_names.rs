@@ -16,9 +16,17 @@ pub(super) fn nearest(name: &str, candidates: impl Iterator<Item = String>) -> O
     best.filter(|(score, _)| *score >= LIKENESS).map(|(_, candidate)| candidate)
 }
 
-/// The remedy for an unknown variable, by the names of the program and the device variables.
-pub(super) fn remedy(name: &str, own: impl Iterator<Item = String>, devices: &[Global]) -> String {
+/// The remedy for an unknown variable, by the names of the program and the device variables. `declare` is the
+/// remedy for a variable that the program has not declared.
+pub(super) fn remedy(
+    name: &str,
+    own: impl Iterator<Item = String>,
+    devices: &[Global],
+    declare: &str,
+) -> String {
     let devices: Vec<_> = devices.iter().map(|device| device.name.as_str()).collect();
+    // A declared device variable is one all the same.
+    let own = own.filter(|own| !devices.iter().any(|device| device.eq_ignore_ascii_case(own)));
     let near = nearest(name, own.chain(devices.iter().map(|&device| device.to_owned())));
     // A name of the program, or a slip of the finger in that of a device variable.
     let is_meant =
@@ -27,9 +35,49 @@ pub(super) fn remedy(name: &str, own: impl Iterator<Item = String>, devices: &[G
         Some(missing) => missing.remedy(),
         None => match near.or_else(|| without_device_name(name, &devices)) {
             Some(near) => did_you_mean(&near),
-            None => "declare it in VAR … END_VAR".to_owned(),
+            None => match of_another_model(name, &devices) {
+                Some(missing) => format!("{declare}, or: {}", missing.remedy()),
+                None => declare.to_owned(),
+            },
         },
     }
+}
+
+/// Whether a name is that of a device variable of another unit or of another I/O allocation, and then the remedy.
+pub(super) fn remedy_of_a_device(name: &str, devices: &[Global]) -> Option<String> {
+    let devices: Vec<_> = devices.iter().map(|device| device.name.as_str()).collect();
+    let (_, rest) = parts(name)?;
+    let is_of_the_scheme = devices.iter().filter_map(|device| parts(device)).any(|(_, own)| {
+        let ends = end_after_number(own).is_some_and(|end| end_after_number(rest) == Some(end));
+        ends || key(&without_digits(own)) == key(&without_digits(rest))
+    });
+    of_a_unit(name, &devices).filter(|_| is_of_the_scheme).map(|missing| missing.remedy())
+}
+
+/// What follows the last number of a name, in capitals; none if nothing does.
+fn end_after_number(name: &str) -> Option<String> {
+    let number = name.rfind(|letter: char| letter.is_ascii_digit())?;
+    name.get(number + 1..).filter(|end| !end.is_empty()).map(key)
+}
+
+fn without_digits(name: &str) -> String {
+    name.chars().filter(|letter| !letter.is_ascii_digit()).collect()
+}
+
+/// A name with a device name whose letters are not those of this unit, such as `N1_Zero` where all device
+/// variables begin with `O1_`: a unit of another model can be meant, or a variable of the program.
+fn of_another_model<'d>(name: &str, devices: &[&'d str]) -> Option<Missing<'d>> {
+    let (head, _) = parts(name)?;
+    let mut names = devices.iter().filter_map(|device| parts(device).map(|(own, _)| own));
+    let own = names.next().filter(|own| without_numbers(own) != without_numbers(head))?;
+    names.all(|other| other == own).then_some(Missing::OtherUnit { own })
+}
+
+/// The I/O port that is nearest to an unknown AT specification: the same port of this unit, if it has that.
+pub(super) fn nearest_port(at: &str, ports: &[String]) -> Option<String> {
+    let port = |path: &str| path.rsplit('/').next().map(key);
+    let same = ports.iter().find(|own| port(own) == port(at));
+    same.cloned().or_else(|| nearest(at, ports.iter().cloned()))
 }
 
 fn did_you_mean(near: &str) -> String {
