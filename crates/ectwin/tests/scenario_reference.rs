@@ -49,8 +49,8 @@ In each period the program reads the data of the slaves, runs once, and outputs 
 
 - each entry of an assigned PDO: `E001_UDINT_01_C_to_M`, AT `ECAT://node#1/UDINT 01 C to M`. The program writes the entries M to C:
   they replace the values that steps set. An entry that is not mapped at the moment keeps its value;
-- the bits of Sysmac Error Status that are ports: `E001_Observation`, AT `ECAT://node#1/Sysmac Error Status/Observation`, and
-  `E001_Minor_Fault`;
+- the bits of Sysmac Error Status that are ports, if TxPDO 1BFF is assigned: `E001_Observation`, AT
+  `ECAT://node#1/Sysmac Error Status/Observation`, and `E001_Minor_Fault`;
 - `_EC_PDSlavTbl[n]`: the slave with node address `n` is in OP and exchanges process data; `_EC_MBXSlavTbl[n]`: it is in PRE-OP,
   SAFE-OP or OP. For this the master reads AL status of each slave in each period. A slave that does not answer twice in a row counts
   as absent.

@@ -89,6 +89,22 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ master = \"let unit 1 map 0x11601 as 7000:01\" }", "from 0 to 65535", ""),
         ("{ expect = \"variable N2_UINTs_01_M_to_C is 01\" }", "no unit has the device variable", "named N1"),
         (
+            "{ expect = \"variable N1_UINTs_07_M_to_C[0] is 01 00\" }",
+            "no unit has the device variable N1_UINTs_07_M_to_C[0]",
+            "`ectwin map` lists the variables of N1",
+        ),
+        (
+            "{ never = \"variable N1_UINTs_01_M_to_C[0] is 01 00 00\" }",
+            "3 bytes for N1_UINTs_01_M_to_C[0], which has 2",
+            "N1_UINTs_01_M_to_C[0] is UINT",
+        ),
+        ("{ never = \"object 9999:01 of unit 1 is 00\" }", "no object 9999:01", "`ectwin list objects`"),
+        (
+            "{ never = \"object 2002:01 of unit 1 is 00 00\" }",
+            "2 bytes for object 2002:01, which has 1",
+            "all bytes",
+        ),
+        (
             "{ expect = \"variable N1_UINTs_01_M_to_C[15] has the value 1\" }",
             "N1_UINTs_01_M_to_C[15]: element 15 of an array of 15, counted from 0",
             "N1_UINTs_01_M_to_C is ARRAY[0..14] OF UINT",

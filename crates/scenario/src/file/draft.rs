@@ -56,9 +56,7 @@ impl FileReader<'_, '_> {
             task_period: span_of(section, "task_period"),
         };
         let program = self.value(section, "program", values::paths);
-        let names = section.get("device_names");
-        let device_names =
-            names.and_then(|names| self.reader.typed(&section.place_of("device_names"), names));
+        let device_names = self.value(section, "device_names", values::names);
         let task_period = self.value(section, "task_period", values::duration);
         Some(ScriptMaster { program: program?, device_names: device_names.unwrap_or_default(), task_period })
     }

@@ -1,7 +1,7 @@
 //! Single values of a scenario file.
 
 use time::Duration;
-use user_file::{DeValue, Problem, shown, values};
+use user_file::{DeValue, Problem, Value, shown, values, wrong_type};
 
 use crate::model::Paths;
 
@@ -16,6 +16,13 @@ pub(super) fn number(place: &str, value: &DeValue<'_>) -> Result<u64, Problem> {
 pub(super) fn duration(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
     let text = values::text(place, value, "a duration such as \"1.5ms\"")?;
     text.parse().map_err(|error| Problem::new(format!("`{}`: {error}", shown(text)), ""))
+}
+
+pub(super) fn names(place: &str, value: &DeValue<'_>) -> Result<Vec<String>, Problem> {
+    let expected = "a list of names, such as [\"E001\", \"E002\"]";
+    let list = value.as_array().ok_or_else(|| wrong_type(place, value, expected))?;
+    let name = |name: &Value<'_>| values::text(place, name.get_ref(), "a name").map(str::to_owned);
+    list.iter().map(name).collect()
 }
 
 pub(super) fn paths(place: &str, value: &DeValue<'_>) -> Result<Paths, Problem> {

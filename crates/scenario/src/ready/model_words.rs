@@ -169,6 +169,28 @@ mod tests {
     }
 
     #[test]
+    fn a_condition_on_what_no_unit_has_is_refused() {
+        assert_eq!(
+            messages(&[
+                "never = \"object 9999:01 of unit 1 is 00\"",
+                "never = \"object 1018:01 of unit 2 is 00\"",
+                "never = \"object 2002:01 of unit 1 is 00 00\"",
+                "never = \"variable N1_SDO_Communications_Enabled is 00 01\"",
+                "expect = \"variable N1_UINTs_07_M_to_C[0] has the value 1\"",
+                "expect = \"variable N4_UINTs_01_M_to_C[0] has the value 1\"",
+            ]),
+            [
+                "unit 1 has no object 9999:01",
+                "unit 2 has no object 1018:01",
+                "2 bytes for object 2002:01, which has 1",
+                "2 bytes for N1_SDO_Communications_Enabled, which has 1",
+                "no unit has the device variable N1_UINTs_07_M_to_C[0]",
+                "no unit has the device variable N4_UINTs_01_M_to_C[0]",
+            ]
+        );
+    }
+
+    #[test]
     fn the_same_words_are_right_for_a_unit_that_has_them() {
         let steps = [
             "unit = \"break Processing of unit 1\"",

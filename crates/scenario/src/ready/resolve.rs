@@ -1,13 +1,14 @@
 //! Names and values of variables in steps: whether they exist and have the correct type.
 
 use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess};
+use wire::{ObjectIndex, SubIndex};
 
 use super::maker::Maker;
 use super::problem::Part;
 use super::program_values::{VariableProblem, canonical_value};
 use super::programs::{Lasting, Present};
 use super::reach::line_of;
-use crate::model::{Condition, Controller, CpuOrder};
+use crate::model::{Bytes, Condition, Controller, CpuOrder, Entry, UnitNumber};
 
 impl Maker<'_> {
     /// Whether the variables of an order exist and accept its values. Reads the program that it loads.
@@ -35,12 +36,42 @@ impl Maker<'_> {
 
     /// Writes the value of a condition in the notation of the variable.
     pub(super) fn resolve(&mut self, condition: &mut Condition, part: Part) -> Option<()> {
-        if let Condition::VariableBytes { variable, .. } = condition {
-            self.target(variable, part)?;
+        if let Condition::VariableBytes { variable, bytes } = condition {
+            let (at, target) = self.target(variable, part)?;
+            let whole = self.variables.get(at)?.type_of(target).ok()?;
+            if bytes.0.len() > whole.size_bytes() {
+                let message =
+                    format!("{} bytes for {variable}, which has {}", bytes.0.len(), whole.size_bytes());
+                self.refuse(part, message, format!("{variable} is {whole}"));
+                return None;
+            }
+        } else if let Condition::Object { unit, entry, value } = condition {
+            self.check_object(*unit, *entry, value, part)?;
         } else if let Condition::VariableValue { variable, value } = condition {
             *value = self.typed_value(variable, value, part)?;
         } else if let Condition::ProgramVariable { controller, name, value } = condition {
             *value = self.program_value(*controller, name, value, part)?;
+        }
+        Some(())
+    }
+
+    /// Whether a unit has an object, and the object this length.
+    fn check_object(&mut self, unit: UnitNumber, entry: Entry, value: &Bytes, part: Part) -> Option<()> {
+        let device = self.units.get(unit.position())?.known_device();
+        let Some(found) = device.objects.entry(ObjectIndex(entry.index), SubIndex(entry.sub)) else {
+            let message = format!("{unit} has no object {entry}");
+            let help = match device.description.mailbox {
+                Some(_) => "`ectwin list objects` lists the objects",
+                None => "it has no mailbox, and so no objects",
+            };
+            self.refuse(part, message, help);
+            return None;
+        };
+        if value.0.len() != found.size_bytes() {
+            let message =
+                format!("{} bytes for object {entry}, which has {}", value.0.len(), found.size_bytes());
+            self.refuse(part, message, "the condition is about all bytes of the object");
+            return None;
         }
         Some(())
     }
@@ -53,8 +84,7 @@ impl Maker<'_> {
                 self.refuse(part, format!("{name}: {problem}"), help);
                 return None;
             }
-            let units = self.units.iter().map(|unit| unit.file.name());
-            let help = format!("the units are named {}", units.collect::<Vec<_>>().join(", "));
+            let help = self.help_for_a_name(name);
             self.refuse(part, format!("no unit has the device variable {name}"), help);
         }
         let (first, _) = found?;
@@ -66,6 +96,17 @@ impl Maker<'_> {
             return None;
         }
         found
+    }
+
+    /// The names of the units; or, if the name begins with one of them, where the variables of this unit are listed.
+    fn help_for_a_name(&self, name: &str) -> String {
+        let rest = name.strip_prefix("NXBus_").unwrap_or(name);
+        let is_of = |own: &&str| rest.strip_prefix(own).is_some_and(|port| port.starts_with('_'));
+        let mut units = self.units.iter().map(|unit| unit.file.name());
+        match units.clone().find(|own| is_of(own)) {
+            Some(own) => format!("`ectwin map` lists the variables of {own}, by its I/O allocation"),
+            None => format!("the units are named {}", units.by_ref().collect::<Vec<_>>().join(", ")),
+        }
     }
 
     /// The mistake in the index of a variable that exists, and the type of the variable.

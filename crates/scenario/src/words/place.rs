@@ -6,9 +6,9 @@ use unit_model::keys::{AL_STATUS_CODES, AL_STATUS_CODES_WORDS, TIMES, TIMES_WORD
 
 use super::value::Value;
 use read::{
-    bytes, choice, controller, duration, entries, entry, event, fault, fitting_entries, fitting_numbers,
-    frames, indicator, limited, number, numbers, one, pattern, percent, position, requested, state,
-    transition, unit, units, user_error,
+    bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
+    fitting_frames, fitting_indicator, fitting_numbers, frames, indicator, limited, number, numbers, one,
+    pattern, percent, position, requested, state, transition, unit, units, user_error,
 };
 
 /// A kind of place.
@@ -88,7 +88,7 @@ const PLACES: &[Place] = &[
     place("pause", "a time above 0 and at most 60s such as 100ms", |words| {
         duration(words, |pause| !pause.is_zero() && TIMES.contains(&pause))
     }),
-    place("bytes", "bytes such as 01 FF, hexadecimal", bytes),
+    Place { name: "bytes", meaning: "bytes such as 01 FF, hexadecimal", read: bytes, fitting: fitting_bytes },
     place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),
     Place {
         name: "entries",
@@ -111,14 +111,19 @@ const PLACES: &[Place] = &[
         one(words, fault)
     }),
     place("pattern", "a pattern such as lit, not_lit, blinking", |words| one(words, pattern)),
-    place("indicator", "RUN, ERR, L/A IN, L/A OUT, TS green or TS red", indicator),
+    Place {
+        name: "indicator",
+        meaning: "RUN, ERR, L/A IN, L/A OUT, TS green or TS red",
+        read: indicator,
+        fitting: fitting_indicator,
+    },
     place("percent", "a number from 1 to 100 and %", percent),
     Place {
         name: "frames",
-        meaning: "`the next 3`, `all`, `5 % of the`, `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
+        meaning: "`the next 3`, `all`, `5 % of the` (1 to 100 %), `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
                   `process data frames` or `mailbox frames`",
         read: frames,
-        fitting: |words| choice(words).map_or(0, |(_, length)| length),
+        fitting: fitting_frames,
     },
     place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
         one(words, |word| word.contains('_').then(|| Value::Text(word.to_owned())))

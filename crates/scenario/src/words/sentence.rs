@@ -149,6 +149,10 @@ fn place(part: &str) -> Option<&str> {
     part.strip_prefix('{')?.strip_suffix('}')
 }
 
+/// How well a row fits: the number of words that match, whether a value of a place is wrong behind them, and how alike
+/// the words are.
+type Fit = (usize, bool, f64);
+
 /// A text that is not a sentence of a table.
 pub(crate) struct Misfit<'a, T> {
     table: &'a [Sentence<T>],
@@ -173,22 +177,21 @@ impl<T> Misfit<'_, T> {
     fn furthest(&self) -> Option<(&Sentence<T>, Problem<'_>)> {
         let words: Vec<&str> = self.text.split_whitespace().collect();
         let misfits = rows(self.table).filter_map(|row| Some((row, fit(row.pattern, &words).err()?)));
-        let mut furthest: Option<(usize, f64, &Sentence<T>, Problem<'_>)> = None;
+        let mut furthest: Option<(Fit, &Sentence<T>, Problem<'_>)> = None;
         for (row, (reached, problem)) in misfits.filter(|(_, (reached, _))| *reached > 0) {
-            let likeness = likeness(row, self.text);
-            let is_further = |(other, other_likeness, _, _): &(usize, f64, _, _)| {
-                (reached, likeness) > (*other, *other_likeness)
-            };
-            if furthest.as_ref().is_none_or(is_further) {
-                furthest = Some((reached, likeness, row, problem));
+            // A wrong value of a place is more likely than another sentence.
+            let fit = (reached, matches!(problem, Problem::Place(_)), likeness(row, self.text));
+            if furthest.as_ref().is_none_or(|(other, _, _)| fit > *other) {
+                furthest = Some((fit, row, problem));
             }
         }
-        furthest.map(|(_, _, row, problem)| (row, problem))
+        furthest.map(|(_, row, problem)| (row, problem))
     }
 
     /// No part of the text matches: the example with the nearest words, if it is near.
     fn nearest(&self) -> NoSentence {
-        let scored = rows(self.table).map(|sentence| (likeness(sentence, self.text), sentence));
+        let meant = rows(self.table).filter(|sentence| has_a_word_of(sentence, self.text));
+        let scored = meant.map(|sentence| (likeness(sentence, self.text), sentence));
         let nearest = scored.max_by(|(a, _), (b, _)| a.total_cmp(b));
         let near = nearest.filter(|(likeness, _)| *likeness >= NEAR);
         let help = near.map_or_else(
@@ -214,7 +217,7 @@ const ALIKE: f64 = 0.85;
 /// How alike the words of a sentence's example and of a text are, without numbers: from 0 to 1, where 1 is the same
 /// words.
 fn likeness<T>(sentence: &Sentence<T>, text: &str) -> f64 {
-    let is_no_number = |word: &&str| !word.starts_with(|first: char| first.is_ascii_digit());
+    let is_no_number = |word: &&str| !is_number(word);
     let example: Vec<&str> = sentence.example.split_whitespace().filter(is_no_number).collect();
     let words: Vec<&str> = text.split_whitespace().filter(is_no_number).take(WORDS_COMPARED).collect();
     let is_comparable = |word: &&&str| word.len() <= WORD_BYTES_MAX;
@@ -222,6 +225,21 @@ fn likeness<T>(sentence: &Sentence<T>, text: &str) -> f64 {
         |word: &&str| example.iter().map(|known| strsim::jaro_winkler(word, known)).fold(0.0, f64::max);
     let alike: f64 = words.iter().filter(is_comparable).map(best).filter(|likeness| *likeness >= ALIKE).sum();
     2.0 * alike / (words.len() + example.len()) as f64
+}
+
+fn is_number(word: &str) -> bool {
+    word.starts_with(|first: char| first.is_ascii_digit())
+}
+
+/// Words of so many sentences that they make none of them likely.
+const COMMON_WORDS: &[&str] = &["all", "are", "is", "of", "the", "to", "unit", "units"];
+
+/// Whether a text has a word of a sentence's example that is not in most sentences.
+fn has_a_word_of<T>(sentence: &Sentence<T>, text: &str) -> bool {
+    let is_its_own = |word: &&str| !COMMON_WORDS.contains(word) && !is_number(word);
+    let example = || sentence.example.split_whitespace().filter(is_its_own);
+    let mut words = text.split_whitespace().filter(|word| word.len() <= WORD_BYTES_MAX).take(WORDS_COMPARED);
+    words.any(|word| example().any(|known| strsim::jaro_winkler(word, known) >= ALIKE))
 }
 
 /// The mistake at the position where a pattern stops matching.

@@ -43,6 +43,33 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
     assert!(problem("unit one is in OP").contains("is not a valid sentence here / did you mean"));
     assert!(problem("unit 0 is in OP").contains("is not a valid sentence"), "units count from 1");
     assert!(problem("").contains("is not a valid sentence"));
+    let indicators = "expected RUN, ERR, L/A IN, L/A OUT, TS green or TS red, found `of`";
+    assert!(problem("TS of unit 1 is lit").starts_with(indicators), "{}", problem("TS of unit 1 is lit"));
+    let al_status = problem("AL status of unit 1 is 08");
+    assert!(
+        al_status.contains("did you mean `unit 1 is in SAFE-OP with AL status code 0x001B`?"),
+        "{al_status}"
+    );
+}
+
+#[test]
+fn the_wrong_word_of_an_order_is_told() {
+    let line = |text: &str| match LineOrder::from_sentence(text) {
+        Err(NoSentence { message, help }) => format!("{message} / {help}"),
+        Ok(order) => panic!("{order:?}"),
+    };
+    for (text, found) in [
+        ("lose 0 % of the frames", "0"),
+        ("lose 101 % of the frames", "101"),
+        ("lose 5 % of frames", "frames"),
+        ("lose 5% frames", "frames"),
+    ] {
+        let told = line(text);
+        assert!(told.contains("`5 % of the` (1 to 100 %)"), "{told}");
+        assert!(told.contains(&format!("found `{found}` / the sentence is `lose {{frames}}`")), "{told}");
+    }
+    let told = MasterOrder::from_sentence("set the outputs of unit 1 to 01 02 300").expect_err("no byte");
+    assert_eq!(told.message, "expected bytes such as 01 FF, hexadecimal, found `300`");
 }
 
 #[test]

@@ -40,8 +40,12 @@ pub(super) fn holds(condition: bool, seen: impl FnOnce() -> String) -> Result<()
     if condition { Ok(()) } else { Err(seen().into()) }
 }
 
-/// Whether the bytes from `first` on are these.
+/// Whether the bytes from `first` on are these. Without any byte, as before the exchange of process data, they are not;
+/// beyond the end of the others there is nothing to compare.
 pub(super) fn lie_at(seen: &[u8], first: usize, wanted: &Bytes) -> Result<(), Seen> {
+    if !seen.is_empty() && first + wanted.0.len() > seen.len() {
+        return Err(Seen::not_there(format!("there are {} bytes only, counted from 0", seen.len())));
+    }
     let seen = seen.get(first..).unwrap_or_default();
     let head = seen.get(..wanted.0.len()).unwrap_or(seen);
     holds(head == wanted.0, || format!("they are {}", hex(head)))
@@ -59,4 +63,18 @@ pub(super) fn truth(value: bool) -> &'static str {
 /// Whether the number of occurrences is the expected one; without a number at least one.
 pub(super) fn is_often_enough(seen: u64, times: Option<u64>) -> bool {
     times.map_or(seen > 0, |times| seen == times)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_beyond_the_end_are_neither_right_nor_wrong() {
+        let is_false =
+            |seen: &[u8], first| lie_at(seen, first, &Bytes::from([0])).map_err(|seen| seen.is_false());
+        assert_eq!([is_false(&[1, 0], 1), is_false(&[1, 0], 0)], [Ok(()), Err(true)]);
+        assert_eq!(is_false(&[1, 0], 2), Err(false));
+        assert_eq!(is_false(&[], 400), Err(true), "no process data yet");
+    }
 }

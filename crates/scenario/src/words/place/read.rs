@@ -84,6 +84,11 @@ pub(super) fn bytes(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Bytes(bytes), words.len()))
 }
 
+/// Number of words at the start that are bytes.
+pub(super) fn fitting_bytes(words: &[&str]) -> usize {
+    words.iter().take_while(|word| hexadecimal(word, 2).is_some()).count()
+}
+
 pub(super) fn numbers(words: &[&str]) -> Option<(Value, usize)> {
     let numbers = all(words, |word| hexadecimal(word, 4).map(|number| Hex(number as u16)))?;
     (numbers.len() <= ELEMENTS_MAX).then_some((Value::Numbers(numbers), words.len()))
@@ -148,6 +153,12 @@ pub(super) fn indicator(words: &[&str]) -> Option<(Value, usize)> {
     })
 }
 
+/// Whether the first word is that of an indicator of two words.
+pub(super) fn fitting_indicator(words: &[&str]) -> usize {
+    let first = words.first().is_some_and(|first| ["L/A", "TS"].contains(first));
+    usize::from(first)
+}
+
 pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
     let (digits, length) = match words {
         [number, "%", ..] => (*number, 2),
@@ -170,8 +181,18 @@ pub(super) fn frames(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Frames(Frames { kind, choice }), length + more))
 }
 
+/// Number of words at the start that select frames, also if the selection is not complete.
+pub(super) fn fitting_frames(words: &[&str]) -> usize {
+    if let Some((_, length)) = choice(words) {
+        return length;
+    }
+    let Some((_, length)) = percent(words) else { return 0 };
+    let rest = words.get(length..).unwrap_or_default();
+    length + rest.iter().zip(["of", "the"]).take_while(|(word, wanted)| *word == wanted).count()
+}
+
 /// Numbers count from 1, the next frame.
-pub(super) fn choice(words: &[&str]) -> Option<(Choice, usize)> {
+fn choice(words: &[&str]) -> Option<(Choice, usize)> {
     match words {
         ["all", ..] => Some((Choice::All, 1)),
         ["the", "next", count, ..] => Some((Choice::Next(number_of(count)?), 3)),

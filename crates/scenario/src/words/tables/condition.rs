@@ -65,7 +65,7 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         "the value in the dictionary, without an SDO",
         |entry, unit, value| Object { unit, entry, value }),
     row!("register {word} of {unit} is {bytes}", "register 0x0300 of unit 1 is 01",
-        "memory of the ESC, without a frame",
+        "as a read of the ESC without a frame has it: registers that the ESC computes have their computed value",
         |register, unit, value| Register { unit, register, value }),
     row!("the outputs of {unit} begin with {bytes}", "the outputs of unit 1 begin with 01 02",
         "as its CPU Unit has them",
