@@ -49,15 +49,24 @@ fn cells(line: &'static str) -> Option<Vec<&'static str>> {
     Some(row.split(" | ").map(str::trim).collect())
 }
 
-/// Text without markup: links are replaced by their words, and backticks are removed.
+/// Text without markup: links are replaced by their words, and backticks are removed. A link alone in parentheses only
+/// refers to another place, and is left out.
 pub(super) fn plain(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut plain = String::new();
     let mut rest = text.as_str();
     while let Some((before, words, behind)) = link(rest) {
-        plain.push_str(before);
-        plain.push_str(words);
-        rest = behind;
+        match (before.strip_suffix(" ("), behind.strip_prefix(')')) {
+            (Some(before), Some(behind)) => {
+                plain.push_str(before);
+                rest = behind;
+            }
+            _ => {
+                plain.push_str(before);
+                plain.push_str(words);
+                rest = behind;
+            }
+        }
     }
     plain.push_str(rest);
     plain.replace(['`', '*'], "")
@@ -86,6 +95,10 @@ mod tests {
         assert_eq!((one.heading, one.sentence.as_str()), ("One `key`", "A link and code"));
         assert_eq!((one.tables[0].header.as_slice(), one.tables[0].rows.len()), (&["key", "effect"][..], 1));
         assert_eq!(plain(one.tables[0].rows[0][1]), "is b");
+        assert_eq!(
+            plain("it waits ([more](a.md#b)); a [link](c.md) (as [here](d.md))"),
+            "it waits; a link (as here)"
+        );
         assert_eq!((two.sentence.as_str(), two.tables[0].rows.len()), ("", 0));
     }
 }
