@@ -389,7 +389,8 @@ impl Esc {
         let count = usize::from(self.config.sync_manager_count);
         let sync_managers = self.sync_managers.iter().take(count).enumerate();
         let bits = sync_managers
-            .filter(|(_, sm)| sm.active && sm.settings.pdi_event && sm.pdi_event)
+            // An event is rarer than a SyncManager that may have one.
+            .filter(|(_, sm)| sm.pdi_event && sm.active && sm.settings.pdi_event)
             .fold(0, |bits, (n, _)| bits | 0x100 << n);
         self.al_events | AlEvents::from_bits_truncate(bits)
     }
