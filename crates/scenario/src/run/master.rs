@@ -201,8 +201,9 @@ impl Master {
     }
 
     /// A frame returns. Frames that are no longer expected are ignored, as by a real master.
-    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8], now: Instant) {
-        let datagrams = returned_datagrams(frame);
+    pub(crate) fn receive(&mut self, ticket: u64, frame: Vec<u8>, now: Instant) {
+        let datagrams = returned_datagrams(&frame);
+        self.process_data.reuse(frame);
         let is_cyclic =
             self.process_data.receive(ticket, &datagrams) || self.states.receive(ticket, &datagrams);
         if is_cyclic || self.waiting.ticket != Some(ticket) {

@@ -11,6 +11,8 @@ use crate::model::FrameKind;
 
 /// Maximum number of output bytes of a unit.
 const OUTPUTS_MAX: usize = 1200;
+/// Maximum number of frames whose memory is kept for the next cycles.
+const SPARES_MAX: usize = 16;
 
 /// The process data of all units.
 #[derive(Debug)]
@@ -20,6 +22,8 @@ pub(crate) struct ProcessData {
     outputs: Vec<Vec<u8>>,
     /// Frames of this cycle that have not returned, and their datagrams.
     awaited: Vec<(u64, Range<usize>)>,
+    /// Memory of frames that are no longer needed.
+    spares: Vec<Vec<u8>>,
 }
 
 impl ProcessData {
@@ -37,6 +41,7 @@ impl ProcessData {
             exchange: ::master::ProcessData::new(exchange, addresses),
             outputs: vec![Vec::new(); units],
             awaited: Vec::new(),
+            spares: Vec::new(),
         }
     }
 
@@ -105,9 +110,10 @@ impl ProcessData {
         self.exchange.next_cycle(now);
         self.awaited.clear();
         core::iter::from_fn(|| {
-            let mut frame = FrameBuilder::new();
+            let mut frame = self.spares.pop().map_or_else(FrameBuilder::new, FrameBuilder::reusing);
             let datagrams = self.exchange.load(&mut frame);
             if datagrams.is_empty() {
+                self.reuse(frame.finish());
                 return None;
             }
             *ticket += 1;
@@ -116,6 +122,13 @@ impl ProcessData {
             Some(Sent { ticket, kind: FrameKind::ProcessData, frame: frame.finish() })
         })
         .collect()
+    }
+
+    /// Takes the memory of a frame that is no longer needed.
+    pub(crate) fn reuse(&mut self, frame: Vec<u8>) {
+        if self.spares.len() < SPARES_MAX {
+            self.spares.push(frame);
+        }
     }
 
     /// Processes a returned frame; false if it does not belong to this exchange.

@@ -80,7 +80,7 @@ impl World {
         self.recording.returned(self.now, &frame, comment.as_deref());
         match ticket {
             Ticket::Recorded(number) => self.recorded.receive(number, &frame),
-            Ticket::Scripted(number) => self.master.receive(number, &frame, self.now),
+            Ticket::Scripted(number) => self.master.receive(number, frame, self.now),
         }
     }
 }
