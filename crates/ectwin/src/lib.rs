@@ -20,7 +20,7 @@
 //!
 //! It can also answer a link in real time: [`Twin::serve`] for any [`link::FramePort`], such as one end of
 //! [`link::memory::pair`], and `Twin::serve_ethercrab` for an ethercrab master in the same process. The test
-//! accesses the other side of the unit through [`Twin::unit`] and [`Live::look`].
+//! accesses the other side of the unit through [`Twin::unit`] and [`Handle::look`].
 
 #[cfg(feature = "ethercrab")]
 mod ethercrab_port;
