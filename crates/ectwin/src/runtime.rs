@@ -92,7 +92,7 @@ impl Runtime {
     /// Answers the frames of `port` on this thread until the runtime is stopped or the link is closed.
     ///
     /// # Errors
-    /// The medium is gone, or the thread of the CPU Units has panicked.
+    /// The medium is gone, or a thread of the runtime has panicked.
     pub fn answer<'o, P: FramePort>(
         mut self,
         port: &mut P,
@@ -113,7 +113,7 @@ impl Runtime {
         self.handle.stop();
         let threads = [self.watch.take(), self.tasks.take()];
         let panicked = threads.into_iter().flatten().filter_map(|thread| thread.join().err()).count() > 0;
-        if panicked { Err(cpu_units_panicked()) } else { Ok(()) }
+        if panicked { Err(has_panicked()) } else { Ok(()) }
     }
 }
 
@@ -125,8 +125,8 @@ impl Drop for Runtime {
     }
 }
 
-fn cpu_units_panicked() -> io::Error {
-    io::Error::other("the thread of the CPU Units panicked: a user program of the test, or a mistake of ours")
+fn has_panicked() -> io::Error {
+    io::Error::other("a thread of the runtime panicked: by a user program of the test, or a mistake of ours")
 }
 
 fn spawn(name: &str, body: impl FnOnce() + Send + 'static) -> io::Result<JoinHandle<()>> {

@@ -4,6 +4,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use ectwin::link::memory::{MemoryPort, pair};
 use ectwin::link::{FRAME_BUFFER_BYTES, FramePort};
@@ -40,14 +41,16 @@ fn access_to_a_unit_does_not_wait_for_a_frame() {
 #[test]
 fn threads_that_access_a_unit_at_the_same_time_wait_for_each_other_and_frames_are_answered() {
     let (live, mut ours) = served(Setup::from_toml("model = \"nx-ect101\"").unwrap());
+    let inside = &AtomicBool::new(false);
     std::thread::scope(|scope| {
         for _ in 0..4 {
             let handle = live.handle();
             scope.spawn(move || {
                 for _ in 0..200 {
-                    handle.look(0, |unit| {
-                        let count = unit.io().uints(1).unwrap()[0] + 1;
-                        unit.io_mut().set_uints(1, [count; 15]);
+                    handle.look(0, |_| {
+                        assert!(!inside.swap(true, Ordering::SeqCst), "another thread has access");
+                        std::thread::yield_now();
+                        inside.store(false, Ordering::SeqCst);
                     });
                 }
             });
@@ -74,7 +77,7 @@ fn the_status_of_a_unit_is_published() {
     let UnitStatus { al_status, al_status_code, .. } = status(&live);
     assert_eq!((al_status.state, al_status.error, al_status_code.0 != 0), (AlState::PreOp, true, true));
     live.look(0, |unit| unit.cycle_power());
-    assert_eq!(status(&live).al_status.state, AlState::Init);
+    assert_eq!(live.status(0).al_status.state, AlState::Init);
 }
 
 #[test]
@@ -86,11 +89,13 @@ fn the_status_of_a_unit_beyond_the_line_is_a_mistake_of_the_caller() {
 
 #[test]
 fn units_are_accessible_after_the_link_was_closed() {
-    let (live, ours) = served(Setup::from_toml(COUPLER).unwrap());
+    let (live, mut ours) = served(Setup::from_toml(COUPLER).unwrap());
     let handle = live.handle();
+    request(&mut ours, 2);
     drop(ours);
     live.stop().unwrap();
-    assert_eq!(handle.look(0, |unit| unit.state()), AlState::Init);
+    assert_eq!(handle.look(0, |unit| unit.state()), AlState::PreOp);
+    handle.look(0, |unit| unit.cycle_power());
     assert_eq!(handle.status(0).al_status.state, AlState::Init);
 }
 

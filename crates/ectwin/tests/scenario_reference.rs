@@ -94,7 +94,7 @@ A unit without power does nothing: an order that its software would carry out ha
 has an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
 errors, objects, registers, the validity of its data) fails while it has no power.
 
-An expectation that could not fail or never hold is a mistake of the file: a condition of the program of a unit that has none at that
+An expectation that cannot fail, or that can never hold, is a mistake of the file: a condition of the program of a unit that has none at that
 time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data. Orders on such bytes, and on
 what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
 that later steps load. If the variable is not there when the condition is checked, the step fails.

@@ -25,7 +25,10 @@ impl Handle {
         // First the CPU Units: a program that does not return does not stop the frames.
         let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
         let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
-        look(&mut line.unit(&mut cpus, position, self.clock.now()))
+        let seen = look(&mut line.unit(&mut cpus, position, self.clock.now()));
+        // Here too: the frame thread publishes in its next turn, and not after its end.
+        line.each_changed(|position, device| self.shared.units.publish(position, device));
+        seen
     }
 
     /// The present status of the unit at `position`, without making frames or tasks wait.
