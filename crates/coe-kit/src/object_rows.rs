@@ -224,7 +224,7 @@ impl PdoRow {
     }
 }
 
-/// The subindexes of a row: `sub`, or `from` and `to`; none if it has neither or both.
+/// The subindexes of a row: `sub`, or `from` and `to`; none if it has neither or both, or if `from` is not before `to`.
 #[must_use]
 pub fn subs([sub, from, to]: [Option<u8>; 3]) -> Option<RangeInclusive<u8>> {
     match (sub, from, to) {

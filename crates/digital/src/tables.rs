@@ -1,4 +1,4 @@
-//! The tables of the model: its indicators. A terminal has no objects, events and rules.
+//! The tables of the model: its indicators. A terminal has no objects, events or rules.
 
 use std::sync::LazyLock;
 

@@ -222,8 +222,8 @@ impl UnitMessages {
         Some(request)
     }
 
-    /// The unit loses its power, or restarts: no request that it has not answered yet is executed later. Those that
-    /// are waiting are refused now, those of the time until its next answer with that.
+    /// The unit loses its power, or restarts: requests that it has not answered yet are never executed. Those that
+    /// wait are refused now; those that come later are refused by its next [`Self::answer`].
     pub fn leave(&mut self) {
         self.has_left = true;
         self.answer(|_| Err(NxMessageError::NotReachable));

@@ -55,7 +55,7 @@ fn sizes(finding: &Finding) -> (Option<usize>, Option<usize>) {
         Fact::OneSided { amounts } | Fact::Unequal { amounts } => {
             let of_side = |entries: fn(&Amount) -> usize| {
                 let sets = DataSetKind::ALL.into_iter().zip(&amounts);
-                let different = sets.filter(|(_, amount)| amount.io_entries != amount.pdo_entries);
+                let different = sets.filter(|(_, amount)| amount.is_unequal());
                 let bytes = different.map(|(kind, amount)| {
                     entries(amount) * usize::from(DataSet::of(finding.direction, kind).entry_bytes)
                 });

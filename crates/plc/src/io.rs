@@ -204,7 +204,8 @@ impl Io {
     }
 
     /// The CPU Unit is powered on again: all values are initialized, and nothing is forced. NX object calls are
-    /// kept: those of the user program are dropped when it starts, and outside runtimes still wait for theirs.
+    /// kept: a program drops its own when it starts or ends, if it has no use for them, and outside runtimes still wait
+    /// for theirs.
     pub(crate) fn power_on(&mut self) {
         self.memory = Memory::new(&self.variables);
         self.nx_bus_reset = NxBusReset::None;

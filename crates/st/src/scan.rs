@@ -12,6 +12,7 @@ pub(crate) use budget::Budget;
 /// Number of steps that cost as much as a statement: operators and variables that are evaluated, labels of CASE
 /// that are compared.
 const STEPS_FOR_ONE: u64 = 32;
+
 /// Memory, surroundings, time and budget of a scan.
 pub(crate) struct Scan<'m> {
     pub(crate) memory: &'m mut Memory,

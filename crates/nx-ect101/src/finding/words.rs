@@ -87,7 +87,7 @@ impl Finding {
 
     fn differences(&self, amounts: &[Amount; 3]) -> String {
         let sets = DataSetKind::ALL.into_iter().zip(amounts);
-        let different = sets.filter(|(_, amount)| amount.io_entries != amount.pdo_entries);
+        let different = sets.filter(|(_, amount)| amount.is_unequal());
         let told = different.map(|(kind, amount)| difference(DataSet::of(self.direction, kind), *amount));
         told.collect::<Vec<_>>().join("; ")
     }

@@ -77,17 +77,11 @@ fn attached(event: &Event) -> Vec<Fact> {
 }
 
 fn attached_fact(information: &AttachedInformation) -> Fact {
-    let label = match information.n {
-        1 => "1",
-        2 => "2",
-        3 => "3",
-        _ => "4",
-    };
     let values = information.values.iter().map(|(value, meaning)| format!("{value} {meaning}"));
     let values: Vec<String> = values.collect();
     let meaning = words::attached(&information.meaning);
-    let told = if values.is_empty() { meaning.into() } else { format!("{meaning}: {}", values.join("; ")) };
-    Fact::new(label, told)
+    let text = if values.is_empty() { meaning.into() } else { format!("{meaning}: {}", values.join("; ")) };
+    Fact::new(information.n.to_string(), text)
 }
 
 fn logs(event: &Event) -> Vec<Fact> {

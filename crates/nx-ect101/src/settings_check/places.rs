@@ -99,7 +99,7 @@ fn sizes(file: &UnitFile, finding: &Finding) -> Vec<FilePlace> {
 fn differences(file: &UnitFile, direction: Direction, amounts: &[Amount; 3]) -> Vec<FilePlace> {
     let mut places = Vec::new();
     let different = DataSetKind::ALL.into_iter().zip(amounts);
-    for (kind, amount) in different.filter(|(_, amount)| amount.io_entries != amount.pdo_entries) {
+    for (kind, amount) in different.filter(|(_, amount)| amount.is_unequal()) {
         let set = DataSet::of(direction, kind);
         let sides = [(Side::IoEntry, amount.io_entries, "I/O"), (Side::PdoEntry, amount.pdo_entries, "PDO")];
         for (side, count, name) in sides {

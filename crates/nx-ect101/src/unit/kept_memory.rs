@@ -18,8 +18,8 @@ pub(super) struct KeptMemory {
     identity: Option<[u8; IDENTITY_BYTES]>,
     /// The SII matched the unit when the unit started.
     sii_is_own: bool,
-    /// The slave has a blank EEPROM of its own as a condition of a test: the SII of the memory is neither read nor stored,
-    /// so that it is there again after the test.
+    /// The slave has a blank EEPROM of its own as a condition of a test: what a master writes to it is not stored, and the
+    /// SII of the memory is not copied to it, so that it is there again after the test.
     is_sii_apart: bool,
 }
 

@@ -43,7 +43,7 @@ impl Maker<'_> {
         self.variables = variables.collect();
     }
 
-    /// Refuses a name that two units have, if a file has it: the variables of a unit begin with its name.
+    /// Refuses a name that two units have, unless both have it from their model: the variables of a unit begin with its name.
     fn check_names_of_units(&mut self) {
         if !self.problems.is_empty() {
             return;

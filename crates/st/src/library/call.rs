@@ -12,7 +12,7 @@ const CHARACTERS_FOR_ONE: u64 = 128;
 /// A call of a function while a program runs.
 pub(crate) struct Call<'c, 'm> {
     pub(crate) scan: &'c mut Scan<'m>,
-    /// The arguments of the pins, in their order; see [`Takes`].
+    /// The arguments of the pins, in their order; see [`super::Takes`].
     pub(crate) arguments: &'c [u64],
     /// The type of the generic pins.
     pub(crate) elementary: Elementary,

@@ -1,4 +1,4 @@
-//! The notation of the functions of the library: their pins, their results, their rows in the table.
+//! A function of the library: its pins and its result.
 
 use core::fmt;
 

@@ -232,7 +232,7 @@ fn what_a_unit_stores_it_finds_again() {
 
 /// A blank EEPROM is a condition of a test, after which the SII of the memory is there again.
 #[test]
-fn a_blank_sii_changes_nothing_in_the_memory() {
+fn what_is_written_to_a_blank_sii_is_not_stored() {
     let (bench, image) = without_switch();
     let mut bytes = Vec::new();
     bench.unit.memory().encode_into(&mut bytes);
