@@ -11,7 +11,9 @@ mod recorded;
 mod recording;
 mod report;
 mod scenario;
+mod stage;
 mod story;
+mod virtual_stage;
 mod world;
 
 pub(crate) use dice::{DICE_OF_STEPS, Dice};

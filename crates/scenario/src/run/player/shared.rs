@@ -1,0 +1,65 @@
+//! What all parts of a play share: the random generator of the steps, the open expectations and the limit.
+
+use time::{Duration, Instant};
+
+use super::verdict::{Verdict, Waits, failure};
+use super::watch::{Watch, Watched};
+use crate::model::Repetition;
+use crate::run::dice::Dice;
+use crate::run::stage::Stage;
+
+/// What all parts of a play share.
+pub(super) struct Shared<'a> {
+    /// The random generator for the times of steps; the line has its own.
+    dice: Dice,
+    /// Expectations that are still open.
+    watches: Vec<Watch<'a>>,
+    /// The time at which the play must have ended.
+    pub(super) limit: Instant,
+}
+
+impl<'a> Shared<'a> {
+    pub(super) const fn new(dice: Dice, limit: Instant) -> Self {
+        Self { dice, watches: Vec::new(), limit }
+    }
+
+    pub(super) fn open(&mut self, watch: Watch<'a>) {
+        self.watches.push(watch);
+    }
+
+    /// Checks the open expectations.
+    pub(super) fn look(&mut self, stage: &mut impl Stage) -> Verdict {
+        let mut place = 0;
+        while let Some(watch) = self.watches.get(place) {
+            match watch.look(stage)? {
+                Watched::Open => place += 1,
+                Watched::Satisfied => drop(self.watches.remove(place)),
+            }
+        }
+        Ok(())
+    }
+
+    /// All steps are done: expectations that had to be true to the end are fulfilled.
+    pub(super) fn end(&mut self, stage: &mut impl Stage) -> Verdict {
+        self.look(stage)
+    }
+
+    /// Nothing may wait after the limit.
+    pub(super) fn check_limit(&self, waits: &Waits<'a>, stage: &impl Stage) -> Verdict {
+        let now = stage.now();
+        if now <= self.limit {
+            return Ok(());
+        }
+        let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
+        Err(failure(waits.step, now, words.into()))
+    }
+
+    /// The time from one repetition to the next; the random generator determines how much earlier or later.
+    pub(super) fn period(&mut self, Repetition { every, jitter, .. }: Repetition) -> Duration {
+        if jitter.is_zero() {
+            return every;
+        }
+        let early = Duration::from_nanos(every.as_nanos().saturating_sub(jitter.as_nanos()));
+        early + Duration::from_nanos(self.dice.below(jitter.as_nanos() * 2 + 1))
+    }
+}

@@ -1,0 +1,112 @@
+//! One step: it becomes due, is carried out, and is repeated.
+
+use time::Instant;
+
+use super::shared::Shared;
+use super::verdict::{Progress, Verdict, Waits, failure};
+use super::wait::Wait;
+use super::watch::{Wanted, Watch};
+use crate::model::{Expectation, Mode, Order};
+use crate::run::scenario::WrittenStep;
+use crate::run::stage::Stage;
+
+/// A step that is being played.
+pub(super) struct StepPlay<'a> {
+    step: &'a WrittenStep,
+    wait: Wait<'a>,
+    phase: Phase,
+    /// Further executions after this one.
+    more: u64,
+}
+
+/// What a step waits for now.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Phase {
+    /// Its time.
+    Due,
+    /// The end of its execution.
+    Doing,
+}
+
+impl<'a> StepPlay<'a> {
+    pub(super) fn of(step: &'a WrittenStep, now: Instant) -> Self {
+        let times = step.step.repetition.map_or(1, |repetition| repetition.times);
+        let wait = Wait::for_trigger(&step.step.trigger, now);
+        Self { step, wait, phase: Phase::Due, more: times.saturating_sub(1) }
+    }
+
+    pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
+        loop {
+            if let Some(until) = self.wait.look(self.step, stage, shared.limit)? {
+                return Ok(Progress::Waits(Waits { step: self.step, until }));
+            }
+            match (self.phase, self.step.step.repetition) {
+                (Phase::Due, _) => {
+                    self.wait = self.perform(stage, shared)?;
+                    self.phase = Phase::Doing;
+                }
+                (Phase::Doing, Some(repetition)) if self.more > 0 => {
+                    self.more -= 1;
+                    self.wait = Wait::Time(stage.now() + shared.period(repetition));
+                    self.phase = Phase::Due;
+                }
+                (Phase::Doing, _) => return Ok(Progress::Done),
+            }
+        }
+    }
+
+    /// Carries the step out once, and returns what it waits for then.
+    fn perform(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
+        match &self.step.step.order {
+            Order::Master(order) => {
+                self.act(stage, shared, |stage| stage.master_order(order))?;
+                Ok(Wait::Time(stage.now()))
+            }
+            Order::Unit(order) => self.act(stage, shared, |stage| stage.unit_order(order)),
+            Order::Cpu(order) => self.act(stage, shared, |stage| stage.cpu_order(order)),
+            Order::Line(order) => self.act(stage, shared, |stage| stage.line_order(order)),
+            Order::Expect(expectation) => self.expect(expectation, stage, shared),
+        }
+    }
+
+    fn act<S: Stage>(
+        &self,
+        stage: &mut S,
+        shared: &mut Shared<'a>,
+        act: impl FnOnce(&mut S),
+    ) -> Verdict<Wait<'a>> {
+        stage.note_step(&self.step.text);
+        act(stage);
+        shared.look(stage).map(|()| Wait::Over)
+    }
+
+    fn expect(
+        &self,
+        Expectation { condition, mode }: &'a Expectation,
+        stage: &mut impl Stage,
+        shared: &mut Shared<'a>,
+    ) -> Verdict<Wait<'a>> {
+        let (step, now) = (self.step, stage.now());
+        let watch = |wanted, until| Watch { step, condition, wanted, until };
+        match mode {
+            Mode::Now => {
+                stage.check(condition).map_err(|seen| failure(step, now, seen))?;
+                Ok(Wait::Over)
+            }
+            Mode::Within(limit) => Ok(Wait::Within(condition, now + *limit)),
+            Mode::For(span) => {
+                stage.check(condition).map_err(|seen| failure(step, now, seen))?;
+                let until = now + *span;
+                shared.open(watch(Wanted::Always, until));
+                Ok(Wait::Time(until))
+            }
+            Mode::Never => {
+                shared.open(watch(Wanted::Never, Instant::NEVER));
+                shared.look(stage)?;
+                Ok(Wait::Over)
+            }
+            Mode::Until(until) => Ok(Wait::Until(condition, until, Wanted::Always)),
+            Mode::NeverUntil(until) => Ok(Wait::Until(condition, until, Wanted::Never)),
+        }
+    }
+}

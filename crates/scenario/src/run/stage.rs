@@ -1,0 +1,34 @@
+//! What a player of steps needs of a world: its time, its state, and hands. The world moves by itself, in virtual time
+//! or in real time; a player only says until when it waits.
+
+use time::Instant;
+
+use super::check::Seen;
+use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
+
+/// A world in which steps are played.
+pub(crate) trait Stage {
+    /// The present time.
+    fn now(&self) -> Instant;
+
+    /// Whether everything that is due up to this time has happened.
+    fn has_passed(&self, time: Instant) -> bool;
+
+    /// Whether a condition is true now; otherwise the actual state.
+    fn check(&mut self, condition: &Condition) -> Result<(), Seen>;
+
+    /// Gives an order to the scripted master, which carries it out from now on.
+    fn master_order(&mut self, order: &MasterOrder);
+
+    /// Carries out an action on units.
+    fn unit_order(&mut self, order: &UnitOrder);
+
+    /// Carries out an action on CPU Units.
+    fn cpu_order(&mut self, order: &CpuOrder);
+
+    /// Carries out an action on the line.
+    fn line_order(&mut self, order: &LineOrder);
+
+    /// Adds a line about a step to the trace.
+    fn note_step(&mut self, words: &str);
+}

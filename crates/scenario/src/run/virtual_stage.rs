@@ -1,0 +1,50 @@
+//! The world of a scenario as a stage: in virtual time, from event to event.
+
+use time::Instant;
+
+use super::check::{Seen, check};
+use super::stage::Stage;
+use super::world::{QUIET_STEP, World};
+use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
+
+impl Stage for World {
+    fn now(&self) -> Instant {
+        self.now()
+    }
+
+    fn has_passed(&self, time: Instant) -> bool {
+        self.deadline() > time && self.now() >= time
+    }
+
+    fn check(&mut self, condition: &Condition) -> Result<(), Seen> {
+        check(condition, self)
+    }
+
+    fn master_order(&mut self, order: &MasterOrder) {
+        let now = self.now();
+        self.master_mut().order(order.clone(), now);
+    }
+
+    fn unit_order(&mut self, order: &UnitOrder) {
+        self.unit_order(order);
+    }
+
+    fn cpu_order(&mut self, order: &CpuOrder) {
+        self.cpu_order(order);
+    }
+
+    fn line_order(&mut self, order: &LineOrder) {
+        self.line_order(order);
+    }
+
+    fn note_step(&mut self, words: &str) {
+        let now = self.now();
+        self.recording().tell(now, "step", words);
+    }
+}
+
+/// Advances the time to the next event, at most to `end`.
+pub(super) fn advance(world: &mut World, end: Instant) {
+    let quiet = world.now() + QUIET_STEP;
+    world.advance(world.deadline().min(end).min(quiet));
+}
