@@ -17,8 +17,8 @@ pub mod words;
 pub use builder::ScenarioBuilder;
 pub use ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 pub use run::{
-    Aspect, DifferenceKind, Failure, MasterProgram, NotReplayable, ProgramFile, RandomPart, RecordedFrames,
-    Recording, Report, Scenario, UnitSource, UserProgram, WrittenStep,
+    Aspect, DifferenceKind, Failure, FailureKind, MasterProgram, NotReplayable, ProgramFile, RandomPart,
+    RecordedFrames, Recording, Report, Scenario, UnitSource, UserProgram, WrittenStep,
 };
 pub use search::Found;
 pub use user_file::Wanted;

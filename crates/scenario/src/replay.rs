@@ -16,6 +16,7 @@ impl Scenario {
                 text: "the trace is the golden one".to_owned(),
                 at: report.lasted,
                 seen,
+                panicked_at: None,
             });
         }
         report

@@ -1,6 +1,7 @@
 //! Running a scenario: units, CPU Units, line and masters in virtual time, and checking its expectations.
 
 mod calendar;
+mod caught;
 mod check;
 mod dice;
 mod line;
@@ -24,5 +25,5 @@ pub(crate) use programs::LoadedProgram;
 pub use programs::ProgramFile;
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
-pub use report::{Failure, Report};
+pub use report::{Failure, FailureKind, Report};
 pub use scenario::{RandomPart, Scenario, UnitSource, UserProgram, WrittenStep};

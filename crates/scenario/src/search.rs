@@ -36,14 +36,12 @@ impl Scenario {
     }
 
     /// Removes steps that the failure does not need: halves first, then single steps, until no more can be
-    /// removed; then pauses. The failed expectation remains the same.
+    /// removed; then pauses. The failure remains the same: the failed expectation, or the place of a panic.
     fn shrink(&self, text: &str, seed: u64, mut steps: Vec<RandomStep>) -> Found {
         let steps_before = steps.len();
-        let line = self.fails(&steps, seed).map(|failure| failure.line);
-        let still_fails = |steps: &[RandomStep]| {
-            let failure = self.fails(steps, seed);
-            failure.is_some_and(|failure| Some(failure.line) == line)
-        };
+        let kind_of = |steps: &[RandomStep]| self.fails(steps, seed).map(|failure| failure.kind());
+        let kind = kind_of(&steps);
+        let still_fails = |steps: &[RandomStep]| kind.is_some() && kind_of(steps) == kind;
         let mut chunk = steps.len().div_ceil(2);
         while chunk > 0 {
             let mut place = 0;

@@ -13,9 +13,10 @@ mod watch;
 
 use time::Instant;
 
+use super::caught::caught;
 use super::dice::{DICE_OF_STEPS, Dice};
 use super::recording::Recording;
-use super::report::Report;
+use super::report::{Failure, Report};
 use super::scenario::{Scenario, WrittenStep};
 use super::stage::Stage;
 use super::virtual_stage::advance;
@@ -25,16 +26,20 @@ use sequence::Sequence;
 use shared::Shared;
 use verdict::{Progress, Verdict};
 
-/// Replays these steps with the units of a scenario.
+/// Replays these steps with the units of a scenario. A panic of what it runs is a failure of the step.
 pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, recording: Recording) -> Report {
-    let mut world = World::power_on(scenario, seed, recording);
-    let mut player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
-    let failure = loop {
-        match player.advance(&mut world) {
-            Ok(Next::Wait { until }) => advance(&mut world, until),
-            Ok(Next::End) => break None,
-            Err(failure) => break Some(failure),
+    let unused = recording.another();
+    let mut world = match caught(|| World::power_on(scenario, seed, recording)) {
+        Ok(world) => world,
+        Err(panicked) => {
+            let failure = Failure::of_panic(None, Instant::ZERO, panicked);
+            return Report::before_steps(seed, failure, unused);
         }
+    };
+    let mut player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
+    let failure = match caught(|| player.play(&mut world)) {
+        Ok(verdict) => verdict.err(),
+        Err(panicked) => Some(Failure::of_panic(player.shared.current, world.now(), panicked)),
     };
     let lasted = world.now().saturating_since(Instant::ZERO);
     if let Some(failure) = &failure {
@@ -65,6 +70,16 @@ impl<'a> Player<'a> {
     fn new(steps: &'a [WrittenStep], seed: u64, limit: Instant) -> Self {
         let dice = Dice::new(seed ^ DICE_OF_STEPS);
         Self { steps: Sequence::of(steps), shared: Shared::new(dice, limit) }
+    }
+
+    /// Plays all steps in virtual time.
+    fn play(&mut self, world: &mut World) -> Verdict {
+        loop {
+            match self.advance(world)? {
+                Next::Wait { until } => advance(world, until),
+                Next::End => return Ok(()),
+            }
+        }
     }
 
     /// Takes all steps that are due, and checks the expectations.

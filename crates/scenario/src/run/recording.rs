@@ -19,6 +19,11 @@ impl Recording {
         Self { trace: trace.then(String::new), capture }
     }
 
+    /// A new one that records the same.
+    pub(crate) fn another(&self) -> Self {
+        Self::new(self.trace.is_some(), self.capture.is_some())
+    }
+
     /// Records the trace too.
     pub(crate) fn with_trace(mut self) -> Self {
         self.trace.get_or_insert_default();

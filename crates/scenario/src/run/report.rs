@@ -1,9 +1,11 @@
 //! The result of a replay.
 
-use time::Duration;
+use time::{Duration, Instant};
 
+use super::caught::Panicked;
 use super::recorded::DifferenceKind;
 use super::recording::Recording;
+use super::scenario::WrittenStep;
 
 /// The result of a replay.
 pub struct Report {
@@ -32,9 +34,25 @@ pub struct Failure {
     pub at: Duration,
     /// The actual state.
     pub seen: String,
+    /// The step ended with a panic, at this place of the source code, `FILE:LINE:COLUMN`; none: its expectation does not
+    /// hold.
+    pub panicked_at: Option<String>,
 }
 
 impl Report {
+    /// A replay that ended before its first step.
+    pub(super) fn before_steps(seed: u64, failure: Failure, mut recording: Recording) -> Self {
+        recording.tell(Instant::ZERO, "verdict", &failure.to_string());
+        Self {
+            seed,
+            failure: Some(failure),
+            lasted: Duration::ZERO,
+            cycles: 0,
+            differences: Vec::new(),
+            recording,
+        }
+    }
+
     /// Whether all expectations were fulfilled.
     #[must_use]
     pub const fn passes(&self) -> bool {
@@ -42,9 +60,51 @@ impl Report {
     }
 }
 
+/// What two failures have in common if they are the same one with other steps before it.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum FailureKind {
+    /// The expectation in this line does not hold.
+    Expectation {
+        /// Its line in the file, from 1.
+        line: usize,
+    },
+    /// A panic at this place of the source code.
+    Panic {
+        /// `FILE:LINE:COLUMN`.
+        place: String,
+    },
+}
+
+impl Failure {
+    /// What it has in common with the same failure after other steps.
+    #[must_use]
+    pub fn kind(&self) -> FailureKind {
+        match &self.panicked_at {
+            Some(place) => FailureKind::Panic { place: place.clone() },
+            None => FailureKind::Expectation { line: self.line },
+        }
+    }
+
+    /// A panic while this step was executed.
+    pub(super) fn of_panic(step: Option<&WrittenStep>, at: Instant, panicked: Panicked) -> Self {
+        let (line, text) = step.map_or((1, POWER_ON), |step| (step.line, &step.text));
+        Self {
+            line,
+            text: text.to_owned(),
+            at: at.saturating_since(Instant::ZERO),
+            seen: panicked.to_string(),
+            panicked_at: Some(panicked.place),
+        }
+    }
+}
+
+/// The words of what happens before the first step.
+const POWER_ON: &str = "the units get power";
+
 impl core::fmt::Display for Failure {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { line, text, at, seen } = self;
-        write!(formatter, "line {line}: `{text}` does not hold at {at}: {seen}")
+        let Self { line, text, at, seen, panicked_at } = self;
+        let what = if panicked_at.is_some() { "ends" } else { "does not hold" };
+        write!(formatter, "line {line}: `{text}` {what} at {at}: {seen}")
     }
 }

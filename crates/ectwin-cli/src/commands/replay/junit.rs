@@ -82,7 +82,8 @@ impl<W: Write> JunitReport<W> {
         let message = escape(message.as_str());
         let mut failure = BytesStart::new(FAILURE);
         failure.push_attribute(Attr::DoubleQ("message", message.as_ref()));
-        failure.push_attribute(("type", "expectation"));
+        let kind = if step.panicked_at.is_some() { "panic" } else { "expectation" };
+        failure.push_attribute(("type", kind));
         self.writer.write_event(Event::Start(failure))?;
         self.writer.write_event(Event::Text(BytesText::new(told.as_str())))?;
         self.writer.write_event(Event::End(BytesEnd::new(FAILURE)))
@@ -121,6 +122,7 @@ mod tests {
             step: "unit 1 is in <OP> & \"OP\"".to_owned(),
             at_ns: 5_000_000,
             seen: seen.to_owned(),
+            panicked_at: None,
         });
         CaseResult {
             case,
@@ -188,6 +190,13 @@ mod tests {
         for count in 0..=results.len() {
             assert_eq!(streamed(&results[..count]), at_once(&results[..count]), "{count} results");
         }
+    }
+
+    #[test]
+    fn a_panic_is_a_failure_of_another_type() {
+        let mut failed = result(1, "a model panics", Some("panicked at a.rs:1:2: no room"));
+        failed.failure.iter_mut().for_each(|step| step.panicked_at = Some("a.rs:1:2".to_owned()));
+        assert!(streamed(&[failed]).contains("type=\"panic\""));
     }
 
     #[test]

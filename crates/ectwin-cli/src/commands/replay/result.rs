@@ -74,6 +74,9 @@ pub(crate) struct FailedStep {
     pub(crate) at_ns: u64,
     /// The actual state.
     pub(crate) seen: String,
+    /// The place in the source code of a panic that ended the step; left out if its expectation does not hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) panicked_at: Option<String>,
 }
 
 impl CaseResult {
@@ -84,6 +87,7 @@ impl CaseResult {
             step: failure.text.clone(),
             at_ns: failure.at.as_nanos(),
             seen: failure.seen.clone(),
+            panicked_at: failure.panicked_at.clone(),
         });
         Self {
             case: case.number,

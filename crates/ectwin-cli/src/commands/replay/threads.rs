@@ -82,3 +82,69 @@ fn in_order(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use scenario::{Scenario, UserProgram};
+
+    use super::super::story;
+    use super::*;
+
+    const TEXT: &str =
+        "title = \"a program panics\"\nsteps = [{ after = \"20ms\", expect = \"unit 1 is in INIT\" }]\n";
+
+    /// Every second case has a program that panics.
+    fn ended(number: u64, scenarios: &[Scenario; 2]) -> Ended {
+        let scenario = &scenarios[(number % 2) as usize];
+        let path = Path::new("panics.toml");
+        let case = Case { number, count: 6, fingerprint: 0, path, scenario, seed: number };
+        Ended::replay(&case, Partition::WHOLE, Wanted { trace: true, capture: false })
+    }
+
+    #[test]
+    fn a_panic_is_a_failed_case_with_the_command_that_repeats_it_and_the_others_are_replayed() {
+        let right = Scenario::parse(TEXT, |name| Err(name.to_owned())).unwrap();
+        let mut panicking = right.clone();
+        panicking.units[0].program = UserProgram::Custom(|| panic!("no program"));
+        let mut scanning = right.clone();
+        scanning.units[0].program = UserProgram::Custom(|| Box::new(|_: &mut plc::Io| panic!("no scan")));
+        for (wrong, message, told) in [
+            (panicking, "no program", "panics.toml:1: `the units get power`"),
+            (scanning, "no scan", "panics.toml:2: `unit 1 is in INIT`"),
+        ] {
+            let scenarios = [right.clone(), wrong];
+            let stories = |threads| {
+                let mut stories = Vec::new();
+                let threads = NonZeroUsize::new(threads).unwrap();
+                replay(
+                    &[1, 2, 3, 4, 5, 6],
+                    threads,
+                    |case| ended(case, &scenarios),
+                    |ended| {
+                        stories.push(story::case(&ended.result, ended.trace.as_deref()));
+                        Ok(())
+                    },
+                )
+                .map_err(|_| "refused")
+                .unwrap();
+                stories
+            };
+            let one = stories(1);
+            assert_eq!(one, stories(3));
+            assert_eq!(one.iter().filter(|story| story.starts_with("ok ")).count(), 3);
+            let failed = &one[2];
+            for fragment in [
+                "FAILED  panics.toml: a program panics",
+                told,
+                "seen    panicked at crates/ectwin-cli/src/commands/replay/threads.rs:",
+                message,
+                "seed    3\n        repeat  ectwin replay panics.toml --seed 3\n",
+                "verdict   line ",
+            ] {
+                assert!(failed.contains(fragment), "`{fragment}` is not in:\n{failed}");
+            }
+        }
+    }
+}

@@ -6,6 +6,7 @@ use super::verdict::{Verdict, Waits, failure};
 use super::watch::{Watch, Watched};
 use crate::model::Repetition;
 use crate::run::dice::Dice;
+use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
 /// What all parts of a play share.
@@ -14,13 +15,15 @@ pub(super) struct Shared<'a> {
     dice: Dice,
     /// Expectations that are still open.
     watches: Vec<Watch<'a>>,
+    /// The step that was executed last; none before the first one.
+    pub(super) current: Option<&'a WrittenStep>,
     /// The time at which the play must have ended.
     pub(super) limit: Instant,
 }
 
 impl<'a> Shared<'a> {
     pub(super) const fn new(dice: Dice, limit: Instant) -> Self {
-        Self { dice, watches: Vec::new(), limit }
+        Self { dice, watches: Vec::new(), current: None, limit }
     }
 
     pub(super) fn open(&mut self, watch: Watch<'a>) {

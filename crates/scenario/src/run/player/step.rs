@@ -36,6 +36,7 @@ impl<'a> StepPlay<'a> {
     }
 
     pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
+        shared.current = Some(self.step);
         loop {
             if let Some(until) = self.wait.look(self.step, stage, shared.limit)? {
                 return Ok(Progress::Waits(Waits { step: self.step, until }));

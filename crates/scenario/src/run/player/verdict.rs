@@ -28,5 +28,5 @@ pub(super) struct Waits<'a> {
 /// A step has failed at this time.
 pub(super) fn failure(step: &WrittenStep, at: Instant, seen: Seen) -> Failure {
     let at = at.saturating_since(Instant::ZERO);
-    Failure { line: step.line, text: step.text.clone(), at, seen: seen.to_string() }
+    Failure { line: step.line, text: step.text.clone(), at, seen: seen.to_string(), panicked_at: None }
 }
