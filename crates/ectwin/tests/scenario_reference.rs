@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use coe_kit::indicators::Pattern;
 use nx_ect101::{Event, Fault};
+use scenario::pool::{GROUPS, MARKS};
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
 
 /// If this variable is set, the test writes the page instead of comparing it.
@@ -68,7 +69,7 @@ A step is a table. It happens after the step before it, and has one of these key
 | `line` | the [line](#line): cables and frames |
 | `expect` | the [condition](#conditions) has to hold now |
 | `never` | the condition must not hold at any moment from now to the end |
-| `random` | this number of random steps, within the time of `within`; a scenario can have one such step |
+| `random` | [random steps](#random-steps), within the time of `within` |
 
 These keys say when a step is due; without them it is due at once:
 
@@ -115,6 +116,7 @@ fn page() -> String {
     places(&mut page);
     faults(&mut page);
     patterns(&mut page);
+    pool(&mut page);
     page
 }
 
@@ -124,6 +126,45 @@ fn sentences<T>(page: &mut String, heading: &str, opening: &str, table: &[Senten
     });
     section(page, heading, opening, ["sentence", "example", "meaning"], rows);
 }
+
+/// The pool of random steps.
+fn pool(page: &mut String) {
+    page.push_str(RANDOM);
+    for group in GROUPS {
+        page.push_str(&format!("| `{}` | {} |\n", group.name, group.meaning));
+    }
+    page.push_str("\n| mark | drawn |\n|---|---|\n");
+    for mark in MARKS {
+        page.push_str(&format!("| `{}` | {} |\n", mark.word, mark.meaning));
+    }
+    for group in GROUPS {
+        page.push_str(&format!("\n### {}\n| key | sentence | weight |\n|---|---|---|\n", group.name));
+        for row in group.rows() {
+            page.push_str(&format!("| `{}` | `{}` | {} |\n", row.key, row.sentence, row.weight));
+        }
+    }
+}
+
+const RANDOM: &str = r#"
+## Random steps
+`{ random = 30, within = "3s" }` is replaced by 30 steps that the seed chooses, after pauses that together take at most 3 s. A scenario can
+have several of them. With a table the steps are drawn from groups of the pool, or from own sentences:
+
+```toml
+{ random = { steps = 30, from = ["line", "sdo", "break Processing of unit #"], weights = [3, 2, 1] }, within = "3s" }
+```
+
+| key of `random` | value | default |
+|---|---|---|
+| `steps` | number of steps, 1 to 10,000 | none: required |
+| `from` | list of groups, and of own sentences of `master`, `unit`, `cpu` and `line` | `["everyday"]` |
+| `weights` | one for each of `from`, 1 to 1,000,000: how often a step is drawn from it | 1 for each |
+
+A sentence is drawn only for units that have what it names; one for which no unit is left is left out. A sentence has marks for values that are drawn:
+
+| group | sentences about |
+|---|---|
+"#;
 
 fn places(page: &mut String) {
     let rows = Place::all().iter().map(|place| [format!("`{{{}}}`", place.name), place.meaning.to_owned()]);

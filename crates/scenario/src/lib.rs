@@ -7,6 +7,7 @@
 mod builder;
 mod file;
 pub mod model;
+pub mod pool;
 mod random;
 mod ready;
 mod replay;

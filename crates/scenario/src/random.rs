@@ -1,62 +1,22 @@
-//! Random steps: faults, actions by hand and orders in any order.
+//! Random steps: faults, actions by hand and orders in any order, for a seed.
+
+mod draws;
 
 use time::Duration;
 
 use crate::model::{Order, Step, Trigger};
-use crate::run::{DICE_OF_STEPS, Dice, Scenario, WrittenStep};
-use crate::words::Spoken;
+use crate::pool::EVERYDAY;
+use crate::run::{DICE_OF_STEPS, Dice, RandomPart, Scenario, WrittenStep};
+use crate::words::{NoSentence, Spoken};
 
-/// The addressee of a step, by the key of the file.
-type Teller = &'static str;
-
-/// The choices of the random generator; `#` is a unit, `@` a cable, `~` a small number.
-const POOL: &[(Teller, &str)] = &[
-    ("line", "unplug cable @"),
-    ("line", "plug cable @"),
-    ("line", "lose the next ~ frames"),
-    ("line", "lose the answers of the next ~ frames"),
-    ("line", "lose the next ~ process data frames"),
-    ("line", "delay the next ~ frames by 3ms"),
-    ("line", "duplicate the next ~ frames"),
-    ("line", "corrupt the next ~ frames on cable @"),
-    ("line", "lower the working counter of the next ~ process data frames"),
-    ("line", "be quiet"),
-    ("unit", "restart unit #"),
-    ("unit", "cycle the power of unit #"),
-    ("unit", "power off unit #"),
-    ("unit", "power on unit #"),
-    ("unit", "reset the errors of unit #"),
-    ("unit", "clear the system event log of unit #"),
-    ("unit", "break Processing of unit #"),
-    ("unit", "repair Processing of unit #"),
-    ("unit", "break IoCommunications of unit #"),
-    ("unit", "repair IoCommunications of unit #"),
-    ("unit", "break ClockNotSynchronized of unit #"),
-    ("unit", "repair ClockNotSynchronized of unit #"),
-    ("unit", "break MessageCommunications of unit #"),
-    ("cpu", "set unit # to PROGRAM mode"),
-    ("cpu", "set unit # to RUN mode"),
-    ("cpu", "stop I/O refreshing of unit #"),
-    ("cpu", "start I/O refreshing of unit #"),
-    ("cpu", "stop the task of unit #"),
-    ("cpu", "start the task of unit #"),
-    ("cpu", "reset the errors of the NX Bus Function Module of unit #"),
-    ("master", "request OP of unit #"),
-    ("master", "request 0x05 of unit #"),
-    ("master", "acknowledge and request PRE-OP of unit #"),
-    ("master", "take unit # to OP"),
-    ("master", "take unit # to INIT"),
-    ("master", "read SDO 10F3:02 of unit #"),
-    ("master", "write SDO 2002:02 of unit # as 01"),
-    ("master", "write SDO 10F3:05 of unit # as 01 00"),
-    ("master", "stop process data"),
-    ("master", "exchange process data every 1ms"),
-];
+pub(crate) use draws::{Draw, DrawnRow, ReadyDraws};
 
 /// A random step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct RandomStep {
-    teller: Teller,
+    /// Which `random` it replaces, counted from 0.
+    pub(crate) part: usize,
+    key: &'static str,
     text: String,
     after: Duration,
 }
@@ -71,18 +31,12 @@ impl RandomStep {
 
     /// The step in the notation of a file.
     pub(crate) fn toml(&self) -> String {
-        let Self { teller, text, after } = self;
-        format!("{{ after = \"{after}\", {teller} = \"{text}\" }}")
+        let Self { key, text, after, .. } = self;
+        format!("{{ after = \"{after}\", {key} = \"{text}\" }}")
     }
 
     fn step(&self, line: usize) -> WrittenStep {
-        let order = match self.teller {
-            "line" => Spoken::from_sentence(&self.text).map(Order::Line),
-            "unit" => Spoken::from_sentence(&self.text).map(Order::Unit),
-            "cpu" => Spoken::from_sentence(&self.text).map(Order::Cpu),
-            _ => Spoken::from_sentence(&self.text).map(Order::Master),
-        };
-        match order {
+        match order(self.key, &self.text) {
             Ok(order) => {
                 let step = Step { trigger: Trigger::After(self.after), order, repetition: None };
                 WrittenStep { step, line, text: self.text.clone() }
@@ -92,35 +46,62 @@ impl RandomStep {
     }
 }
 
+/// The order of a sentence of this key.
+pub(crate) fn order(key: &str, text: &str) -> Result<Order, NoSentence> {
+    match key {
+        "line" => Spoken::from_sentence(text).map(Order::Line),
+        "unit" => Spoken::from_sentence(text).map(Order::Unit),
+        "cpu" => Spoken::from_sentence(text).map(Order::Cpu),
+        _ => Spoken::from_sentence(text).map(Order::Master),
+    }
+}
+
 impl Scenario {
     /// The random steps for this seed.
     pub(crate) fn random_steps(&self, seed: u64) -> Vec<RandomStep> {
-        let Some(part) = &self.random else { return Vec::new() };
         let mut dice = Dice::new(seed ^ DICE_OF_STEPS);
-        let units = self.units.len() as u64;
+        let parts = self.random.iter().enumerate();
+        parts.flat_map(|(number, part)| self.steps_of_part(number, part, &mut dice)).collect()
+    }
+
+    fn steps_of_part(&self, number: usize, part: &RandomPart, dice: &mut Dice) -> Vec<RandomStep> {
         let pause_ns = part.span.as_nanos() / part.count as u64;
         let step = |_| {
-            let (teller, pattern) = POOL[dice.below(POOL.len() as u64) as usize];
-            let text = pattern
-                .replace('#', &(dice.below(units) + 1).to_string())
-                .replace('@', &(dice.below(units) + 1).to_string())
-                .replace('~', &(dice.below(5) + 1).to_string());
+            let (key, text) = match &part.draws {
+                Some(draws) => draws.sentence(dice),
+                None => self.everyday_sentence(dice),
+            };
             let after = Duration::from_micros(dice.below(pause_ns) / 1000);
-            RandomStep { teller, text, after }
+            RandomStep { part: number, key, text, after }
         };
         (0..part.count).map(step).collect()
     }
 
-    /// All steps, with the random ones in their place.
+    /// Seeds in scenario files depend on which numbers are drawn, and in which order.
+    fn everyday_sentence(&self, dice: &mut Dice) -> (&'static str, String) {
+        let units = self.units.len() as u64;
+        let row = &EVERYDAY[dice.below(EVERYDAY.len() as u64) as usize];
+        let text = row
+            .sentence
+            .replace('#', &(dice.below(units) + 1).to_string())
+            .replace('@', &(dice.below(units) + 1).to_string())
+            .replace('~', &(dice.below(5) + 1).to_string());
+        (row.key, text)
+    }
+
+    /// All steps, with the random ones in their places.
     pub(crate) fn all_steps(&self, seed: u64) -> Vec<WrittenStep> {
         self.steps_with(&self.random_steps(seed))
     }
 
     /// All steps, with these instead of the random ones.
     pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<WrittenStep> {
-        let Some(part) = &self.random else { return self.steps.clone() };
         let mut steps = self.steps.clone();
-        steps.splice(part.place..part.place, random.iter().map(|step| step.step(part.line)));
+        // From the last one on, so that the places of the others stay right.
+        for (number, part) in self.random.iter().enumerate().rev() {
+            let own = random.iter().filter(|step| step.part == number);
+            steps.splice(part.place..part.place, own.map(|step| step.step(part.line)));
+        }
         steps
     }
 }
@@ -130,11 +111,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_sentence_of_the_pool_is_one() {
-        for (teller, pattern) in POOL {
-            let text = pattern.replace(['#', '@', '~'], "1");
-            let step = RandomStep { teller, text: text.clone(), after: Duration::ZERO };
-            assert_eq!(step.step(1).text, text);
+    fn every_sentence_of_the_everyday_pool_is_one() {
+        for row in EVERYDAY {
+            let text = row.sentence.replace(['#', '@', '~'], "1");
+            assert!(order(row.key, &text).is_ok(), "{text}");
         }
     }
 }

@@ -10,6 +10,7 @@ mod problem;
 mod process_data;
 mod program_values;
 mod programs;
+mod random;
 mod reach;
 mod resolve;
 mod steps;

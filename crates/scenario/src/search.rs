@@ -78,25 +78,29 @@ impl Scenario {
 
     /// The file with these steps instead of `random`.
     fn without_dice(&self, text: &str, seed: u64, steps: &[RandomStep]) -> String {
-        let Some(part) = &self.random else { return text.to_owned() };
-        let lines: Vec<String> = steps.iter().map(RandomStep::toml).collect();
-        let (before, after) = (text.get(..part.bytes.start), text.get(part.bytes.end..));
-        let (before, after) = (before.unwrap_or_default(), after.unwrap_or_default());
-        let (inside, after) = if lines.is_empty() {
-            (String::new(), after.strip_prefix(',').unwrap_or(after))
-        } else {
-            (lines.join(",\n  "), after)
-        };
-        let seed_line = format!("seed = {seed}\n");
-        let text = format!("{before}{inside}{after}");
+        let mut text = text.to_owned();
+        // From the last one on, so that the places of the others stay right.
+        for (number, part) in self.random.iter().enumerate().rev() {
+            let lines: Vec<String> =
+                steps.iter().filter(|step| step.part == number).map(RandomStep::toml).collect();
+            text = replaced(&text, part.bytes.clone(), &lines.join(",\n  "));
+        }
         let kept: Vec<&str> = text.lines().filter(|line| !is_seed(line)).collect();
         let mut text = kept.join("\n");
         // After the title, before the first table or list.
         let at = text.find("\nsteps").map_or(0, |at| at + 1);
-        text.insert_str(at, &seed_line);
+        text.insert_str(at, &format!("seed = {seed}\n"));
         text.push('\n');
         text
     }
+}
+
+/// The text with other steps in this place; without any, the comma behind them goes too.
+fn replaced(text: &str, place: core::ops::Range<usize>, steps: &str) -> String {
+    let before = text.get(..place.start).unwrap_or_default();
+    let after = text.get(place.end..).unwrap_or_default();
+    let after = if steps.is_empty() { after.strip_prefix(',').unwrap_or(after) } else { after };
+    format!("{before}{steps}{after}")
 }
 
 /// Whether a line of the file sets the seed.

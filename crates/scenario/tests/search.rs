@@ -69,7 +69,7 @@ fn a_planted_bug_is_found_and_cut_down() {
 
     // The scenario that it has written fails without the search, with the bug and not without it.
     let mut written = Scenario::parse(&found.text, |_| Err(String::new())).expect("a right scenario");
-    assert!(written.random.is_none() && written.seed == found.seed);
+    assert!(written.random.is_empty() && written.seed == found.seed);
     let run = |scenario: &Scenario| scenario.replay(scenario.seed, Recording::new(false, false)).failure;
     written.units[0].program = UserProgram::Custom(|| Box::new(Sulking::default()));
     assert!(run(&written).is_some(), "{}", found.text);

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     let scenario = read_scenario(path)?;
     let text = user_files::text(path, Wanted::Scenario)
         .map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
-    if scenario.random.is_none() {
+    if scenario.random.is_empty() {
         return Err(without_dice(path));
     }
     if let Some(output) = &args.output {

@@ -6,7 +6,7 @@ use user_file::{DeValue, Problem, Section, Value, field_names, wrong_type};
 use super::places::{Span, StepPlaces};
 use super::reader::{FileReader, span_of};
 use super::values;
-use crate::model::{ScriptStep, StepForm};
+use crate::model::{RANDOM_EXPECTED, RandomForm, RandomTable, ScriptStep, StepForm};
 use crate::ready::Written;
 use crate::words::{NoSentence, Spoken, mistake, try_read};
 
@@ -43,7 +43,7 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
         repeat: part.number("repeat"),
         every: part.duration("every"),
         jitter: part.duration("jitter"),
-        random: part.number("random"),
+        random: part.random(),
     };
     let (order, text) = part.order.unwrap_or_default();
     if file.reader.refused() > refused {
@@ -83,6 +83,20 @@ impl PartReader<'_, '_, '_, '_, '_> {
 
     fn number(&mut self, key: &str) -> Option<u64> {
         self.file.value(self.step, key, values::number)
+    }
+
+    /// A number, or a table.
+    fn random(&mut self) -> Option<RandomForm> {
+        let value = self.step.get("random")?;
+        let reader = &mut *self.file.reader;
+        match value.get_ref() {
+            DeValue::Integer(_) => reader.typed("random", value),
+            DeValue::Table(_) => reader.typed::<RandomTable>("random", value).map(RandomForm::from),
+            other => {
+                reader.refuse_by(value.span(), || wrong_type("random", other, RANDOM_EXPECTED));
+                None
+            }
+        }
     }
 
     /// The order of the step, or its expectation. A typed value gets the words of its sentence.

@@ -6,6 +6,7 @@ use super::condition::Condition;
 use super::cpu::CpuOrder;
 use super::line::LineOrder;
 use super::master::MasterOrder;
+use super::random::RandomSteps;
 use super::unit::UnitOrder;
 
 /// One step.
@@ -90,15 +91,6 @@ pub enum Mode {
     Until(Condition),
     /// At no time until this condition is true.
     NeverUntil(Condition),
-}
-
-/// Random steps, instead of this one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RandomSteps {
-    /// Their number, 1 to 10,000.
-    pub count: u64,
-    /// Their maximum duration together.
-    pub within: Duration,
 }
 
 /// An entry of the list of steps.

@@ -7,8 +7,9 @@ use super::condition::Condition;
 use super::cpu::CpuOrder;
 use super::line::LineOrder;
 use super::master::MasterOrder;
+use super::random::{RandomForm, RandomSteps};
 use super::spelling::optional_text;
-use super::step::{Expectation, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger};
+use super::step::{Expectation, Mode, Order, Repetition, ScriptStep, Step, Trigger};
 use super::unit::UnitOrder;
 
 /// The keys of a step.
@@ -46,7 +47,7 @@ pub(crate) struct StepForm {
     #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
     pub(crate) jitter: Option<Duration>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) random: Option<u64>,
+    pub(crate) random: Option<RandomForm>,
 }
 
 /// Keys that contradict each other.
@@ -67,8 +68,8 @@ impl Contradiction {
 impl StepForm {
     /// The meaning of the keys together.
     pub(crate) fn read(self) -> Result<ScriptStep, Contradiction> {
-        if let Some(count) = self.random {
-            return self.random_steps(count).map(ScriptStep::Random);
+        if let Some(random) = &self.random {
+            return self.random_steps(random).map(ScriptStep::Random);
         }
         let mode = self.mode()?;
         let repetition = self.repetition()?;
@@ -77,9 +78,16 @@ impl StepForm {
         Ok(ScriptStep::Step(Step { trigger, order, repetition }))
     }
 
-    fn random_steps(&self, count: u64) -> Result<RandomSteps, Contradiction> {
+    fn random_steps(&self, RandomForm { steps, draws }: &RandomForm) -> Result<RandomSteps, Contradiction> {
+        let alone = Self { random: self.random.clone(), within: self.within, ..Self::default() };
+        if *self != alone {
+            return Err(Contradiction {
+                message: "`random` has only `within` beside it".to_owned(),
+                help: "let a step before it wait, such as `{ after = \"1s\", line = \"be quiet\" }`",
+            });
+        }
         match self.within {
-            Some(within) => Ok(RandomSteps { count, within }),
+            Some(within) => Ok(RandomSteps { count: *steps, within, draws: draws.clone() }),
             None => Err(Contradiction {
                 message: "`random` needs the time that its steps take together".to_owned(),
                 help: "such as `within = \"1s\"`",
@@ -204,7 +212,9 @@ impl Serialize for ScriptStep {
         let form = match self {
             Self::Step(step) => StepForm::of(step.clone()),
             Self::Random(random) => {
-                StepForm { random: Some(random.count), within: Some(random.within), ..StepForm::default() }
+                let RandomSteps { count, within, draws } = random.clone();
+                let random = RandomForm { steps: count, draws };
+                StepForm { random: Some(random), within: Some(within), ..StepForm::default() }
             }
         };
         form.serialize(serializer)

@@ -7,20 +7,18 @@ use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
 use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
-use crate::model::{
-    Condition, Expectation, LineOrder, Mode, Order, RandomSteps, Repetition, ScriptStep, Step, Trigger,
-};
+use crate::model::{Condition, Expectation, LineOrder, Mode, Order, Repetition, ScriptStep, Step, Trigger};
 use crate::run::{RandomPart, WrittenStep};
 use crate::words::Spoken;
 
 /// Maximum number of repetitions of a step, and of random steps.
-const STEPS_MAX: u64 = 10_000;
+pub(super) const STEPS_MAX: u64 = 10_000;
 
 /// The executable steps, and the position of the random ones.
 #[derive(Default)]
 pub(super) struct ReadySteps {
     pub(super) steps: Vec<WrittenStep>,
-    pub(super) random: Option<RandomPart>,
+    pub(super) random: Vec<RandomPart>,
     /// The earliest time of the next step.
     reached: Duration,
 }
@@ -46,7 +44,7 @@ impl Maker<'_> {
         self.loads = loads(&steps);
         for (at, (step, written)) in steps.into_iter().zip(written).enumerate() {
             match step {
-                ScriptStep::Random(random) => self.random(at, random, written, &mut ready),
+                ScriptStep::Random(random) => self.random(at, random, written, ground, &mut ready),
                 ScriptStep::Step(mut step) => {
                     self.check_moment(at, &step.trigger, &mut ready.reached, limit);
                     if let Some(repetition) = step.repetition {
@@ -96,23 +94,6 @@ impl Maker<'_> {
         }
     }
 
-    fn random(&mut self, at: usize, random: RandomSteps, written: Written, ready: &mut ReadySteps) {
-        if ready.random.is_some() {
-            return self.refuse(Part::Step(at, StepPart::Whole), "a scenario has one `random` step", "");
-        }
-        if !(1..=STEPS_MAX).contains(&random.count) {
-            let message = format!("`random` is 1 to {STEPS_MAX} steps");
-            return self.refuse(Part::Step(at, StepPart::Count), message, "");
-        }
-        ready.random = Some(RandomPart {
-            place: ready.steps.len(),
-            count: random.count as usize,
-            span: random.within,
-            line: written.line,
-            bytes: written.bytes,
-        });
-    }
-
     fn check_step(&mut self, at: usize, step: &mut Step, ground: Ground) {
         if let Trigger::When(condition) = &mut step.trigger {
             self.condition(condition, Part::Step(at, StepPart::When), ground, Lasting::Step);
@@ -132,7 +113,7 @@ impl Maker<'_> {
         }
     }
 
-    fn order(&mut self, order: &Order, part: Part, ground: Ground) -> Option<()> {
+    pub(super) fn order(&mut self, order: &Order, part: Part, ground: Ground) -> Option<()> {
         let units = self.units.len();
         let mut way_out = line_of(units);
         let is_there = match order {

@@ -11,6 +11,7 @@ use super::master::MasterProgram;
 use super::programs::{LoadedProgram, ProgramFile};
 use super::recorded::{NotReplayable, RecordedFrames};
 use crate::model::Step;
+use crate::random::ReadyDraws;
 
 /// A scenario, ready to be replayed.
 #[derive(Clone, Debug)]
@@ -39,8 +40,8 @@ pub struct Scenario {
     pub(crate) recorded: RecordedFrames,
     /// The required trace for the scenario's own seed, byte for byte; none: any.
     pub golden_trace: Option<String>,
-    /// The position of random steps; none: there are none.
-    pub random: Option<RandomPart>,
+    /// The positions of random steps, in the order of the steps.
+    pub random: Vec<RandomPart>,
 }
 
 impl Scenario {
@@ -54,7 +55,7 @@ impl Scenario {
     }
 }
 
-/// The random part of a scenario.
+/// One `random` of a scenario.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RandomPart {
     /// The step before which it is inserted.
@@ -67,6 +68,8 @@ pub struct RandomPart {
     pub line: usize,
     /// Its bytes in the file.
     pub bytes: core::ops::Range<usize>,
+    /// What they are drawn from; none: the everyday pool.
+    pub(crate) draws: Option<ReadyDraws>,
 }
 
 /// A unit of the line.

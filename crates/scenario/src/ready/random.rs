@@ -1,0 +1,157 @@
+//! Random steps: their number, and what they are drawn from, tried with each unit.
+
+use super::maker::Maker;
+use super::problem::{Part, StepPart};
+use super::steps::{Ground, ReadySteps, STEPS_MAX};
+use super::written::Written;
+use crate::model::{Draws, RandomSteps};
+use crate::pool::{Drawing, GROUPS, Group, KnownUnit};
+use crate::random::{Draw, DrawnRow, ReadyDraws, order};
+use crate::run::{Dice, RandomPart};
+
+/// Number of drawn sentences with which a row is tried.
+const TRIALS: usize = 32;
+/// Maximum weight.
+const WEIGHT_MAX: u64 = 1_000_000;
+/// The keys of orders.
+const KEYS: [&str; 4] = ["master", "unit", "cpu", "line"];
+
+impl Maker<'_> {
+    pub(super) fn random(
+        &mut self,
+        at: usize,
+        random: RandomSteps,
+        written: Written,
+        ground: Ground,
+        ready: &mut ReadySteps,
+    ) {
+        let part = Part::Step(at, StepPart::Count);
+        if !(1..=STEPS_MAX).contains(&random.count) {
+            let message = format!("`random` is 1 to {STEPS_MAX} steps");
+            return self.refuse(part, message, "");
+        }
+        let draws = match random.draws {
+            None => None,
+            Some(draws) => match self.draws(&draws, part, ground) {
+                Some(draws) => Some(draws),
+                None => return,
+            },
+        };
+        ready.random.push(RandomPart {
+            place: ready.steps.len(),
+            count: random.count as usize,
+            span: random.within,
+            line: written.line,
+            bytes: written.bytes,
+            draws,
+        });
+    }
+
+    /// None if something is wrong, or if it is unknown which units there are.
+    fn draws(&mut self, draws: &Draws, part: Part, ground: Ground) -> Option<ReadyDraws> {
+        let Draws { from, weights } = draws;
+        if from.is_empty() {
+            self.refuse(part, "`from` is an empty list", "such as `from = [\"line\", \"unit\"]`");
+            return None;
+        }
+        if !weights.is_empty() && weights.len() != from.len() {
+            let message = format!("{} weights for the {} of `from`", weights.len(), from.len());
+            self.refuse(part, message, "`weights` has one for each of `from`, in the same order");
+            return None;
+        }
+        if let Some(weight) = weights.iter().find(|weight| !(1..=WEIGHT_MAX).contains(*weight)) {
+            self.refuse(part, format!("a weight of {weight}, expected 1 to {WEIGHT_MAX}"), "");
+            return None;
+        }
+        let rows: Vec<Option<Vec<DrawnRow>>> = from.iter().map(|from| self.rows(from, part)).collect();
+        let rows: Vec<Vec<DrawnRow>> = rows.into_iter().collect::<Option<_>>()?;
+        if ground == Ground::Missing {
+            return None;
+        }
+        let units: Vec<KnownUnit> =
+            self.units.iter().map(|unit| KnownUnit::of(unit.file.section())).collect();
+        let weights = weights.iter().copied().chain(core::iter::repeat(1));
+        let mut ready = Vec::new();
+        for ((from, rows), weight) in from.iter().zip(rows).zip(weights) {
+            let rows = rows.into_iter().filter_map(|row| self.with_units(row, &units, part)).collect();
+            ready.push(self.drawn(from, rows, weight, part)?);
+        }
+        Some(ReadyDraws { units, draws: ready })
+    }
+
+    fn drawn(&mut self, from: &str, rows: Vec<DrawnRow>, weight: u64, part: Part) -> Option<Draw> {
+        if rows.is_empty() {
+            let message = format!("no unit of this scenario has anything for `{from}`");
+            self.refuse(part, message, "take it away, or add a unit that has it");
+            return None;
+        }
+        Some(Draw { weight, rows })
+    }
+
+    /// The sentences of a group, or the own sentence.
+    fn rows(&mut self, from: &str, part: Part) -> Option<Vec<DrawnRow>> {
+        let row = |key, sentence: &str, weight| DrawnRow {
+            weight,
+            key,
+            sentence: sentence.to_owned(),
+            positions: Vec::new(),
+        };
+        if let Some(group) = Group::named(from) {
+            return Some(
+                group.rows().map(|pooled| row(pooled.key, pooled.sentence, pooled.weight)).collect(),
+            );
+        }
+        match key_of(from) {
+            Some(key) => Some(vec![row(key, from, 1)]),
+            None => {
+                self.refuse(
+                    part,
+                    format!("`{from}` is neither a group of the pool nor a sentence"),
+                    way_out(from),
+                );
+                None
+            }
+        }
+    }
+
+    /// The row with the units that can carry it out; none if there are none.
+    fn with_units(&mut self, row: DrawnRow, units: &[KnownUnit], part: Part) -> Option<DrawnRow> {
+        let positions: Vec<usize> =
+            (0..units.len()).filter(|&position| self.is_possible(&row, units, position, part)).collect();
+        (!positions.is_empty()).then_some(DrawnRow { positions, ..row })
+    }
+
+    /// Whether the checks of steps accept the sentence for this unit.
+    fn is_possible(&mut self, row: &DrawnRow, units: &[KnownUnit], position: usize, part: Part) -> bool {
+        let mut dice = Dice::new(position as u64);
+        (0..TRIALS).all(|_| {
+            let text = Drawing::new(&mut dice, units, position).and_then(|mut it| it.sentence(&row.sentence));
+            let Some(Ok(order)) = text.map(|text| order(row.key, &text)) else { return false };
+            let problems = self.problems.len();
+            let _ = self.order(&order, part, Ground::Firm);
+            let is_right = self.problems.len() == problems;
+            self.problems.truncate(problems);
+            is_right
+        })
+    }
+}
+
+/// The key whose sentence this is, with values that every unit has.
+fn key_of(sentence: &str) -> Option<&'static str> {
+    let unit = KnownUnit::example();
+    let mut dice = Dice::new(0);
+    let text = Drawing::new(&mut dice, core::slice::from_ref(&unit), 0)?.any_sentence(sentence)?;
+    KEYS.into_iter().find(|key| order(key, &text).is_ok())
+}
+
+fn way_out(from: &str) -> String {
+    let likeness = |group: &Group| strsim::jaro_winkler(from, group.name);
+    let nearest = GROUPS.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    match nearest.filter(|group| likeness(group) > 0.8) {
+        Some(group) => format!("did you mean `{}`?", group.name),
+        None => {
+            let names: Vec<&str> = GROUPS.iter().map(|group| group.name).collect();
+            format!("the groups are {}; a sentence has `#` for a unit, `@` for a cable", names.join(", "))
+        }
+    }
+}
