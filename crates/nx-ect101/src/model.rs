@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use coe_kit::history::FIRST_RECORD;
 use coe_kit::indicators::Pattern;
 use esi::{DeviceDescription, NamedBit};
 use objects::ObjectTable;
@@ -21,7 +22,7 @@ use crate::description::description;
 use crate::events::Event;
 use crate::fault::Fault;
 use crate::indicators::Indicators;
-use crate::memory::{Damage, MemoryAtPowerOn, NonVolatileMemory};
+use crate::memory::{Damage, LogRecord, MemoryAtPowerOn, NonVolatileMemory};
 use crate::model_tables;
 use crate::named_bits::NAMED_BITS;
 use crate::settings::UnitSettings;
@@ -233,6 +234,24 @@ impl ModelUnit for NxEct101 {
 
     fn clear_event_log(&mut self, log: EventLog) {
         self.clear_event_log(log);
+    }
+
+    fn logged(&self, log: EventLog) -> Vec<EventCode> {
+        let records: Vec<&LogRecord> = match log {
+            EventLog::System => self.error_log().history().collect(),
+            EventLog::Access => self.error_log().access.iter().collect(),
+            EventLog::None => Vec::new(),
+        };
+        records.into_iter().map(|record| record.event).collect()
+    }
+
+    fn diagnosis_message(&self, number: u8) -> Option<EventCode> {
+        let sub = number.checked_add(FIRST_RECORD - 1)?;
+        self.error_log().record_at(sub).map(|record| record.event)
+    }
+
+    fn newest_diagnosis_message(&self) -> Option<u8> {
+        self.error_log().system.newest.checked_sub(FIRST_RECORD - 1)
     }
 
     fn inject(&mut self, fault: &str) -> Result<(), NotThere> {

@@ -52,6 +52,22 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
     /// A user clears a log.
     fn clear_event_log(&mut self, _log: EventLog) {}
 
+    /// The events in a log, the oldest first.
+    fn logged(&self, _log: EventLog) -> Vec<EventCode> {
+        Vec::new()
+    }
+
+    /// The event of a message of the diagnosis history 10F3, by its number from 1, which is subindex 0x06; none if there
+    /// is no such message.
+    fn diagnosis_message(&self, _number: u8) -> Option<EventCode> {
+        None
+    }
+
+    /// The number of the newest message of the diagnosis history; none if it is empty.
+    fn newest_diagnosis_message(&self) -> Option<u8> {
+        None
+    }
+
     /// The cause of a fault appears.
     ///
     /// # Errors

@@ -7,6 +7,7 @@ use super::bytes::{Bytes, Entry};
 use super::names::{IndicatorName, Position, state};
 use super::numbers::{EventCode, Hex, UserErrorCode};
 use super::spelling::nothing;
+use super::unit::EventLog;
 use super::units::{Controller, UnitNumber, UnitSet};
 
 /// What can be true.
@@ -147,11 +148,52 @@ pub enum Condition {
     },
     #[serde(with = "nothing")]
     SdoTaken,
-    /// Without times: at least once.
+    /// Without times: at least once. Without unit, register or data: any.
     Emergency {
         code: Hex<u16>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<UnitNumber>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        register: Option<Hex<u8>>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        data: Option<Bytes>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
         times: Option<u64>,
+    },
+    /// Exactly this number, since each of the units was switched on.
+    EmergenciesLost {
+        units: UnitSet,
+        times: u64,
+    },
+    /// Without times: at least once.
+    EventLogHas {
+        log: EventLog,
+        units: UnitSet,
+        event: EventCode,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        times: Option<u64>,
+    },
+    EventLogEmpty {
+        log: EventLog,
+        units: UnitSet,
+    },
+    /// By its number from 1, which is 10F3:06; without a number the newest one.
+    DiagnosisMessage {
+        unit: UnitNumber,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        number: Option<u8>,
+        event: EventCode,
+    },
+    /// The bytes before and after its time stamp, from the first one on.
+    DiagnosisMessageBytes {
+        unit: UnitNumber,
+        number: u8,
+        bytes: Bytes,
+    },
+    /// Number of messages in the diagnosis history.
+    DiagnosisMessages {
+        units: UnitSet,
+        count: u64,
     },
     #[serde(with = "nothing")]
     CaptureReplayed,

@@ -65,6 +65,9 @@ pub enum MasterOrder {
     /// Leaves the answers in the mailboxes.
     #[serde(with = "nothing")]
     ReadNoMailbox,
+    /// Does not look for emergencies any more.
+    #[serde(with = "nothing")]
+    ReadNoEmergencies,
     /// Corrects everything again: counters, lengths, mailboxes.
     #[serde(with = "nothing")]
     Behave,

@@ -59,7 +59,10 @@ impl Maker<'_> {
             return self
                 .check_words(&Needed { units: *units, words: format!("indicator {name}"), is_known }, part);
         }
-        if let Condition::Recorded { units, event, .. } | Condition::HasError { units, event } = condition {
+        if let Condition::Recorded { units, event, .. }
+        | Condition::HasError { units, event }
+        | Condition::EventLogHas { units, event, .. } = condition
+        {
             let code = EventCode(event.0);
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
             return self

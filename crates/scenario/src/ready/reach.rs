@@ -31,6 +31,7 @@ pub(super) fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
         | MasterOrder::StopProcessData
         | MasterOrder::UseMailboxCounter { .. }
         | MasterOrder::ReadNoMailbox
+        | MasterOrder::ReadNoEmergencies
         | MasterOrder::Behave
         | MasterOrder::Restart => None,
     }
@@ -92,11 +93,18 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::DirectionValid { units, .. }
         | Condition::IoDataActive { units, .. }
         | Condition::UnitError { units, .. }
+        | Condition::EmergenciesLost { units, .. }
+        | Condition::EventLogHas { units, .. }
+        | Condition::EventLogEmpty { units, .. }
+        | Condition::DiagnosisMessages { units, .. }
         | Condition::Indicator { units, .. } => Subject::Units(*units),
         Condition::Object { unit, .. }
         | Condition::Register { unit, .. }
         | Condition::Outputs { unit, .. }
         | Condition::Inputs { unit, .. }
+        | Condition::Emergency { unit: Some(unit), .. }
+        | Condition::DiagnosisMessage { unit, .. }
+        | Condition::DiagnosisMessageBytes { unit, .. }
         | Condition::WorkingCounter { unit, .. } => Subject::Units(UnitSet::One(*unit)),
         Condition::ProgramVariable { controller, .. }
         | Condition::UserDefinedError { controller, .. }
@@ -112,7 +120,7 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::SdoRefused { .. }
         | Condition::SdoGave { .. }
         | Condition::SdoTaken
-        | Condition::Emergency { .. } => Subject::Master,
+        | Condition::Emergency { unit: None, .. } => Subject::Master,
         Condition::CaptureReplayed | Condition::AnswersDiffer { .. } => Subject::Capture,
     }
 }

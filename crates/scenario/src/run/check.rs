@@ -4,6 +4,8 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod emergency;
+mod logs;
 mod master;
 mod program;
 mod seen;
@@ -80,7 +82,29 @@ pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen
         Condition::SdoRefused { abort_code } => master::sdo_refused(world, abort_code.0),
         Condition::SdoGave { value } => master::sdo_gave(world, value),
         Condition::SdoTaken => master::sdo_taken(world),
-        Condition::Emergency { code, times } => master::emergency(world, code.0, *times),
+        Condition::Emergency { code, unit, register, data, times } => {
+            let wanted =
+                emergency::Wanted { code: code.0, unit: *unit, register: *register, data: data.as_ref() };
+            emergency::received(world, &wanted, *times)
+        }
+        Condition::EmergenciesLost { units, times } => {
+            each(*units, world, |world, at| emergency::lost(world, at, *times))
+        }
+        Condition::EventLogHas { log, units, event, times } => {
+            each(*units, world, |world, at| logs::has(world, at, *log, *event, *times))
+        }
+        Condition::EventLogEmpty { log, units } => {
+            each(*units, world, |world, at| logs::is_empty(world, at, *log))
+        }
+        Condition::DiagnosisMessage { unit, number, event } => {
+            each(UnitSet::One(*unit), world, |world, at| logs::message(world, at, *number, *event))
+        }
+        Condition::DiagnosisMessageBytes { unit, number, bytes } => {
+            each(UnitSet::One(*unit), world, |world, at| logs::message_bytes(world, at, *number, bytes))
+        }
+        Condition::DiagnosisMessages { units, count } => {
+            each(*units, world, |world, at| logs::message_count(world, at, *count))
+        }
         Condition::CaptureReplayed => master::capture_replayed(world),
         Condition::AnswersDiffer { at_most } => master::answers_differ(world, *at_most),
     }

@@ -2,6 +2,7 @@
 //! data in parallel.
 
 mod answer;
+mod emergencies;
 mod last_sdo;
 mod operation;
 mod orders;
@@ -30,6 +31,7 @@ use program::Task;
 use slave::Slave;
 use states::States;
 
+pub(crate) use emergencies::Received;
 pub use program::MasterProgram;
 pub(crate) use sent::{Sent, Ticket};
 pub(crate) use slave::changed_settings;
@@ -73,7 +75,9 @@ pub(crate) struct Master {
     mailbox: MailboxConduct,
     gave_up: Option<String>,
     last_sdo: LastSdo,
-    emergencies: Vec<u16>,
+    emergencies: Vec<Received>,
+    /// Whether it reads the mailboxes for emergencies while it has nothing else to do.
+    looks_for_emergencies: bool,
     story: Vec<String>,
 }
 
@@ -106,6 +110,7 @@ impl Master {
             gave_up: None,
             last_sdo: LastSdo::default(),
             emergencies: Vec::new(),
+            looks_for_emergencies: true,
             story: Vec::new(),
         }
     }
@@ -172,6 +177,9 @@ impl Master {
     /// Reads the mailboxes, for emergencies.
     fn listen(&mut self, now: Instant) {
         self.next_listen = now + LISTEN_PERIOD;
+        if !self.looks_for_emergencies {
+            return;
+        }
         let units = self.slaves.iter().zip(&self.listens).enumerate().filter(|(_, (_, listens))| **listens);
         let listen =
             |(unit, (slave, _)): (usize, (&Slave, _))| Some(Operation::listen(unit, slave.mailbox()?));
@@ -217,9 +225,10 @@ impl Master {
     fn answer(&mut self, Returned { working_counter, data, .. }: &Returned, now: Instant) {
         let Some(operation) = self.operations.front_mut() else { return };
         let answer = Answer { working_counter: *working_counter, data };
+        let unit = operation.unit;
         let (progress, emergencies) = operation.answered(Some(answer));
         for emergency in emergencies {
-            self.emergencies.push(emergency.code);
+            self.emergencies.push(Received { unit, emergency });
             self.story.push(format!("receives emergency {:04X}", emergency.code));
         }
         match progress {
@@ -333,7 +342,8 @@ impl Master {
         &self.last_sdo
     }
 
-    pub(crate) fn emergencies(&self) -> &[u16] {
+    /// The emergencies since its start, in the order in which it has read them.
+    pub(crate) fn emergencies(&self) -> &[Received] {
         &self.emergencies
     }
 

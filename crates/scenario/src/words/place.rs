@@ -82,6 +82,7 @@ const PLACES: &[Place] = &[
     place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),
     place("counter", "a mailbox counter from 0 to 7", |words| limited(words, 0, 7)),
     place("channel", "a SyncManager from 0 to 7", |words| limited(words, 0, 7)),
+    place("record", "a record of the diagnosis history from 1 to 250", |words| limited(words, 1, 250)),
     place("cable", "a cable, 1 for the one to the master", |words| limited(words, 1, 0xFFFF)),
     place("period", "a time above 0 such as 1ms", |words| duration(words, |period| !period.is_zero())),
     place("time", TIMES_WORDS, |words| duration(words, |time| TIMES.contains(&time))),

@@ -73,6 +73,7 @@ fn texts(steps: Steps) -> Vec<String> {
 }
 
 /// An order, and a condition that is true after it and only after it.
+#[derive(Clone)]
 pub(crate) struct OrderRow {
     pub(crate) sentence: &'static str,
     around: Around,
@@ -118,6 +119,7 @@ impl OrderRow {
 }
 
 /// A condition, steps after which it is true, and others after which it is not.
+#[derive(Clone)]
 pub(crate) struct ConditionRow {
     pub(crate) sentence: &'static str,
     around: Around,

@@ -1,6 +1,6 @@
 //! Conditions of the scripted master and of the recorded one.
 
-use super::seen::{Seen, holds, is_often_enough};
+use super::seen::{Seen, holds};
 use crate::model::Bytes;
 use crate::run::world::World;
 
@@ -34,15 +34,6 @@ pub(super) fn sdo_gave(world: &World, value: &Bytes) -> Check {
 pub(super) fn sdo_taken(world: &World) -> Check {
     let sdo = world.master().last_sdo();
     holds(matches!(sdo.result(), Some(Ok(_))), || sdo.words())
-}
-
-pub(super) fn emergency(world: &World, code: u16, times: Option<u64>) -> Check {
-    let received = world.master().emergencies();
-    let seen = received.iter().filter(|received| **received == code).count() as u64;
-    holds(is_often_enough(seen, times), || {
-        let all: Vec<String> = received.iter().map(|code| format!("{code:04X}")).collect();
-        format!("it came {seen} times; all that came: [{}]", all.join(", "))
-    })
 }
 
 pub(super) fn capture_replayed(world: &World) -> Check {

@@ -67,7 +67,9 @@ impl Master {
                 self.change_mailbox(|conduct| conduct.counter.fixed = Some(counter));
             }
             MasterOrder::ReadNoMailbox => self.change_mailbox(|conduct| conduct.reading = Reading::Never),
+            MasterOrder::ReadNoEmergencies => self.looks_for_emergencies = false,
             MasterOrder::Behave => {
+                self.looks_for_emergencies = true;
                 self.change_mailbox(|conduct| {
                     conduct.counter.fixed = None;
                     conduct.reading = Reading::Always;

@@ -91,6 +91,11 @@ impl World {
         bytes
     }
 
+    /// Number of emergencies for which a unit had no mailbox, or no room in it.
+    pub(crate) fn emergencies_lost(&self, at: usize) -> u64 {
+        self.device(at).emergencies_lost()
+    }
+
     pub(crate) fn inputs(&self, at: usize) -> &[u8] {
         self.master.inputs(at)
     }
