@@ -51,7 +51,7 @@ pub use register::{RegisterRead, RegisterWrite};
 pub use sdo::SdoTransfer;
 pub use sdo_information::SdoInformation;
 pub use search::Search;
-pub use service::{Message, Reply, Service};
+pub use service::{Message, RawMessage, Reply, Service};
 pub use settings::{
     DeviceIdSource, Direction, MailboxSettings, ProcessDataArea, RegisterSetting, SlaveSettings, StartUpSdo,
 };

@@ -189,6 +189,14 @@ impl MailboxDialogue {
         self.message.clear();
         self.message.resize(usize::from(self.out.length_bytes), 0);
         self.phase = Phase::Failed;
+        if let Service::Raw(raw) = &self.service {
+            let Some(room) = self.message.get_mut(..raw.bytes.len()) else {
+                return self.service.fail(ServiceFailure::MailboxTooSmall);
+            };
+            room.copy_from_slice(&raw.bytes);
+            self.phase = Phase::Ask { may_be_taken: false };
+            return;
+        }
         let Some((head, room)) = self.message.split_first_chunk_mut::<{ MailboxHeader::LENGTH_BYTES }>()
         else {
             return self.service.fail(ServiceFailure::MailboxTooSmall);
@@ -271,6 +279,11 @@ impl MailboxDialogue {
         if let Some(emergency) = emergency(header, body) {
             self.emergencies.push(emergency);
             return self.stray();
+        }
+        if let Service::Raw(raw) = &mut self.service {
+            let length_bytes = MailboxHeader::LENGTH_BYTES + body.len();
+            raw.receive(mailbox.get(..length_bytes).unwrap_or(mailbox));
+            return Progress::Done;
         }
         let reaction = match header.mailbox_type {
             MailboxType::Error => self.service.mailbox_error(MailboxErrorReply::parse(body)),

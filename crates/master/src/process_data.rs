@@ -300,6 +300,15 @@ impl ProcessData {
         report
     }
 
+    /// The working counter of each datagram with process data in the current cycle, none if it has not returned, and the
+    /// expected one if every slave that exchanges process data takes part.
+    pub fn counters(&self) -> impl Iterator<Item = (Option<u16>, u16)> {
+        self.datagrams.iter().filter_map(|datagram| {
+            let Content::ProcessData { expected, .. } = datagram.content else { return None };
+            Some((datagram.working_counter, expected))
+        })
+    }
+
     /// The sum of the working counters of the datagrams that carry the process data of a slave, in the last
     /// cycle for which one of them returned. If a datagram also carries process data of other slaves, their
     /// part is included.

@@ -18,6 +18,8 @@ pub struct SdoTransfer {
     target: SdoTarget,
     /// The value to write, or the part of it that has been read so far.
     data: Vec<u8>,
+    /// The number of bytes in a segment that is written; none: as many as fit.
+    segment_bytes: Option<usize>,
     step: Step,
     result: Option<Result<(), ServiceFailure>>,
 }
@@ -48,20 +50,27 @@ impl SdoTransfer {
     pub fn download(target: SdoTarget, value: &[u8]) -> Self {
         let is_short = (1..=EXPEDITED_BYTES_MAX).contains(&value.len());
         let size = if is_short { Size::Expedited } else { Size::Normal { packed_bytes: 0 } };
-        Self { target, data: value.to_vec(), step: Step::Download(size), result: None }
+        Self { target, data: value.to_vec(), segment_bytes: None, step: Step::Download(size), result: None }
     }
 
     /// The same with an explicit size, also for up to four bytes.
     #[must_use]
     pub fn download_normal(target: SdoTarget, value: &[u8]) -> Self {
         let step = Step::Download(Size::Normal { packed_bytes: 0 });
-        Self { target, data: value.to_vec(), step, result: None }
+        Self { target, data: value.to_vec(), segment_bytes: None, step, result: None }
+    }
+
+    /// The same in segments, however short the value is: the first message has only its size, each following one at most
+    /// `segment_bytes` of it. 0 counts as 1.
+    #[must_use]
+    pub fn download_in_segments(target: SdoTarget, value: &[u8], segment_bytes: usize) -> Self {
+        Self { segment_bytes: Some(segment_bytes.max(1)), ..Self::download_normal(target, value) }
     }
 
     /// Reads a value.
     #[must_use]
     pub const fn upload(target: SdoTarget) -> Self {
-        Self { target, data: Vec::new(), step: Step::Upload, result: None }
+        Self { target, data: Vec::new(), segment_bytes: None, step: Step::Upload, result: None }
     }
 
     /// Its target.
@@ -97,12 +106,15 @@ impl SdoTransfer {
                 SdoRequest::DownloadExpedited { target, field, length_bytes }.pack(room)
             }
             Step::Download(Size::Normal { packed_bytes }) => {
-                let data = part(&self.data, 0, room.len().checked_sub(DOWNLOAD_OVERHEAD_BYTES)?);
+                let room_bytes = room.len().checked_sub(DOWNLOAD_OVERHEAD_BYTES)?;
+                let data = part(&self.data, 0, if self.segment_bytes.is_some() { 0 } else { room_bytes });
                 *packed_bytes = data.len();
                 SdoRequest::DownloadNormal { target, size_bytes: self.data.len() as u32, data }.pack(room)
             }
             Step::DownloadSegment { sent_bytes, packed_bytes, toggle } => {
-                let data = part(&self.data, *sent_bytes, room.len().checked_sub(SEGMENT_OVERHEAD_BYTES)?);
+                let room_bytes = room.len().checked_sub(SEGMENT_OVERHEAD_BYTES)?;
+                let bytes_max = self.segment_bytes.map_or(room_bytes, |bytes| bytes.min(room_bytes));
+                let data = part(&self.data, *sent_bytes, bytes_max);
                 *packed_bytes = data.len();
                 let last = *sent_bytes + data.len() == self.data.len();
                 SdoRequest::DownloadSegment { toggle: *toggle, last, data }.pack(room)

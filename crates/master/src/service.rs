@@ -15,8 +15,32 @@ pub enum Service {
     Information(SdoInformation),
     /// A message of any kind, correct or incorrect.
     Message(Message),
+    /// A whole message as it is, with its header.
+    Raw(RawMessage),
     /// No request: whatever is in the mailbox is read.
     Listen,
+}
+
+/// A whole mailbox message, correct or incorrect: header, body, and whatever is behind it. The rest of the mailbox is
+/// filled with zeros. Its result is the next message of the slave, with its header; an emergency is none.
+#[derive(Clone, Debug)]
+pub struct RawMessage {
+    /// The bytes, header first.
+    pub bytes: Vec<u8>,
+    received: Option<Result<Vec<u8>, ServiceFailure>>,
+}
+
+impl RawMessage {
+    /// A message of these bytes.
+    #[must_use]
+    pub const fn new(bytes: Vec<u8>) -> Self {
+        Self { bytes, received: None }
+    }
+
+    /// The next message of the slave.
+    pub(crate) fn receive(&mut self, message: &[u8]) {
+        self.received = Some(Ok(message.to_vec()));
+    }
 }
 
 /// A message of any kind.
@@ -58,7 +82,7 @@ impl Service {
     pub(crate) fn awaits_reply(&self) -> bool {
         match self {
             Self::Sdo(transfer) => transfer.awaits_reply(),
-            Self::Information(_) | Self::Listen => true,
+            Self::Information(_) | Self::Raw(_) | Self::Listen => true,
             Self::Message(message) => message.reply == Reply::Awaited,
         }
     }
@@ -72,7 +96,8 @@ impl Service {
                 room.get_mut(..message.data.len())?.copy_from_slice(&message.data);
                 Some((message.mailbox_type, message.data.len()))
             }
-            Self::Listen => None,
+            // It has its own header.
+            Self::Raw(_) | Self::Listen => None,
         }
     }
 
@@ -86,7 +111,7 @@ impl Service {
                 Reaction::Done
             }
             (Self::Listen, _) => Reaction::Done,
-            (Self::Sdo(_) | Self::Information(_) | Self::Message(_), _) => Reaction::NotMine,
+            (Self::Sdo(_) | Self::Information(_) | Self::Message(_) | Self::Raw(_), _) => Reaction::NotMine,
         }
     }
 
@@ -103,6 +128,7 @@ impl Service {
             Self::Sdo(transfer) => transfer.fail(failure),
             Self::Information(information) => information.fail(failure),
             Self::Message(message) => message.received = Some(Err(failure)),
+            Self::Raw(message) => message.received = Some(Err(failure)),
             Self::Listen => {}
         }
     }
@@ -116,7 +142,9 @@ impl Service {
             Self::Sdo(transfer) => transfer.into_result(),
             Self::Information(information) => information.into_result(),
             Self::Message(Message { reply: Reply::None, .. }) | Self::Listen => Ok(Vec::new()),
-            Self::Message(Message { received, .. }) => received.unwrap_or(Err(ServiceFailure::NoReply)),
+            Self::Message(Message { received, .. }) | Self::Raw(RawMessage { received, .. }) => {
+                received.unwrap_or(Err(ServiceFailure::NoReply))
+            }
         }
     }
 }

@@ -12,6 +12,7 @@ mod process_data;
 mod program_values;
 mod programs;
 mod random;
+mod raw;
 mod reach;
 mod resolve;
 mod steps;

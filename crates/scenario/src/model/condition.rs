@@ -148,6 +148,24 @@ pub enum Condition {
     },
     #[serde(with = "nothing")]
     SdoTaken,
+    /// The value of the register that was ordered last.
+    RegisterGave {
+        value: Bytes,
+    },
+    /// The answer to the mailbox message that was sent last, with its header.
+    MailboxGave {
+        message: Bytes,
+    },
+    #[serde(with = "nothing")]
+    MailboxSilent,
+    /// The first bytes of the frame that was sent last, as it came back.
+    FrameGave {
+        frame: Bytes,
+    },
+    #[serde(with = "nothing")]
+    FrameLost,
+    #[serde(with = "nothing")]
+    EveryWorkingCounterExpected,
     /// Without times: at least once. Without unit, register or data: any.
     Emergency {
         code: Hex<u16>,

@@ -60,6 +60,29 @@ pub enum MasterOrder {
     WriteRegister { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
     /// A write to the ESC in two frames, one for each half.
     WriteRegisterInHalves { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
+    /// An SDO upload of a whole object, from subindex 0 or 1 on.
+    ReadCompleteSdo { unit: UnitNumber, entry: Entry },
+    /// An SDO download of a whole object, from subindex 0 or 1 on.
+    WriteCompleteSdo { unit: UnitNumber, entry: Entry, value: Bytes },
+    /// An SDO download in segments of seven bytes, however short the value is.
+    WriteSdoInSegments { unit: UnitNumber, entry: Entry, value: Bytes },
+    /// SDO information: the objects of a list, or the lengths of the lists.
+    ReadObjectList { unit: UnitNumber, list: u16 },
+    /// SDO information: the description of an object.
+    DescribeObject { unit: UnitNumber, object: Hex<u16> },
+    /// SDO information: the description of an entry.
+    DescribeEntry { unit: UnitNumber, entry: Entry },
+    /// A read of the ESC; without a length as long as the register.
+    ReadRegister {
+        unit: UnitNumber,
+        register: Hex<u16>,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        length_bytes: Option<u16>,
+    },
+    /// A whole mailbox message, header first.
+    SendMailboxMessage { unit: UnitNumber, message: Bytes },
+    /// A whole Ethernet frame, without frame check sequence.
+    SendFrame { frame: Bytes },
     /// Uses this mailbox counter from now on, instead of counting.
     UseMailboxCounter { counter: u8 },
     /// Leaves the answers in the mailboxes.

@@ -25,11 +25,20 @@ pub(super) fn unit_of_master(order: &MasterOrder) -> Option<UnitSet> {
         | MasterOrder::SetSyncManagerControl { unit, .. }
         | MasterOrder::WriteSdo { unit, .. }
         | MasterOrder::ReadSdo { unit, .. }
+        | MasterOrder::ReadCompleteSdo { unit, .. }
+        | MasterOrder::WriteCompleteSdo { unit, .. }
+        | MasterOrder::WriteSdoInSegments { unit, .. }
+        | MasterOrder::ReadObjectList { unit, .. }
+        | MasterOrder::DescribeObject { unit, .. }
+        | MasterOrder::DescribeEntry { unit, .. }
+        | MasterOrder::ReadRegister { unit, .. }
+        | MasterOrder::SendMailboxMessage { unit, .. }
         | MasterOrder::WriteRegisterInHalves { unit, .. }
         | MasterOrder::WriteRegister { unit, .. } => Some(UnitSet::One(*unit)),
         MasterOrder::ExchangeProcessData { .. }
         | MasterOrder::StopProcessData
         | MasterOrder::UseMailboxCounter { .. }
+        | MasterOrder::SendFrame { .. }
         | MasterOrder::ReadNoMailbox
         | MasterOrder::ReadNoEmergencies
         | MasterOrder::Behave
@@ -120,6 +129,12 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::SdoRefused { .. }
         | Condition::SdoGave { .. }
         | Condition::SdoTaken
+        | Condition::RegisterGave { .. }
+        | Condition::MailboxGave { .. }
+        | Condition::MailboxSilent
+        | Condition::FrameGave { .. }
+        | Condition::FrameLost
+        | Condition::EveryWorkingCounterExpected
         | Condition::Emergency { unit: None, .. } => Subject::Master,
         Condition::CaptureReplayed | Condition::AnswersDiffer { .. } => Subject::Capture,
     }

@@ -150,7 +150,10 @@ impl Maker<'_> {
                 self.check_variables(order, part)
             }
             Order::Unit(order) => self.check_words_of_order(order, part),
-            Order::Master(order) => self.check_outputs(order, part),
+            Order::Master(order) => {
+                self.check_raw(order, part)?;
+                self.check_outputs(order, part)
+            }
             Order::Line(_) | Order::Expect(_) => Some(()),
         }
     }

@@ -8,6 +8,7 @@ mod emergency;
 mod logs;
 mod master;
 mod program;
+mod raw;
 mod seen;
 mod unit;
 
@@ -82,6 +83,12 @@ pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen
         Condition::SdoRefused { abort_code } => master::sdo_refused(world, abort_code.0),
         Condition::SdoGave { value } => master::sdo_gave(world, value),
         Condition::SdoTaken => master::sdo_taken(world),
+        Condition::RegisterGave { value } => raw::register(world, value),
+        Condition::MailboxGave { message } => raw::mailbox(world, message),
+        Condition::MailboxSilent => raw::mailbox_is_silent(world),
+        Condition::FrameGave { frame } => raw::frame(world, frame),
+        Condition::FrameLost => raw::frame_is_lost(world),
+        Condition::EveryWorkingCounterExpected => raw::working_counters(world),
         Condition::Emergency { code, unit, register, data, times } => {
             let wanted =
                 emergency::Wanted { code: code.0, unit: *unit, register: *register, data: data.as_ref() };

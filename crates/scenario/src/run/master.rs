@@ -8,6 +8,8 @@ mod operation;
 mod orders;
 mod process_data;
 mod program;
+mod raw;
+mod sdo_service;
 mod sent;
 mod slave;
 mod states;
@@ -33,6 +35,8 @@ use states::States;
 
 pub(crate) use emergencies::Received;
 pub use program::MasterProgram;
+pub(crate) use raw::Kind;
+use raw::Raw;
 pub(crate) use sent::{Sent, Ticket};
 pub(crate) use slave::changed_settings;
 pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
@@ -75,6 +79,7 @@ pub(crate) struct Master {
     mailbox: MailboxConduct,
     gave_up: Option<String>,
     last_sdo: LastSdo,
+    raw: Raw,
     emergencies: Vec<Received>,
     /// Whether it reads the mailboxes for emergencies while it has nothing else to do.
     looks_for_emergencies: bool,
@@ -109,6 +114,7 @@ impl Master {
             mailbox: RIGHT_CONDUCT,
             gave_up: None,
             last_sdo: LastSdo::default(),
+            raw: Raw::default(),
             emergencies: Vec::new(),
             looks_for_emergencies: true,
             story: Vec::new(),
@@ -136,7 +142,7 @@ impl Master {
     pub(crate) fn deadline(&self) -> Instant {
         let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
         let task = self.task.as_ref().map_or(Instant::NEVER, Task::deadline);
-        self.waiting.at.min(self.process_data.deadline()).min(listen).min(task)
+        self.waiting.at.min(self.process_data.deadline()).min(self.raw.deadline()).min(listen).min(task)
     }
 
     /// The frames that it sends now.
@@ -147,6 +153,9 @@ impl Master {
             frames.extend(self.process_data.send(now, &mut self.ticket));
         }
         frames.extend(self.begin_task(now, is_cycle));
+        if self.raw.deadline() <= now {
+            frames.extend(self.raw.send(now, &mut self.ticket, &mut self.story));
+        }
         if self.operations.is_empty() && self.next_listen <= now {
             self.listen(now);
         }
@@ -210,6 +219,9 @@ impl Master {
 
     /// A frame returns. Frames that are no longer expected are ignored, as by a real master.
     pub(crate) fn receive(&mut self, ticket: u64, frame: Vec<u8>, now: Instant) {
+        if let Some(words) = self.raw.receive(ticket, &frame) {
+            return self.story.push(words);
+        }
         let datagrams = returned_datagrams(&frame);
         self.process_data.reuse(frame);
         let is_cyclic =
@@ -298,6 +310,7 @@ impl Master {
                     self.story.push(last_sdo::words(&result));
                     self.last_sdo.answer(number, result);
                 }
+                Step::RawAnswer { number, bytes } => self.story.push(self.raw.answer(number, bytes)),
                 Step::Tell(words) => self.story.push(words),
             }
         }
@@ -318,6 +331,9 @@ impl Master {
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
         for operation in self.operations.drain(..parts.max(1)) {
             self.last_sdo.give_up(operation.ordered_sdo());
+            if let Some(number) = operation.raw_number() {
+                self.raw.give_up(number);
+            }
         }
         self.begin(now);
     }
@@ -327,11 +343,12 @@ impl Master {
     }
 
     pub(crate) fn is_idle(&self) -> bool {
-        self.operations.iter().all(Operation::is_listening)
+        self.operations.iter().all(Operation::is_listening) && self.raw.is_idle()
     }
 
     pub(crate) fn activity(&self) -> String {
-        self.operations.front().map_or("nothing".to_owned(), Operation::words)
+        let frame = || if self.raw.is_idle() { "nothing".to_owned() } else { "a frame".to_owned() };
+        self.operations.front().map_or_else(frame, Operation::words)
     }
 
     pub(crate) fn gave_up(&self) -> Option<&str> {
@@ -340,6 +357,17 @@ impl Master {
 
     pub(crate) const fn last_sdo(&self) -> &LastSdo {
         &self.last_sdo
+    }
+
+    /// What it has read without any service.
+    pub(crate) const fn raw(&self) -> &Raw {
+        &self.raw
+    }
+
+    /// The working counter of each datagram of process data in the present cycle, and the expected one; empty while none
+    /// are exchanged.
+    pub(crate) fn working_counters(&self) -> Vec<(Option<u16>, u16)> {
+        self.process_data.working_counters()
     }
 
     /// The emergencies since its start, in the order in which it has read them.

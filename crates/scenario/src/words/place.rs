@@ -77,6 +77,9 @@ const PLACES: &[Place] = &[
     place("length", "a length from 14 to 1513 bytes: all but the last byte of a frame", |words| {
         limited(words, 14, 1513)
     }),
+    place("size", "a number of bytes from 1 to 1486: all that fit into a frame", |words| {
+        limited(words, 1, 1486)
+    }),
     place("byte", "a number from 0 to 255 such as 0x2A", |words| limited(words, 0, 0xFF)),
     place("word", "a number from 0 to 65535 such as 0x0120", |words| limited(words, 0, 0xFFFF)),
     place("dword", "a number of at most 32 bits such as 0x06090030", |words| limited(words, 0, 0xFFFF_FFFF)),

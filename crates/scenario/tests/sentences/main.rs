@@ -7,6 +7,7 @@ mod cpu;
 mod line;
 mod master;
 mod messages;
+mod raw;
 mod rows;
 mod unit;
 
@@ -39,7 +40,7 @@ fn orders<T: Spoken>(key: &str, rows: &[OrderRow]) {
 
 #[test]
 fn each_order_of_the_master_does_what_it_says() {
-    orders::<MasterOrder>("master", &[master::rows(), messages::orders()].concat());
+    orders::<MasterOrder>("master", &[master::rows(), messages::orders(), raw::orders()].concat());
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn each_order_to_the_line_does_what_it_says() {
 
 #[test]
 fn each_condition_holds_and_fails() {
-    let rows = [conditions::rows(), messages::conditions()].concat();
+    let rows = [conditions::rows(), messages::conditions(), raw::conditions()].concat();
     let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).collect();
     assert_eq!(missing::<Condition>(&sentences), [""; 0], "conditions without a row");
     all_are_right(rows.iter().map(ConditionRow::try_out));

@@ -6,6 +6,7 @@ use wire::AlState;
 use super::last_sdo::{SdoNumber, SdoResult};
 use super::operation::{Operation, What};
 use super::process_data::ProcessData;
+use super::raw::RawNumber;
 use super::slave::Slave;
 use crate::model::StateName;
 
@@ -29,6 +30,8 @@ pub(crate) enum Step {
     Listen { unit: usize, listens: bool },
     /// An SDO was answered.
     SdoResult { number: Option<SdoNumber>, result: SdoResult },
+    /// A register or a mailbox message was read.
+    RawAnswer { number: RawNumber, bytes: Vec<u8> },
     /// A report.
     Tell(String),
 }
@@ -65,6 +68,13 @@ impl Operation {
                 )
             }
             What::Open(_) => Outcome::Done(vec![Step::Exchange(unit)]),
+            What::ReadRegister { read, number } => {
+                Outcome::Done(vec![Step::RawAnswer { number, bytes: read.into_data() }])
+            }
+            What::Message { mailbox, number, .. } => match mailbox.into_service().into_result() {
+                Ok(bytes) => Outcome::Done(vec![Step::RawAnswer { number, bytes }]),
+                Err(failure) => Outcome::Failed(failure.to_string()),
+            },
             What::Sdo { mailbox, .. } => match mailbox.into_service().into_result() {
                 Ok(value) => Outcome::Done(vec![Step::SdoResult { number, result: Ok(value) }]),
                 Err(ServiceFailure::Abort(code)) => {

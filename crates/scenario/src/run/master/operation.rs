@@ -1,12 +1,13 @@
 //! Operations: the parts of a master's order, one frame at a time.
 
 use ::master::{
-    Access, Address, AlReport, Answer, Dialogue, MailboxConduct, MailboxDialogue, Progress, Reading,
-    RegisterRead, RegisterWrite, SdoTransfer, Service, StateRequest, SyncManagerSettings, registers,
+    Access, Address, AlReport, Answer, Dialogue, MailboxConduct, MailboxDialogue, Progress, RawMessage,
+    Reading, RegisterRead, RegisterWrite, SdoTransfer, Service, StateRequest, SyncManagerSettings, registers,
 };
-use wire::{AlState, Emergency, FrameBuilder};
+use wire::{AlState, Emergency, FrameBuilder, SdoTarget};
 
 use super::last_sdo::SdoNumber;
+use super::raw::RawNumber;
 use crate::model::{Entry, FrameKind, StateName};
 
 /// SyncManagers of the mailbox: from master to unit, and back.
@@ -34,7 +35,11 @@ pub(super) enum What {
     /// Everything is set for the process data: they start.
     Open(RegisterRead),
     /// An SDO.
-    Sdo { transfer: &'static str, entry: Entry, mailbox: Box<MailboxDialogue>, is_begun: bool },
+    Sdo { words: String, mailbox: Box<MailboxDialogue>, is_begun: bool },
+    /// Reads a register.
+    ReadRegister { read: RegisterRead, number: RawNumber },
+    /// A whole mailbox message, right or wrong.
+    Message { mailbox: Box<MailboxDialogue>, is_begun: bool, number: RawNumber },
     /// Reads the mailbox once.
     Listen { mailbox: Box<MailboxDialogue>, is_begun: bool },
 }
@@ -66,23 +71,38 @@ impl Operation {
     }
 
     pub(crate) fn download(unit: usize, channels: MailboxChannels, entry: Entry, value: &[u8]) -> Self {
-        let transfer = SdoTransfer::download(wire::SdoTarget::entry(entry.index, entry.sub), value);
-        Self::sdo(unit, channels, ("download", entry), transfer)
+        let transfer = SdoTransfer::download(SdoTarget::entry(entry.index, entry.sub), value);
+        Self::sdo(unit, channels, format!("SDO download {entry}"), Service::Sdo(transfer))
     }
 
     pub(crate) fn upload(unit: usize, channels: MailboxChannels, entry: Entry) -> Self {
-        let transfer = SdoTransfer::upload(wire::SdoTarget::entry(entry.index, entry.sub));
-        Self::sdo(unit, channels, ("upload", entry), transfer)
+        let transfer = SdoTransfer::upload(SdoTarget::entry(entry.index, entry.sub));
+        Self::sdo(unit, channels, format!("SDO upload {entry}"), Service::Sdo(transfer))
     }
 
-    fn sdo(
+    /// A service whose answer is that of an SDO; `words` for the trace.
+    pub(super) fn sdo(unit: usize, (out, inward): MailboxChannels, words: String, service: Service) -> Self {
+        let mailbox = Box::new(MailboxDialogue::new(out, inward, service));
+        Self::new(unit, What::Sdo { words, mailbox, is_begun: false })
+    }
+
+    pub(super) const fn read_register(
+        unit: usize,
+        offset: u16,
+        length_bytes: u16,
+        number: RawNumber,
+    ) -> Self {
+        Self::new(unit, What::ReadRegister { read: RegisterRead::new(offset, length_bytes), number })
+    }
+
+    pub(super) fn message(
         unit: usize,
         (out, inward): MailboxChannels,
-        (words, entry): (&'static str, Entry),
-        transfer: SdoTransfer,
+        message: Vec<u8>,
+        number: RawNumber,
     ) -> Self {
-        let mailbox = Box::new(MailboxDialogue::new(out, inward, Service::Sdo(transfer)));
-        Self::new(unit, What::Sdo { transfer: words, entry, mailbox, is_begun: false })
+        let mailbox = Box::new(MailboxDialogue::new(out, inward, Service::Raw(RawMessage::new(message))));
+        Self::new(unit, What::Message { mailbox, is_begun: false, number })
     }
 
     pub(crate) fn listen(unit: usize, (out, inward): MailboxChannels) -> Self {
@@ -104,6 +124,19 @@ impl Operation {
         self.ordered_sdo
     }
 
+    /// The number of a register or a mailbox message that a step has ordered.
+    pub(super) const fn raw_number(&self) -> Option<RawNumber> {
+        match self.what {
+            What::ReadRegister { number, .. } | What::Message { number, .. } => Some(number),
+            What::Write { .. }
+            | What::Take { .. }
+            | What::Reach { .. }
+            | What::Open(_)
+            | What::Sdo { .. }
+            | What::Listen { .. } => None,
+        }
+    }
+
     pub(crate) const fn is_part(&self) -> bool {
         self.is_part
     }
@@ -123,7 +156,11 @@ impl Operation {
             What::Take { target, .. } => format!("take {unit} to {}", StateName(*target)),
             What::Reach { request, .. } => format!("request {} of {unit}", StateName(request.state())),
             What::Open(_) => format!("process data of {unit}"),
-            What::Sdo { transfer, entry, .. } => format!("SDO {transfer} {entry} of {unit}"),
+            What::Sdo { words, .. } => format!("{words} of {unit}"),
+            What::ReadRegister { read, .. } => {
+                format!("read of register {:#06X} of {unit}", read.access().offset())
+            }
+            What::Message { .. } => format!("mailbox message to {unit}"),
             What::Listen { .. } => format!("mailbox of {unit}"),
         }
     }
@@ -133,7 +170,10 @@ impl Operation {
             What::Write { write, .. } => write,
             What::Take { look, .. } | What::Open(look) => look,
             What::Reach { request, .. } => request,
-            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => &**mailbox,
+            What::ReadRegister { read, .. } => read,
+            What::Sdo { mailbox, .. } | What::Message { mailbox, .. } | What::Listen { mailbox, .. } => {
+                &**mailbox
+            }
         }
     }
 
@@ -142,26 +182,41 @@ impl Operation {
             What::Write { write, .. } => write,
             What::Take { look, .. } | What::Open(look) => look,
             What::Reach { request, .. } => request,
-            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => &mut **mailbox,
+            What::ReadRegister { read, .. } => read,
+            What::Sdo { mailbox, .. } | What::Message { mailbox, .. } | What::Listen { mailbox, .. } => {
+                &mut **mailbox
+            }
         }
     }
 
     /// The mailbox that it uses.
     pub(super) fn mailbox(&mut self) -> Option<&mut MailboxDialogue> {
         match &mut self.what {
-            What::Sdo { mailbox, .. } | What::Listen { mailbox, .. } => Some(mailbox),
-            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => None,
+            What::Sdo { mailbox, .. } | What::Message { mailbox, .. } | What::Listen { mailbox, .. } => {
+                Some(mailbox)
+            }
+            What::Write { .. }
+            | What::Take { .. }
+            | What::Reach { .. }
+            | What::Open(_)
+            | What::ReadRegister { .. } => None,
         }
     }
 
     /// Starts to use the mailbox, before its first frame. A master that reads no replies still reads emergencies.
     pub(super) fn begin(&mut self, conduct: MailboxConduct) {
         let (mailbox, is_begun, conduct) = match &mut self.what {
-            What::Sdo { mailbox, is_begun, .. } => (mailbox, is_begun, conduct),
+            What::Sdo { mailbox, is_begun, .. } | What::Message { mailbox, is_begun, .. } => {
+                (mailbox, is_begun, conduct)
+            }
             What::Listen { mailbox, is_begun } => {
                 (mailbox, is_begun, MailboxConduct { reading: Reading::Always, ..conduct })
             }
-            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => return,
+            What::Write { .. }
+            | What::Take { .. }
+            | What::Reach { .. }
+            | What::Open(_)
+            | What::ReadRegister { .. } => return,
         };
         if !core::mem::replace(is_begun, true) {
             mailbox.begin(conduct);
@@ -170,7 +225,7 @@ impl Operation {
 
     /// Changes how it handles the mailbox from now on.
     pub(super) fn change_mailbox(&mut self, change: impl Fn(&mut MailboxConduct)) {
-        if let What::Sdo { mailbox, .. } = &mut self.what {
+        if let What::Sdo { mailbox, .. } | What::Message { mailbox, .. } = &mut self.what {
             change(mailbox.conduct_mut());
         }
     }
@@ -181,8 +236,12 @@ impl Operation {
         let access: Access<'_> = self.dialogue().access();
         access.add_to(&mut frame, Address::Position(self.unit as u16));
         let kind = match self.what {
-            What::Sdo { .. } | What::Listen { .. } => FrameKind::Mailbox,
-            What::Write { .. } | What::Take { .. } | What::Reach { .. } | What::Open(_) => FrameKind::Any,
+            What::Sdo { .. } | What::Message { .. } | What::Listen { .. } => FrameKind::Mailbox,
+            What::Write { .. }
+            | What::Take { .. }
+            | What::Reach { .. }
+            | What::Open(_)
+            | What::ReadRegister { .. } => FrameKind::Any,
         };
         (frame.finish(), kind)
     }

@@ -7,6 +7,8 @@ use time::Instant;
 
 use super::Master;
 use super::operation::{MailboxChannels, Operation};
+use super::raw::Kind;
+use super::sdo_service::SdoService;
 use super::slave::Slave;
 use crate::model::{MasterOrder, UnitNumber, UnitSet};
 
@@ -46,6 +48,25 @@ impl Master {
             MasterOrder::ReadSdo { unit, entry } => {
                 self.queue_sdo(unit, now, |unit, channels| Operation::upload(unit, channels, entry));
             }
+            order @ (MasterOrder::ReadCompleteSdo { .. }
+            | MasterOrder::WriteCompleteSdo { .. }
+            | MasterOrder::WriteSdoInSegments { .. }
+            | MasterOrder::ReadObjectList { .. }
+            | MasterOrder::DescribeObject { .. }
+            | MasterOrder::DescribeEntry { .. }) => {
+                if let Some(request) = SdoService::of(&order) {
+                    self.queue_sdo(request.unit, now, |unit, channels| request.operation(unit, channels));
+                }
+            }
+            MasterOrder::ReadRegister { unit, register, length_bytes } => {
+                let length_bytes = length_bytes.unwrap_or_else(|| width_bytes(register.0));
+                let number = self.raw.order(Kind::Register);
+                self.queue_for(UnitSet::One(unit), now, |unit| {
+                    Operation::read_register(unit, register.0, length_bytes, number)
+                });
+            }
+            MasterOrder::SendMailboxMessage { unit, message } => self.queue_message(unit, &message.0, now),
+            MasterOrder::SendFrame { frame } => self.raw.order_frame(frame.0),
             MasterOrder::ExchangeProcessData { every } => self.process_data.exchange(every, now),
             MasterOrder::StopProcessData => self.process_data.stop(),
             MasterOrder::SetOutputs { unit, at, bytes } => {
@@ -106,6 +127,21 @@ impl Master {
         }
     }
 
+    /// A mailbox message as it is; without a mailbox the order fails.
+    fn queue_message(&mut self, unit: UnitNumber, message: &[u8], now: Instant) {
+        let number = self.raw.order(Kind::Mailbox);
+        match self.slaves.get(unit.position()).and_then(Slave::mailbox) {
+            Some(channels) => self.queue_for(UnitSet::One(unit), now, |unit| {
+                Operation::message(unit, channels, message.to_vec(), number)
+            }),
+            None => {
+                let reason = format!("unit {} has no mailbox", unit.position() + 1);
+                self.fail(reason);
+                self.raw.give_up(number);
+            }
+        }
+    }
+
     fn with_slave(&mut self, unit: UnitNumber, change: impl FnOnce(&mut Slave)) {
         if let Some(slave) = self.slaves.get_mut(unit.position()) {
             change(slave);
@@ -119,4 +155,15 @@ impl Master {
             self.begin(now);
         }
     }
+}
+
+/// The width of the register at an offset; one byte where none begins.
+fn width_bytes(offset: u16) -> u16 {
+    let is_at = |row: &&esc::Register| {
+        let behind = offset.checked_sub(row.offset);
+        behind.is_some_and(|behind| {
+            row.stride_bytes.max(1) * row.count > behind && behind % row.stride_bytes.max(1) == 0
+        })
+    };
+    esc::REGISTERS.iter().find(is_at).map_or(1, |row| row.size_bytes)
 }

@@ -161,6 +161,11 @@ impl ProcessData {
         self.exchange.is_running() && self.exchange.is_open(unit)
     }
 
+    /// The working counter of each datagram in the present cycle, and the expected one; empty while nothing is exchanged.
+    pub(crate) fn working_counters(&self) -> Vec<(Option<u16>, u16)> {
+        if self.exchange.is_running() { self.exchange.counters().collect() } else { Vec::new() }
+    }
+
     pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
         self.exchange.working_counter(unit)
     }
