@@ -134,8 +134,11 @@ pub(crate) struct ReplayArgs {
     /// Replay each scenario with all of these seeds: 1..100, or 100 for the same
     #[arg(long, value_name = "A..B")]
     pub(crate) seeds: Option<SeedRange>,
+    /// Replay only the case with these values of the file's parameters, such as "loss = 1, state = OP"
+    #[arg(long, value_name = "VALUES")]
+    pub(crate) case: Option<String>,
     /// Write the golden traces beside the files that have one, and beside those that are named, and exit
-    #[arg(long, conflicts_with_all = ["seed", "seeds", "partition"])]
+    #[arg(long, conflicts_with_all = ["seed", "seeds", "partition", "case"])]
     pub(crate) bless: bool,
     /// Print the actions with their times, below each case
     #[arg(long)]

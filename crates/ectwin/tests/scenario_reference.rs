@@ -25,12 +25,31 @@ Every key, sentence, placeholder and fault of a scenario file. To start, read [w
 | `cycle_phase` | phase of the cycle in its period, from the beginning | the seed decides |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file. Two units cannot have the same `name`; without names, no step can name a variable that two of them have | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | no program: the master only follows the steps |
+| `with` | a table of [parameters](#parameters), each with the list of its values | no parameters: the file is one case |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | only the scripted master |
 | `steps` | list of steps, at least one | none: every file needs it |
 
 Paths are relative to the folder of the scenario file; the program of a unit file is relative to the unit file. A unit can run the
 programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
 [one program](structured-text.md#several-files).
+
+## Parameters
+`with` makes a case of each combination of values, at most 10,000 of a file. `{loss}` in any text of the file is replaced by the value of
+the parameter `loss`:
+
+```toml parameters.toml
+title = "{state} is reached with {loss} % loss"
+with = { loss = [1, 2, 5], state = ["SAFE-OP", "OP"] }
+steps = [
+  { line = "lose {loss} % of the frames" },
+  { master = "take unit 1 to {state}" },
+  { expect = "unit 1 is in {state}", within = "5s" },
+]
+```
+
+These are six cases, named `FILE (loss = 1, state = SAFE-OP)` and so on; `ectwin replay --case "loss = 1, state = OP"` replays one of them.
+A value is a number, a text, `true` or `false`. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
+are not replaced. `{{loss}}` is the text `{loss}`. A parameter that no text uses, and a name in braces that is no parameter, are mistakes.
 
 ## The master's user program
 The scripted master can run its own program in Structured Text, like an NJ/NX-series CPU Unit with its built-in port
@@ -232,7 +251,9 @@ fn the_page_is_what_the_tables_say() {
 #[test]
 fn every_place_of_a_sentence_is_in_the_table_of_places() {
     let page = page();
-    let (sentences, places) = page.split_once("\n## places\n").expect("a table of places");
+    // Before the first table of sentences, braces are names of parameters.
+    let (_, tables) = page.split_once("\n## master\n").expect("a table of sentences");
+    let (sentences, places) = tables.split_once("\n## places\n").expect("a table of places");
     for place in sentences.split('{').skip(1).filter_map(|rest| rest.split('}').next()) {
         assert!(places.contains(&format!("`{{{place}}}`")), "{place}");
     }

@@ -1,26 +1,30 @@
 //! Reading a scenario file: its text becomes a script; lines and columns are kept separately, for messages.
 
 mod draft;
+mod names;
+mod parameters;
 mod places;
 mod reader;
 mod steps;
 mod values;
 
-use user_file::{Problem, Wanted, read_toml};
+use user_file::{Problem, Reader, Section, Wanted, read_toml};
 
 use crate::model::Script;
-use crate::ready::{Draft, Files, ScenarioErrors, Texts, ready};
+use crate::ready::{Draft, Files, Problem as Mistake, Remembered, ScenarioErrors, Texts, ready};
 use crate::run::Scenario;
+use names::{Named, Names};
+use parameters::{CASES_MAX, Parameters};
 use reader::FileReader;
 
 impl Scenario {
-    /// Reads the text of a scenario file. `files` returns the text of a unit file or of a user program, by its
-    /// path relative to the scenario.
+    /// Reads the text of a scenario file that is one case. `files` returns the text of a unit file or of a user program, by
+    /// its path relative to the scenario.
     ///
     /// # Errors
     /// The mistakes, in the order of the file: text that is not TOML (then nothing else is checked), unknown
     /// keys, invalid sentences, units that do not exist, steps that contradict each other, and problems of
-    /// programs, with their positions in their files.
+    /// programs, with their positions in their files. Parameters that make several cases, which [`Scenario::cases`] reads.
     pub fn parse(
         text: &str,
         files: impl FnMut(&str) -> Result<String, String>,
@@ -28,36 +32,112 @@ impl Scenario {
         Self::parse_with(text, &mut Texts(files))
     }
 
-    /// Reads the text of a scenario file that may also refer to folders of programs.
+    /// Reads the text of a scenario file that is one case and may also refer to folders of programs.
     ///
     /// # Errors
     /// As [`Scenario::parse`].
     pub fn parse_with(text: &str, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
-        let scenario = read_toml(text, Wanted::Scenario, |reader, file| {
-            let mut file_reader = FileReader::new(text, reader);
-            let draft = file_reader.draft(file);
-            let places = file_reader.places;
-            let (scenario, problems) = ready(draft, files);
-            for problem in problems {
-                let words = Problem::new(problem.message, "").with_help(problem.help);
-                reader.refuse(places.of(problem.part), words);
-            }
-            Some(scenario)
+        let one = read_toml(text, Wanted::Scenario, |reader, file| {
+            cases(text, reader, file, Number::One, |draft, case| scenario(draft, case, files))?.pop()
         });
-        scenario.map_err(ScenarioErrors::of_file)
+        one.map_err(ScenarioErrors::of_file)
+    }
+
+    /// Reads all cases of a scenario file: one for each combination of the values of its parameters, in the order in which
+    /// the last parameter changes first. Without parameters it is one case.
+    ///
+    /// # Errors
+    /// As [`Scenario::parse`], of the first case with mistakes, and the mistakes of the parameters.
+    pub fn cases(text: &str, files: &mut dyn Files) -> Result<Vec<Self>, ScenarioErrors> {
+        let mut files = Remembered::of(files);
+        let all = read_toml(text, Wanted::Scenario, |reader, file| {
+            cases(text, reader, file, Number::Any, |draft, case| scenario(draft, case, &mut files))
+        });
+        all.map_err(ScenarioErrors::of_file)
     }
 }
 
 impl Script {
-    /// Reads the text of a scenario file without the files that it refers to.
+    /// Reads the text of a scenario file that is one case, without the files that it refers to.
     ///
     /// # Errors
     /// The mistakes, in the order of the file, as far as they are visible without units and programs.
     pub fn parse(text: &str) -> Result<Self, ScenarioErrors> {
         let script = read_toml(text, Wanted::Scenario, |reader, file| {
-            let Draft { script, .. } = FileReader::new(text, reader).draft(file);
-            Some(script)
+            let script = |Draft { script, .. }: Draft, _: Option<String>| (script, Vec::new());
+            cases(text, reader, file, Number::One, script)?.pop()
         });
         script.map_err(ScenarioErrors::of_file)
+    }
+}
+
+/// How many cases a file may have.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Number {
+    One,
+    Any,
+}
+
+/// A case of a scenario file, and its mistakes.
+fn scenario(draft: Draft, case: Option<String>, files: &mut dyn Files) -> (Scenario, Vec<Mistake>) {
+    let (scenario, problems) = ready(draft, files);
+    (Scenario { case, ..scenario }, problems)
+}
+
+/// Reads the cases of a file, until one has a mistake; none then.
+fn cases<T>(
+    text: &str,
+    reader: &mut Reader<'_>,
+    file: &Section<'_, '_>,
+    wanted: Number,
+    mut make: impl FnMut(Draft, Option<String>) -> (T, Vec<Mistake>),
+) -> Option<Vec<T>> {
+    let parameters = Parameters::read(reader, file)?;
+    let count = parameters.count();
+    if let Some(problem) = too_many(count, wanted) {
+        reader.refuse(parameters.span.clone(), problem);
+        return None;
+    }
+    let mut made = Vec::new();
+    for number in 0..count {
+        let refused = reader.refused();
+        let named = parameters.case(number);
+        let mut file_reader = FileReader::new(text, reader);
+        let draft = file_reader.draft(file, &Names::of(&named));
+        let places = file_reader.places;
+        let case = (!named.is_empty()).then(|| words(&named));
+        let (one, problems) = make(draft, case);
+        for problem in problems {
+            let words = Problem::new(problem.message, "").with_help(problem.help);
+            reader.refuse(places.of(problem.part), words);
+        }
+        if reader.refused() == refused && number == 0 {
+            let help = "each value would make the same case: use the name in a text, or remove it";
+            named.iter().for_each(|named| named.refuse_unused(reader, help));
+        }
+        if reader.refused() > refused {
+            return None;
+        }
+        made.push(one);
+    }
+    Some(made)
+}
+
+/// The name of a case: `loss = 1, state = OP`.
+fn words(named: &[Named<'_>]) -> String {
+    named.iter().map(Named::words).collect::<Vec<_>>().join(", ")
+}
+
+fn too_many(count: usize, wanted: Number) -> Option<Problem> {
+    match wanted {
+        Number::One if count > 1 => {
+            let message = format!("the parameters make {count} cases, where one is needed");
+            Some(Problem::new(message, "").with_help("give each parameter one value"))
+        }
+        Number::Any if count > CASES_MAX => {
+            let message = format!("the parameters make {count} cases, and a file has at most {CASES_MAX}");
+            Some(Problem::new(message, "").with_help("fewer values, or several files"))
+        }
+        Number::One | Number::Any => None,
     }
 }

@@ -23,7 +23,7 @@ use crate::model::Script;
 use crate::run::{RecordedFrames, Scenario};
 pub use error::{ErrorPlace, ScenarioError, ScenarioErrors};
 pub use files::Files;
-pub(crate) use files::Texts;
+pub(crate) use files::{Remembered, Texts};
 use maker::Maker;
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
@@ -92,6 +92,7 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
     let Maker { units, master, programs, problems, .. } = maker;
     let scenario = Scenario {
         title: script.title,
+        case: None,
         seed: script.seed,
         limit: script.limit,
         units,

@@ -65,11 +65,7 @@ fn print(result: &CaseResult, people: People) -> Result<(), Failure> {
         Verdict::Passed => Ok(()),
         Verdict::Failed => {
             let story = failure_story(result);
-            people.print_text(&format!(
-                "FAILED  {}: {}\n{story}",
-                on_one_line(&result.file),
-                on_one_line(&result.title)
-            ))
+            people.print_text(&format!("FAILED  {}: {}\n{story}", result.named(), on_one_line(&result.title)))
         }
     }
 }

@@ -8,6 +8,7 @@ mod campaigns;
 mod captures;
 mod contrary;
 mod golden_traces;
+mod parameters;
 
 use bench::Bench;
 

@@ -1,8 +1,12 @@
 //! A script from a file, with the places of its parts.
 
 use time::Duration;
+use toml::Spanned;
+use toml::de::{DeString, DeTable, DeValue};
 use user_file::{Problem, Section, Value, field_names, wrong_type};
 
+use super::names::Names;
+use super::parameters::WITH;
 use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
 use super::steps::{StepReading, read_step};
@@ -11,8 +15,25 @@ use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
 use crate::ready::{Draft, STEPS_WAY_OUT, empty_list, is_unit};
 
 impl FileReader<'_, '_> {
-    /// The script with the words of its steps; wrong parts are left out.
-    pub(super) fn draft(&mut self, file: &Section<'_, '_>) -> Draft {
+    /// The script with the words of its steps; wrong parts are left out. `names` are replaced in all texts.
+    pub(super) fn draft<'d, 'i>(&mut self, file: &Section<'d, 'i>, names: &Names<'_, 'i>) -> Draft {
+        self.keys(file);
+        let whole = if names.are_none() { None } else { Some(names.replaced(self.reader, &head(file))) };
+        let replaced = whole.as_ref().and_then(|whole| Section::of("", whole));
+        let mut draft = self.head(replaced.as_ref().unwrap_or(file));
+        self.steps(file, names, &mut draft.script);
+        Draft { written: core::mem::take(&mut self.written), ..draft }
+    }
+
+    fn keys(&mut self, file: &Section<'_, '_>) {
+        let keys: Vec<&str> = field_names::<Script>().iter().copied().chain([WITH]).collect();
+        self.reader.only(file, &keys);
+        self.reader.require(file, "title", "`title = \"…\"`, what the scenario shows");
+        self.reader.require(file, "steps", "`steps = […]`, what happens");
+    }
+
+    /// All but the steps.
+    fn head(&mut self, file: &Section<'_, '_>) -> Draft {
         let mut script = self.whole(file);
         // Without `units`, an unknown key may be a misspelt `units`.
         let are_units_known = file.get("units").is_some() || self.reader.refused() == 0;
@@ -20,15 +41,11 @@ impl FileReader<'_, '_> {
         script.master = self.reader.section(file, "master").and_then(|master| self.master(&master));
         self.units(file, &mut script);
         let is_whole = are_units_known && self.reader.refused() == refused;
-        self.steps(file, &mut script);
-        Draft { script, written: core::mem::take(&mut self.written), is_whole }
+        Draft { script, written: Vec::new(), is_whole }
     }
 
     /// The general part of the file.
     fn whole(&mut self, file: &Section<'_, '_>) -> Script {
-        self.reader.only(file, field_names::<Script>());
-        self.reader.require(file, "title", "`title = \"…\"`, what the scenario shows");
-        self.reader.require(file, "steps", "`steps = […]`, what happens");
         let mut script = Script::new(&self.value(file, "title", values::text).unwrap_or_default());
         script.seed = self.value(file, "seed", values::number).unwrap_or(script.seed);
         self.places.limit = span_of(file, "limit");
@@ -90,9 +107,11 @@ impl FileReader<'_, '_> {
         if is_unit(self.reader, &section) { self.reader.typed("", value).map(ScriptUnit::Keys) } else { None }
     }
 
-    fn steps(&mut self, file: &Section<'_, '_>, script: &mut Script) {
+    fn steps<'d, 'i>(&mut self, file: &Section<'d, 'i>, names: &Names<'_, 'i>, script: &mut Script) {
         self.refuse_empty(file, "steps", STEPS_WAY_OUT);
         for (at, step) in self.list(file, "steps").iter().enumerate() {
+            let replaced = (!names.are_none()).then(|| names.replaced(self.reader, step));
+            let step = replaced.as_ref().unwrap_or(step);
             if let Some(StepReading { step, places, written }) = read_step(self, at, step) {
                 script.steps.push(step);
                 self.places.steps.push(places);
@@ -119,4 +138,15 @@ impl FileReader<'_, '_> {
             self.reader.refuse(value.span(), problem);
         }
     }
+}
+
+/// A copy of a file without its steps and its parameters.
+fn head<'i>(file: &Section<'_, 'i>) -> Value<'i> {
+    let entries = file.entries().into_iter().filter(|(key, _)| ![WITH, "steps"].contains(&key.value));
+    let entry = |(key, value): (user_file::Located<&str>, &Value<'i>)| {
+        let name = DeString::Owned(key.value.to_owned());
+        (Spanned::new(key.span.unwrap_or_default(), name), value.clone())
+    };
+    let table: DeTable<'i> = entries.map(entry).collect();
+    Spanned::new(file.locate(()).span.unwrap_or_default(), DeValue::Table(table))
 }

@@ -34,3 +34,40 @@ impl<F: FnMut(&str) -> Result<String, String>> Files for Texts<F> {
         (self.0)(path)
     }
 }
+
+/// The files of a program, or the folder that cannot be read, and why.
+type ProgramFiles = Result<Vec<String>, (String, String)>;
+
+/// Files of which each is read once.
+pub(crate) struct Remembered<'f> {
+    files: &'f mut dyn Files,
+    texts: Vec<(String, Wanted, Result<String, String>)>,
+    programs: Vec<(Vec<String>, ProgramFiles)>,
+}
+
+impl<'f> Remembered<'f> {
+    pub(crate) const fn of(files: &'f mut dyn Files) -> Self {
+        Self { files, texts: Vec::new(), programs: Vec::new() }
+    }
+}
+
+impl Files for Remembered<'_> {
+    fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String> {
+        let known = self.texts.iter().find(|(known, as_what, _)| known == path && *as_what == wanted);
+        if let Some((_, _, text)) = known {
+            return text.clone();
+        }
+        let text = self.files.text(path, wanted);
+        self.texts.push((path.to_owned(), wanted, text.clone()));
+        text
+    }
+
+    fn program_files(&mut self, paths: &[String]) -> Result<Vec<String>, (String, String)> {
+        if let Some((_, files)) = self.programs.iter().find(|(known, _)| known == paths) {
+            return files.clone();
+        }
+        let files = self.files.program_files(paths);
+        self.programs.push((paths.to_owned(), files.clone()));
+        files
+    }
+}

@@ -18,6 +18,8 @@ use crate::random::ReadyDraws;
 pub struct Scenario {
     /// What it demonstrates, in one sentence.
     pub title: String,
+    /// The values of the parameters of its file, such as `loss = 1, state = OP`; none: the file has no parameters.
+    pub case: Option<String>,
     /// The seed of its random generator.
     pub seed: u64,
     /// The time at which it ends, whatever is still waiting.

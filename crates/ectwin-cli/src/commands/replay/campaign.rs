@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Recording, Scenario};
+use user_file::Problem;
 
 use super::case::{CASES_MAX, Case};
 use super::partition::Partition;
 use super::seeds::SeedChoice;
+use super::story::quoted;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
@@ -72,12 +74,19 @@ impl Campaign {
         let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), FileProblems::default());
         for path in files(&args.files)? {
             match load(&path, golden, &mut fingerprint, &mut inputs) {
-                Ok(scenario) => scenarios.push(Loaded { path, scenario }),
+                Ok(cases) => {
+                    scenarios
+                        .extend(cases.into_iter().map(|scenario| Loaded { path: path.clone(), scenario }));
+                }
                 Err(found) => problems.append(found),
             }
         }
         if !problems.is_empty() {
             return Err(Failure::BadFile(problems));
+        }
+        if let Some(wanted) = &args.case {
+            fingerprint.add(wanted.as_bytes());
+            keep_case(&mut scenarios, wanted)?;
         }
         if let Seeds::These(seeds) = &seeds {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
@@ -101,6 +110,11 @@ impl Campaign {
         for Loaded { path, scenario } in &mut self.scenarios {
             if scenario.golden_trace.take().is_none() && !named.contains(path) {
                 continue;
+            }
+            if let Some(case) = &scenario.case {
+                let message = format!("{} has parameters, and so no golden trace ({case})", path.display());
+                let help = "give each value a file of its own".to_owned();
+                return Err(Failure::Refused { message, help });
             }
             let report = scenario.replay(scenario.seed, Recording::new(true, false));
             if let Some(failure) = &report.failure {
@@ -161,6 +175,25 @@ impl Campaign {
     }
 }
 
+/// Removes all cases but those with these values of their parameters.
+fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
+    let names: Vec<String> = scenarios.iter().filter_map(|loaded| loaded.scenario.case.clone()).collect();
+    scenarios.retain(|loaded| loaded.scenario.case.as_deref() == Some(wanted));
+    if !scenarios.is_empty() {
+        return Ok(());
+    }
+    let message = format!("--case {wanted}: no file has a case of these values");
+    let help = match names.as_slice() {
+        [] => "only a file with parameters (`with`) has cases".to_owned(),
+        [first, ..] => {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            let nearest = Problem::unknown("", wanted, &names).nearest;
+            format!("such as --case {}", quoted(nearest.as_ref().unwrap_or(first)))
+        }
+    };
+    Err(Failure::Refused { message, help })
+}
+
 /// The files of the command line: of a folder all that end with .toml, in order. Each one once.
 fn files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
@@ -187,42 +220,64 @@ fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Reads one scenario, and its files, relative to its folder.
 pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
-    load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
+    let cases = load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut Vec::new());
+    only(path, cases.map_err(Failure::BadFile)?)
 }
 
 /// The scenario that a file at this path would be, with this text.
 pub(crate) fn scenario_in(path: &Path, text: &str) -> Result<Scenario, Failure> {
-    parse(path, text, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)
+    only(path, parse(path, text, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)?)
 }
 
-/// Reads a scenario, and its files, relative to its folder.
+/// The case of a file that has one.
+fn only(path: &Path, mut cases: Vec<Scenario>) -> Result<Scenario, Failure> {
+    match (cases.len(), cases.pop()) {
+        (1, Some(scenario)) => Ok(scenario),
+        (count, _) => Err(Failure::Refused {
+            message: format!("{} has {count} cases, where one is needed", path.display()),
+            help: "give each of its parameters one value".to_owned(),
+        }),
+    }
+}
+
+/// Reads the cases of a scenario file, and its files, relative to its folder.
 fn load(
     path: &Path,
     golden: GoldenTraces,
     fingerprint: &mut Fingerprint,
     inputs: &mut Vec<PathBuf>,
-) -> Result<Scenario, FileProblems> {
+) -> Result<Vec<Scenario>, FileProblems> {
     inputs.push(path.to_owned());
     let text = user_files::text(path, Wanted::Scenario).map_err(|error| unreadable(path, &error))?;
     fingerprint.add(path.display().to_string().as_bytes());
     fingerprint.add(text.as_bytes());
-    let mut scenario = parse(path, &text, fingerprint, inputs)?;
+    let mut cases = parse(path, &text, fingerprint, inputs)?;
     let trace = path.with_extension("trace");
-    scenario.golden_trace = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
-    if let Some(text) = &scenario.golden_trace {
+    let golden = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
+    if let Some(text) = &golden {
+        if cases.len() > 1 {
+            return Err(golden_of_several(&trace, cases.len()).into());
+        }
         fingerprint.add(text.as_bytes());
         inputs.push(trace);
     }
-    Ok(scenario)
+    cases.iter_mut().for_each(|scenario| scenario.golden_trace.clone_from(&golden));
+    Ok(cases)
 }
 
-/// The scenario in this text, with the files that it names, relative to the folder of `path`.
+/// A golden trace is that of one case.
+fn golden_of_several(trace: &Path, cases: usize) -> FileProblem {
+    let message = format!("{} is a golden trace, and its scenario has {cases} cases", trace.display());
+    FileProblem::of_file(&message, "remove the trace, or give each parameter one value")
+}
+
+/// The cases of the scenario in this text, with the files that it names, relative to the folder of `path`.
 fn parse(
     path: &Path,
     text: &str,
     fingerprint: &mut Fingerprint,
     inputs: &mut Vec<PathBuf>,
-) -> Result<Scenario, FileProblems> {
+) -> Result<Vec<Scenario>, FileProblems> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut named = Beside::new(folder, |name, wanted, text| {
         let path = folder.join(name);
@@ -234,23 +289,24 @@ fn parse(
         inputs.push(path);
         fingerprint.add(text.as_bytes());
     });
-    let parsed = Scenario::parse_with(text, &mut named);
-    let mut scenario = parsed.map_err(|errors| {
+    let parsed = Scenario::cases(text, &mut named);
+    let mut cases = parsed.map_err(|errors| {
         let problem = |error: &scenario::ScenarioError| {
             FileProblem::in_text(path, text, error.span(), &error.message, &error.help)
         };
         FileProblems::new(errors.iter().map(problem), errors.more())
     })?;
-    if let Some(name) = scenario.capture.clone() {
+    for scenario in &mut cases {
+        let Some(name) = scenario.capture.clone() else { continue };
         inputs.push(folder.join(&name));
-        load_capture(&mut scenario, &folder.join(&name), fingerprint).map_err(|reason| {
+        load_capture(scenario, &folder.join(&name), fingerprint).map_err(|reason| {
             let at = text.find(&name).unwrap_or_default();
             let help =
                 "a capture from `ectwin run --pcap` or `ectwin replay --pcap`, relative to this file's folder";
             FileProblem::in_text(path, text, at..at + name.len(), &reason, help)
         })?;
     }
-    Ok(scenario)
+    Ok(cases)
 }
 
 /// The golden trace beside a scenario; none if there is no such file. A file that cannot be read is not compared,

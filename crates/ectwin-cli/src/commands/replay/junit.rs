@@ -61,7 +61,9 @@ impl<W: Write> JunitReport<W> {
 
     /// Writes the next result.
     pub(crate) fn take(&mut self, result: &CaseResult) -> io::Result<()> {
-        let name = xml(format!("{} (seed {})", result.title, result.seed));
+        let parameters = result.parameters.iter().map(|parameters| format!("{parameters}, "));
+        let parameters: String = parameters.collect();
+        let name = xml(format!("{} ({parameters}seed {})", result.title, result.seed));
         let file = xml(&result.file);
         let time = seconds(result.virtual_ns);
         let mut case = BytesStart::new(CASE);
@@ -130,6 +132,7 @@ mod tests {
             partition: Partition::WHOLE,
             campaign: "0".to_owned(),
             file: "s/a & b.toml".to_owned(),
+            parameters: None,
             title: title.to_owned(),
             seed: case,
             verdict: if failure.is_some() { Verdict::Failed } else { Verdict::Passed },

@@ -1,6 +1,7 @@
 //! The result of a case, as a line of JSON: the file that `merge` reads.
 
 use serde::{Deserialize, Serialize};
+use user_file::on_one_line;
 
 use super::case::Case;
 use super::partition::Partition;
@@ -19,6 +20,9 @@ pub(crate) struct CaseResult {
     pub(crate) campaign: String,
     /// The scenario file.
     pub(crate) file: String,
+    /// The values of the file's parameters, such as `loss = 1, state = OP`; left out if it has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) parameters: Option<String>,
     /// The title of the scenario.
     pub(crate) title: String,
     /// The seed of its random generator.
@@ -80,6 +84,15 @@ pub(crate) struct FailedStep {
 }
 
 impl CaseResult {
+    /// The file, with the values of its parameters: `line.toml (loss = 1, state = OP)`.
+    pub(crate) fn named(&self) -> String {
+        let file = on_one_line(&self.file);
+        match &self.parameters {
+            Some(parameters) => format!("{file} ({})", on_one_line(parameters)),
+            None => file,
+        }
+    }
+
     /// From a report.
     pub(super) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
         let failure = report.failure.as_ref().map(|failure| FailedStep {
@@ -95,6 +108,7 @@ impl CaseResult {
             partition,
             campaign: format!("{:016x}", case.fingerprint),
             file: case.path.display().to_string(),
+            parameters: case.scenario.case.clone(),
             title: case.scenario.title.split_whitespace().collect::<Vec<_>>().join(" "),
             seed: case.seed,
             verdict: if failure.is_none() { Verdict::Passed } else { Verdict::Failed },

@@ -13,7 +13,7 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
         Verdict::Passed => "ok    ",
         Verdict::Failed => "FAILED",
     };
-    let mut story = format!("{word}  {}: {} ({lasted})\n", on_one_line(&result.file), result.title);
+    let mut story = format!("{word}  {}: {} ({lasted})\n", result.named(), result.title);
     story.push_str(&failure(result));
     if result.failure.is_none() {
         story.push_str(&differences(result));
@@ -49,7 +49,9 @@ fn differences(result: &CaseResult) -> String {
 
 /// The single command that repeats it.
 fn repeat(result: &CaseResult) -> String {
-    format!("ectwin replay {} --seed {}", quoted(&on_one_line(&result.file)), result.seed)
+    let file = quoted(&on_one_line(&result.file));
+    let case = result.parameters.as_ref().map(|parameters| format!(" --case {}", quoted(parameters)));
+    format!("ectwin replay {file}{} --seed {}", case.unwrap_or_default(), result.seed)
 }
 
 /// A path quoted for a shell.

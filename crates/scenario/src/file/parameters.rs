@@ -1,0 +1,123 @@
+//! Parameters: `with = { loss = [0, 1, 5], state = ["OP", "SAFE-OP"] }` makes a case of each combination of values.
+
+use user_file::{Located, Problem, Reader, Section, Value, wrong_type};
+
+use super::names::{Named, is_name, written};
+use super::places::Span;
+
+/// The key of the parameters.
+pub(super) const WITH: &str = "with";
+
+/// Maximum number of cases of a file.
+pub(super) const CASES_MAX: usize = 10_000;
+
+/// The parameters of a file, the first one in the file first.
+pub(super) struct Parameters<'d, 'i> {
+    list: Vec<Parameter<'d, 'i>>,
+    /// The place of all of them.
+    pub(super) span: Span,
+}
+
+/// Values for one name, at least one.
+pub(super) struct Parameter<'d, 'i> {
+    name: Located<&'d str>,
+    values: &'d [Value<'i>],
+}
+
+impl<'d, 'i> Parameters<'d, 'i> {
+    /// The parameters of a file; none if they have a mistake. Without `with` there are none, and the file is one case.
+    pub(super) fn read(reader: &mut Reader<'_>, file: &Section<'d, 'i>) -> Option<Self> {
+        let Some(value) = file.get(WITH) else { return Some(Self { list: Vec::new(), span: 0..0 }) };
+        let Some(section) = Section::of(WITH, value) else {
+            let expected = "a table of lists, such as `{ loss = [0, 1, 5] }`";
+            reader.refuse_by(value.span(), || wrong_type(WITH, value.get_ref(), expected));
+            return None;
+        };
+        let list = parameters(reader, &section)?;
+        if list.is_empty() {
+            let help = "such as `with = { loss = [0, 1, 5] }`";
+            reader.refuse(value.span(), Problem::new("`with` has no parameter", "").with_help(help));
+            return None;
+        }
+        Some(Self { list, span: value.span() })
+    }
+
+    /// Number of cases.
+    pub(super) fn count(&self) -> usize {
+        product(&self.list)
+    }
+
+    /// The values of the case with this number, from 0. The values of the last parameter change first.
+    pub(super) fn case(&self, number: usize) -> Vec<Named<'i>> {
+        combination(&self.list, number)
+    }
+}
+
+/// The names of a table, each with its list of values; none if there is a mistake.
+pub(super) fn parameters<'d, 'i>(
+    reader: &mut Reader<'_>,
+    section: &Section<'d, 'i>,
+) -> Option<Vec<Parameter<'d, 'i>>> {
+    let refused = reader.refused();
+    let mut list = Vec::new();
+    for (name, value) in section.entries() {
+        if !is_name(name.value) {
+            let help = "a name has letters, digits and _, and begins with no digit";
+            let message = format!("`{}` cannot be in braces", name.value);
+            reader.refuse(name.span.clone().unwrap_or_default(), Problem::new(message, "").with_help(help));
+        }
+        if let Some(values) = values(reader, &section.place_of(name.value), value) {
+            list.push(Parameter { name, values });
+        }
+    }
+    (reader.refused() == refused).then_some(list)
+}
+
+/// The values of a parameter: a list of numbers, texts and truth values, none of them twice.
+fn values<'d, 'i>(reader: &mut Reader<'_>, place: &str, value: &'d Value<'i>) -> Option<&'d [Value<'i>]> {
+    let Some(values) = value.get_ref().as_array().map(|array| &array[..]) else {
+        reader.refuse_by(value.span(), || {
+            wrong_type(place, value.get_ref(), "a list of values, such as [0, 1, 5]")
+        });
+        return None;
+    };
+    if values.is_empty() {
+        let problem = Problem::new(format!("`{place}` is an empty list"), "").with_help("one value at least");
+        reader.refuse(value.span(), problem);
+        return None;
+    }
+    let mut seen = std::collections::BTreeSet::new();
+    for value in values {
+        let text = written(value.get_ref());
+        if value.get_ref().is_array() || value.get_ref().is_table() {
+            reader.refuse_by(value.span(), || {
+                wrong_type(place, value.get_ref(), "a number, a text, true or false")
+            });
+            return None;
+        }
+        if !seen.insert(text.clone()) {
+            let message = format!("`{place}` has the value {text} twice");
+            reader.refuse(value.span(), Problem::new(message, ""));
+            return None;
+        }
+    }
+    Some(values)
+}
+
+/// Number of combinations of all values.
+pub(super) fn product(list: &[Parameter<'_, '_>]) -> usize {
+    list.iter().fold(1, |product: usize, parameter| product.saturating_mul(parameter.values.len()))
+}
+
+/// The combination with this number, from 0.
+pub(super) fn combination<'i>(list: &[Parameter<'_, 'i>], number: usize) -> Vec<Named<'i>> {
+    let mut rest = number;
+    let last_first = list.iter().rev().map(|Parameter { name, values }| {
+        let value = values[rest % values.len()].get_ref().clone();
+        rest /= values.len();
+        Named::new(name, value)
+    });
+    let mut named: Vec<_> = last_first.collect();
+    named.reverse();
+    named
+}

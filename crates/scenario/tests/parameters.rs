@@ -1,0 +1,160 @@
+//! Parameters of a scenario file: a case of each combination of their values.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use proptest::prelude::*;
+use scenario::{Files, Recording, Scenario, ScenarioErrors, Wanted};
+
+/// One unit file, and how often it is read.
+#[derive(Default)]
+struct OneUnit {
+    reads: usize,
+}
+
+impl Files for OneUnit {
+    fn text(&mut self, path: &str, _: Wanted) -> Result<String, String> {
+        self.reads += 1;
+        if path == "unit.toml" { Ok("model = \"nx-ect101\"".to_owned()) } else { Err(format!("no {path}")) }
+    }
+}
+
+fn cases(text: &str) -> Result<Vec<Scenario>, ScenarioErrors> {
+    Scenario::cases(text, &mut OneUnit::default())
+}
+
+fn names(text: &str) -> Vec<String> {
+    cases(text).expect("a right file").into_iter().filter_map(|scenario| scenario.case).collect()
+}
+
+fn errors(text: &str) -> String {
+    match cases(text) {
+        Ok(cases) => panic!("{} cases of {text}", cases.len()),
+        Err(errors) => errors.to_string(),
+    }
+}
+
+const TWO: &str = r#"title = "{state} with {loss} % loss"
+seed = "{loss}"
+with = { loss = [1, 5], state = ["PRE-OP", "SAFE-OP"] }
+steps = [
+  { line = "lose {loss} % of the frames" },
+  { master = "take unit 1 to {state}" },
+  { expect = "unit 1 is in {state}", within = "{loss}s" },
+  { expect = { cycles = { at_least = "{loss}" } }, within = "1s" },
+]
+"#;
+
+#[test]
+fn each_combination_of_values_is_a_case() {
+    let all = cases(TWO).expect("a right file");
+    let seen: Vec<_> =
+        all.iter().map(|case| (case.case.as_deref(), case.title.as_str(), case.seed)).collect();
+    assert_eq!(
+        seen,
+        [
+            (Some("loss = 1, state = PRE-OP"), "PRE-OP with 1 % loss", 1),
+            (Some("loss = 1, state = SAFE-OP"), "SAFE-OP with 1 % loss", 1),
+            (Some("loss = 5, state = PRE-OP"), "PRE-OP with 5 % loss", 5),
+            (Some("loss = 5, state = SAFE-OP"), "SAFE-OP with 5 % loss", 5),
+        ]
+    );
+}
+
+#[test]
+fn each_file_is_read_once_for_all_cases() {
+    let mut files = OneUnit::default();
+    let text = TWO.replace("with =", "units = [\"unit.toml\"]\nwith =");
+    let all = Scenario::cases(&text, &mut files).expect("a right file");
+    assert_eq!((all.len(), files.reads), (4, 1));
+}
+
+#[test]
+fn the_value_of_a_case_decides_how_it_ends() {
+    let text = r#"title = "t"
+with = { time = ["1us", "1s"] }
+steps = [{ master = "take unit 1 to OP" }, { expect = "unit 1 is in OP", within = "{time}" }]
+"#;
+    let ends = |case: &Scenario| case.replay(1, Recording::new(false, false)).passes();
+    let ends: Vec<bool> = cases(text).expect("a right file").iter().map(ends).collect();
+    assert_eq!(ends, [false, true]);
+}
+
+#[test]
+fn without_parameters_braces_are_text_and_there_is_one_case_without_a_name() {
+    let all = cases("title = \"a {b}\"\nsteps = [{ line = \"be quiet\" }]").expect("a right file");
+    assert_eq!(all.iter().map(|case| (&*case.title, &case.case)).collect::<Vec<_>>(), [("a {b}", &None)]);
+}
+
+#[test]
+fn braces_that_are_meant_are_written_twice() {
+    let text = TWO.replace("with {loss} %", "with {{loss}} {loss} {");
+    assert_eq!(cases(&text).expect("a right file")[0].title, "PRE-OP with {loss} 1 { loss");
+}
+
+#[test]
+fn a_value_is_written_as_in_the_list() {
+    let text = "title = \"t{a}\"\nwith = { a = [0x0A, 1_000, -5, 1.50, true, 'x y'] }\nsteps = [{ line = \"be quiet\" }]";
+    let names = names(text);
+    assert_eq!(names, ["a = 0x0A", "a = 1000", "a = -5", "a = 1.50", "a = true", "a = x y"]);
+}
+
+#[test]
+fn mistakes_of_parameters_are_told_with_their_place() {
+    let with =
+        |with: &str| format!("title = \"t\"\n{with}\nsteps = [{{ line = \"lose {{a}} % of the frames\" }}]");
+    for (text, place, message) in [
+        (with("with = { a = [] }"), "line 2, column 14", "`with.a` is an empty list"),
+        (with("with = {}"), "line 2, column 8", "`with` has no parameter"),
+        (with("with = 5"), "line 2, column 8", "`with` is an integer"),
+        (with("with = { a = 5 }"), "line 2, column 14", "a list of values, such as [0, 1, 5]"),
+        (with("with = { a = [[1]] }"), "line 2, column 15", "a number, a text, true or false"),
+        (with("with = { a = [1, 1] }"), "line 2, column 18", "the value 1 twice"),
+        (with("with = { \"a b\" = [1] }"), "line 2, column 10", "`a b` cannot be in braces"),
+        (with("with = { a = [1], b = [2] }"), "line 2, column 19", "`{b}` is not in any text"),
+        (with("with = { aa = [1] }"), "line 3, column 19", "nothing has the name `{a}`"),
+        (with("with = { ab = [1] }"), "line 3, column 19", "did you mean `ab`?"),
+        (with("wiht = { a = [1] }"), "line 2, column 1", "did you mean `with`?"),
+        (with("with = { a = [5, 101] }"), "line 3, column 19", "found `101`"),
+        (
+            format!(
+                "title = \"t\"\nwith = {{ a = {0:?}, b = {0:?} }}\nsteps = []",
+                (0..101).collect::<Vec<_>>()
+            ),
+            "line 2, column 8",
+            "make 10201 cases, and a file has at most 10000",
+        ),
+    ] {
+        let errors = errors(&text);
+        assert!(errors.contains(place) && errors.contains(message), "{text}\n{errors}");
+    }
+}
+
+#[test]
+fn where_one_case_is_needed_several_are_refused() {
+    let refused = Scenario::parse(TWO, |_| Err(String::new())).expect_err("four cases").to_string();
+    assert!(refused.contains("line 3, column 8: the parameters make 4 cases"), "{refused}");
+    assert!(
+        Scenario::parse(&TWO.replace("1, 5", "1").replace(", \"SAFE-OP\"", ""), |_| Err(String::new()))
+            .is_ok()
+    );
+}
+
+proptest! {
+    /// The model: nested loops, the first parameter outermost.
+    #[test]
+    fn cases_are_the_product_of_all_values(counts in proptest::collection::vec(1..5_usize, 1..5)) {
+        let lists = counts.iter().enumerate().map(|(at, count)| format!("p{at} = {:?}", (0..*count).collect::<Vec<_>>()));
+        let title: String = (0..counts.len()).map(|at| format!("{{p{at}}}")).collect();
+        let text = format!(
+            "title = \"a{title}\"\nwith = {{ {} }}\nsteps = [{{ line = \"be quiet\" }}]",
+            lists.collect::<Vec<_>>().join(", ")
+        );
+        let mut expected = vec![String::new()];
+        for (at, count) in counts.iter().enumerate() {
+            let comma = if at == 0 { "" } else { ", " };
+            let longer = |name: &String| (0..*count).map(move |value| format!("{name}{comma}p{at} = {value}")).collect::<Vec<_>>();
+            expected = expected.iter().flat_map(longer).collect();
+        }
+        prop_assert_eq!(names(&text), expected);
+    }
+}
