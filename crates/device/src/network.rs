@@ -174,6 +174,18 @@ impl<U: Unit> Network<U> {
         }
     }
 
+    /// Another slave takes the place of one: the cables of the old one are unplugged, the new one is powered on at `now`, and
+    /// the cables are plugged in where they were. A position without a slave has no effect.
+    pub fn replace(&mut self, position: usize, config: DeviceConfig, unit: U, now: Instant) {
+        self.power_off(position, now);
+        if let (Some(old), Some(old_esc)) = (self.devices.get_mut(position), self.segment.esc_mut(position)) {
+            (*old, *old_esc) = Device::power_on(config, unit, now);
+            self.segment.follow_changed_ports();
+            self.connect(position);
+            self.connect(position + 1);
+        }
+    }
+
     fn connect(&mut self, cable: usize) {
         let has_power = |end: Option<usize>| {
             end.and_then(|end| self.devices.get(end)).is_none_or(|device| !device.is_off())

@@ -29,6 +29,7 @@ const STRUCTURED_TEXT: &str = "st";
 const fn limit_bytes(wanted: Wanted) -> u64 {
     match wanted {
         Wanted::UnitFile | Wanted::Scenario | Wanted::Program => 4 * MIB,
+        Wanted::SiiImage => 8 * MIB,
         Wanted::Capture | Wanted::Results | Wanted::Trace => 256 * MIB,
     }
 }
@@ -215,6 +216,7 @@ const fn not_found(wanted: Wanted) -> &'static str {
         Wanted::Program => "give the path of a user program, such as scenarios/programs/a-3-3.st",
         Wanted::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
         Wanted::Results => "give the files that the parts have written by `ectwin replay --json`",
+        Wanted::SiiImage => "`ectwin sii FILE.toml` writes the image of a unit",
         Wanted::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
     }
 }

@@ -4,6 +4,7 @@
 //! cables are identified by their numbers, from 1; faults, patterns, variables and programs by their names.
 
 mod bytes;
+mod calendar;
 mod condition;
 mod cpu;
 mod from_one;
@@ -21,6 +22,7 @@ mod units;
 
 pub(crate) use bytes::hex;
 pub use bytes::{Bytes, Entry};
+pub use calendar::Calendar;
 pub use condition::{Condition, DataDirection};
 pub use cpu::{CpuMode, CpuOrder};
 pub use line::{Choice, Disturbance, FrameFault, FrameKind, Frames, LineOrder};

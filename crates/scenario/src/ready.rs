@@ -16,6 +16,7 @@ mod raw;
 mod reach;
 mod resolve;
 mod steps;
+mod unit_files;
 mod units;
 mod written;
 
@@ -88,8 +89,10 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
         let message = format!("a phase of {phase} is beyond the cycle of {}", script.cycle);
         maker.refuse(Part::CyclePhase, message, "`cycle_phase` is less than `cycle`");
     }
+    // A step may put another unit into a place.
+    let units = maker.units.clone();
     let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);
-    let Maker { units, master, programs, problems, .. } = maker;
+    let Maker { master, programs, images, replacements, problems, .. } = maker;
     let scenario = Scenario {
         title: script.title,
         case: None,
@@ -98,8 +101,11 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
         units,
         cycle: script.cycle,
         cycle_phase: script.cycle_phase,
+        calendar: script.calendar,
         master,
         programs,
+        images,
+        replacements,
         steps,
         capture: script.capture,
         recorded: RecordedFrames::default(),

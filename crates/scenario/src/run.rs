@@ -1,6 +1,5 @@
 //! Running a scenario: units, CPU Units, line and masters in virtual time, and checking its expectations.
 
-mod calendar;
 mod caught;
 mod check;
 mod dice;
@@ -21,9 +20,10 @@ pub(crate) use dice::{DICE_OF_STEPS, Dice};
 pub use master::MasterProgram;
 pub(crate) use master::{MasterVariables, NODE_ADDRESS_MAX, Node, changed_settings};
 pub(crate) use player::play;
-pub(crate) use programs::LoadedProgram;
 pub use programs::ProgramFile;
+pub(crate) use programs::{LoadedProgram, SiiImage};
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
 pub use report::{Failure, FailureKind, Report};
+pub(crate) use scenario::Replacement;
 pub use scenario::{RandomPart, Scenario, UnitSource, UserProgram, WrittenStep};

@@ -20,6 +20,8 @@ pub enum Wanted {
     Results,
     /// The golden trace of a scenario.
     Trace,
+    /// The image of an EEPROM.
+    SiiImage,
 }
 
 impl Wanted {
@@ -31,6 +33,7 @@ impl Wanted {
             Self::Program => "a program is Structured Text in UTF-8, such as scenarios/programs/a-3-3.st",
             Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
             Self::Results => "give the files that the parts of a campaign wrote with `ectwin replay --json`",
+            Self::SiiImage => "an SII image is binary, as `ectwin sii` writes it",
             Self::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
         }
     }
@@ -137,7 +140,7 @@ const KINDS: &[Kind] = &[
     Kind {
         name: "an SII image (EEPROM)",
         is: |file| is_sii(file.bytes),
-        wanted_as: &[],
+        wanted_as: &[Wanted::SiiImage],
         help: "`ectwin sii FILE.toml` writes the SII image of a unit, and no command reads one",
     },
     Kind {
@@ -212,6 +215,7 @@ mod tests {
         Wanted::Capture,
         Wanted::Results,
         Wanted::Trace,
+        Wanted::SiiImage,
     ];
 
     /// The header words of a real device, with its checksum 0x40 (reference 4.2).

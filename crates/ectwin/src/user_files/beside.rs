@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use scenario::Files;
 
-use super::{Wanted, program_files, text};
+use super::{Wanted, bytes, program_files, text};
 
 /// Reads the files of a scenario in this folder, and passes each of them to an observer.
 pub struct Beside<'f, S: FnMut(&str, Wanted, &str)> {
@@ -29,6 +29,10 @@ impl<S: FnMut(&str, Wanted, &str)> Files for Beside<'_, S> {
         let text = text(&self.folder.join(path), wanted).map_err(|reason| reason.to_string())?;
         (self.shown)(path, wanted, &text);
         Ok(text)
+    }
+
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        bytes(&self.folder.join(path), Wanted::SiiImage).map_err(|reason| reason.to_string())
     }
 
     fn program_files(&mut self, paths: &[String]) -> Result<Vec<String>, (String, String)> {

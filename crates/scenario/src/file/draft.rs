@@ -54,6 +54,7 @@ impl FileReader<'_, '_> {
         script.cycle = self.value(file, "cycle", values::duration).unwrap_or(script.cycle);
         self.places.cycle_phase = span_of(file, "cycle_phase");
         script.cycle_phase = self.value(file, "cycle_phase", values::duration);
+        script.calendar = self.value(file, "calendar", values::calendar).unwrap_or(script.calendar);
         script.capture = self.value(file, "capture", values::text);
         script
     }

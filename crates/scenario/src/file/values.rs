@@ -3,7 +3,7 @@
 use time::Duration;
 use user_file::{DeValue, Problem, Value, shown, values, wrong_type};
 
-use crate::model::Paths;
+use crate::model::{Calendar, Paths};
 
 pub(super) fn text(place: &str, value: &DeValue<'_>) -> Result<String, Problem> {
     values::text(place, value, "a text").map(str::to_owned)
@@ -31,4 +31,9 @@ pub(super) fn paths(place: &str, value: &DeValue<'_>) -> Result<Paths, Problem> 
         Some(path) => Paths::One(path.to_owned()),
         None => Paths::Several(paths.collect()),
     })
+}
+
+pub(super) fn calendar(place: &str, value: &DeValue<'_>) -> Result<Calendar, Problem> {
+    let text = values::text(place, value, "date and time such as \"2026-01-01T00:00:00\"")?;
+    text.parse().map_err(|error| Problem::new(format!("`{}`: {error}", shown(text)), ""))
 }

@@ -26,6 +26,10 @@ pub enum CpuOrder {
     ResetNxBusErrors { units: UnitSet },
     /// Switches the power of CPU Unit and unit off, and on again immediately.
     CycleRackPower { units: UnitSet },
+    /// Switches the power of CPU Unit and unit off.
+    PowerOffRack { units: UnitSet },
+    /// Switches the power of CPU Unit and unit on.
+    PowerOnRack { units: UnitSet },
     /// Bytes C to M, from the first one on.
     SetInputs { unit: UnitNumber, bytes: Bytes },
     /// The system time jumps ahead.

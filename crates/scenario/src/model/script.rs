@@ -3,6 +3,7 @@
 use serde::{Deserialize, Deserializer, Serialize, de};
 use time::Duration;
 
+use super::calendar::Calendar;
 use super::spelling::{optional_text, text};
 use super::step::ScriptStep;
 
@@ -29,6 +30,9 @@ pub struct Script {
     /// Start of the cycle within its period, from the start of the scenario; none: taken from the seed.
     #[serde(default, with = "optional_text", skip_serializing_if = "Option::is_none")]
     pub cycle_phase: Option<Duration>,
+    /// Date and time at which it starts: the system time of object 10F8, and the times in captures.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub calendar: Calendar,
     /// A capture whose frames a recorded master sends; none: only the scripted master.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub capture: Option<String>,
@@ -40,6 +44,10 @@ pub struct Script {
     pub units: Vec<ScriptUnit>,
     /// The steps, in this order.
     pub steps: Vec<ScriptStep>,
+}
+
+fn is_default(calendar: &Calendar) -> bool {
+    *calendar == Calendar::default()
 }
 
 const fn default_seed() -> u64 {
@@ -72,6 +80,7 @@ impl Script {
             limit: DEFAULT_LIMIT,
             cycle: DEFAULT_CYCLE,
             cycle_phase: None,
+            calendar: Calendar::default(),
             capture: None,
             master: None,
             units: Vec::new(),

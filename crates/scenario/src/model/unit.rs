@@ -35,6 +35,16 @@ pub enum UnitOrder {
     InvertSiiWord { unit: UnitNumber, word: u16 },
     /// Erases the EEPROM.
     EraseSii { units: UnitSet },
+    /// Replaces the EEPROM by the image in this file, relative to the scenario.
+    LoadSii {
+        unit: UnitNumber,
+        file: String,
+        /// Also with defects.
+        #[serde(default, skip_serializing_if = "core::ops::Not::not")]
+        as_it_is: bool,
+    },
+    /// Another unit takes its place: that of this unit file, relative to the scenario.
+    Replace { unit: UnitNumber, file: String },
     /// Changes its conduct as a slave.
     Conduct { units: UnitSet, conduct: ConductOrder },
     /// The cause of a fault appears, with its name in the unit model.
@@ -70,7 +80,10 @@ impl UnitOrder {
             | Self::Conduct { units, .. }
             | Self::InjectFault { units, .. }
             | Self::RemoveFault { units, .. } => *units,
-            Self::SetIdSwitch { unit, .. } | Self::InvertSiiWord { unit, .. } => UnitSet::One(*unit),
+            Self::SetIdSwitch { unit, .. }
+            | Self::InvertSiiWord { unit, .. }
+            | Self::LoadSii { unit, .. }
+            | Self::Replace { unit, .. } => UnitSet::One(*unit),
         }
     }
 
@@ -88,6 +101,8 @@ impl UnitOrder {
             | Self::SetIdSwitch { .. }
             | Self::InvertSiiWord { .. }
             | Self::EraseSii { .. }
+            | Self::LoadSii { .. }
+            | Self::Replace { .. }
             | Self::RemoveFault { .. } => Needs::Nothing,
         }
     }

@@ -10,6 +10,14 @@ pub trait Files {
     /// Why it cannot be read.
     fn text(&mut self, path: &str, wanted: Wanted) -> Result<String, String>;
 
+    /// The bytes of a file that is not a text, such as the image of an EEPROM.
+    ///
+    /// # Errors
+    /// Why it cannot be read; without an implementation, that there are only texts.
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        Err(format!("{path}: only texts can be read here"))
+    }
+
     /// The files of a program that consists of files and folders, in their order: a folder means all programs
     /// in it and below, and a file that occurs twice is one file.
     ///

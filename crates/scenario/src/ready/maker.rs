@@ -5,7 +5,7 @@ use plc::DeviceVariables;
 use super::files::Files;
 use super::problem::{Part, Problem};
 use super::program_values::LastingValue;
-use crate::run::{LoadedProgram, MasterProgram, UnitSource};
+use crate::run::{LoadedProgram, MasterProgram, Replacement, SiiImage, UnitSource};
 
 /// Makes a scenario ready.
 pub(super) struct Maker<'f> {
@@ -20,6 +20,10 @@ pub(super) struct Maker<'f> {
     pub(super) has_capture: bool,
     /// Programs that steps load.
     pub(super) programs: Vec<LoadedProgram>,
+    /// Images that steps load into EEPROMs.
+    pub(super) images: Vec<SiiImage>,
+    /// Units that take the places of others.
+    pub(super) replacements: Vec<Replacement>,
     /// The steps that load them, and their units.
     pub(super) loads: Vec<(usize, usize)>,
     /// Units whose last load has a mistake: their program is not known.
@@ -38,6 +42,8 @@ impl<'f> Maker<'f> {
             variables: Vec::new(),
             master: None,
             programs: Vec::new(),
+            images: Vec::new(),
+            replacements: Vec::new(),
             loads: Vec::new(),
             unreadable: Vec::new(),
             lasting_values: Vec::new(),

@@ -46,6 +46,8 @@ impl Maker<'_> {
             | UnitOrder::ResetErrors { .. }
             | UnitOrder::ClearEventLog { .. }
             | UnitOrder::InvertSiiWord { .. }
+            | UnitOrder::LoadSii { .. }
+            | UnitOrder::Replace { .. }
             | UnitOrder::EraseSii { .. } => return Some(()),
         };
         self.check_words(&needed, part)

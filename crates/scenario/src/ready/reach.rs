@@ -56,6 +56,8 @@ pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
         | CpuOrder::ReleaseAll { units }
         | CpuOrder::ResetNxBusErrors { units }
         | CpuOrder::CycleRackPower { units }
+        | CpuOrder::PowerOffRack { units }
+        | CpuOrder::PowerOnRack { units }
         | CpuOrder::JumpSystemTime { units, .. } => Some(*units),
         CpuOrder::SetInputs { unit, .. } | CpuOrder::Load { unit, .. } => Some(UnitSet::One(*unit)),
         CpuOrder::Force { .. } | CpuOrder::Write { .. } | CpuOrder::Release { .. } => None,

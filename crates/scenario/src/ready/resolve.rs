@@ -28,6 +28,8 @@ impl Maker<'_> {
             | CpuOrder::StartTask { .. }
             | CpuOrder::ResetNxBusErrors { .. }
             | CpuOrder::CycleRackPower { .. }
+            | CpuOrder::PowerOffRack { .. }
+            | CpuOrder::PowerOnRack { .. }
             | CpuOrder::SetInputs { .. }
             | CpuOrder::JumpSystemTime { .. }
             | CpuOrder::ReleaseAll { .. } => Some(()),

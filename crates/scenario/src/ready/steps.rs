@@ -149,7 +149,10 @@ impl Maker<'_> {
                 self.check_inputs(order, part)?;
                 self.check_variables(order, part)
             }
-            Order::Unit(order) => self.check_words_of_order(order, part),
+            Order::Unit(order) => {
+                self.check_words_of_order(order, part)?;
+                self.unit_files(order, part)
+            }
             Order::Master(order) => {
                 self.check_raw(order, part)?;
                 self.check_outputs(order, part)

@@ -74,7 +74,12 @@ impl Maker<'_> {
         }
     }
 
-    fn unit_file(&mut self, part: Part, path: &str, program: Option<Vec<String>>) -> Option<UnitSource> {
+    pub(super) fn unit_file(
+        &mut self,
+        part: Part,
+        path: &str,
+        program: Option<Vec<String>>,
+    ) -> Option<UnitSource> {
         match self.files.text(path, Wanted::UnitFile) {
             Ok(text) => self.unit_text(&text, part, Origin { path: Some(path), program }),
             Err(reason) => {

@@ -1,4 +1,4 @@
-//! User programs in Structured Text: of CPU Units, and of the master.
+//! Files that steps bring to units: user programs in Structured Text, and images of EEPROMs.
 
 use plc::StructuredText;
 
@@ -16,4 +16,13 @@ pub struct ProgramFile {
 pub(crate) struct LoadedProgram {
     pub(crate) unit: usize,
     pub(crate) file: ProgramFile,
+}
+
+/// An image that a step loads into the EEPROM of a unit.
+#[derive(Clone, Debug)]
+pub(crate) struct SiiImage {
+    pub(crate) unit: usize,
+    /// Its file, as named.
+    pub(crate) file: String,
+    pub(crate) image: Vec<u8>,
 }

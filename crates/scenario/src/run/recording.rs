@@ -3,12 +3,14 @@
 use capture::{Direction, PcapngWriter};
 use time::Instant;
 
-use super::calendar::SYSTEM_TIME_NS;
+use crate::model::Calendar;
 
 /// The trace of a replay, and its capture if requested.
 pub struct Recording {
     trace: Option<String>,
     capture: Option<PcapngWriter<Vec<u8>>>,
+    /// The system time at the start, in nanoseconds since 1970.
+    start_ns: u64,
 }
 
 impl Recording {
@@ -16,7 +18,12 @@ impl Recording {
     #[must_use]
     pub fn new(trace: bool, capture: bool) -> Self {
         let capture = capture.then(|| PcapngWriter::new(Vec::new(), "scenario").ok()).flatten();
-        Self { trace: trace.then(String::new), capture }
+        Self { trace: trace.then(String::new), capture, start_ns: Calendar::default().as_nanos() }
+    }
+
+    /// The same with this system time at the start.
+    pub(crate) fn beginning_at(self, start_ns: u64) -> Self {
+        Self { start_ns, ..self }
     }
 
     /// A new one that records the same.
@@ -78,7 +85,7 @@ impl Recording {
             let comment = comment.map(|comment| format!("fault: {comment}"));
             let comment = comment.as_deref();
             // A vector accepts every byte.
-            let _ = capture.packet(SYSTEM_TIME_NS + now.as_nanos(), direction, frame, comment);
+            let _ = capture.packet(self.start_ns + now.as_nanos(), direction, frame, comment);
         }
     }
 }

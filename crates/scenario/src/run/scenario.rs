@@ -8,9 +8,9 @@ use plc::{Builtin, Io, Program};
 use time::Duration;
 
 use super::master::MasterProgram;
-use super::programs::{LoadedProgram, ProgramFile};
+use super::programs::{LoadedProgram, ProgramFile, SiiImage};
 use super::recorded::{NotReplayable, RecordedFrames};
-use crate::model::Step;
+use crate::model::{Calendar, Step};
 use crate::random::ReadyDraws;
 
 /// A scenario, ready to be replayed.
@@ -30,10 +30,16 @@ pub struct Scenario {
     pub cycle: Duration,
     /// Start of the cycle within its period, from time 0; none: taken from the seed.
     pub cycle_phase: Option<Duration>,
+    /// Date and time at which it starts.
+    pub calendar: Calendar,
     /// The master's own user program; none: it only executes the orders of steps.
     pub master: Option<MasterProgram>,
     /// Programs that steps load into CPU Units.
     pub(crate) programs: Vec<LoadedProgram>,
+    /// Images that steps load into EEPROMs.
+    pub(crate) images: Vec<SiiImage>,
+    /// Units that take the places of others.
+    pub(crate) replacements: Vec<Replacement>,
     /// The steps, in this order.
     pub steps: Vec<WrittenStep>,
     /// The capture whose frames a recorded master sends, as named in the file.
@@ -88,6 +94,16 @@ impl UnitSource {
     pub(crate) fn known_device(&self) -> Arc<KnownDevice> {
         Arc::new(self.file.section().known_device())
     }
+}
+
+/// A unit that takes the place of another one.
+#[derive(Clone, Debug)]
+pub(crate) struct Replacement {
+    /// The position.
+    pub(crate) unit: usize,
+    /// Its unit file, as named.
+    pub(crate) file: String,
+    pub(crate) source: UnitSource,
 }
 
 /// What a CPU Unit runs.

@@ -4,6 +4,7 @@ mod cpus;
 mod frames;
 mod looks;
 mod orders;
+mod plugged;
 mod variables;
 
 use device::Network;
@@ -12,14 +13,13 @@ use time::{Duration, Instant};
 use unit_model::{EventCode, ModelUnit, PowerOn};
 use wire::{AlStatus, AlStatusCode};
 
-use super::calendar::SYSTEM_TIME_NS;
 use super::dice::{Dice, dice_of_phases};
 use super::line::Line;
 use super::master::{Master, Sent, Ticket};
-use super::programs::LoadedProgram;
+use super::programs::{LoadedProgram, SiiImage};
 use super::recorded::Recorded;
 use super::recording::Recording;
-use super::scenario::{Scenario, UnitSource};
+use super::scenario::{Replacement, Scenario, UnitSource};
 use crate::model::{FrameKind, StateName};
 
 use cpus::{Cpu, Cpus};
@@ -35,6 +35,10 @@ pub(crate) struct World {
     watched: Vec<Watched>,
     /// The programs that steps load into CPU Units.
     programs: Vec<LoadedProgram>,
+    images: Vec<SiiImage>,
+    replacements: Vec<Replacement>,
+    seed: u64,
+    calendar_ns: u64,
     recording: Recording,
 }
 
@@ -50,9 +54,12 @@ impl World {
     /// Powers on the units of a scenario.
     pub(crate) fn power_on(scenario: &Scenario, seed: u64, recording: Recording) -> Self {
         let now = Instant::ZERO;
+        let calendar_ns = scenario.calendar.as_nanos();
+        let recording = recording.beginning_at(calendar_ns);
         let mut cpus = Vec::new();
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
-            let Powered { config, unit, cpu } = powered(source, dice_of_phases(seed, participant), now);
+            let Powered { config, unit, cpu } =
+                powered(source, dice_of_phases(seed, participant), now, calendar_ns);
             cpus.push(Cpu::running(cpu));
             (config, unit)
         });
@@ -77,6 +84,10 @@ impl World {
             now,
             watched,
             programs: scenario.programs.clone(),
+            images: scenario.images.clone(),
+            replacements: scenario.replacements.clone(),
+            seed,
+            calendar_ns,
             recording,
         };
         world.happen();
@@ -166,7 +177,7 @@ impl World {
 }
 
 /// A unit with its CPU Unit, according to its file. Phases that are left out are random.
-fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> Powered {
+fn powered(source: &UnitSource, mut dice: Dice, now: Instant, calendar_ns: u64) -> Powered {
     let file = &source.file;
     let refresh_phase = dice.phase(file.section().refresh_period().unwrap_or(Duration::ZERO));
     let program = source.program.start();
@@ -176,7 +187,7 @@ fn powered(source: &UnitSource, mut dice: Dice, now: Instant) -> Powered {
     let conditions = PowerConditions {
         unit: PowerOn { refresh_phase, ..PowerOn::default() },
         task_phase: dice.phase(task_period),
-        system_time_ns: Some(SYSTEM_TIME_NS),
+        system_time_ns: Some(calendar_ns.saturating_add(now.as_nanos())),
     };
     file.power_on(now, &conditions, program)
 }

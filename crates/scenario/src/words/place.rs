@@ -140,6 +140,11 @@ const PLACES: &[Place] = &[
     place("name", "the name of a variable of a program, such as counter, Main.counter or timer.Q", |words| {
         one(words, |word| Some(Value::Text(word.to_owned())))
     }),
+    place(
+        "file",
+        "the path of a file, without spaces, relative to the scenario, such as units/other.toml",
+        |words| one(words, |word| Some(Value::Text(word.to_owned()))),
+    ),
     place("program", "the path of a program, without spaces, such as programs/a-3-3.st", |words| {
         one(words, |word| Some(Value::Text(word.to_owned())))
     }),

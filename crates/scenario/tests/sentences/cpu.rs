@@ -113,6 +113,14 @@ fn modes_and_tasks() -> Vec<OrderRow> {
             "10ms",
         )
         .with(STOPPING),
+        order("power off the CPU Rack of unit 1", &[OP, IN_OP], &[], "RUN of unit 1 is not_lit", "10ms"),
+        order(
+            "power on the CPU Rack of unit 1",
+            &[OP, IN_OP, r#"{ cpu = "power off the CPU Rack of unit 1" }"#, r#"{ master = "restart" }"#],
+            &[OP],
+            "the data of unit 1 is valid",
+            "2s",
+        ),
         order(
             "cycle the power of the CPU Rack of unit 1",
             BUS_STOPPED,

@@ -1,6 +1,6 @@
 //! Rows: a sentence with the steps around it, and the required results of their replays.
 
-use scenario::{Recording, Scenario};
+use scenario::{Files, Recording, Scenario, Wanted};
 
 /// Steps of a scenario, each as a table in a file.
 pub(crate) type Steps = &'static [&'static str];
@@ -28,18 +28,43 @@ impl Around {
         let Self { head, programs, has_capture } = self;
         let capture = if *has_capture { "capture = \"a.pcapng\"\n" } else { "" };
         let text = format!("title = \"t\"\n{capture}{head}\nsteps = [\n{}\n]\n", steps.join(",\n"));
-        let program = |path: &str| {
-            let program = programs.iter().find(|(name, _)| *name == path);
-            program.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("no {path}"))
-        };
-        let mut scenario =
-            Scenario::parse(&text, program).unwrap_or_else(|errors| panic!("{text}\n{errors}"));
+        let mut scenario = Scenario::parse_with(&text, &mut Given(programs))
+            .unwrap_or_else(|errors| panic!("{text}\n{errors}"));
         if *has_capture {
             scenario.load_capture(&captured()).unwrap_or_else(|reason| panic!("{reason}"));
         }
         let report = scenario.replay(1, Recording::new(false, false));
         report.failure.map(|failure| Failed { text: failure.text, seen: failure.seen })
     }
+}
+
+/// The files of a scenario: programs and unit files by their names, and images of EEPROMs.
+struct Given(&'static [(&'static str, &'static str)]);
+
+impl Files for Given {
+    fn text(&mut self, path: &str, _: Wanted) -> Result<String, String> {
+        let text = self.0.iter().find(|(name, _)| *name == path);
+        text.map(|(_, text)| (*text).to_owned()).ok_or_else(|| format!("no {path}"))
+    }
+
+    /// `digital.bin` is that of a terminal, `broken.bin` that of the unit with a wrong checksum.
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        match path {
+            "digital.bin" => Ok(sii_image("model = \"digital\"\ninputs = 8")),
+            "broken.bin" => {
+                let mut image = sii_image("model = \"nx-ect101\"");
+                image[14] ^= 0xFF;
+                Ok(image)
+            }
+            other => Err(format!("no {other}")),
+        }
+    }
+}
+
+/// The EEPROM of a unit with this file.
+fn sii_image(unit_file: &str) -> Vec<u8> {
+    let file = plant::UnitFile::parse(unit_file).unwrap_or_else(|errors| panic!("{errors}"));
+    esi::sii::try_image(&file.section().description()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The words of a failing step, and the actual state there.

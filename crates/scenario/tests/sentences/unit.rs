@@ -1,7 +1,12 @@
 //! Actions on a unit by hand, and its conduct as a slave.
 
-use crate::rows::{IN_OP, IN_PRE_OP, OP, OrderRow, PRE_OP, order};
+use crate::rows::{Around, IN_OP, IN_PRE_OP, OP, OrderRow, PRE_OP, order};
 
+const OTHER_UNIT: Around = Around {
+    head: "",
+    programs: &[("other.toml", "model = \"nx-ect101\"\nserial = 77")],
+    has_capture: false,
+};
 const START: &str = r#"{ unit = "cycle the power of unit 1" }"#;
 
 pub(crate) fn rows() -> Vec<OrderRow> {
@@ -58,6 +63,22 @@ fn by_hand() -> Vec<OrderRow> {
             "unit 1 is in INIT with AL status code 0x0014",
             "1s",
         ),
+        order(
+            "load digital.bin into the SII of unit 1",
+            &[],
+            &[START, PRE_OP],
+            "unit 1 has recorded 09460000",
+            "1s",
+        ),
+        order(
+            "load broken.bin as it is into the SII of unit 1",
+            &[],
+            &[START, PRE_OP],
+            "unit 1 is in INIT with AL status code 0x0014",
+            "1s",
+        ),
+        order("replace unit 1 by other.toml", &[], &[], "object 1018:04 of unit 1 is 4D 00 00 00", "1s")
+            .with(OTHER_UNIT),
         order(
             "erase the SII of unit 1",
             &[],

@@ -12,12 +12,14 @@ pub(super) type Cpus = CpuUnits<Cpu>;
 pub(super) struct Cpu {
     pub(super) unit: CpuUnit,
     pub(super) is_running: bool,
+    /// A CPU Unit without power does nothing.
+    pub(super) has_power: bool,
     pub(super) told: Story,
 }
 
 impl Cpu {
     pub(super) fn running(unit: CpuUnit) -> Self {
-        Self { unit, is_running: true, told: Story::default() }
+        Self { unit, is_running: true, has_power: true, told: Story::default() }
     }
 
     /// Runs a task period; `report` gets the events of its program that were not there a period ago.
@@ -36,7 +38,7 @@ impl Cpu {
 
 impl PeriodicTask for Cpu {
     fn deadline(&self) -> Instant {
-        if self.is_running { self.unit.deadline() } else { Instant::NEVER }
+        if self.is_running && self.has_power { self.unit.deadline() } else { Instant::NEVER }
     }
 }
 

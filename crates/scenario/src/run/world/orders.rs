@@ -10,14 +10,12 @@ use unit_model::{ModelUnit, NotThere};
 use wire::AlStatusCode;
 
 use super::cpus::Cpu;
+use super::plugged::ERASED;
 use super::{World, tell_of_cpu};
 use crate::model::{
     ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, Needs, UnitOrder, UnitSet,
 };
 use crate::run::master::Master;
-
-/// A byte of an EEPROM that has never been written.
-const ERASED: u8 = 0xFF;
 
 impl World {
     pub(crate) fn master_mut(&mut self) -> &mut Master {
@@ -67,6 +65,8 @@ impl World {
             }
             UnitOrder::InvertSiiWord { word, .. } => self.invert_sii_word(at, *word),
             UnitOrder::EraseSii { .. } => self.with_slave(at, |_, esc| esc.sii_image_mut().fill(ERASED)),
+            UnitOrder::LoadSii { file, .. } => self.load_sii(at, file),
+            UnitOrder::Replace { file, .. } => self.replace(at, file),
             UnitOrder::Conduct { conduct: order, .. } => {
                 let now = self.now;
                 self.with_slave(at, |device, esc| conduct(device, esc, order, now));
@@ -93,6 +93,8 @@ impl World {
             CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = true),
             CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
             CpuOrder::CycleRackPower { units } => self.each(*units, Self::cycle_rack_power),
+            CpuOrder::PowerOffRack { units } => self.each(*units, Self::power_off_rack),
+            CpuOrder::PowerOnRack { units } => self.each(*units, Self::power_on_rack),
             CpuOrder::JumpSystemTime { units, by } => {
                 self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*by));
             }
@@ -113,9 +115,12 @@ impl World {
     /// Loads a program, as `run` does with a changed file.
     fn load(&mut self, at: usize, file: &str) {
         let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
-        let Some(program) = program else { return };
+        let Some(program) = program.cloned() else { return };
+        if !self.cpu_has_power(at) {
+            return;
+        }
         if let Some(cpu) = self.cpus.get_mut(at) {
-            cpu.unit.change_program(Box::new(program.file.program.clone()));
+            cpu.unit.change_program(Box::new(program.file.program));
         }
         self.tell_of_cpus();
     }
@@ -160,8 +165,20 @@ impl World {
 
     fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
         for at in units.positions(self.count()) {
-            self.cpus.get_mut(at).into_iter().for_each(&mut order);
+            if self.cpu_has_power(at) {
+                self.cpus.get_mut(at).into_iter().for_each(&mut order);
+            }
         }
+    }
+
+    /// Whether a CPU Unit has power, so that an order has an effect on it; otherwise the trace says so.
+    pub(super) fn cpu_has_power(&mut self, at: usize) -> bool {
+        let has_power = self.cpus.get(at).is_some_and(|cpu| cpu.has_power);
+        if !has_power {
+            let words = "has no power: the order has no effect";
+            self.recording.tell(self.now, &format!("cpu {}", at + 1), words);
+        }
+        has_power
     }
 
     fn invert_sii_word(&mut self, at: usize, word: u16) {
@@ -184,7 +201,27 @@ impl World {
         if let Some(cpu) = self.cpus.get_mut(at) {
             cpu.unit.cycle_power(now);
             cpu.is_running = true;
+            cpu.has_power = true;
         }
+    }
+
+    fn power_off_rack(&mut self, at: usize) {
+        self.power_off(at);
+        let now = self.now;
+        if let Some(cpu) = self.cpus.get_mut(at) {
+            cpu.unit.cycle_power(now);
+            cpu.has_power = false;
+        }
+        self.recording.tell(now, &format!("cpu {}", at + 1), "is switched off");
+    }
+
+    fn power_on_rack(&mut self, at: usize) {
+        let has_power = self.cpus.get(at).is_some_and(|cpu| cpu.has_power);
+        if has_power && !self.is_off(at) {
+            let words = "has power: the order has no effect";
+            return self.recording.tell(self.now, &format!("cpu {}", at + 1), words);
+        }
+        self.cycle_rack_power(at);
     }
 
     fn start(&mut self, at: usize, start: Start) {

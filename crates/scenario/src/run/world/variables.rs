@@ -45,6 +45,9 @@ impl World {
         set: impl Fn(&mut Io, Target, &[u8]) -> Result<(), VariableError>,
     ) {
         for at in 0..self.count() {
+            if !self.has_variable(at, name) {
+                continue;
+            }
             let Some(io) = self.io_mut(at) else { return };
             let Ok(target) = io.variables().find_target(name) else { continue };
             let value = io.type_of(target).map(|variable_type| variable_type.parse(text));
@@ -57,15 +60,26 @@ impl World {
 
     pub(super) fn release(&mut self, name: &str) {
         for at in 0..self.count() {
+            if !self.has_variable(at, name) {
+                continue;
+            }
             let Some(io) = self.io_mut(at) else { return };
             if let Ok(target) = io.variables().find_target(name) {
                 let _ = io.release(target);
-                return;
             }
+            return;
         }
     }
 
+    fn has_variable(&self, at: usize, name: &str) -> bool {
+        self.cpus.get(at).is_some_and(|cpu| cpu.unit.io().variables().find_target(name).is_ok())
+    }
+
+    /// None for a CPU Unit without power, which the trace reports.
     fn io_mut(&mut self, at: usize) -> Option<&mut Io> {
+        if !self.cpu_has_power(at) {
+            return None;
+        }
         Some(self.cpus.get_mut(at)?.unit.io_mut())
     }
 
