@@ -23,6 +23,7 @@ Every key, sentence, placeholder and fault of a scenario file. To start, read [w
 | `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure; above 0 | `"60s"` |
 | `cycle` | period of the process data | `"1ms"` |
 | `cycle_phase` | phase of the cycle in its period, from the beginning | the seed decides |
+| `calendar` | date and time at the beginning, UTC, 1970 to 2078: object 10F8, time stamps, times in captures | `"2026-01-01T00:00:00"` |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file. Two units cannot have the same `name`; without names, no step can name a variable that two of them have | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | no program: the master only follows the steps |
 | `with` | a table of [parameters](#parameters), each with the list of its values | no parameters: the file is one case |

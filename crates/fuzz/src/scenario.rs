@@ -89,7 +89,7 @@ fn file(path: &str) -> Result<String, String> {
 /// Keys, and words of sentences.
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
-    "title", "seed", "limit", "cycle", "cycle_phase", "capture", "master", "units", "steps", "at", "after", "when",
+    "title", "seed", "limit", "cycle", "cycle_phase", "calendar", "capture", "master", "units", "steps", "at", "after", "when",
     "unit", "cpu", "line", "expect", "never", "within", "for", "until", "repeat", "every", "jitter", "random",
     "\"10ms\"", "\"0ms\"", "\"1us\"", "\"5m\"", "\"1 000ms\"", "all", "units", "INIT", "PRE-OP", "SAFE-OP", "OP", "1",
     "2", "3", "0x0020", "85000000", "6000:01", "the", "next", "frames", "%", "not", "is", "are", "has", "program",
