@@ -1,5 +1,7 @@
 //! A segment and the slaves on its ESCs: frames in, frames out, deadlines.
 
+use core::ops::Range;
+
 use esc::Esc;
 use segment::{FrameFate, Segment};
 use time::Instant;
@@ -45,6 +47,33 @@ impl<U: Unit> Network<U> {
     /// A frame arrives from the master and gets a bit error on the cable of this number.
     pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], cable: usize) -> FrameFate {
         self.segment.corrupted_frame(now, frame, cable)
+    }
+
+    /// Whether a frame from the master gets to the cable of this number.
+    #[must_use]
+    pub fn reaches_cable(&mut self, cable: usize) -> bool {
+        self.segment.reaches_cable(cable)
+    }
+
+    /// A frame that has come to the first of two cables goes to the second one; false: it does not get there, and
+    /// nothing has happened.
+    pub fn frame_between(&mut self, now: Instant, frame: &mut [u8], cables: Range<usize>) -> bool {
+        self.segment.frame_between(now, frame, cables)
+    }
+
+    /// A frame that has come to a cable goes on from there.
+    pub fn frame_from_cable(&mut self, now: Instant, frame: &mut [u8], cable: usize) -> FrameFate {
+        self.segment.frame_from_cable(now, frame, cable)
+    }
+
+    /// A frame on its way outward has a bit error on this cable: the slaves behind it count an error.
+    pub fn count_bit_error(&mut self, now: Instant, cable: usize) {
+        self.segment.count_bit_error(now, cable);
+    }
+
+    /// A frame on its way back has a bit error on this cable: the slaves before it count an error.
+    pub fn count_bit_error_on_the_way_back(&mut self, cable: usize) {
+        self.segment.count_bit_error_on_the_way_back(cable);
     }
 
     /// A frame arrives from the master's second port, at the far end.

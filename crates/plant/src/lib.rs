@@ -1,13 +1,18 @@
-//! Units of any model: the registry of models and their words, unit files of any model, units that get power.
+//! Units of any model: the registry of models and their words, unit files of any model, units that get power; and the line
+//! to them: cables, and faults of frames.
 //!
 //! [`UnitFile`] reads a unit file and [`UnitFile::power_on`] makes a unit with its CPU Unit of it. This is the one
 //! composition for twins, real lines and scenarios.
 
+mod dice;
 mod file;
+pub mod line;
+pub mod notation;
 mod powered;
 mod registry;
 mod words;
 
+pub use dice::Dice;
 pub use file::UnitFile;
 pub use powered::{PowerConditions, Powered};
 pub use registry::{

@@ -7,8 +7,6 @@ mod bytes;
 mod calendar;
 mod condition;
 mod cpu;
-mod from_one;
-mod line;
 mod master;
 mod names;
 mod numbers;
@@ -20,12 +18,15 @@ mod step_form;
 mod unit;
 mod units;
 
+pub use plant::line::{
+    Choice, Delay, Direction, Disturbance, FaultName, FrameFault, FrameKind, Frames, LineOrder, Way,
+};
+
 pub(crate) use bytes::hex;
 pub use bytes::{Bytes, Entry};
 pub use calendar::Calendar;
 pub use condition::{Condition, DataDirection};
 pub use cpu::{CpuMode, CpuOrder};
-pub use line::{Choice, Disturbance, FrameFault, FrameKind, Frames, LineOrder};
 pub use master::MasterOrder;
 pub use names::{IndicatorName, Position, StateName};
 pub use numbers::{EventCode, Hex, UserErrorCode};

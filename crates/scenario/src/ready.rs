@@ -2,7 +2,9 @@
 
 mod emergency;
 mod error;
+mod fault_names;
 mod files;
+mod line;
 mod maker;
 mod master;
 mod model_words;

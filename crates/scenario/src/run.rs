@@ -3,7 +3,6 @@
 mod caught;
 mod check;
 mod dice;
-mod line;
 mod master;
 mod player;
 mod programs;

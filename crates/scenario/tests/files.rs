@@ -212,16 +212,20 @@ fn what_does_nothing_and_what_cannot_fail_is_told() {
             "0 frames get the fault",
             "a number from 1, such as `the next 3 frames`",
         ),
-        ("{ line = \"delay all frames by 0ms\" }", "expected a time above 0", "delay {frames} by {period}"),
+        (
+            "{ line = \"delay all frames by 0ms\" }",
+            "expected a time above 0",
+            "delay {frames} {way} by {delay} {lasting} {called}",
+        ),
         (
             "{ line = \"cut all frames to 13 bytes\" }",
             "expected a length from 14 to 1513 bytes",
-            "cut {frames} to",
+            "cut {frames} {direction} to",
         ),
         (
             "{ line = \"cut all frames to 1514 bytes\" }",
             "expected a length from 14 to 1513 bytes",
-            "cut {frames} to",
+            "cut {frames} {direction} to",
         ),
         (
             "{ cpu = \"let the system time of unit 1 jump by 0s\" }",

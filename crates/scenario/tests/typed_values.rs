@@ -167,12 +167,37 @@ fn words(place: &str) -> BoxedStrategy<String> {
                 count().prop_map(|n| format!("the next {n}")),
                 (1..=100_u8).prop_map(|n| format!("{n} % of the")),
                 (1..=100_u8).prop_map(|n| format!("{n}% of the")),
+                (1..=1000_u16).prop_map(|n| format!("{n} ‰ of the")),
+                (1..=1000_u16).prop_map(|n| format!("{n} per mille of the")),
+                (1..=999_u16).prop_map(|n| format!("every {n}0th of the")),
+                one_of(&["every 1st of the", "every 22nd of the", "every 113th of the"]),
                 count().prop_map(|n| format!("number {n} of the")),
                 (count(), count()).prop_map(|(n, more)| format!("numbers {n} to {} of the", n + more)),
             ];
-            let kind = one_of(&["frames", "frame", "process data frames", "mailbox frames"]);
-            (choice, kind).prop_map(|(choice, kind)| format!("{choice} {kind}")).boxed()
+            let kind = one_of(&[
+                "frames",
+                "frame",
+                "process data frames",
+                "mailbox frames",
+                "SII frames",
+                "BRD frames",
+                "FPRD frame",
+            ]);
+            let unit = prop_oneof![Just(String::new()), (1..99_u8).prop_map(|n| format!(" of unit {n}"))];
+            (choice, kind, unit).prop_map(|(choice, kind, unit)| format!("{choice} {kind}{unit}")).boxed()
         }
+        "way" => {
+            one_of(&["", "outward", "on the way back", "on cable 3", "on cable 12 on the way back"]).boxed()
+        }
+        "direction" => one_of(&["", "outward", "on the way back"]).boxed(),
+        "delay" => {
+            one_of(&["1ms", "1ms to 3ms", "0ns to 3ms", "2ms ± 1ms", "2ms ± 2ms", "20us ± 1ns normal"])
+                .boxed()
+        }
+        "lasting" => one_of(&["", "for 3s", "for 1ns"]).boxed(),
+        "called" => one_of(&["", "called storm", "called S-2_x"]).boxed(),
+        "fault-name" => one_of(&["storm", "S-2_x"]).boxed(),
+        "lowering" => (1..=0xFFFF_u16).prop_map(|n| n.to_string()).boxed(),
         "variable" => one_of(&["N1_UINTs_01_M_to_C", "N1_x[3]", "_EC_PDSlavTbl[2]"]).boxed(),
         "name" => one_of(&["counter", "Main.counter", "timer.Q"]).boxed(),
         "program" => one_of(&["programs/a-3-3.st", "a.st"]).boxed(),

@@ -70,8 +70,12 @@ const VALUES: &str = r##"
 | bytes | a text in hexadecimal: `"01 FF"` |
 | an entry of an object | `"10F3:05"` |
 | a time | a text with a unit: `"1.5ms"` |
-| `choice` of frames | `"all"`, `{ "next": 3 }`, `{ "percent": 5 }`, `{ "behind": { "skip": 2, "count": 7 } }` |
-| `kind` of frames | `"any"` (the default), `"process_data"`, `"mailbox"` |
+| `choice` of frames | `"all"`, `{ "next": 3 }`, `{ "percent": 5 }`, `{ "per_mille": 5 }`, `{ "every": 10 }`, `{ "behind": { "skip": 2, "count": 7 } }` |
+| `kind` of frames | `"any"` (the default), `"process_data"`, `"mailbox"`, `"sii"`, or a command: `"brd"` |
+| `unit` of frames | the number of the unit that they address; left out: all |
+| `way` of a fault | `{ "cable": 3, "direction": "back" }`; `"outward"` and the place between master and line are the default |
+| `for` and `name` of a fault | `"3s"`, `"storm"`; both can be left out |
+| `by` of a delay | `"1ms"`, `"1ms to 3ms"`, `"2ms ± 1ms"` or `"2ms ± 1ms normal"` |
 
 A value without fields has an empty table, such as `{ "behave": {} }`: a text is always a sentence.
 "##;

@@ -1,5 +1,7 @@
 //! The line: which ESCs a frame reaches, and its fate.
 
+mod cables;
+
 use core::ops::Range;
 
 use esc::{Esc, LoopState, Port};
@@ -183,25 +185,6 @@ impl Segment {
             }
             (fate, _) => fate,
         }
-    }
-
-    /// A frame arrives from the master and gets a bit error on the cable before the ESC at `position`. The ESCs
-    /// before the error accept the frame; the ESC at `position` counts it as invalid, those after it as
-    /// forwarded error, and none of these accepts it. It does not return: its FCS is wrong.
-    pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], position: usize) -> FrameFate {
-        self.settle();
-        let reach = self.way.reach;
-        self.activity.on_way(now);
-        if let FrameKind::Datagrams(layout) = FrameKind::of(frame) {
-            self.pass_datagrams(0..position.min(reach), now, frame, &layout);
-        }
-        if let Some((first, others)) =
-            self.escs[..reach].get_mut(position..).and_then(<[Esc]>::split_first_mut)
-        {
-            first.count_invalid_frame(Port::In);
-            others.iter_mut().for_each(|esc| esc.count_forwarded_error(Port::In));
-        }
-        FrameFate::Destroyed
     }
 
     /// A frame arrives from the master's second port, at the far end. It runs back without being processed

@@ -1,9 +1,8 @@
 //! Random steps: how many, in which time, and what they are drawn from.
 
+use plant::notation::FromOne;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use time::Duration;
-
-use super::from_one::FromOne;
 
 /// Random steps, instead of this one.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,10 +1,9 @@
 //! The notation of single values: the same for files, JSON and sentences.
 
 use core::fmt;
-use core::str::FromStr;
 
+pub(super) use plant::notation::{nothing, optional_text, text};
 use serde::de::{self, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Why a text is not a value: the expected notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,60 +29,6 @@ pub(crate) fn number(text: &str) -> Option<u64> {
 pub(crate) fn hexadecimal(text: &str, digits: usize) -> Option<u64> {
     let bare = text.strip_prefix("0x").unwrap_or(text);
     (!bare.is_empty() && bare.len() <= digits).then(|| u64::from_str_radix(bare, 16).ok())?
-}
-
-/// A field that is written as a text.
-pub(super) mod text {
-    use super::*;
-
-    pub(crate) fn serialize<T: fmt::Display, S: Serializer>(
-        value: &T,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(value)
-    }
-
-    pub(crate) fn deserialize<'de, T: FromStr<Err: fmt::Display>, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<T, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        text.parse().map_err(|error| de::Error::custom(format_args!("`{text}`: {error}")))
-    }
-}
-
-/// The same for a field that may be left out.
-pub(super) mod optional_text {
-    use super::*;
-
-    pub(crate) fn serialize<T: fmt::Display, S: Serializer>(
-        value: &Option<T>,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        value.as_ref().map(ToString::to_string).serialize(serializer)
-    }
-
-    pub(crate) fn deserialize<'de, T: FromStr<Err: fmt::Display>, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<Option<T>, D::Error> {
-        super::text::deserialize(deserializer).map(Some)
-    }
-}
-
-/// A variant without fields: `{ behave = {} }`, so that a text is always a sentence.
-pub(super) mod nothing {
-    use super::*;
-
-    #[derive(Serialize, Deserialize)]
-    #[serde(deny_unknown_fields)]
-    struct Nothing {}
-
-    pub(crate) fn serialize<S: Serializer>(serializer: S) -> Result<S::Ok, S::Error> {
-        Nothing {}.serialize(serializer)
-    }
-
-    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<(), D::Error> {
-        Nothing::deserialize(deserializer).map(drop)
-    }
 }
 
 /// A value that is written as a text; a number is also accepted.

@@ -1,10 +1,10 @@
 //! The action of a step, and its time.
 
+use plant::line::LineOrder;
 use time::Duration;
 
 use super::condition::Condition;
 use super::cpu::CpuOrder;
-use super::line::LineOrder;
 use super::master::MasterOrder;
 use super::random::RandomSteps;
 use super::unit::UnitOrder;

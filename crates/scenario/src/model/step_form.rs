@@ -1,11 +1,11 @@
 //! A step as in a file: a table of keys, one notation of times, orders and expectations.
 
+use plant::line::LineOrder;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use time::Duration;
 
 use super::condition::Condition;
 use super::cpu::CpuOrder;
-use super::line::LineOrder;
 use super::master::MasterOrder;
 use super::random::{RandomForm, RandomSteps};
 use super::spelling::optional_text;

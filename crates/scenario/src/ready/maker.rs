@@ -1,7 +1,9 @@
 //! The parts of a scenario that are ready, and the mistakes so far.
 
 use plc::DeviceVariables;
+use time::Duration;
 
+use super::fault_names::FaultNames;
 use super::files::Files;
 use super::problem::{Part, Problem};
 use super::program_values::LastingValue;
@@ -30,6 +32,10 @@ pub(super) struct Maker<'f> {
     pub(super) unreadable: Vec<usize>,
     /// Values of programs' variables that are checked to the end.
     pub(super) lasting_values: Vec<LastingValue>,
+    /// The faults of frames with names in the steps so far.
+    pub(super) fault_names: FaultNames,
+    /// The latest time at which the scenario ends.
+    pub(super) limit: Duration,
     pub(super) problems: Vec<Problem>,
 }
 
@@ -47,6 +53,8 @@ impl<'f> Maker<'f> {
             loads: Vec::new(),
             unreadable: Vec::new(),
             lasting_values: Vec::new(),
+            fault_names: FaultNames::default(),
+            limit: Duration::ZERO,
             problems: Vec::new(),
         }
     }

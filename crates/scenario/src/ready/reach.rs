@@ -1,6 +1,8 @@
 //! The units of an order, to check whether they exist.
 
-use crate::model::{Condition, Controller, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitSet};
+use crate::model::{
+    CableNumber, Condition, Controller, CpuOrder, LineOrder, MasterOrder, UnitNumber, UnitSet,
+};
 
 pub(super) fn line_of(units: usize) -> String {
     format!("the line has {units} unit{}, counted from 1", if units == 1 { "" } else { "s" })
@@ -69,16 +71,12 @@ pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
     match order {
         // The master of a scenario has one port: no cable leads back from the last unit.
         LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() < units,
-        LineOrder::Disturb(disturbance) => match disturbance.fault {
-            FrameFault::Corrupt { cable } => cable.position() < units,
-            FrameFault::Lose
-            | FrameFault::LoseAnswer
-            | FrameFault::Delay { .. }
-            | FrameFault::Duplicate
-            | FrameFault::Cut { .. }
-            | FrameFault::LowerWorkingCounter => true,
-        },
-        LineOrder::BeQuiet => true,
+        LineOrder::Disturb(disturbance) => {
+            let unit = disturbance.frames.unit.map(UnitNumber::position);
+            let cable = disturbance.cable().map(CableNumber::position);
+            unit.into_iter().chain(cable).all(|position| position < units)
+        }
+        LineOrder::End { .. } | LineOrder::BeQuiet => true,
     }
 }
 

@@ -7,7 +7,7 @@ use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
 use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
-use crate::model::{Condition, Expectation, LineOrder, Mode, Order, Repetition, ScriptStep, Step, Trigger};
+use crate::model::{Condition, Expectation, Mode, Order, Repetition, ScriptStep, Step, Trigger};
 use crate::run::{RandomPart, WrittenStep};
 use crate::words::Spoken;
 
@@ -42,6 +42,7 @@ impl Maker<'_> {
     ) -> ReadySteps {
         let mut ready = ReadySteps::default();
         self.loads = loads(&steps);
+        self.limit = limit;
         for (at, (step, written)) in steps.into_iter().zip(written).enumerate() {
             match step {
                 ScriptStep::Random(random) => self.random(at, random, written, ground, &mut ready),
@@ -130,7 +131,7 @@ impl Maker<'_> {
                 unit_of_cpu(order).is_none_or(|set| set.exists(units))
             }
             Order::Line(order) => {
-                self.check_count(order, part)?;
+                self.check_line(order, part)?;
                 self.said(order, part)?;
                 way_out = format!("{way_out}; each cable has the number of the unit behind it");
                 is_cable_there(order, units)
@@ -198,20 +199,6 @@ impl Maker<'_> {
         self.resolve(condition, part)?;
         if lasting == Lasting::ToTheEnd {
             self.value_lasts(condition, part);
-        }
-        Some(())
-    }
-
-    /// Refuses faults of 0 frames.
-    fn check_count(&mut self, order: &LineOrder, part: Part) -> Option<()> {
-        let LineOrder::Disturb(disturbance) = order else { return Some(()) };
-        if disturbance.frames.choice.is_none() {
-            self.refuse(
-                part,
-                "0 frames get the fault, so it does nothing",
-                "a number from 1, such as `the next 3 frames`",
-            );
-            return None;
         }
         Some(())
     }

@@ -3,6 +3,7 @@
 use core::ops::Range;
 
 use crate::model::{Expectation, Order, ScriptStep, Step};
+use crate::words::Spoken;
 
 /// The words of a step and their place.
 pub(crate) struct Written {
@@ -30,7 +31,7 @@ fn sentence(order: &Order) -> String {
         Order::Master(order) => order.to_string(),
         Order::Unit(order) => order.to_string(),
         Order::Cpu(order) => order.to_string(),
-        Order::Line(order) => order.to_string(),
+        Order::Line(order) => order.sentence(),
         Order::Expect(Expectation { condition, .. }) => condition.to_string(),
     }
 }

@@ -209,12 +209,12 @@ impl Master {
         }
         let received = self.slaves.get(operation.unit).map_or(0, Slave::received);
         operation.begin(MailboxConduct { received, ..self.mailbox });
-        let (frame, kind) = operation.frame();
+        let frame = operation.frame();
         self.ticket += 1;
         self.waiting.ticket = Some(self.ticket);
         // Without an answer by then the frame is sent again.
         self.waiting.at = now + ANSWER_PATIENCE;
-        Some(Sent { ticket: Ticket::Scripted(self.ticket), kind, frame })
+        Some(Sent { ticket: Ticket::Scripted(self.ticket), frame })
     }
 
     /// A frame returns. Frames that are no longer expected are ignored, as by a real master.

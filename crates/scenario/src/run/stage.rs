@@ -1,6 +1,7 @@
 //! What a player of steps needs of a world: its time, its state, and hands. The world moves by itself, in virtual time
 //! or in real time; a player only says until when it waits.
 
+use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::Seen;
@@ -26,8 +27,8 @@ pub(crate) trait Stage {
     /// Carries out an action on CPU Units.
     fn cpu_order(&mut self, order: &CpuOrder);
 
-    /// Carries out an action on the line.
-    fn line_order(&mut self, order: &LineOrder);
+    /// Carries out an action on the line, if that is possible.
+    fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal>;
 
     /// Adds a line about a step to the trace.
     fn note_step(&mut self, words: &str);

@@ -1,5 +1,6 @@
 //! The world of a scenario as a stage: in virtual time, from event to event.
 
+use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::{Seen, check};
@@ -33,8 +34,8 @@ impl Stage for World {
         self.cpu_order(order);
     }
 
-    fn line_order(&mut self, order: &LineOrder) {
-        self.line_order(order);
+    fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal> {
+        self.line_order(order)
     }
 
     fn note_step(&mut self, words: &str) {

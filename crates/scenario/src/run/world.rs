@@ -8,19 +8,19 @@ mod plugged;
 mod variables;
 
 use device::Network;
+use plant::line::LineFaults;
 use plant::{PowerConditions, Powered};
 use time::{Duration, Instant};
 use unit_model::{EventCode, ModelUnit, PowerOn};
 use wire::{AlStatus, AlStatusCode};
 
 use super::dice::{Dice, dice_of_phases};
-use super::line::Line;
 use super::master::{Master, Sent, Ticket};
 use super::programs::{LoadedProgram, SiiImage};
 use super::recorded::Recorded;
 use super::recording::Recording;
 use super::scenario::{Replacement, Scenario, UnitSource};
-use crate::model::{FrameKind, StateName};
+use crate::model::StateName;
 
 use cpus::{Cpu, Cpus};
 
@@ -28,7 +28,7 @@ use cpus::{Cpu, Cpus};
 pub(crate) struct World {
     network: Network<Box<dyn ModelUnit>>,
     cpus: Cpus,
-    line: Line,
+    line: LineFaults<Ticket>,
     master: Master,
     recorded: Recorded,
     now: Instant,
@@ -78,7 +78,7 @@ impl World {
         let mut world = Self {
             network,
             cpus: Cpus::new(cpus),
-            line: Line::new(seed),
+            line: LineFaults::new(seed),
             master,
             recorded,
             now,
@@ -136,15 +136,13 @@ impl World {
         let recording = &mut self.recording;
         self.cpus.cycle(now, |at, cpu| cpu.period(now, |words| tell_of_cpu(recording, now, at, words)));
         self.network.poll(now);
-        while let Some(delayed) = self.line.due(now) {
-            self.pass(delayed.ticket, delayed.frame, &delayed.faults);
-        }
+        self.pass_late_frames();
         for sent in self.master.send(now) {
             self.transmit(sent);
         }
         self.master.scan(now);
         while let Some((number, frame)) = self.recorded.send(now) {
-            self.transmit(Sent { ticket: Ticket::Recorded(number), kind: FrameKind::Any, frame });
+            self.transmit(Sent { ticket: Ticket::Recorded(number), frame });
         }
         self.watch();
     }

@@ -1,14 +1,19 @@
 //! The places of a sentence: the meaning of a word at `{…}` in a pattern.
 
+mod frames;
 mod read;
 
 use unit_model::keys::{AL_STATUS_CODES, AL_STATUS_CODES_WORDS, TIMES, TIMES_WORDS};
 
 use super::value::Value;
+use crate::model::{Delay, FaultName};
+use frames::{
+    called, delay, direction, fault_name, fitting_frames, fitting_way, frames, lasting, percent, way,
+};
 use read::{
     bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
-    fitting_frames, fitting_indicator, fitting_numbers, frames, indicator, limited, number, numbers, one,
-    pattern, percent, position, requested, state, transition, unit, units, user_error,
+    fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
+    requested, state, transition, unit, units, user_error,
 };
 
 /// A kind of place.
@@ -86,6 +91,7 @@ const PLACES: &[Place] = &[
     place("counter", "a mailbox counter from 0 to 7", |words| limited(words, 0, 7)),
     place("channel", "a SyncManager from 0 to 7", |words| limited(words, 0, 7)),
     place("record", "a record of the diagnosis history from 1 to 250", |words| limited(words, 1, 250)),
+    place("lowering", "a number from 1 to 65535", |words| limited(words, 1, 0xFFFF)),
     place("cable", "a cable, 1 for the one to the master", |words| limited(words, 1, 0xFFFF)),
     place("period", "a time above 0 such as 1ms", |words| duration(words, |period| !period.is_zero())),
     place("time", TIMES_WORDS, |words| duration(words, |time| TIMES.contains(&time))),
@@ -124,11 +130,32 @@ const PLACES: &[Place] = &[
     place("percent", "a number from 1 to 100 and %", percent),
     Place {
         name: "frames",
-        meaning: "`the next 3`, `all`, `5 % of the` (1 to 100 %), `number 7 of the` or `numbers 3 to 9 of the`, and then `frames`, \
-                  `process data frames` or `mailbox frames`",
+        meaning: "`the next 3`, `all`, `5 % of the` (1 to 100 %), `5 ‰ of the` (1 to 1000 ‰, also `per mille`), `every 10th of the`, \
+                  `number 7 of the` or `numbers 3 to 9 of the`; then `frames`, `process data frames`, `mailbox frames`, `SII frames` or \
+                  those with a command such as `BRD frames`; then, if only those that address one unit are meant, `of unit 2`",
         read: frames,
         fitting: fitting_frames,
     },
+    Place {
+        name: "way",
+        meaning: "nothing (between the master and the line), or `on cable 3`; then `on the way back` for the answer, or `outward`, \
+                  which can be left out",
+        read: way,
+        fitting: fitting_way,
+    },
+    place("direction", "`on the way back` for the answer, or `outward`, which can be left out", direction),
+    place("delay", Delay::WORDS, delay),
+    place(
+        "lasting",
+        "nothing, or `for` and the time above 0 after which the fault ends, such as `for 3s`",
+        lasting,
+    ),
+    place(
+        "called",
+        "nothing, or `called` and a name by which the fault can be ended, such as `called storm`",
+        called,
+    ),
+    place("fault-name", FaultName::WORDS, fault_name),
     place("variable", "a device variable such as N1_UINTs_01_M_to_C", |words| {
         one(words, |word| word.contains('_').then(|| Value::Text(word.to_owned())))
     }),

@@ -141,7 +141,8 @@ fn fill(pattern: &str, values: &[Value]) -> String {
         Some(value) => value.to_string(),
         None => part.to_owned(),
     });
-    words.collect::<Vec<_>>().join(" ")
+    // Some places may be empty.
+    words.filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
 }
 
 /// The name of the place in a part of a pattern.

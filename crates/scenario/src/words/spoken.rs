@@ -86,12 +86,6 @@ macro_rules! spoken {
                 Ok(self)
             }
         }
-
-        impl fmt::Display for $type {
-            fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-                formatter.write_str(&self.sentence())
-            }
-        }
     )*};
 }
 
@@ -102,3 +96,16 @@ spoken! {
     LineOrder: LINE;
     Condition: CONDITIONS;
 }
+
+/// Types of this crate are displayed as their sentences.
+macro_rules! displayed {
+    ($($type:ty)*) => {$(
+        impl fmt::Display for $type {
+            fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str(&self.sentence())
+            }
+        }
+    )*};
+}
+
+displayed! { MasterOrder UnitOrder CpuOrder Condition }

@@ -66,7 +66,8 @@ fn the_wrong_word_of_an_order_is_told() {
     ] {
         let told = line(text);
         assert!(told.contains("`5 % of the` (1 to 100 %)"), "{told}");
-        assert!(told.contains(&format!("found `{found}` / the sentence is `lose {{frames}}`")), "{told}");
+        let sentence = "the sentence is `lose {frames} {way} {lasting} {called}`";
+        assert!(told.contains(&format!("found `{found}` / {sentence}")), "{told}");
     }
     let told = MasterOrder::from_sentence("set the outputs of unit 1 to 01 02 300").expect_err("no byte");
     assert_eq!(told.message, "expected bytes such as 01 FF, hexadecimal, found `300`");
@@ -104,12 +105,12 @@ fn places_of_programs_read_what_they_name() {
 }
 
 #[test]
-fn frames_are_chosen_in_five_ways() {
+fn frames_are_chosen_in_several_ways() {
     let read = |text: &str| {
         let words: Vec<&str> = text.split_whitespace().collect();
         Place::named("frames").read(&words).map(|(value, _)| value)
     };
-    let frames = |choice, kind| Ok(Value::Frames(Frames { kind, choice }));
+    let frames = |choice, kind| Ok(Value::Frames(Frames { kind, unit: None, choice }));
     assert_eq!(read("all frames"), frames(Choice::All, FrameKind::Any));
     assert_eq!(read("the next 3 mailbox frames"), frames(Choice::Next(3), FrameKind::Mailbox));
     assert_eq!(read("5 % of the process data frames"), frames(Choice::Percent(5), FrameKind::ProcessData));
@@ -118,8 +119,61 @@ fn frames_are_chosen_in_five_ways() {
         read("numbers 3 to 9 of the frames"),
         frames(Choice::Behind { skip: 2, count: 7 }, FrameKind::Any)
     );
-    for wrong in ["number 0 of the frames", "numbers 5 to 4 of the frames", "some frames", "the next frames"]
-    {
+    for wrong in [
+        "number 0 of the frames",
+        "numbers 5 to 4 of the frames",
+        "some frames",
+        "the next frames",
+        "0 ‰ of the frames",
+        "1001 ‰ of the frames",
+        "0 per mille of the frames",
+        "every 0th of the frames",
+        "every 10st of the frames",
+        "every tenth of the frames",
+        "all BRDs frames",
+        "all frames of unit 0",
+        "all frames of all units",
+    ] {
         assert!(read(wrong).is_err(), "{wrong}");
+    }
+    assert_eq!(read("5 per mille of the BRD frames"), frames(Choice::PerMille(5), FrameKind::Brd));
+    assert_eq!(read("every 22nd of the SII frames"), frames(Choice::Every(22), FrameKind::Sii));
+    let of_unit_2 = Frames::of(Choice::All).of_unit(UnitNumber::at(1));
+    assert_eq!(read("all frames of unit 2"), Ok(Value::Frames(of_unit_2)));
+}
+
+#[test]
+fn the_place_of_a_fault_its_time_and_its_name_can_be_left_out() {
+    let written = |text: &str| LineOrder::from_sentence(text).map(|order| order.sentence());
+    for (text, same) in [
+        ("lose all frames outward", "lose all frames"),
+        ("lose all frames on cable 3 outward", "lose all frames on cable 3"),
+        (
+            "lose 5‰ of the frames on the way back for 3s called storm",
+            "lose 5 ‰ of the frames on the way back for 3s called storm",
+        ),
+        (
+            "delay all frames on cable 2 on the way back by 2ms ± 1ms normal called a",
+            "delay all frames on cable 2 on the way back by 2ms ± 1ms normal called a",
+        ),
+        ("cut all frames outward to 40 bytes for 1ms", "cut all frames to 40 bytes for 1ms"),
+    ] {
+        assert_eq!(written(text).as_deref(), Ok(same));
+    }
+    for wrong in [
+        "lose all frames on cable 0",
+        "lose all frames on cable",
+        "lose all frames called",
+        "lose all frames called 3",
+        "lose all frames for 0s",
+        "lose all frames called storm for 3s",
+        "delay all frames by 3ms to 1ms",
+        "delay all frames by 0ms",
+        "delay all frames by 1ms ± 2ms",
+        "duplicate all frames on cable 2",
+        "lower the working counter of all frames by 0",
+        "end",
+    ] {
+        assert!(LineOrder::from_sentence(wrong).is_err(), "{wrong}");
     }
 }

@@ -6,8 +6,8 @@ use time::Duration;
 use wire::AlState;
 
 use crate::model::{
-    Bytes, CableNumber, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName,
-    Position, StateName, UnitNumber, UnitSet, UserErrorCode,
+    Bytes, CableNumber, Choice, Controller, Delay, Direction, Entry, EventCode, FaultName, FrameKind, Frames,
+    Hex, IndicatorName, Position, StateName, UnitNumber, UnitSet, UserErrorCode, Way,
 };
 
 /// The value of a place.
@@ -39,8 +39,22 @@ pub enum Value {
     Indicator(IndicatorName),
     /// `5 %`.
     Percent(u8),
-    /// `the next 3 frames`, `5 % of the mailbox frames`.
+    /// `5 ‰`.
+    PerMille(u16),
+    /// `the next 3 frames`, `5 % of the mailbox frames of unit 2`.
     Frames(Frames),
+    /// `on cable 3 on the way back`; nothing between master and line outward.
+    Way(Way),
+    /// `on the way back`; nothing outward.
+    Direction(Direction),
+    /// `1ms to 3ms`.
+    Delay(Delay),
+    /// `for 3s`; nothing without an end.
+    Lasting(Option<Duration>),
+    /// `called storm`; nothing without a name.
+    Called(Option<FaultName>),
+    /// `storm`.
+    FaultName(FaultName),
     /// `the master`, `unit 2`.
     Controller(Controller),
     /// `16#101`, the code of a user-defined error.
@@ -70,7 +84,23 @@ impl fmt::Display for Value {
             Self::Event(event) => event.fmt(formatter),
             Self::Indicator(indicator) => indicator.fmt(formatter),
             Self::Percent(percent) => write!(formatter, "{percent} %"),
+            Self::PerMille(per_mille) => write!(formatter, "{per_mille} ‰"),
             Self::Frames(frames) => write_frames(*frames, formatter),
+            Self::Way(Way { cable: Some(cable), direction }) => {
+                write!(formatter, "on {cable}")?;
+                match direction_words(*direction) {
+                    "" => Ok(()),
+                    words => write!(formatter, " {words}"),
+                }
+            }
+            Self::Way(Way { cable: None, direction }) | Self::Direction(direction) => {
+                formatter.write_str(direction_words(*direction))
+            }
+            Self::Delay(delay) => delay.fmt(formatter),
+            Self::Lasting(Some(time)) => write!(formatter, "for {time}"),
+            Self::Called(Some(name)) => write!(formatter, "called {name}"),
+            Self::Lasting(None) | Self::Called(None) => Ok(()),
+            Self::FaultName(name) => name.fmt(formatter),
             Self::Controller(controller) => controller.fmt(formatter),
             Self::UserError(code) => code.fmt(formatter),
             Self::Text(text) => formatter.write_str(text),
@@ -96,17 +126,43 @@ fn write_frames(frames: Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Resu
         Choice::All => formatter.write_str("all"),
         Choice::Next(count) => write!(formatter, "the next {count}"),
         Choice::Percent(percent) => write!(formatter, "{percent} % of the"),
+        Choice::PerMille(per_mille) => write!(formatter, "{per_mille} ‰ of the"),
+        Choice::Every(period) => write!(formatter, "every {period}{} of the", ordinal_ending(period)),
         Choice::Behind { skip, count: 1 } => write!(formatter, "number {} of the", skip.saturating_add(1)),
         Choice::Behind { skip, count } => {
             let first = skip.saturating_add(1);
             write!(formatter, "numbers {first} to {} of the", skip.saturating_add(count))
         }
     }?;
-    formatter.write_str(match frames.kind {
-        FrameKind::Any => " frames",
-        FrameKind::ProcessData => " process data frames",
-        FrameKind::Mailbox => " mailbox frames",
-    })
+    match (frames.kind, frames.kind.command()) {
+        (_, Some((_, name))) => write!(formatter, " {name} frames"),
+        (FrameKind::ProcessData, _) => formatter.write_str(" process data frames"),
+        (FrameKind::Mailbox, _) => formatter.write_str(" mailbox frames"),
+        (FrameKind::Sii, _) => formatter.write_str(" SII frames"),
+        (_, None) => formatter.write_str(" frames"),
+    }?;
+    match frames.unit {
+        Some(unit) => write!(formatter, " of {unit}"),
+        None => Ok(()),
+    }
+}
+
+/// `1st`, `2nd`, `3rd`, `11th`.
+pub(super) const fn ordinal_ending(number: u64) -> &'static str {
+    match (number % 10, number % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    }
+}
+
+const fn direction_words(direction: Direction) -> &'static str {
+    match direction {
+        Direction::Outward => "",
+        Direction::Back => "on the way back",
+    }
 }
 
 /// A field of a typed value, as the value of a place.
@@ -146,6 +202,12 @@ fields! {
     EventCode: Event;
     IndicatorName: Indicator;
     Frames: Frames;
+    Way: Way;
+    Direction: Direction;
+    Delay: Delay;
+    Option<Duration>: Lasting;
+    Option<FaultName>: Called;
+    FaultName: FaultName;
     Controller: Controller;
     UserErrorCode: UserError;
     String: Text;

@@ -50,6 +50,28 @@ pub(crate) fn rows() -> Vec<OrderRow> {
             "the working counter of unit 1 is 2",
             "5ms",
         ),
+        order(
+            "lower the working counter of all process data frames by 3",
+            &[OP, IN_OP],
+            &[],
+            "the working counter of unit 1 is 0",
+            "5ms",
+        ),
+        // The master sends the request again after 2 ms.
+        order(
+            "swap all frames with the next one",
+            &[],
+            &[ASK, r#"{ after = "1ms", cpu = "start the task of unit 1" }"#],
+            "unit 1 is in INIT",
+            "0s",
+        ),
+        order(
+            "end storm",
+            &[r#"{ line = "lose all frames called storm" }"#],
+            &[OP],
+            "unit 1 is in OP",
+            "100ms",
+        ),
         order("be quiet", &[r#"{ line = "lose all frames" }"#], &[OP], "unit 1 is in OP", "100ms"),
     ]
 }

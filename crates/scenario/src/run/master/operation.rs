@@ -8,7 +8,7 @@ use wire::{AlState, Emergency, FrameBuilder, SdoTarget};
 
 use super::last_sdo::SdoNumber;
 use super::raw::RawNumber;
-use crate::model::{Entry, FrameKind, StateName};
+use crate::model::{Entry, StateName};
 
 /// SyncManagers of the mailbox: from master to unit, and back.
 pub(super) type MailboxChannels = (SyncManagerSettings, SyncManagerSettings);
@@ -231,19 +231,11 @@ impl Operation {
     }
 
     /// Its next frame.
-    pub(crate) fn frame(&self) -> (Vec<u8>, FrameKind) {
+    pub(crate) fn frame(&self) -> Vec<u8> {
         let mut frame = FrameBuilder::new();
         let access: Access<'_> = self.dialogue().access();
         access.add_to(&mut frame, Address::Position(self.unit as u16));
-        let kind = match self.what {
-            What::Sdo { .. } | What::Message { .. } | What::Listen { .. } => FrameKind::Mailbox,
-            What::Write { .. }
-            | What::Take { .. }
-            | What::Reach { .. }
-            | What::Open(_)
-            | What::ReadRegister { .. } => FrameKind::Any,
-        };
-        (frame.finish(), kind)
+        frame.finish()
     }
 
     /// The answer to its frame; none: the frame is lost. Returns the emergencies that were read.

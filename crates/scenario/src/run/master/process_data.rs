@@ -7,7 +7,6 @@ use time::{Duration, Instant};
 use wire::{FrameBuilder, Returned};
 
 use super::sent::{Sent, Ticket};
-use crate::model::FrameKind;
 
 /// Maximum number of output bytes of a unit.
 const OUTPUTS_MAX: usize = 1200;
@@ -119,7 +118,7 @@ impl ProcessData {
             *ticket += 1;
             self.awaited.push((*ticket, datagrams));
             let ticket = Ticket::Scripted(*ticket);
-            Some(Sent { ticket, kind: FrameKind::ProcessData, frame: frame.finish() })
+            Some(Sent { ticket, frame: frame.finish() })
         })
         .collect()
     }

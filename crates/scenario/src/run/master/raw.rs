@@ -3,7 +3,7 @@
 use time::{Duration, Instant};
 
 use super::sent::{Sent, Ticket};
-use crate::model::{FrameKind, hex};
+use crate::model::hex;
 
 /// A frame that has not come back after this time is lost.
 const PATIENCE: Duration = Duration::from_millis(2);
@@ -172,7 +172,7 @@ impl Raw {
         let send = |(number, frame)| {
             *ticket += 1;
             self.in_flight.push((*ticket, number, now + PATIENCE));
-            Sent { ticket: Ticket::Scripted(*ticket), kind: FrameKind::Any, frame }
+            Sent { ticket: Ticket::Scripted(*ticket), frame }
         };
         unsent.into_iter().map(send).collect()
     }

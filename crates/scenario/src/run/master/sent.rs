@@ -1,7 +1,5 @@
 //! A frame of a master in flight.
 
-use crate::model::FrameKind;
-
 /// The master that sent the frame, and the frame's number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ticket {
@@ -14,6 +12,5 @@ pub(crate) enum Ticket {
 /// A frame that a master sends.
 pub(crate) struct Sent {
     pub(crate) ticket: Ticket,
-    pub(crate) kind: FrameKind,
     pub(crate) frame: Vec<u8>,
 }

@@ -6,7 +6,6 @@ use ::master::{Access, Address, AlReport, registers};
 use wire::{AlState, AlStatus, FrameBuilder, Returned};
 
 use super::sent::{Sent, Ticket};
-use crate::model::FrameKind;
 
 const LOOK: Access<'static> = Access::Read { offset: registers::AL_STATUS, length_bytes: 2 };
 /// Number of consecutive reads without an answer after which a slave counts as missing.
@@ -50,7 +49,7 @@ impl States {
             *ticket += 1;
             self.awaited.push((*ticket, first..behind));
             let ticket = Ticket::Scripted(*ticket);
-            frames.push(Sent { ticket, kind: FrameKind::Any, frame: frame.finish() });
+            frames.push(Sent { ticket, frame: frame.finish() });
             first = behind;
         }
         frames

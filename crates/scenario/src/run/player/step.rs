@@ -65,7 +65,12 @@ impl<'a> StepPlay<'a> {
             }
             Order::Unit(order) => self.act(stage, shared, |stage| stage.unit_order(order)),
             Order::Cpu(order) => self.act(stage, shared, |stage| stage.cpu_order(order)),
-            Order::Line(order) => self.act(stage, shared, |stage| stage.line_order(order)),
+            Order::Line(order) => {
+                stage.note_step(&self.step.text);
+                let ordered = stage.line_order(order);
+                ordered.map_err(|refusal| failure(self.step, stage.now(), refusal.to_string().into()))?;
+                shared.look(stage).map(|()| Wait::Over)
+            }
             Order::Expect(expectation) => self.expect(expectation, stage, shared),
         }
     }

@@ -1,5 +1,6 @@
 //! The player on a stage whose time the test advances, without a world.
 
+use plant::line::LineRefusal;
 use time::{Duration, Instant};
 
 use super::{Next, Player};
@@ -38,7 +39,9 @@ impl Stage for Desk {
 
     fn cpu_order(&mut self, _: &CpuOrder) {}
 
-    fn line_order(&mut self, _: &LineOrder) {}
+    fn line_order(&mut self, _: &LineOrder) -> Result<(), LineRefusal> {
+        Ok(())
+    }
 
     fn note_step(&mut self, words: &str) {
         self.story.push(format!("{} {words}", self.now.as_nanos() / 1_000_000));

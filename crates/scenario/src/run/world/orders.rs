@@ -4,6 +4,7 @@
 
 use device::{Device, SiiTiming, Start, TransitionTimes};
 use esc::Esc;
+use plant::line::LineRefusal;
 use plc::{Io, OperatingMode};
 use time::Instant;
 use unit_model::{ModelUnit, NotThere};
@@ -131,12 +132,14 @@ impl World {
         self.cpus.each(|at, cpu| cpu.between(|words| tell_of_cpu(recording, now, at, words)));
     }
 
-    pub(crate) fn line_order(&mut self, order: &LineOrder) {
-        match *order {
-            LineOrder::Unplug { cable } => self.network.set_cable(cable.position(), false),
-            LineOrder::Plug { cable } => self.network.set_cable(cable.position(), true),
-            LineOrder::Disturb(disturbance) => self.line.disturb(disturbance),
-            LineOrder::BeQuiet => self.line.quiet(),
+    /// A fault that has ended by itself can be ended too.
+    pub(crate) fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal> {
+        match self.line.order(self.now, order, &mut self.network) {
+            Err(LineRefusal::NoFault(name)) => {
+                self.recording.note(self.now, &format!("{name} has ended already"));
+                Ok(())
+            }
+            ordered => ordered,
         }
     }
 

@@ -4,8 +4,8 @@ use time::Duration;
 use wire::AlState;
 
 use crate::model::{
-    Bytes, Choice, Controller, Entry, EventCode, FrameKind, Frames, Hex, IndicatorName, Position, StateName,
-    UnitNumber, UnitSet, UserErrorCode, hexadecimal, number as number_of,
+    Bytes, Controller, Entry, EventCode, Hex, IndicatorName, Position, StateName, UnitNumber, UnitSet,
+    UserErrorCode, hexadecimal, number as number_of,
 };
 use crate::words::value::Value;
 
@@ -157,57 +157,4 @@ pub(super) fn indicator(words: &[&str]) -> Option<(Value, usize)> {
 pub(super) fn fitting_indicator(words: &[&str]) -> usize {
     let first = words.first().is_some_and(|first| ["L/A", "TS"].contains(first));
     usize::from(first)
-}
-
-pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
-    let (digits, length) = match words {
-        [number, "%", ..] => (*number, 2),
-        [word, ..] => (word.strip_suffix('%')?, 1),
-        [] => return None,
-    };
-    let percent = digits.parse::<u8>().ok().filter(|percent| (1..=100).contains(percent))?;
-    Some((Value::Percent(percent), length))
-}
-
-/// The selection of frames, and their kind.
-pub(super) fn frames(words: &[&str]) -> Option<(Value, usize)> {
-    let (choice, length) = choice(words)?;
-    let (kind, more) = match words.get(length..)? {
-        ["frames" | "frame", ..] => (FrameKind::Any, 1),
-        ["process", "data", "frames" | "frame", ..] => (FrameKind::ProcessData, 3),
-        ["mailbox", "frames" | "frame", ..] => (FrameKind::Mailbox, 2),
-        _ => return None,
-    };
-    Some((Value::Frames(Frames { kind, choice }), length + more))
-}
-
-/// Number of words at the start that select frames, also if the selection is not complete.
-pub(super) fn fitting_frames(words: &[&str]) -> usize {
-    if let Some((_, length)) = choice(words) {
-        return length;
-    }
-    let Some((_, length)) = percent(words) else { return 0 };
-    let rest = words.get(length..).unwrap_or_default();
-    length + rest.iter().zip(["of", "the"]).take_while(|(word, wanted)| *word == wanted).count()
-}
-
-/// Numbers count from 1, the next frame.
-fn choice(words: &[&str]) -> Option<(Choice, usize)> {
-    match words {
-        ["all", ..] => Some((Choice::All, 1)),
-        ["the", "next", count, ..] => Some((Choice::Next(number_of(count)?), 3)),
-        ["number", nth, "of", "the", ..] => {
-            Some((Choice::Behind { skip: number_of(nth)?.checked_sub(1)?, count: 1 }, 4))
-        }
-        ["numbers", first, "to", last, "of", "the", ..] => {
-            let (first, last) = (number_of(first)?, number_of(last)?);
-            let count = last.checked_sub(first)? + 1;
-            Some((Choice::Behind { skip: first.checked_sub(1)?, count }, 6))
-        }
-        _ => match percent(words)? {
-            (Value::Percent(percent), length) => (words.get(length..length + 2)? == ["of", "the"])
-                .then_some((Choice::Percent(percent), length + 2)),
-            _ => None,
-        },
-    }
 }
