@@ -105,9 +105,16 @@ These keys give the time of an `expect`, and the repetition of a step:
 |---|---|
 | `within` | the condition has to hold at some moment before this time has passed; the next step comes at that moment |
 | `for` | it has to hold at every moment until this time has passed |
-| `until` | it has to hold at every moment until this condition holds; `never` takes this key too |
+| `until` | it has to hold at every moment until this condition holds, which must not hold at once; `never` takes this key too |
+| `while` | it has to hold at every moment at which this condition holds, to the end of the run; this condition has to hold at some moment |
 | `repeat`, `every` | total number of times that the step happens, and the time from one to the next |
 | `jitter` | each repetition is earlier or later by at most this time, chosen at random |
+
+The next step waits for the last repetition of a step. A run ends after the last step, when the master has nothing to do; if an
+order, a `never` or a `while` is the last step, 200 ms later at the earliest. If `limit` comes before that, the scenario fails.
+
+If an order changes what the next expectation is about, the state before the order does not fulfil it: after `request OP of unit 1`, the
+condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts. `for` checks that a state stays as it is.
 
 Times have a unit: `20us`, `1.5ms`, `2s`. A sentence has at most 65,536 bytes.
 

@@ -106,6 +106,16 @@ impl ScenarioBuilder {
         self.said_key("until", condition, |next| &mut next.until)
     }
 
+    /// The next expectation must be true whenever this condition is true, to the end.
+    pub fn r#while(self, condition: impl Say<Condition>) -> Self {
+        self.said_key("while", condition, |next| &mut next.r#while)
+    }
+
+    /// The next expectation must be true until this time has passed.
+    pub fn lasting(self, span: Duration) -> Self {
+        self.key("for", span, |next| &mut next.r#for)
+    }
+
     /// An order to the scripted master.
     pub fn master(self, order: impl Say<MasterOrder>) -> Self {
         self.said_key("master", order, |next| &mut next.master).add()

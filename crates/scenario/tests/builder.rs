@@ -25,7 +25,7 @@ fn quiet(builder: ScenarioBuilder) -> ScenarioBuilder {
 type Said = fn(ScenarioBuilder) -> ScenarioBuilder;
 
 const ONE_MOMENT: &str = "a step has one of at, after and when";
-const BELONG: &str = "`within` and `for` belong to `expect`, `until` to `expect` and `never`";
+const BELONG: &str = "`within`, `for` and `while` belong to `expect`, `until` to `expect` and `never`";
 
 #[test]
 fn a_step_that_contradicts_itself_is_refused_with_its_number() {
@@ -46,7 +46,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
         (
             "within until expect",
             |it| it.within(SHORT).until(Condition::MasterIdle).expect(Condition::SdoTaken),
-            "`within`, `for` and `until` contradict each other",
+            "`within`, `for`, `until` and `while` contradict each other",
         ),
         (
             "within within expect",

@@ -163,7 +163,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         (
             "{ line = \"unit 1 is in OP\" }",
             "of another key",
-            "belongs to `expect`, `never`, `when` or `until`",
+            "belongs to `expect`, `never`, `when`, `until` or `while`",
         ),
         ("{ expect = \"take unit 1 to OP\" }", "of another key", "this sentence belongs to `master`"),
         (
@@ -402,7 +402,7 @@ line 4, column 1: unknown key `seeed`
   did you mean `seed`?
 line 5, column 9: `soon`: not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"
 line 7, column 5: unknown key `expct`
-  expected `at`, `after`, `when`, `master`, `unit`, `cpu`, `line`, `expect`, `never`, `within`, `for`, `until`, `repeat`, `every`, \
+  expected `at`, `after`, `when`, `master`, `unit`, `cpu`, `line`, `expect`, `never`, `within`, `for`, `until`, `while`, `repeat`, `every`, \
 `jitter` or `random`; did you mean `expect`?
 line 7, column 23: `at` is an integer
   expected a duration such as \"1.5ms\"
@@ -466,7 +466,7 @@ fn until_holds_as_long_as_it_takes() {
 /// An expectation that is never checked would always be fulfilled.
 #[test]
 fn what_has_to_hold_for_a_time_has_to_hold_at_once() {
-    for span in ["0s", "1ns", "1ms"] {
+    for span in ["1ns", "1ms"] {
         let text = format!(
             "title = \"t\"\nsteps = [\n{{ master = \"take unit 1 to OP\" }},\n\
              {{ expect = \"unit 1 is in OP\", for = \"{span}\" }}\n]"

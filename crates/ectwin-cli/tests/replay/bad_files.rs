@@ -30,7 +30,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "within-and-for",
         r#"{ expect = "unit 1 is in OP", within = "1ms", for = "1ms" }"#,
-        &["`within`, `for` and `until` contradict each other"],
+        &["`within`, `for`, `until` and `while` contradict each other"],
     ),
     ("no-teller", r#"{ at = "1ms" }"#, &["a step has exactly one of master, unit"]),
     ("unknown-key", r#"{ mastre = "restart" }"#, &["mastre"]),

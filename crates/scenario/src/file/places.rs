@@ -34,6 +34,9 @@ pub(super) struct StepPlaces {
     pub(super) order: Span,
     pub(super) when: Span,
     pub(super) until: Span,
+    pub(super) r#while: Span,
+    /// The time of `for`.
+    pub(super) span: Span,
     /// The repetition: `repeat` or `random`.
     pub(super) count: Span,
 }
@@ -62,6 +65,8 @@ impl StepPlaces {
             StepPart::Order => self.order.clone(),
             StepPart::When => self.when.clone(),
             StepPart::Until => self.until.clone(),
+            StepPart::While => self.r#while.clone(),
+            StepPart::For => self.span.clone(),
             StepPart::Count => self.count.clone(),
         }
     }

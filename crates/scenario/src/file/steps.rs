@@ -40,6 +40,7 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
         within: part.duration("within"),
         r#for: part.duration("for"),
         until: part.said("until"),
+        r#while: part.said("while"),
         repeat: part.number("repeat"),
         every: part.duration("every"),
         jitter: part.duration("jitter"),
@@ -56,6 +57,8 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
         order,
         when: span_of(&step, "when"),
         until: span_of(&step, "until"),
+        r#while: span_of(&step, "while"),
+        span: span_of(&step, "for"),
         count: span_of(&step, count),
     };
     let written = Written { line: file.lines.line(span.start), bytes: span.clone(), text };

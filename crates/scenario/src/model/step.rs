@@ -91,6 +91,8 @@ pub enum Mode {
     Until(Condition),
     /// At no time until this condition is true.
     NeverUntil(Condition),
+    /// At every time at which this condition is true, from now to the end. It must be true at some time.
+    While(Condition),
 }
 
 /// An entry of the list of steps.

@@ -41,6 +41,8 @@ pub(crate) struct StepForm {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) until: Option<Condition>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) r#while: Option<Condition>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) repeat: Option<u64>,
     #[serde(with = "optional_text", skip_serializing_if = "Option::is_none")]
     pub(crate) every: Option<Duration>,
@@ -107,12 +109,13 @@ impl StepForm {
 
     /// The time at which an expectation must be true; none: the keys leave it out.
     fn mode(&self) -> Result<Option<Mode>, Contradiction> {
-        match (self.within, self.r#for, &self.until) {
-            (None, None, None) => Ok(None),
-            (Some(within), None, None) => Ok(Some(Mode::Within(within))),
-            (None, Some(span), None) => Ok(Some(Mode::For(span))),
-            (None, None, Some(until)) => Ok(Some(Mode::Until(until.clone()))),
-            _ => Err(Contradiction::new("`within`, `for` and `until` contradict each other")),
+        match (self.within, self.r#for, &self.until, &self.r#while) {
+            (None, None, None, None) => Ok(None),
+            (Some(within), None, None, None) => Ok(Some(Mode::Within(within))),
+            (None, Some(span), None, None) => Ok(Some(Mode::For(span))),
+            (None, None, Some(until), None) => Ok(Some(Mode::Until(until.clone()))),
+            (None, None, None, Some(condition)) => Ok(Some(Mode::While(condition.clone()))),
+            _ => Err(Contradiction::new("`within`, `for`, `until` and `while` contradict each other")),
         }
     }
 
@@ -134,8 +137,11 @@ impl StepForm {
             self.line.map(Order::Line),
         ];
         let orders: Vec<Order> = orders.into_iter().flatten().collect();
-        let misplaced =
-            || Contradiction::new("`within` and `for` belong to `expect`, `until` to `expect` and `never`");
+        let misplaced = || {
+            Contradiction::new(
+                "`within`, `for` and `while` belong to `expect`, `until` to `expect` and `never`",
+            )
+        };
         match (orders.as_slice(), self.expect, self.never) {
             ([order], None, None) => mode.map_or_else(|| Ok(order.clone()), |_| Err(misplaced())),
             ([], Some(condition), None) => {
@@ -188,6 +194,7 @@ impl StepForm {
             Mode::Within(within) => self.within = Some(within),
             Mode::For(span) => self.r#for = Some(span),
             Mode::Until(until) | Mode::NeverUntil(until) => self.until = Some(until),
+            Mode::While(condition) => self.r#while = Some(condition),
         }
     }
 }

@@ -31,6 +31,9 @@ pub(crate) enum StepPart {
     Order,
     When,
     Until,
+    While,
+    /// The time of `for`.
+    For,
     /// The repetition: `repeat` or `random`.
     Count,
 }

@@ -7,7 +7,7 @@ use plc::Builtin;
 use super::maker::Maker;
 use super::problem::Part;
 use super::program_values::LastingValue;
-use crate::model::{Condition, Controller, CpuOrder, Order, ScriptStep};
+use crate::model::{Condition, Controller, CpuOrder, Mode, Order, ScriptStep};
 use crate::run::{LoadedProgram, ProgramFile, UserProgram};
 
 /// How long a condition is checked.
@@ -17,6 +17,16 @@ pub(super) enum Lasting {
     Step,
     /// To the end of the scenario.
     ToTheEnd,
+}
+
+impl Lasting {
+    /// Of the condition of an expectation.
+    pub(super) const fn of(mode: &Mode) -> Self {
+        match mode {
+            Mode::Never | Mode::While(_) => Self::ToTheEnd,
+            Mode::Now | Mode::Within(_) | Mode::For(_) | Mode::Until(_) | Mode::NeverUntil(_) => Self::Step,
+        }
+    }
 }
 
 /// The program of a CPU Unit at a step.

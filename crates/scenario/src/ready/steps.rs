@@ -102,15 +102,28 @@ impl Maker<'_> {
         let part = Part::Step(at, StepPart::Order);
         match &mut step.order {
             Order::Expect(Expectation { condition, mode }) => {
-                let lasting = if *mode == Mode::Never { Lasting::ToTheEnd } else { Lasting::Step };
-                self.condition(condition, part, ground, lasting);
-                if let Mode::Until(until) | Mode::NeverUntil(until) = mode {
-                    self.condition(until, Part::Step(at, StepPart::Until), ground, Lasting::Step);
-                }
+                self.condition(condition, part, ground, Lasting::of(mode));
+                self.check_mode(at, mode, ground);
             }
             order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
                 self.order(order, part, ground);
             }
+        }
+    }
+
+    fn check_mode(&mut self, at: usize, mode: &mut Mode, ground: Ground) {
+        match mode {
+            Mode::Until(until) | Mode::NeverUntil(until) => {
+                self.condition(until, Part::Step(at, StepPart::Until), ground, Lasting::Step);
+            }
+            Mode::While(condition) => {
+                self.condition(condition, Part::Step(at, StepPart::While), ground, Lasting::ToTheEnd);
+            }
+            Mode::For(span) if span.is_zero() => {
+                let help = "a time above 0, such as `for = \"100ms\"`; without `for` it is checked once";
+                self.refuse(Part::Step(at, StepPart::For), "a `for` of 0 checks nothing that lasts", help);
+            }
+            Mode::Now | Mode::Within(_) | Mode::Never | Mode::For(_) => {}
         }
     }
 

@@ -4,6 +4,8 @@
 //! advances the world, at most until then, and calls again after each event. So several sequences can be played at
 //! once, and the same player can follow a world that runs in real time.
 
+mod change;
+mod rest;
 mod sequence;
 mod shared;
 mod step;
@@ -22,6 +24,7 @@ use super::stage::Stage;
 use super::virtual_stage::advance;
 use super::world::World;
 
+use rest::Rest;
 use sequence::Sequence;
 use shared::Shared;
 use verdict::{Progress, Verdict};
@@ -54,6 +57,8 @@ pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, record
 /// Plays the steps of a scenario on a stage.
 struct Player<'a> {
     steps: Sequence<'a>,
+    /// All steps are done.
+    rest: Option<Rest<'a>>,
     shared: Shared<'a>,
 }
 
@@ -69,7 +74,7 @@ impl<'a> Player<'a> {
     /// Plays these steps, until `limit` at the latest.
     fn new(steps: &'a [WrittenStep], seed: u64, limit: Instant) -> Self {
         let dice = Dice::new(seed ^ DICE_OF_STEPS);
-        Self { steps: Sequence::of(steps), shared: Shared::new(dice, limit) }
+        Self { steps: Sequence::of(steps), rest: None, shared: Shared::new(dice, limit) }
     }
 
     /// Plays all steps in virtual time.
@@ -88,12 +93,27 @@ impl<'a> Player<'a> {
     /// The first expectation that is not fulfilled.
     fn advance(&mut self, stage: &mut impl Stage) -> Verdict<Next> {
         self.shared.look(stage)?;
-        match self.steps.poll(stage, &mut self.shared)? {
-            Progress::Done => self.shared.end(stage).map(|()| Next::End),
+        match self.poll(stage)? {
+            Progress::Done => Ok(Next::End),
             Progress::Waits(waits) => {
                 self.shared.check_limit(&waits, stage)?;
                 Ok(Next::Wait { until: waits.until })
             }
+        }
+    }
+
+    /// Takes the steps that are due, and then the rest.
+    fn poll(&mut self, stage: &mut impl Stage) -> Verdict<Progress<'a>> {
+        if self.rest.is_none() {
+            if let waits @ Progress::Waits(_) = self.steps.poll(stage, &mut self.shared)? {
+                return Ok(waits);
+            }
+            let last = self.shared.current;
+            self.rest = last.map(|last| Rest::after(last, stage.now(), &self.shared));
+        }
+        match &self.rest {
+            Some(rest) => rest.poll(stage, &mut self.shared),
+            None => Ok(Progress::Done),
         }
     }
 }

@@ -30,6 +30,9 @@ pub(crate) trait Stage {
     /// Carries out an action on the line, if that is possible.
     fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal>;
 
+    /// What the scripted master is doing; none: it has nothing to do.
+    fn unfinished(&self) -> Option<String>;
+
     /// Adds a line about a step to the trace.
     fn note_step(&mut self, words: &str);
 }

@@ -38,6 +38,11 @@ impl Stage for World {
         self.line_order(order)
     }
 
+    fn unfinished(&self) -> Option<String> {
+        let master = self.master();
+        (!master.is_idle()).then(|| master.activity())
+    }
+
     fn note_step(&mut self, words: &str) {
         let now = self.now();
         self.recording().tell(now, "step", words);

@@ -43,7 +43,7 @@ fn keys_of(text: &str) -> Option<&'static str> {
         (row_of(UNIT, text).is_some(), "`unit`"),
         (row_of(CPU, text).is_some(), "`cpu`"),
         (row_of(LINE, text).is_some(), "`line`"),
-        (row_of(CONDITIONS, text).is_some(), "`expect`, `never`, `when` or `until`"),
+        (row_of(CONDITIONS, text).is_some(), "`expect`, `never`, `when`, `until` or `while`"),
     ];
     keys.into_iter().find(|(has_it, _)| *has_it).map(|(_, keys)| keys)
 }

@@ -5,6 +5,7 @@ use core::slice::Iter;
 use super::shared::Shared;
 use super::step::StepPlay;
 use super::verdict::{Progress, Verdict};
+use crate::model::{Order, Trigger};
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
@@ -26,7 +27,10 @@ impl<'a> Sequence<'a> {
             let step = match &mut self.current {
                 Some(step) => step,
                 None => match self.rest.next() {
-                    Some(next) => self.current.insert(StepPlay::of(next, stage.now())),
+                    Some(next) => {
+                        let expectation = expectation_at_once(self.rest.as_slice());
+                        self.current.insert(StepPlay::of(next, expectation, stage.now()))
+                    }
                     None => return Ok(Progress::Done),
                 },
             };
@@ -36,4 +40,10 @@ impl<'a> Sequence<'a> {
             }
         }
     }
+}
+
+/// The expectation that follows at once, behind other orders of the same time.
+fn expectation_at_once(rest: &[WrittenStep]) -> Option<&WrittenStep> {
+    let at_once = rest.iter().take_while(|next| next.step.trigger == Trigger::AtOnce);
+    at_once.into_iter().find(|next| matches!(next.step.order, Order::Expect(_)))
 }

@@ -17,23 +17,35 @@ pub(super) struct Shared<'a> {
     watches: Vec<Watch<'a>>,
     /// The step that was executed last; none before the first one.
     pub(super) current: Option<&'a WrittenStep>,
+    /// An expectation whose condition was true before an order that ends it.
+    pub(super) change: Option<Change<'a>>,
     /// The time at which the play must have ended.
     pub(super) limit: Instant,
 }
 
+/// An order that ends the condition of the expectation after it.
+#[derive(Clone, Copy)]
+pub(super) struct Change<'a> {
+    pub(super) order: &'a WrittenStep,
+    pub(super) expectation: &'a WrittenStep,
+}
+
 impl<'a> Shared<'a> {
     pub(super) const fn new(dice: Dice, limit: Instant) -> Self {
-        Self { dice, watches: Vec::new(), current: None, limit }
+        Self { dice, watches: Vec::new(), current: None, change: None, limit }
     }
 
+    /// Opens a watch. One to the end that is open is not opened again.
     pub(super) fn open(&mut self, watch: Watch<'a>) {
-        self.watches.push(watch);
+        if !self.watches.iter().any(|open| open.is_of(watch.step)) {
+            self.watches.push(watch);
+        }
     }
 
     /// Checks the open expectations.
     pub(super) fn look(&mut self, stage: &mut impl Stage) -> Verdict {
         let mut place = 0;
-        while let Some(watch) = self.watches.get(place) {
+        while let Some(watch) = self.watches.get_mut(place) {
             match watch.look(stage)? {
                 Watched::Open => place += 1,
                 Watched::Satisfied => drop(self.watches.remove(place)),
@@ -42,9 +54,15 @@ impl<'a> Shared<'a> {
         Ok(())
     }
 
-    /// All steps are done: expectations that had to be true to the end are fulfilled.
+    /// Whether an expectation that lasts to the end has begun at this time.
+    pub(super) fn has_begun_at(&self, time: Instant) -> bool {
+        self.watches.iter().any(|watch| watch.lasts_to_the_end() && watch.begun == time)
+    }
+
+    /// The end: expectations that had to be true to the end are fulfilled.
     pub(super) fn end(&mut self, stage: &mut impl Stage) -> Verdict {
-        self.look(stage)
+        self.look(stage)?;
+        self.watches.iter().try_for_each(|watch| watch.end(stage))
     }
 
     /// Nothing may wait after the limit.

@@ -2,11 +2,12 @@
 
 use time::Instant;
 
-use super::shared::Shared;
+use super::change::ends;
+use super::shared::{Change, Shared};
 use super::verdict::{Progress, Verdict, Waits, failure};
-use super::wait::Wait;
+use super::wait::{UntilThen, Wait};
 use super::watch::{Wanted, Watch};
-use crate::model::{Expectation, Mode, Order};
+use crate::model::{Condition, Expectation, Mode, Order};
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
@@ -17,6 +18,8 @@ pub(super) struct StepPlay<'a> {
     phase: Phase,
     /// Further executions after this one.
     more: u64,
+    /// The expectation that follows at once.
+    next: Option<&'a WrittenStep>,
 }
 
 /// What a step waits for now.
@@ -29,10 +32,10 @@ enum Phase {
 }
 
 impl<'a> StepPlay<'a> {
-    pub(super) fn of(step: &'a WrittenStep, now: Instant) -> Self {
+    pub(super) fn of(step: &'a WrittenStep, next: Option<&'a WrittenStep>, now: Instant) -> Self {
         let times = step.step.repetition.map_or(1, |repetition| repetition.times);
         let wait = Wait::for_trigger(&step.step.trigger, now);
-        Self { step, wait, phase: Phase::Due, more: times.saturating_sub(1) }
+        Self { step, wait, phase: Phase::Due, more: times.saturating_sub(1), next }
     }
 
     pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
@@ -58,6 +61,7 @@ impl<'a> StepPlay<'a> {
 
     /// Carries the step out once, and returns what it waits for then.
     fn perform(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
+        self.note_change(stage, shared);
         match &self.step.step.order {
             Order::Master(order) => {
                 self.act(stage, shared, |stage| stage.master_order(order))?;
@@ -72,6 +76,18 @@ impl<'a> StepPlay<'a> {
                 shared.look(stage).map(|()| Wait::Over)
             }
             Order::Expect(expectation) => self.expect(expectation, stage, shared),
+        }
+    }
+
+    /// Notes whether the condition of the expectation that follows is true, although an order before it ends it.
+    fn note_change(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
+        let Some((condition, expectation)) = self.next.and_then(|next| Some((within(next)?, next))) else {
+            return;
+        };
+        if stage.check(condition).is_err() {
+            shared.change = None;
+        } else if ends(&self.step.step.order, condition) {
+            shared.change = Some(Change { order: self.step, expectation });
         }
     }
 
@@ -93,13 +109,19 @@ impl<'a> StepPlay<'a> {
         shared: &mut Shared<'a>,
     ) -> Verdict<Wait<'a>> {
         let (step, now) = (self.step, stage.now());
-        let watch = |wanted, until| Watch { step, condition, wanted, until };
+        let watch = |wanted, until| Watch { step, condition, wanted, begun: now, until };
         match mode {
             Mode::Now => {
                 stage.check(condition).map_err(|seen| failure(step, now, seen))?;
                 Ok(Wait::Over)
             }
-            Mode::Within(limit) => Ok(Wait::Within(condition, now + *limit)),
+            Mode::Within(limit) => {
+                let change = shared.change.take_if(|change| core::ptr::eq(change.expectation, step));
+                Ok(match change {
+                    Some(change) => Wait::AfterChange(condition, now + *limit, &change.order.text),
+                    None => Wait::Within(condition, now + *limit),
+                })
+            }
             Mode::For(span) => {
                 stage.check(condition).map_err(|seen| failure(step, now, seen))?;
                 let until = now + *span;
@@ -111,8 +133,25 @@ impl<'a> StepPlay<'a> {
                 shared.look(stage)?;
                 Ok(Wait::Over)
             }
-            Mode::Until(until) => Ok(Wait::Until(condition, until, Wanted::Always)),
-            Mode::NeverUntil(until) => Ok(Wait::Until(condition, until, Wanted::Never)),
+            Mode::While(only) => {
+                shared.open(watch(Wanted::While { condition: only, was_true: false }, Instant::NEVER));
+                shared.look(stage)?;
+                Ok(Wait::Over)
+            }
+            Mode::Until(end) => Ok(until(condition, end, UntilThen::Always)),
+            Mode::NeverUntil(end) => Ok(until(condition, end, UntilThen::Never)),
         }
+    }
+}
+
+const fn until<'a>(condition: &'a Condition, end: &'a Condition, wanted: UntilThen) -> Wait<'a> {
+    Wait::Until { condition, end, wanted, has_begun: false }
+}
+
+/// The condition of an expectation with `within`.
+fn within(step: &WrittenStep) -> Option<&Condition> {
+    match &step.step.order {
+        Order::Expect(Expectation { condition, mode: Mode::Within(_) }) => Some(condition),
+        Order::Expect(_) | Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_) => None,
     }
 }

@@ -43,6 +43,10 @@ impl Stage for Desk {
         Ok(())
     }
 
+    fn unfinished(&self) -> Option<String> {
+        None
+    }
+
     fn note_step(&mut self, words: &str) {
         self.story.push(format!("{} {words}", self.now.as_nanos() / 1_000_000));
     }

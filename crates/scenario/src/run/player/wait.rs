@@ -3,8 +3,9 @@
 use time::Instant;
 
 use super::verdict::{Verdict, failure};
-use super::watch::Wanted;
+use super::watch::judge_never;
 use crate::model::{Condition, Trigger};
+use crate::run::check::Seen;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
@@ -19,8 +20,26 @@ pub(super) enum Wait<'a> {
     When(&'a Condition),
     /// Until this condition is true, before this time has passed.
     Within(&'a Condition, Instant),
-    /// Until the second condition is true; until then the first one must be true, or must not.
-    Until(&'a Condition, &'a Condition, Wanted),
+    /// The same, but the condition was true before an order that ends it, with these words: it must be false first.
+    AfterChange(&'a Condition, Instant, &'a str),
+    /// Until the second condition is true, which it must not be at once; until then the first one must be true, or must not.
+    Until { condition: &'a Condition, end: &'a Condition, wanted: UntilThen, has_begun: bool },
+}
+
+/// Whether the condition of an `until` must be true.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum UntilThen {
+    Always,
+    Never,
+}
+
+impl UntilThen {
+    fn judge(self, checked: Result<(), Seen>) -> Result<(), Seen> {
+        match self {
+            Self::Always => checked,
+            Self::Never => judge_never(checked),
+        }
+    }
 }
 
 impl<'a> Wait<'a> {
@@ -36,38 +55,61 @@ impl<'a> Wait<'a> {
 
     /// The time of the next look at the latest; none: the wait is over.
     pub(super) fn look(
-        &self,
+        &mut self,
         step: &WrittenStep,
         stage: &mut impl Stage,
         limit: Instant,
     ) -> Verdict<Option<Instant>> {
         let now = stage.now();
-        match *self {
+        let failed = |seen: Seen| Err(failure(step, now, seen));
+        match self {
             Self::Over => Ok(None),
-            Self::Time(time) if stage.has_passed(time) => Ok(None),
-            Self::Time(time) => Ok(Some(time)),
-            Self::When(condition) => {
-                let Err(seen) = stage.check(condition) else { return Ok(None) };
-                if now < limit {
-                    return Ok(Some(limit));
+            Self::Time(time) => Ok((!stage.has_passed(*time)).then_some(*time)),
+            Self::When(condition) => match stage.check(condition) {
+                Ok(()) => Ok(None),
+                Err(_) if now < limit => Ok(Some(limit)),
+                Err(seen) => {
+                    failed(format!("the condition of `when` is not true before the limit: {seen}").into())
                 }
-                let seen = format!("the condition of `when` is not true before the limit: {seen}");
-                Err(failure(step, now, seen.into()))
-            }
-            Self::Within(condition, until) => {
-                let Err(seen) = stage.check(condition) else { return Ok(None) };
-                if now < until { Ok(Some(until)) } else { Err(failure(step, now, seen)) }
-            }
-            Self::Until(condition, end, wanted) => {
-                let Err(waiting) = stage.check(end) else { return Ok(None) };
-                let judged = wanted.judge(stage.check(condition));
-                judged.map_err(|seen| failure(step, now, seen))?;
-                if now < limit {
-                    return Ok(Some(limit));
+            },
+            Self::Within(condition, until) => match stage.check(condition) {
+                Ok(()) => Ok(None),
+                Err(_) if now < *until => Ok(Some(*until)),
+                Err(seen) => failed(seen),
+            },
+            Self::AfterChange(condition, until, order) => match stage.check(condition) {
+                Err(_) => {
+                    *self = Self::Within(condition, *until);
+                    self.look(step, stage, limit)
                 }
-                let seen = format!("the condition of `until` is not true before the limit: {waiting}");
-                Err(failure(step, now, seen.into()))
-            }
+                Ok(()) if now < *until => Ok(Some(*until)),
+                Ok(()) => failed(unchanged(order)),
+            },
+            Self::Until { condition, end, wanted, has_begun } => match stage.check(end) {
+                Ok(()) if *has_begun => Ok(None),
+                Ok(()) => failed(nothing_to_check()),
+                Err(waiting) => {
+                    *has_begun = true;
+                    wanted.judge(stage.check(condition)).map_err(|seen| failure(step, now, seen))?;
+                    if now < limit {
+                        return Ok(Some(limit));
+                    }
+                    failed(format!("the condition of `until` is not true before the limit: {waiting}").into())
+                }
+            },
         }
     }
+}
+
+fn unchanged(order: &str) -> Seen {
+    format!(
+        "it was true before the order `{order}`, and has not been false since; `for` checks that something stays true"
+    )
+    .into()
+}
+
+fn nothing_to_check() -> Seen {
+    "the condition of `until` is true already, so nothing is checked; place the expectation before what makes it true"
+        .to_owned()
+        .into()
 }

@@ -1,0 +1,73 @@
+//! Conditions that an order is about to end: if one is true before the order, the present state must not fulfil the
+//! expectation that follows.
+
+use crate::model::{Bytes, Condition, CpuOrder, MasterOrder, Order, UnitOrder, UnitSet};
+
+/// More units than any line has.
+const POSITIONS: usize = 1 << 16;
+
+/// Whether an order changes what a condition is about to something else than the condition.
+pub(super) fn ends(order: &Order, condition: &Condition) -> bool {
+    match order {
+        Order::Master(order) => master_ends(order, condition),
+        Order::Unit(order) => unit_ends(order, condition),
+        Order::Cpu(order) => cpu_ends(order, condition),
+        Order::Line(_) | Order::Expect(_) => false,
+    }
+}
+
+fn master_ends(order: &MasterOrder, condition: &Condition) -> bool {
+    match (order, condition) {
+        (
+            MasterOrder::Take { units, state } | MasterOrder::Request { units, state, .. },
+            Condition::State { units: of, state: expected, .. },
+        ) => overlap(*units, *of) && state != expected,
+        (
+            MasterOrder::SetOutputs { unit, at, bytes },
+            Condition::Outputs { unit: of, at: first, bytes: expected },
+        ) => unit == of && differ(*at, bytes, *first, expected),
+        (
+            MasterOrder::WriteRegister { unit, register, bytes },
+            Condition::Register { unit: of, register: first, value },
+        ) => unit == of && differ(register.0, bytes, first.0, value),
+        (
+            MasterOrder::WriteSdo { unit, entry, value },
+            Condition::Object { unit: of, entry: other, value: expected },
+        ) => (unit, entry) == (of, other) && value != expected,
+        _ => false,
+    }
+}
+
+fn unit_ends(order: &UnitOrder, condition: &Condition) -> bool {
+    match (order, condition) {
+        (
+            UnitOrder::InjectFault { units, .. },
+            Condition::HasNoError { units: of } | Condition::RecordedNothing { units: of },
+        ) => overlap(*units, *of),
+        _ => false,
+    }
+}
+
+fn cpu_ends(order: &CpuOrder, condition: &Condition) -> bool {
+    match (order, condition) {
+        (CpuOrder::StopIoRefreshing { units }, Condition::IoDataActive { units: of, active }) => {
+            *active && overlap(*units, *of)
+        }
+        (CpuOrder::StartIoRefreshing { units }, Condition::IoDataActive { units: of, active }) => {
+            !*active && overlap(*units, *of)
+        }
+        _ => false,
+    }
+}
+
+fn overlap(one: UnitSet, other: UnitSet) -> bool {
+    let (one, other) = (one.positions(POSITIONS), other.positions(POSITIONS));
+    one.start < other.end && other.start < one.end
+}
+
+/// Whether bytes at two places have a byte in common that differs.
+fn differ(at: u16, bytes: &Bytes, first: u16, expected: &Bytes) -> bool {
+    let written = (usize::from(at)..).zip(&bytes.0);
+    let expected = |place: usize| place.checked_sub(first.into()).and_then(|place| expected.0.get(place));
+    written.into_iter().any(|(place, byte)| expected(place).is_some_and(|expected| expected != byte))
+}

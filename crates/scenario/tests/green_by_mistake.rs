@@ -1,0 +1,177 @@
+//! Passes that would check nothing: they are refused, or waited for.
+
+#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
+
+use scenario::{Failure, Recording, Report, Scenario};
+use time::Duration;
+
+/// Steps after the unit is in SAFE-OP.
+fn in_safe_op(steps: &str) -> String {
+    format!(
+        "title = \"t\"\nsteps = [\n{{ master = \"take unit 1 to SAFE-OP\" }},\n{{ expect = \"unit 1 is in SAFE-OP\", within = \"1s\" }},\n{{ master = \"stop process data\" }},\n{steps}\n]"
+    )
+}
+
+fn replay(text: &str) -> Report {
+    let scenario =
+        Scenario::parse(text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{text}\n{errors}"));
+    scenario.replay(1, Recording::new(true, false))
+}
+
+fn failure(text: &str) -> Failure {
+    replay(text).failure.expect(text)
+}
+
+fn refused(text: &str) -> String {
+    Scenario::parse(text, |_| Err(String::new())).expect_err(text).to_string()
+}
+
+#[test]
+fn the_state_before_a_request_does_not_fulfil_what_is_expected_after_it() {
+    let text = in_safe_op(
+        r#"{ master = "request OP of unit 1" }, { expect = "unit 1 is in SAFE-OP", within = "1s" }"#,
+    );
+    let failure = failure(&text);
+    assert_eq!((failure.line, failure.at > Duration::from_secs(1)), (6, true), "{failure}");
+    assert!(failure.seen.contains("true before the order `request OP of unit 1`"), "{failure}");
+    assert!(failure.seen.contains("`for` checks"), "the way out: {failure}");
+}
+
+#[test]
+fn the_same_holds_behind_other_orders_and_for_outputs_objects_registers_and_errors() {
+    for (order, expectation) in [
+        (r#"{ master = "take unit 1 to OP" }, { line = "be quiet" }"#, "unit 1 is in SAFE-OP"),
+        (r#"{ master = "set the outputs of unit 1 to 2A" }"#, "the outputs of unit 1 begin with 00 00"),
+        (r#"{ master = "write SDO 10F3:05 of unit 1 as 01 00" }"#, "object 10F3:05 of unit 1 is 00 00"),
+        (r#"{ master = "write register 0x0310 of unit 1 as 05" }"#, "register 0x0310 of unit 1 is 00"),
+        (r#"{ line = "unplug cable 1" }, { master = "request OP of unit 1" }"#, "all units are in SAFE-OP"),
+        (
+            r#"{ cpu = "stop the task of unit 1" }, { unit = "break Processing of unit 1" }"#,
+            "unit 1 has no error",
+        ),
+        (
+            r#"{ unit = "power off unit 1" }, { master = "request OP of unit 1" }, { unit = "power on unit 1" }"#,
+            "unit 1 is in SAFE-OP",
+        ),
+    ] {
+        let text = in_safe_op(&format!("{order}, {{ expect = \"{expectation}\", within = \"20ms\" }}"));
+        assert!(replay(&text).failure.is_some(), "{text}");
+    }
+}
+
+#[test]
+fn a_state_that_is_left_and_reached_again_is_reached() {
+    let text = in_safe_op(
+        r#"{ master = "request PRE-OP of unit 1" }, { master = "request SAFE-OP of unit 1" }, { expect = "unit 1 is in SAFE-OP", within = "1s" }"#,
+    );
+    assert_eq!(replay(&text).failure, None);
+    let text = in_safe_op(
+        r#"{ master = "request SAFE-OP of unit 1" }, { expect = "unit 1 is in SAFE-OP", within = "1s" }"#,
+    );
+    assert_eq!(replay(&text).failure, None, "the order asks for it");
+}
+
+#[test]
+fn an_until_that_is_true_at_once_checks_nothing() {
+    for step in [
+        r#"{ expect = "unit 1 is in OP", until = "unit 1 is in SAFE-OP" }"#,
+        r#"{ never = "unit 1 is in SAFE-OP", until = "unit 1 has no error" }"#,
+    ] {
+        let failure = failure(&in_safe_op(step));
+        assert!(failure.seen.contains("`until` is true already, so nothing is checked"), "{failure}");
+    }
+}
+
+#[test]
+fn a_for_of_no_time_is_refused() {
+    let errors = refused(&in_safe_op(r#"{ expect = "unit 1 is in SAFE-OP", for = "0s" }"#));
+    assert!(errors.contains("line 6, column 42: a `for` of 0"), "{errors}");
+    assert!(errors.contains("such as `for = \"100ms\"`"), "{errors}");
+}
+
+#[test]
+fn a_never_or_an_order_as_the_last_step_has_its_time() {
+    // The watchdog expires 100 ms after the last outputs.
+    let op = r#"title = "t"
+steps = [
+  { master = "take unit 1 to OP" },
+  { expect = "unit 1 is in OP", within = "1s" },"#;
+    let lose = r#"{ line = "lose all process data frames" }"#;
+    let never = r#"{ never = "unit 1 has recorded 85000000" }"#;
+    for steps in [format!("{lose}, {never}"), format!("{never}, {lose}")] {
+        let failure = failure(&format!("{op} {steps}]"));
+        assert_eq!(failure.text, "unit 1 has recorded 85000000");
+    }
+    let quiet = replay(&format!("{op} {never}]"));
+    assert!(quiet.passes() && quiet.lasted > Duration::from_millis(200), "{:?}", quiet.failure);
+}
+
+#[test]
+fn a_run_ends_when_the_master_has_nothing_to_do() {
+    let text = r#"title = "t"
+steps = [
+  { never = "the master has given up" },
+  { master = "take unit 1 to PRE-OP" },
+  { expect = "unit 1 is in PRE-OP", within = "1s" },
+  { unit = "let the SDOs of unit 1 take 6s" },
+  { master = "read SDO 1018:01 of unit 1" },
+  { expect = "unit 1 is in PRE-OP" },
+]"#;
+    let failure = failure(text);
+    assert_eq!((failure.line, failure.at), (3, Duration::from_secs(5)), "{failure}");
+    let short = failure_of_limit(&text.replace("steps = [", "limit = \"1s\"\nsteps = ["));
+    assert!(short.contains("the master is still at: SDO upload 1018:01 of unit 1"), "{short}");
+    assert!(short.contains("set `limit` higher"), "{short}");
+}
+
+#[test]
+fn a_limit_that_leaves_no_time_after_the_last_step_is_a_failure() {
+    let text = "title = \"t\"\nlimit = \"100ms\"\nsteps = [{ never = \"unit 1 is in OP\" }]";
+    let seen = failure_of_limit(text);
+    assert!(seen.contains("before 200ms have passed after the last step; set `limit` higher"), "{seen}");
+}
+
+fn failure_of_limit(text: &str) -> String {
+    failure(text).seen
+}
+
+#[test]
+fn an_expectation_while_another_holds_is_checked_to_the_end() {
+    let steps = |expectation: &str| {
+        format!(
+            r#"title = "t"
+steps = [
+  {{ expect = "{expectation}", while = "unit 1 is in OP" }},
+  {{ master = "take unit 1 to OP" }},
+  {{ expect = "unit 1 is in OP", within = "1s" }},
+  {{ line = "unplug cable 1" }},
+  {{ expect = "unit 1 is in SAFE-OP with AL status code 0x001B", within = "1s" }},
+]"#
+        )
+    };
+    assert_eq!(replay(&steps("RUN of unit 1 is lit")).failure, None, "it is not lit in SAFE-OP");
+    let failure = failure(&steps("unit 1 has new messages"));
+    assert_eq!(failure.line, 3, "{failure}");
+}
+
+#[test]
+fn a_while_that_never_holds_is_a_failure() {
+    let text = in_safe_op(
+        r#"{ expect = "unit 1 has no error", while = "unit 1 is in OP" }, { expect = "unit 1 is in SAFE-OP", for = "300ms" }"#,
+    );
+    let failure = failure(&text);
+    assert_eq!(failure.line, 6);
+    assert!(failure.seen.contains("`while` was never true: unit 1 is in SAFE-OP"), "{failure}");
+}
+
+#[test]
+fn a_while_has_no_other_time() {
+    for step in [
+        r#"{ expect = "unit 1 is in OP", while = "unit 1 has no error", within = "1s" }"#,
+        r#"{ never = "unit 1 is in OP", while = "unit 1 has no error" }"#,
+        r#"{ line = "be quiet", while = "unit 1 has no error" }"#,
+    ] {
+        let errors = refused(&in_safe_op(step));
+        assert!(errors.contains("line 6, column 1") && errors.contains("`while`"), "{errors}");
+    }
+}
