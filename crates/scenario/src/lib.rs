@@ -13,6 +13,7 @@ mod ready;
 mod replay;
 mod run;
 mod search;
+mod trace_difference;
 pub mod words;
 
 pub use builder::ScenarioBuilder;
@@ -22,4 +23,5 @@ pub use run::{
     RecordedFrames, Recording, Report, Scenario, UnitSource, UserProgram, WrittenStep,
 };
 pub use search::Found;
+pub use trace_difference::{TraceDifference, trace_differences};
 pub use user_file::Wanted;

@@ -1,6 +1,7 @@
 //! Replaying a scenario: its steps including the random ones, and its golden trace.
 
 use crate::run::{Failure, Recording, Report, Scenario, play};
+use crate::trace_difference::trace_differences;
 
 impl Scenario {
     /// Replays the scenario with this seed. The same seed gives the same bytes.
@@ -10,7 +11,9 @@ impl Scenario {
         let recording = if golden.is_some() { recording.with_trace() } else { recording };
         let mut report = play(self, &self.all_steps(seed), seed, recording);
         if let (None, Some(golden)) = (&report.failure, golden) {
-            let seen = golden_difference(golden, report.recording.trace().unwrap_or_default());
+            let trace = report.recording.trace().unwrap_or_default();
+            let seen = golden_difference(golden, trace);
+            report.trace_differences = trace_differences(golden, trace);
             report.failure = seen.map(|seen| Failure {
                 line: 1,
                 text: "the trace is the golden one".to_owned(),

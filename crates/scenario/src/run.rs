@@ -3,6 +3,7 @@
 mod caught;
 mod check;
 mod dice;
+mod frame_words;
 mod master;
 mod player;
 mod programs;

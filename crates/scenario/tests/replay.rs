@@ -74,3 +74,36 @@ steps = [
     let other = other.replay(43, Recording::new(true, true));
     assert_ne!(other.recording.into_capture(), second, "another seed is another run");
 }
+
+#[test]
+fn a_trace_has_indicators_sdo_values_senders_of_emergencies_and_lost_frames() {
+    let report = replay(
+        r#"
+title = "a trace"
+cycle_phase = "0ms"
+units = [{ model = "nx-ect101" }, { model = "nx-ect101" }]
+steps = [
+  { master = "take all units to OP" },
+  { when = "all units are in OP", master = "read SDO 1018:04 of unit 2" },
+  { when = "the master has nothing to do", master = "write SDO 1018:04 of unit 2 as 01 00 00 00" },
+  { when = "the master has nothing to do", master = "write SDO 10F3:05 of unit 2 as 01 00" },
+  { when = "the master has nothing to do", unit = "break IoCommunications of unit 2" },
+  { after = "50ms", line = "lose the next 1 process data frames" },
+  { after = "5ms", expect = "unit 2 has recorded 80200000" },
+]
+"#,
+    );
+    let trace = report.recording.trace().unwrap_or_default();
+    for line in [
+        "unit 2    RUN is blinking",
+        "unit 2    TS green is not_lit, TS red is flashing_1s\n",
+        "master    SDO upload 1018:04 of unit 2 gives ",
+        "master    SDO download 1018:04 of unit 2 is refused with 0x06010002: 01 00 00 00",
+        "master    SDO download 10F3:05 of unit 2 is taken: 01 00",
+        "master    receives emergency ",
+        " of unit 2: error register 0x",
+        "line      a frame is lost on the way to the units: LRW 0x000",
+    ] {
+        assert!(trace.contains(line), "`{line}` is not in\n{trace}");
+    }
+}

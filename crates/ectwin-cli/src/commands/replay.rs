@@ -6,6 +6,7 @@
 mod campaign;
 mod captures;
 mod case;
+mod golden;
 mod junit;
 mod partition;
 mod result;
@@ -40,7 +41,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let shard = shard(args.partition)?;
     let mut campaign = Campaign::read(args)?;
     if args.bless {
-        return campaign.bless(&args.files);
+        return golden::bless(&mut campaign, &args.files);
     }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
     overwrite::refuse(&outputs(args), campaign.inputs())?;

@@ -2,6 +2,7 @@
 //! data in parallel.
 
 mod answer;
+mod asked_sdo;
 mod emergencies;
 mod last_sdo;
 mod operation;
@@ -240,8 +241,9 @@ impl Master {
         let unit = operation.unit;
         let (progress, emergencies) = operation.answered(Some(answer));
         for emergency in emergencies {
-            self.emergencies.push(Received { unit, emergency });
-            self.story.push(format!("receives emergency {:04X}", emergency.code));
+            let received = Received { unit, emergency };
+            self.story.push(received.words());
+            self.emergencies.push(received);
         }
         match progress {
             Progress::Next | Progress::NextStage => self.waiting.at = now,
@@ -306,8 +308,8 @@ impl Master {
                     let any = self.listens.contains(&true);
                     self.next_listen = if any { now + LISTEN_PERIOD } else { Instant::NEVER };
                 }
-                Step::SdoResult { number, result } => {
-                    self.story.push(last_sdo::words(&result));
+                Step::SdoResult { number, words, result } => {
+                    self.story.push(words);
                     self.last_sdo.answer(number, result);
                 }
                 Step::RawAnswer { number, bytes } => self.story.push(self.raw.answer(number, bytes)),

@@ -51,7 +51,8 @@ pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, record
     }
     let cycles = world.master().cycles();
     let differences = world.recorded_master().difference_kinds();
-    Report { seed, failure, lasted, cycles, differences, recording: world.into_recording() }
+    let (trace_differences, recording) = (Vec::new(), world.into_recording());
+    Report { seed, failure, lasted, cycles, differences, trace_differences, recording }
 }
 
 /// Plays the steps of a scenario on a stage.

@@ -3,6 +3,7 @@
 use capture::{Direction, PcapngWriter};
 use time::Instant;
 
+use super::frame_words::frame_words;
 use crate::model::Calendar;
 
 /// The trace of a replay, and its capture if requested.
@@ -49,6 +50,10 @@ impl Recording {
         self.capture.and_then(|capture| capture.finish().ok())
     }
 
+    pub(crate) const fn has_trace(&self) -> bool {
+        self.trace.is_some()
+    }
+
     /// An action of a participant.
     pub(crate) fn tell(&mut self, now: Instant, who: &str, what: &str) {
         if let Some(trace) = &mut self.trace {
@@ -61,10 +66,17 @@ impl Recording {
         self.tell(now, "line", what);
     }
 
+    /// What happens to a frame, and which one it is.
+    fn note_frame(&mut self, now: Instant, frame: &[u8], what: &str) {
+        if self.has_trace() {
+            self.note(now, &format!("{what}: {}", frame_words(frame)));
+        }
+    }
+
     /// A frame goes to the units.
     pub(crate) fn sent(&mut self, now: Instant, frame: &[u8], comment: Option<&str>) {
         if let Some(comment) = comment {
-            self.note(now, comment);
+            self.note_frame(now, frame, comment);
         }
         self.packet(now, Direction::Inbound, frame, comment);
     }
@@ -76,7 +88,7 @@ impl Recording {
 
     /// A frame is lost on its way.
     pub(crate) fn lost(&mut self, now: Instant, direction: Direction, frame: &[u8], comment: &str) {
-        self.note(now, comment);
+        self.note_frame(now, frame, comment);
         self.packet(now, direction, frame, Some(comment));
     }
 

@@ -6,6 +6,7 @@ use super::caught::Panicked;
 use super::recorded::DifferenceKind;
 use super::recording::Recording;
 use super::scenario::WrittenStep;
+use crate::trace_difference::TraceDifference;
 
 /// The result of a replay.
 pub struct Report {
@@ -19,6 +20,8 @@ pub struct Report {
     pub cycles: u64,
     /// The differences to the answers of a capture, the most frequent kind first.
     pub differences: Vec<DifferenceKind>,
+    /// The lines of the trace that differ from the golden trace, in their order.
+    pub trace_differences: Vec<TraceDifference>,
     /// Trace and capture, if requested.
     pub recording: Recording,
 }
@@ -49,6 +52,7 @@ impl Report {
             lasted: Duration::ZERO,
             cycles: 0,
             differences: Vec::new(),
+            trace_differences: Vec::new(),
             recording,
         }
     }

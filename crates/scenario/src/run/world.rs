@@ -2,6 +2,7 @@
 
 mod cpus;
 mod frames;
+mod indicators;
 mod looks;
 mod orders;
 mod plugged;
@@ -23,6 +24,7 @@ use super::scenario::{Replacement, Scenario, UnitSource};
 use crate::model::StateName;
 
 use cpus::{Cpu, Cpus};
+use indicators::Patterns;
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
@@ -48,6 +50,7 @@ struct Watched {
     status: AlStatus,
     code: AlStatusCode,
     recorded: Vec<EventCode>,
+    patterns: Patterns,
 }
 
 impl World {
@@ -171,6 +174,7 @@ impl World {
         for words in self.master.take_story() {
             self.recording.tell(self.now, "master", &words);
         }
+        self.watch_indicators();
     }
 }
 

@@ -1,22 +1,20 @@
 //! The cases to be replayed: scenario files, read and checked, times seeds.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
-use scenario::{Recording, Scenario};
+use scenario::Scenario;
 use user_file::Problem;
 
 use super::case::{CASES_MAX, Case};
+use super::golden::{self, GoldenTraces};
 use super::partition::Partition;
 use super::seeds::SeedChoice;
 use super::story::quoted;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
-use crate::output::shown;
-use crate::overwrite::{self, Output};
-use crate::{output, unit_files};
+use crate::unit_files;
 
 /// Scenarios × seeds.
 pub(super) struct Campaign {
@@ -32,15 +30,6 @@ pub(super) struct Campaign {
 struct Loaded {
     path: PathBuf,
     scenario: Scenario,
-}
-
-/// The use of golden traces.
-#[derive(Clone, Copy)]
-enum GoldenTraces {
-    /// They are compared.
-    Compared,
-    /// They are written, so that it does not matter what is in them.
-    Written,
 }
 
 /// The seeds of each scenario.
@@ -81,6 +70,7 @@ impl Campaign {
                 Err(found) => problems.append(found),
             }
         }
+        golden::without_scenario(&args.files)?.into_iter().for_each(|problem| problems.push(problem));
         if !problems.is_empty() {
             return Err(Failure::BadFile(problems));
         }
@@ -102,32 +92,9 @@ impl Campaign {
         }
     }
 
-    /// Writes the existing golden traces, and those for files that are named.
-    ///
-    /// # Errors
-    /// A scenario fails for another reason, or a trace cannot be written.
-    pub(super) fn bless(&mut self, named: &[PathBuf]) -> Result<(), Failure> {
-        for Loaded { path, scenario } in &mut self.scenarios {
-            if scenario.golden_trace.take().is_none() && !named.contains(path) {
-                continue;
-            }
-            if let Some(case) = &scenario.case {
-                let message = format!("{} has parameters, and so no golden trace ({case})", path.display());
-                let help = "give each value a file of its own".to_owned();
-                return Err(Failure::Refused { message, help });
-            }
-            let report = scenario.replay(scenario.seed, Recording::new(true, false));
-            if let Some(failure) = &report.failure {
-                let help = "only a scenario that passes has a golden trace".to_owned();
-                return Err(Failure::Refused { message: format!("{}: {failure}", path.display()), help });
-            }
-            let trace = path.with_extension("trace");
-            // A scenario with that name is not a golden trace.
-            overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
-            output::write(Some(&trace), report.recording.trace().unwrap_or_default().as_bytes())?;
-            output::print_line(format_args!("blessed {}", shown(&trace)))?;
-        }
-        Ok(())
+    /// The scenarios and their files.
+    pub(super) fn scenarios_mut(&mut self) -> impl Iterator<Item = (&Path, &mut Scenario)> {
+        self.scenarios.iter_mut().map(|Loaded { path, scenario }| (&**path, scenario))
     }
 
     /// Every file that was read, and the memories of the units.
@@ -253,7 +220,7 @@ fn load(
     fingerprint.add(text.as_bytes());
     let mut cases = parse(path, &text, fingerprint, inputs)?;
     let trace = path.with_extension("trace");
-    let golden = read_golden(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
+    let golden = golden::read(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
     if let Some(text) = &golden {
         if cases.len() > 1 {
             return Err(golden_of_several(&trace, cases.len()).into());
@@ -307,20 +274,6 @@ fn parse(
         })?;
     }
     Ok(cases)
-}
-
-/// The golden trace beside a scenario; none if there is no such file. A file that cannot be read is not compared,
-/// so it must not count as none.
-fn read_golden(trace: &Path, scenario: &Path, golden: GoldenTraces) -> Result<Option<String>, Unreadable> {
-    // A file whose name is too long cannot exist.
-    let is_none = |kind| matches!(kind, io::ErrorKind::NotFound | io::ErrorKind::InvalidFilename);
-    let is_missing = trace.symlink_metadata().is_err_and(|error| is_none(error.kind()));
-    match golden {
-        // A scenario with that ending is not its own trace.
-        _ if is_missing || trace == scenario => Ok(None),
-        GoldenTraces::Compared => user_files::exact_text(trace, Wanted::Trace).map(Some),
-        GoldenTraces::Written => Ok(Some(String::new())),
-    }
 }
 
 fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerprint) -> Result<(), String> {

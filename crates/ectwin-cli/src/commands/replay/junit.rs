@@ -140,6 +140,7 @@ mod tests {
             virtual_ns: 1_234_567_890 * case,
             cycles: 0,
             differences: Vec::new(),
+            trace_differences: Vec::new(),
         }
     }
 

@@ -1,5 +1,6 @@
 //! The result of a case, as a line of JSON: the file that `merge` reads.
 
+use scenario::TraceDifference;
 use serde::{Deserialize, Serialize};
 use user_file::on_one_line;
 
@@ -38,6 +39,10 @@ pub(crate) struct CaseResult {
     /// The differences to the answers of a capture; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) differences: Vec<Difference>,
+    /// The lines that differ from the golden trace: `-` and the number in it, or `+` and the number in the trace of
+    /// the replay, and the text; left out if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) trace_differences: Vec<String>,
 }
 
 /// Answers that differ from the captured ones in the same way.
@@ -116,6 +121,7 @@ impl CaseResult {
             virtual_ns: report.lasted.as_nanos(),
             cycles: report.cycles,
             differences: report.differences.iter().map(Difference::of).collect(),
+            trace_differences: report.trace_differences.iter().map(TraceDifference::to_string).collect(),
         }
     }
 }

@@ -5,6 +5,9 @@ use user_file::on_one_line;
 
 use super::result::{CaseResult, Difference, Verdict};
 
+/// Most lines of a trace that are printed for a case.
+const TRACE_LINES_MAX: usize = 100;
+
 /// One line for a case; for a failure the place, the actual state, and the command to repeat it; then the
 /// trace, if requested.
 pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
@@ -35,7 +38,18 @@ pub(crate) fn failure(result: &CaseResult) -> String {
         result.seed,
         repeat(result)
     );
-    told + &differences(result)
+    told + &trace_differences(result) + &differences(result)
+}
+
+/// The lines that differ from the golden trace; of very many the first ones, and the number of the others.
+fn trace_differences(result: &CaseResult) -> String {
+    let all = &result.trace_differences;
+    let mut lines: Vec<String> =
+        all.iter().take(TRACE_LINES_MAX).map(|line| format!("        {line}\n")).collect();
+    if let Some(more @ 1..) = all.len().checked_sub(TRACE_LINES_MAX) {
+        lines.push(format!("        … and {more} more lines that differ\n"));
+    }
+    lines.concat()
 }
 
 /// A line for each kind of difference between the answers of a capture and those of the units.

@@ -3,6 +3,7 @@
 use ::master::{AlReport, ServiceFailure, StateRequest, Wait};
 use wire::AlState;
 
+use super::asked_sdo::AskedSdo;
 use super::last_sdo::{SdoNumber, SdoResult};
 use super::operation::{Operation, What};
 use super::process_data::ProcessData;
@@ -28,8 +29,8 @@ pub(crate) enum Step {
     Close(usize),
     /// A unit has a mailbox from now on, or no longer has one.
     Listen { unit: usize, listens: bool },
-    /// An SDO was answered.
-    SdoResult { number: Option<SdoNumber>, result: SdoResult },
+    /// An SDO was answered; in words with its object and its value.
+    SdoResult { number: Option<SdoNumber>, words: String, result: SdoResult },
     /// A register or a mailbox message was read.
     RawAnswer { number: RawNumber, bytes: Vec<u8> },
     /// A report.
@@ -75,16 +76,21 @@ impl Operation {
                 Ok(bytes) => Outcome::Done(vec![Step::RawAnswer { number, bytes }]),
                 Err(failure) => Outcome::Failed(failure.to_string()),
             },
-            What::Sdo { mailbox, .. } => match mailbox.into_service().into_result() {
-                Ok(value) => Outcome::Done(vec![Step::SdoResult { number, result: Ok(value) }]),
+            What::Sdo { asked, mailbox, .. } => match mailbox.into_service().into_result() {
+                Ok(value) => Outcome::Done(vec![sdo_result(unit, number, &asked, Ok(value))]),
                 Err(ServiceFailure::Abort(code)) => {
-                    Outcome::Done(vec![Step::SdoResult { number, result: Err(code.0) }])
+                    Outcome::Done(vec![sdo_result(unit, number, &asked, Err(code.0))])
                 }
                 Err(ServiceFailure::Mailbox(code)) => Outcome::Failed(format!("mailbox error {}", code.0)),
                 Err(failure) => Outcome::Failed(failure.to_string()),
             },
         }
     }
+}
+
+fn sdo_result(unit: usize, number: Option<SdoNumber>, asked: &AskedSdo, result: SdoResult) -> Step {
+    let words = format!("{asked} of unit {} {}", unit + 1, asked.outcome_words(&result));
+    Step::SdoResult { number, words, result }
 }
 
 /// The level of a state; none for BOOT and for a value that is not a state.

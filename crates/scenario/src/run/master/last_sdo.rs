@@ -55,7 +55,7 @@ impl LastSdo {
     }
 }
 
-pub(super) fn words(result: &SdoResult) -> String {
+fn words(result: &SdoResult) -> String {
     match result {
         Ok(value) if value.is_empty() => "the last SDO was taken".to_owned(),
         Ok(value) => format!("the last SDO gave {}", hex(value)),

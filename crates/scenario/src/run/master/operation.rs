@@ -6,6 +6,7 @@ use ::master::{
 };
 use wire::{AlState, Emergency, FrameBuilder, SdoTarget};
 
+use super::asked_sdo::AskedSdo;
 use super::last_sdo::SdoNumber;
 use super::raw::RawNumber;
 use crate::model::{Entry, StateName};
@@ -35,7 +36,7 @@ pub(super) enum What {
     /// Everything is set for the process data: they start.
     Open(RegisterRead),
     /// An SDO.
-    Sdo { words: String, mailbox: Box<MailboxDialogue>, is_begun: bool },
+    Sdo { asked: AskedSdo, mailbox: Box<MailboxDialogue>, is_begun: bool },
     /// Reads a register.
     ReadRegister { read: RegisterRead, number: RawNumber },
     /// A whole mailbox message, right or wrong.
@@ -72,18 +73,28 @@ impl Operation {
 
     pub(crate) fn download(unit: usize, channels: MailboxChannels, entry: Entry, value: &[u8]) -> Self {
         let transfer = SdoTransfer::download(SdoTarget::entry(entry.index, entry.sub), value);
-        Self::sdo(unit, channels, format!("SDO download {entry}"), Service::Sdo(transfer))
+        Self::sdo(
+            unit,
+            channels,
+            AskedSdo::writing(format!("SDO download {entry}"), value),
+            Service::Sdo(transfer),
+        )
     }
 
     pub(crate) fn upload(unit: usize, channels: MailboxChannels, entry: Entry) -> Self {
         let transfer = SdoTransfer::upload(SdoTarget::entry(entry.index, entry.sub));
-        Self::sdo(unit, channels, format!("SDO upload {entry}"), Service::Sdo(transfer))
+        Self::sdo(unit, channels, AskedSdo::reading(format!("SDO upload {entry}")), Service::Sdo(transfer))
     }
 
-    /// A service whose answer is that of an SDO; `words` for the trace.
-    pub(super) fn sdo(unit: usize, (out, inward): MailboxChannels, words: String, service: Service) -> Self {
+    /// A service whose answer is that of an SDO.
+    pub(super) fn sdo(
+        unit: usize,
+        (out, inward): MailboxChannels,
+        asked: AskedSdo,
+        service: Service,
+    ) -> Self {
         let mailbox = Box::new(MailboxDialogue::new(out, inward, service));
-        Self::new(unit, What::Sdo { words, mailbox, is_begun: false })
+        Self::new(unit, What::Sdo { asked, mailbox, is_begun: false })
     }
 
     pub(super) const fn read_register(
@@ -156,7 +167,7 @@ impl Operation {
             What::Take { target, .. } => format!("take {unit} to {}", StateName(*target)),
             What::Reach { request, .. } => format!("request {} of {unit}", StateName(request.state())),
             What::Open(_) => format!("process data of {unit}"),
-            What::Sdo { words, .. } => format!("{words} of {unit}"),
+            What::Sdo { asked, .. } => format!("{asked} of {unit}"),
             What::ReadRegister { read, .. } => {
                 format!("read of register {:#06X} of {unit}", read.access().offset())
             }

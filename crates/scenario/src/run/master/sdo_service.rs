@@ -3,6 +3,7 @@
 use ::master::{SdoInformation, SdoTransfer, Service};
 use wire::{ObjectIndex, SdoInfoList, SdoInfoRequest, SdoTarget, SubIndex, ValueInfo};
 
+use super::asked_sdo::AskedSdo;
 use super::operation::{MailboxChannels, Operation};
 use crate::model::{Entry, MasterOrder, UnitNumber};
 
@@ -12,7 +13,7 @@ const SEGMENT_BYTES: usize = 7;
 /// One such service.
 pub(super) struct SdoService {
     pub(super) unit: UnitNumber,
-    words: String,
+    asked: AskedSdo,
     service: Service,
 }
 
@@ -21,42 +22,46 @@ impl SdoService {
     pub(super) fn of(order: &MasterOrder) -> Option<Self> {
         let complete = |entry: &Entry| SdoTarget::complete(entry.index, entry.sub);
         let question = |request| Service::Information(SdoInformation::new(request));
-        let (unit, words, service) = match order {
+        let (unit, asked, service) = match order {
             MasterOrder::ReadCompleteSdo { unit, entry } => {
                 let service = Service::Sdo(SdoTransfer::upload(complete(entry)));
-                (unit, format!("complete SDO upload {entry}"), service)
+                (unit, AskedSdo::reading(format!("complete SDO upload {entry}")), service)
             }
             MasterOrder::WriteCompleteSdo { unit, entry, value } => {
                 let service = Service::Sdo(SdoTransfer::download(complete(entry), &value.0));
-                (unit, format!("complete SDO download {entry}"), service)
+                (unit, AskedSdo::writing(format!("complete SDO download {entry}"), &value.0), service)
             }
             MasterOrder::WriteSdoInSegments { unit, entry, value } => {
                 let target = SdoTarget::entry(entry.index, entry.sub);
                 let transfer = SdoTransfer::download_in_segments(target, &value.0, SEGMENT_BYTES);
-                (unit, format!("segmented SDO download {entry}"), Service::Sdo(transfer))
+                (
+                    unit,
+                    AskedSdo::writing(format!("segmented SDO download {entry}"), &value.0),
+                    Service::Sdo(transfer),
+                )
             }
             MasterOrder::ReadObjectList { unit, list } => (
                 unit,
-                format!("object list {list}"),
+                AskedSdo::reading(format!("object list {list}")),
                 question(SdoInfoRequest::List(SdoInfoList::from_bits(*list))),
             ),
             MasterOrder::DescribeObject { unit, object } => {
                 let words = format!("description of object {:04X}", object.0);
-                (unit, words, question(SdoInfoRequest::Object(ObjectIndex(object.0))))
+                (unit, AskedSdo::reading(words), question(SdoInfoRequest::Object(ObjectIndex(object.0))))
             }
             MasterOrder::DescribeEntry { unit, entry } => {
                 let Entry { index, sub } = *entry;
                 let value_info = ValueInfo::DEFAULT | ValueInfo::MINIMUM | ValueInfo::MAXIMUM;
                 let request =
                     SdoInfoRequest::Entry { index: ObjectIndex(index), sub: SubIndex(sub), value_info };
-                (unit, format!("description of entry {entry}"), question(request))
+                (unit, AskedSdo::reading(format!("description of entry {entry}")), question(request))
             }
             _ => return None,
         };
-        Some(Self { unit: *unit, words, service })
+        Some(Self { unit: *unit, asked, service })
     }
 
     pub(super) fn operation(&self, unit: usize, channels: MailboxChannels) -> Operation {
-        Operation::sdo(unit, channels, self.words.clone(), self.service.clone())
+        Operation::sdo(unit, channels, self.asked.clone(), self.service.clone())
     }
 }

@@ -106,7 +106,11 @@ impl World {
 
     /// The pattern of an indicator; none if the unit has no indicator with this name.
     pub(crate) fn indicator(&self, at: usize, name: IndicatorName) -> Option<Pattern> {
-        let name = name.as_str();
+        self.pattern(at, name.as_str())
+    }
+
+    /// The same by the name in the model.
+    pub(super) fn pattern(&self, at: usize, name: &str) -> Option<Pattern> {
         if self.is_off(at) {
             return self.unit(at).model().indicators().contains(&name).then_some(Pattern::NotLit);
         }
