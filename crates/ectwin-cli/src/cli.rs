@@ -155,6 +155,21 @@ pub(crate) struct ReplayArgs {
     /// Replay only this part of the cases, such as 1/4; `auto` uses the variables of the CI system
     #[arg(long, value_name = "i/n|auto")]
     pub(crate) partition: Option<PartitionChoice>,
+    /// Replay only the files whose path contains this text; if given several times, one of the texts
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) filter: Vec<String>,
+    /// Print the files, titles and numbers of cases, and exit
+    #[arg(long, conflicts_with_all = ["bless", "json", "junit", "pcap", "trace", "on_failure", "fail_fast"])]
+    pub(crate) list: bool,
+    /// End after the first case that fails, in the order of the cases
+    #[arg(long)]
+    pub(crate) fail_fast: bool,
+    /// Keep capture, trace and report of each failed case in this folder; the report has the command that repeats it
+    #[arg(long, value_name = "DIR")]
+    pub(crate) on_failure: Option<PathBuf>,
+    /// Print nothing but the cases that fail
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
     /// Number of threads; default: as many as the machine can run in parallel. It does not change the results
     #[arg(long, value_name = "N", value_parser = count::jobs)]
     jobs: Option<NonZeroUsize>,

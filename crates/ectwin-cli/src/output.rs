@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use tracing_subscriber::EnvFilter;
 use user_file::{escaped, on_one_line};
 
-use crate::colour::colour_on_stderr;
+use crate::colour::{colour_on_stderr, colour_on_stdout};
 use crate::failure::Failure;
 use crate::output_file::OutputFile;
 
@@ -73,6 +73,17 @@ pub(crate) fn shown(path: &Path) -> String {
     on_one_line(&path.to_string_lossy())
 }
 
+/// The verdicts at the beginning of a line, with their colours (ECMA-48, select graphic rendition).
+const VERDICTS: [(&str, &str); 2] = [("ok      ", "\u{1b}[32m"), ("FAILED  ", "\u{1b}[31;1m")];
+
+fn coloured(line: &str) -> String {
+    let verdict = VERDICTS.iter().find_map(|(word, colour)| Some((word, colour, line.strip_prefix(word)?)));
+    match verdict {
+        Some((word, colour, rest)) => format!("{colour}{word}\u{1b}[0m{rest}"),
+        None => line.to_owned(),
+    }
+}
+
 fn for_terminals(text: &str) -> String {
     text.split_inclusive('\n').map(|line| cut(&escaped(line))).collect()
 }
@@ -132,6 +143,25 @@ impl People {
         }
     }
 
+    /// Prints cases immediately; on a terminal their verdicts are coloured.
+    pub(crate) fn print_cases(self, text: &str) -> Result<(), Failure> {
+        let is_coloured = match self {
+            Self::Stdout => colour_on_stdout(),
+            Self::Stderr => colour_on_stderr(),
+        };
+        if !is_coloured {
+            return self.print_text(text);
+        }
+        let coloured: String = for_terminals(text).split_inclusive('\n').map(coloured).collect();
+        match self {
+            Self::Stdout => print(coloured.as_bytes()),
+            Self::Stderr => {
+                let _ = io::stderr().write_all(coloured.as_bytes());
+                Ok(())
+            }
+        }
+    }
+
     /// Prints a line for display immediately.
     pub(crate) fn print_line(self, line: impl std::fmt::Display) -> Result<(), Failure> {
         self.print_text(&format!("{line}\n"))
@@ -141,6 +171,13 @@ impl People {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_verdict_of_a_case_is_coloured_and_nothing_else() {
+        assert_eq!(coloured("ok      a: b\n"), "\u{1b}[32mok      \u{1b}[0ma: b\n");
+        assert_eq!(coloured("FAILED  a: b"), "\u{1b}[31;1mFAILED  \u{1b}[0ma: b");
+        assert_eq!(coloured("        FAILED  a"), "        FAILED  a");
+    }
 
     #[test]
     fn a_terminal_obeys_nothing_that_is_printed_for_people() {

@@ -11,7 +11,7 @@ use ectwin::user_files::{Lines, Unreadable, Wanted};
 use user_file::on_one_line;
 
 use super::replay::{
-    CASES_MAX, CaseResult, JunitReport, Partition, Totals, Verdict, case_count, failure_story,
+    CASES_MAX, CaseResult, FailedCases, JunitReport, Partition, Totals, Verdict, case_count, failure_story,
 };
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
@@ -33,39 +33,52 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     let found = read_all(&args.results)?.complete()?;
     let people = People::beside(args.junit.as_deref());
     let mut again = ResultsAgain::new(&args.results);
+    let mut failed_cases = FailedCases::default();
     match &args.junit {
-        Some(path) => report(path, &found, &mut again, people)?,
+        Some(path) => report(path, &found, &mut again, &mut failed_cases, people)?,
         None => {
             for place in found.places.iter().filter(|place| place.verdict == Verdict::Failed) {
-                print(&again.read(place)?, people)?;
+                print(&again.read(place)?, &mut failed_cases, people)?;
             }
         }
     }
+    people.print_cases(&failed_cases.others())?;
     let Totals { cases, failed, .. } = found.totals;
     people.print_line(format_args!("{}: {} ok, {failed} failed", case_count(cases), cases - failed))?;
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }
 
 /// Writes all results as JUnit, and prints the failed ones.
-fn report(path: &Path, found: &Found, again: &mut ResultsAgain<'_>, people: People) -> Result<(), Failure> {
+fn report(
+    path: &Path,
+    found: &Found,
+    again: &mut ResultsAgain<'_>,
+    failed_cases: &mut FailedCases,
+    people: People,
+) -> Result<(), Failure> {
     let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
     let file = LaterOutput::open(path)?.begin();
     let mut report = JunitReport::begin(file, found.totals).map_err(unwritable)?;
     for place in &found.places {
         let result = again.read(place)?;
         report.take(&result).map_err(unwritable)?;
-        print(&result, people)?;
+        print(&result, failed_cases, people)?;
     }
     report.end().map_err(unwritable)
 }
 
-/// Prints a failed result.
-fn print(result: &CaseResult, people: People) -> Result<(), Failure> {
+/// Prints a failed result; of very many only the first ones.
+fn print(result: &CaseResult, failed_cases: &mut FailedCases, people: People) -> Result<(), Failure> {
     match result.verdict {
         Verdict::Passed => Ok(()),
+        Verdict::Failed if !failed_cases.is_in_full(result) => Ok(()),
         Verdict::Failed => {
             let story = failure_story(result);
-            people.print_text(&format!("FAILED  {}: {}\n{story}", result.named(), on_one_line(&result.title)))
+            people.print_cases(&format!(
+                "FAILED  {}: {}\n{story}",
+                result.named(),
+                on_one_line(&result.title)
+            ))
         }
     }
 }

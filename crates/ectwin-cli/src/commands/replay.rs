@@ -6,9 +6,15 @@
 mod campaign;
 mod captures;
 mod case;
+mod failed_cases;
+mod files;
 mod golden;
 mod junit;
+mod list;
+mod on_failure;
 mod partition;
+mod printed;
+mod progress;
 mod result;
 mod results;
 mod seeds;
@@ -20,16 +26,19 @@ use std::fs;
 
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
-use crate::output::People;
+use crate::output::{self, People};
 use crate::overwrite::{self, Output};
 
 use campaign::Campaign;
 use captures::Captures;
 use partition::Shard;
+use printed::{Printed, Shown};
 use results::Results;
+use threads::{Outputs, Wanted};
 
 pub(crate) use campaign::{read_scenario, scenario_in};
 pub(crate) use case::CASES_MAX;
+pub(crate) use failed_cases::FailedCases;
 pub(crate) use junit::{JunitReport, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};
 pub(crate) use result::{CaseResult, Verdict};
@@ -44,17 +53,43 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         return golden::bless(&mut campaign, &args.files);
     }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
+    if args.list {
+        return list::print(&campaign, shard.partition);
+    }
     overwrite::refuse(&outputs(args), campaign.inputs())?;
     let people = People::beside(outputs(args).iter().map(|output| output.path));
     let captures = Captures::choose(args.pcap.as_deref(), cases.len(), campaign.inputs())?;
+    if !args.quiet {
+        campaign.unit_files().iter().try_for_each(|path| {
+            People::Stderr.print_line(format_args!("passed over {}: it is a unit file", output::shown(path)))
+        })?;
+    }
     if let Some(seed) = campaign.drawn_seed() {
         people.print_line(format_args!("seed {seed}, drawn at random"))?;
     }
-    let mut results = Results::open(args, captures, people)?;
-    let wanted = threads::Wanted { trace: args.trace, capture: args.pcap.is_some() };
+    let printed = Printed::new(people, shown(args), args.trace, cases.len() as u64);
+    let mut results = Results::open(args, captures, printed, campaign.inputs())?;
+    let wanted = wanted(args);
     let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
     threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
-    results.close(shard.partition, campaign.count())
+    results.close(shard.partition, cases.len() as u64, campaign.count())
+}
+
+/// The outputs of replays: a failed case has a trace in files of results, and a capture in the folder for failures.
+fn wanted(args: &ReplayArgs) -> Wanted {
+    let keeps = args.on_failure.is_some();
+    let of_each = Outputs { trace: args.trace, capture: args.pcap.is_some() };
+    let trace = keeps || args.json.is_some() || args.junit.is_some();
+    Wanted { of_each, of_failed: Outputs { trace, capture: keeps } }
+}
+
+/// Of a campaign with several seeds only the failed cases are printed, unless their traces are wanted.
+fn shown(args: &ReplayArgs) -> Shown {
+    match (args.quiet, args.seeds.is_some() && !args.trace) {
+        (true, _) => Shown::OnlyFailed,
+        (false, true) => Shown::Failed,
+        (false, false) => Shown::Each,
+    }
 }
 
 fn outputs(args: &ReplayArgs) -> Vec<Output<'_>> {

@@ -7,7 +7,9 @@ mod bench;
 mod campaigns;
 mod captures;
 mod contrary;
+mod for_people;
 mod golden_traces;
+mod on_failure;
 mod parameters;
 
 use bench::Bench;

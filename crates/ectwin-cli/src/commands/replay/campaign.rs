@@ -7,6 +7,7 @@ use scenario::Scenario;
 use user_file::Problem;
 
 use super::case::{CASES_MAX, Case};
+use super::files::Files;
 use super::golden::{self, GoldenTraces};
 use super::partition::Partition;
 use super::seeds::SeedChoice;
@@ -21,6 +22,8 @@ pub(super) struct Campaign {
     scenarios: Vec<Loaded>,
     /// Every file that was read, and the memories of the units.
     inputs: Vec<PathBuf>,
+    /// The unit files in the folders of the command line, which are not replayed.
+    unit_files: Vec<PathBuf>,
     seeds: Seeds,
     is_drawn: bool,
     fingerprint: u64,
@@ -61,7 +64,8 @@ impl Campaign {
         fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
         let golden = if args.bless { GoldenTraces::Written } else { GoldenTraces::Compared };
         let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), FileProblems::default());
-        for path in files(&args.files)? {
+        let Files { scenarios: files, unit_files } = Files::find(args)?;
+        for path in files {
             match load(&path, golden, &mut fingerprint, &mut inputs) {
                 Ok(cases) => {
                     scenarios
@@ -82,7 +86,7 @@ impl Campaign {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
         }
         let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
-        let campaign = Self { scenarios, inputs, seeds, is_drawn, fingerprint: fingerprint.0 };
+        let campaign = Self { scenarios, inputs, unit_files, seeds, is_drawn, fingerprint: fingerprint.0 };
         match campaign.count() {
             0..=CASES_MAX => Ok(campaign),
             count => Err(Failure::Refused {
@@ -100,6 +104,11 @@ impl Campaign {
     /// Every file that was read, and the memories of the units.
     pub(super) fn inputs(&self) -> &[PathBuf] {
         &self.inputs
+    }
+
+    /// The unit files in the folders of the command line, which are not replayed.
+    pub(super) fn unit_files(&self) -> &[PathBuf] {
+        &self.unit_files
     }
 
     /// Number of cases in all parts.
@@ -159,30 +168,6 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
         }
     };
     Err(Failure::Refused { message, help })
-}
-
-/// The files of the command line: of a folder all that end with .toml, in order. Each one once.
-fn files(named: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
-    let mut files: Vec<PathBuf> = Vec::new();
-    for path in named {
-        let found = if path.is_dir() { files_below(path)? } else { vec![path.clone()] };
-        if found.is_empty() {
-            let message = format!("no scenario under {}", path.display());
-            return Err(Failure::Refused {
-                message,
-                help: "a scenario is a file that ends with .toml".to_owned(),
-            });
-        }
-        files.extend(found);
-    }
-    let mut seen = std::collections::BTreeSet::new();
-    files.retain(|file| seen.insert(file.clone()));
-    Ok(files)
-}
-
-fn files_below(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let unreadable = |source| Failure::FolderUnreadable { path: folder.to_owned(), source };
-    user_files::below(folder, "toml").map_err(unreadable)
 }
 
 /// Reads one scenario, and its files, relative to its folder.

@@ -53,7 +53,7 @@ impl Captures {
                 written.map_err(|source| Failure::Unwritable { path: path.clone(), source })
             }
             Self::Folder { folder, inputs } => {
-                let path = folder.join(file_name(result));
+                let path = folder.join(format!("{}.pcapng", file_stem(result)));
                 overwrite::refuse(&[Output { option: "--pcap", path: &path }], inputs.iter())?;
                 output::write(Some(&path), capture)
             }
@@ -61,7 +61,8 @@ impl Captures {
     }
 }
 
-fn file_name(result: &CaseResult) -> String {
+/// The name of the files of a case without its ending: its number, scenario and seed.
+pub(super) fn file_stem(result: &CaseResult) -> String {
     let stem = Path::new(&result.file).file_stem().unwrap_or_default().display().to_string();
-    format!("{:04}-{stem}-seed-{}.pcapng", result.case, result.seed)
+    format!("{:04}-{stem}-seed-{}", result.case, result.seed)
 }

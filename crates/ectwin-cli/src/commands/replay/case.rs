@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use scenario::Scenario;
+use user_file::on_one_line;
 
 /// Maximum number of cases of one campaign: lists of them are kept in memory.
 pub(crate) const CASES_MAX: u64 = 10_000_000;
@@ -21,4 +22,20 @@ pub(super) struct Case<'a> {
     pub(super) scenario: &'a Scenario,
     /// The seed of its random generator.
     pub(super) seed: u64,
+}
+
+impl Case<'_> {
+    /// The file, with the values of its parameters.
+    pub(super) fn named(&self) -> String {
+        named(&self.path.to_string_lossy(), self.scenario.case.as_deref())
+    }
+}
+
+/// A file with the values of its parameters: `line.toml (loss = 1, state = OP)`.
+pub(super) fn named(file: &str, parameters: Option<&str>) -> String {
+    let file = on_one_line(file);
+    match parameters {
+        Some(parameters) => format!("{file} ({})", on_one_line(parameters)),
+        None => file,
+    }
 }

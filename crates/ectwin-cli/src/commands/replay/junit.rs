@@ -16,6 +16,7 @@ const REPORT: &str = "testsuites";
 const SUITE: &str = "testsuite";
 const CASE: &str = "testcase";
 const FAILURE: &str = "failure";
+const SYSTEM_OUT: &str = "system-out";
 const INDENT: usize = 4;
 
 /// What the head of a report says of all results.
@@ -74,6 +75,9 @@ impl<W: Write> JunitReport<W> {
         case.push_attribute(("line", step.line.to_string().as_str()));
         self.writer.write_event(Event::Start(case))?;
         self.failure(result, step)?;
+        if let Some(trace) = &result.trace {
+            self.text(SYSTEM_OUT, trace)?;
+        }
         self.writer.write_event(Event::End(BytesEnd::new(CASE)))
     }
 
@@ -89,6 +93,13 @@ impl<W: Write> JunitReport<W> {
         self.writer.write_event(Event::Start(failure))?;
         self.writer.write_event(Event::Text(BytesText::new(told.as_str())))?;
         self.writer.write_event(Event::End(BytesEnd::new(FAILURE)))
+    }
+
+    fn text(&mut self, element: &str, text: &str) -> io::Result<()> {
+        let text = xml(text);
+        self.writer.write_event(Event::Start(BytesStart::new(element)))?;
+        self.writer.write_event(Event::Text(BytesText::new(text.as_str())))?;
+        self.writer.write_event(Event::End(BytesEnd::new(element)))
     }
 
     /// Ends the report behind its last result.
@@ -119,6 +130,7 @@ mod tests {
     use super::*;
 
     fn result(case: u64, title: &str, failure: Option<&str>) -> CaseResult {
+        let failure_trace = failure.map(|seen| format!("1 ms <seen> {seen}\n"));
         let failure = failure.map(|seen| FailedStep {
             line: 7,
             step: "unit 1 is in <OP> & \"OP\"".to_owned(),
@@ -141,6 +153,7 @@ mod tests {
             cycles: 0,
             differences: Vec::new(),
             trace_differences: Vec::new(),
+            trace: failure_trace,
         }
     }
 
@@ -169,6 +182,9 @@ mod tests {
             let mut case = TestCase::new(format!("{} (seed {})", result.title, result.seed), status);
             case.set_classname(result.file.as_str()).set_time(Duration::from_nanos(result.virtual_ns));
             case.extra.insert("file".into(), result.file.as_str().into());
+            if let Some(trace) = &result.trace {
+                case.set_system_out(trace);
+            }
             if let Some(step) = &result.failure {
                 case.extra.insert("line".into(), step.line.to_string().into());
             }

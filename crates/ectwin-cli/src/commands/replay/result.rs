@@ -1,11 +1,12 @@
 //! The result of a case, as a line of JSON: the file that `merge` reads.
 
-use scenario::TraceDifference;
 use serde::{Deserialize, Serialize};
-use user_file::on_one_line;
 
-use super::case::Case;
+use super::case::{Case, named};
 use super::partition::Partition;
+
+/// Most lines of a trace that a result keeps.
+const TRACE_LINES_MAX: usize = 1_000;
 
 /// The result of a case. No part of it depends on the machine, on threads or on the time of day.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -43,6 +44,9 @@ pub(crate) struct CaseResult {
     /// the replay, and the text; left out if there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) trace_differences: Vec<String>,
+    /// The last lines of the trace of a failed case; left out if it passed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) trace: Option<String>,
 }
 
 /// Answers that differ from the captured ones in the same way.
@@ -91,11 +95,7 @@ pub(crate) struct FailedStep {
 impl CaseResult {
     /// The file, with the values of its parameters: `line.toml (loss = 1, state = OP)`.
     pub(crate) fn named(&self) -> String {
-        let file = on_one_line(&self.file);
-        match &self.parameters {
-            Some(parameters) => format!("{file} ({})", on_one_line(parameters)),
-            None => file,
-        }
+        named(&self.file, self.parameters.as_deref())
     }
 
     /// From a report.
@@ -121,8 +121,19 @@ impl CaseResult {
             virtual_ns: report.lasted.as_nanos(),
             cycles: report.cycles,
             differences: report.differences.iter().map(Difference::of).collect(),
-            trace_differences: report.trace_differences.iter().map(TraceDifference::to_string).collect(),
+            trace_differences: report.trace_differences.iter().map(ToString::to_string).collect(),
+            trace: None,
         }
+    }
+
+    /// Keeps the last lines of the trace.
+    pub(super) fn keep_trace(&mut self, trace: &str) {
+        let left_out = trace.lines().count().saturating_sub(TRACE_LINES_MAX);
+        let last: String = trace.split_inclusive('\n').skip(left_out).collect();
+        self.trace = Some(match left_out {
+            0 => last,
+            count => format!("… {count} lines before this one\n{last}"),
+        });
     }
 }
 

@@ -1,43 +1,64 @@
 //! The targets of results, one by one: text output, the file of JSON lines, JUnit, captures.
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use time::Duration;
+
 use super::captures::Captures;
+use super::on_failure::OnFailure;
 use super::partition::Partition;
-use super::result::Verdict;
+use super::printed::Printed;
+use super::result::{CaseResult, Verdict};
 use super::spool::Spool;
 use super::story;
 use super::threads::Ended;
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::later_output::{LaterOutput, ResultOut};
-use crate::output::{self, People};
+use crate::output;
 
 /// Accepts the results in the order of their cases.
 pub(super) struct Results {
-    people: People,
+    printed: Printed,
     lines: Option<(PathBuf, ResultOut)>,
     captures: Captures,
+    on_failure: Option<OnFailure>,
     junit: Option<Spool>,
+    fails_fast: bool,
     passed: u64,
     failed: u64,
+    lasted: Duration,
 }
 
 impl Results {
     /// Opens the files, before anything runs without effect. None of them is changed unless all are open.
-    pub(super) fn open(args: &ReplayArgs, captures: Captures, people: People) -> Result<Self, Failure> {
+    pub(super) fn open(
+        args: &ReplayArgs,
+        captures: Captures,
+        printed: Printed,
+        inputs: &[PathBuf],
+    ) -> Result<Self, Failure> {
         let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
         let junit = args.junit.as_deref().map(Spool::open).transpose()?;
         captures.make_folder()?;
+        let on_failure = args.on_failure.clone().map(|folder| OnFailure::make(folder, inputs)).transpose()?;
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
-        Ok(Self { people, lines, captures, junit, passed: 0, failed: 0 })
+        let fails_fast = args.fail_fast;
+        let (passed, failed, lasted) = (0, 0, Duration::ZERO);
+        Ok(Self { printed, lines, captures, on_failure, junit, fails_fast, passed, failed, lasted })
     }
 
-    /// The next case.
-    pub(super) fn take(&mut self, ended: Ended) -> Result<(), Failure> {
+    /// The next case. Breaks if no more are wanted.
+    pub(super) fn take(&mut self, ended: Ended) -> Result<ControlFlow<()>, Failure> {
         let Ended { result, trace, capture } = ended;
-        self.people.print_text(&story::case(&result, trace.as_deref()))?;
+        self.count(&result);
+        self.printed.case(&result, trace.as_deref(), self.failed)?;
+        if let (Verdict::Failed, Some(on_failure)) = (result.verdict, &self.on_failure) {
+            let (trace, capture) = (trace.as_deref().unwrap_or_default(), capture.as_deref());
+            on_failure.write(&result, trace, capture.unwrap_or_default())?;
+        }
         if let Some(capture) = capture {
             self.captures.write(&result, &capture)?;
         }
@@ -46,18 +67,23 @@ impl Results {
             let written = lines.write_all(line.as_bytes()).and_then(|()| lines.flush());
             written.map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
         }
+        if let Some(junit) = &mut self.junit {
+            junit.take(&result)?;
+        }
+        let is_last = self.fails_fast && result.verdict == Verdict::Failed;
+        Ok(if is_last { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    fn count(&mut self, result: &CaseResult) {
         match result.verdict {
             Verdict::Passed => self.passed += 1,
             Verdict::Failed => self.failed += 1,
         }
-        if let Some(junit) = &mut self.junit {
-            junit.take(&result)?;
-        }
-        Ok(())
+        self.lasted = self.lasted + Duration::from_nanos(result.virtual_ns);
     }
 
-    /// All results of this part are complete; `all` is the total number.
-    pub(super) fn close(mut self, partition: Partition, all: u64) -> Result<(), Failure> {
+    /// All results of this part, which has `of_part` cases, are complete; `all` is the total number.
+    pub(super) fn close(mut self, partition: Partition, of_part: u64, all: u64) -> Result<(), Failure> {
         if let Some((path, lines)) = &mut self.lines {
             // A part without cases has no lines.
             lines.complete().map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
@@ -70,10 +96,14 @@ impl Results {
             _ => format!(" (part {partition} of {})", story::cases(all)),
         };
         let (passed, failed) = (self.passed, self.failed);
-        self.people.print_line(format_args!(
-            "{}{part}: {passed} ok, {failed} failed",
-            story::cases(passed + failed)
-        ))?;
+        let ended = passed + failed;
+        let not_replayed = match of_part.saturating_sub(ended) {
+            0 => String::new(),
+            count => format!(", {count} not replayed"),
+        };
+        let cases = story::cases(ended);
+        let totals = format!("{cases}{part}: {passed} ok, {failed} failed{not_replayed}\n");
+        self.printed.end(&totals, ended, self.lasted)?;
         if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
     }
 }

@@ -8,21 +8,23 @@ use super::result::{CaseResult, Difference, Verdict};
 /// Most lines of a trace that are printed for a case.
 const TRACE_LINES_MAX: usize = 100;
 
-/// One line for a case; for a failure the place, the actual state, and the command to repeat it; then the
-/// trace, if requested.
+/// A case, and then its trace, if requested.
 pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
-    let lasted = Duration::from_nanos(result.virtual_ns);
-    let word = match result.verdict {
-        Verdict::Passed => "ok    ",
-        Verdict::Failed => "FAILED",
+    let story = match result.verdict {
+        Verdict::Passed => format!("ok      {}{}", title_line(result), differences(result)),
+        Verdict::Failed => failed_case(result),
     };
-    let mut story = format!("{word}  {}: {} ({lasted})\n", result.named(), result.title);
-    story.push_str(&failure(result));
-    if result.failure.is_none() {
-        story.push_str(&differences(result));
-    }
-    story.push_str(trace.unwrap_or_default());
-    story
+    story + trace.unwrap_or_default()
+}
+
+/// A failed case: the place, the actual state, and the command to repeat it.
+pub(super) fn failed_case(result: &CaseResult) -> String {
+    format!("FAILED  {}{}", title_line(result), failure(result))
+}
+
+fn title_line(result: &CaseResult) -> String {
+    let lasted = Duration::from_nanos(result.virtual_ns);
+    format!("{}: {} ({lasted})\n", result.named(), result.title)
 }
 
 /// The failure; empty if there is none.
@@ -72,6 +74,11 @@ fn repeat(result: &CaseResult) -> String {
 pub(crate) fn quoted(path: &str) -> String {
     let is_plain = path.chars().all(|letter| letter.is_alphanumeric() || "/._-+".contains(letter));
     if is_plain { path.to_owned() } else { format!("'{}'", path.replace('\'', r"'\''")) }
+}
+
+/// A number of further cases.
+pub(super) fn more_cases(count: u64) -> String {
+    if count == 1 { "1 more case".to_owned() } else { format!("{count} more cases") }
 }
 
 /// A number of cases.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
@@ -16,8 +17,28 @@ use crate::failure::Failure;
 /// The outputs that a replay must produce.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
+    /// The trace and the capture of each case.
+    pub(super) of_each: Outputs,
+    /// Those of a failed case, which is replayed again for them.
+    pub(super) of_failed: Outputs,
+}
+
+/// Whether trace and capture are wanted.
+#[derive(Clone, Copy)]
+pub(super) struct Outputs {
     pub(super) trace: bool,
     pub(super) capture: bool,
+}
+
+impl Outputs {
+    const fn and(self, other: Self) -> Self {
+        Self { trace: self.trace || other.trace, capture: self.capture || other.capture }
+    }
+
+    /// Whether all these outputs are in `other` too.
+    const fn are_in(self, other: Self) -> bool {
+        (!self.trace || other.trace) && (!self.capture || other.capture)
+    }
 }
 
 /// A case that has been replayed.
@@ -30,19 +51,30 @@ pub(super) struct Ended {
 impl Ended {
     /// Replays a case.
     pub(super) fn replay(case: &Case<'_>, partition: Partition, wanted: Wanted) -> Self {
-        let report = case.scenario.replay(case.seed, Recording::new(wanted.trace, wanted.capture));
-        let result = CaseResult::new(case, partition, &report);
-        let trace = report.recording.trace().filter(|_| wanted.trace).map(str::to_owned);
+        let replay =
+            |Outputs { trace, capture }| case.scenario.replay(case.seed, Recording::new(trace, capture));
+        let mut report = replay(wanted.of_each);
+        let has_failed = report.failure.is_some();
+        if has_failed && !wanted.of_failed.are_in(wanted.of_each) {
+            // The same seed gives the same bytes.
+            report = replay(wanted.of_each.and(wanted.of_failed));
+        }
+        let has_trace = wanted.of_each.trace || has_failed && wanted.of_failed.trace;
+        let mut result = CaseResult::new(case, partition, &report);
+        let trace = report.recording.trace().filter(|_| has_trace).map(str::to_owned);
+        if has_failed && wanted.of_failed.trace {
+            result.keep_trace(trace.as_deref().unwrap_or_default());
+        }
         Self { result, trace, capture: report.recording.into_capture() }
     }
 }
 
-/// Replays all cases, and passes their results on in order. Ends early if `take` fails.
+/// Replays all cases, and passes their results on in order. Ends early if `take` fails or wants no more.
 pub(super) fn replay(
     cases: &[u64],
     threads: NonZeroUsize,
     replay: impl Fn(u64) -> Ended + Sync,
-    mut take: impl FnMut(Ended) -> Result<(), Failure>,
+    mut take: impl FnMut(Ended) -> Result<ControlFlow<()>, Failure>,
 ) -> Result<(), Failure> {
     let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (sender, receiver) = mpsc::channel();
@@ -70,13 +102,15 @@ pub(super) fn replay(
 /// Keeps results that are early.
 fn in_order(
     ended: impl Iterator<Item = (usize, Ended)>,
-    take: &mut impl FnMut(Ended) -> Result<(), Failure>,
+    take: &mut impl FnMut(Ended) -> Result<ControlFlow<()>, Failure>,
 ) -> Result<(), Failure> {
     let (mut early, mut due) = (BTreeMap::new(), 0);
     for (place, ended) in ended {
         early.insert(place, ended);
         while let Some(ended) = early.remove(&due) {
-            take(ended)?;
+            if take(ended)?.is_break() {
+                return Ok(());
+            }
             due += 1;
         }
     }
@@ -95,12 +129,15 @@ mod tests {
     const TEXT: &str =
         "title = \"a program panics\"\nsteps = [{ after = \"20ms\", expect = \"unit 1 is in INIT\" }]\n";
 
+    const TRACE: Outputs = Outputs { trace: true, capture: false };
+    const WANTED: Wanted = Wanted { of_each: TRACE, of_failed: TRACE };
+
     /// Every second case has a program that panics.
     fn ended(number: u64, scenarios: &[Scenario; 2]) -> Ended {
         let scenario = &scenarios[(number % 2) as usize];
         let path = Path::new("panics.toml");
         let case = Case { number, count: 6, fingerprint: 0, path, scenario, seed: number };
-        Ended::replay(&case, Partition::WHOLE, Wanted { trace: true, capture: false })
+        Ended::replay(&case, Partition::WHOLE, WANTED)
     }
 
     #[test]
@@ -124,7 +161,7 @@ mod tests {
                     |case| ended(case, &scenarios),
                     |ended| {
                         stories.push(story::case(&ended.result, ended.trace.as_deref()));
-                        Ok(())
+                        Ok(ControlFlow::Continue(()))
                     },
                 )
                 .map_err(|_| "refused")
