@@ -89,6 +89,7 @@ A step is a table. It happens after the step before it, and has one of these key
 | `line` | the [line](#line): cables and frames |
 | `expect` | the [condition](#conditions) has to hold now |
 | `never` | the condition must not hold at any moment from now to the end |
+| `steps`, `together` | a [group](#groups) of steps |
 | `random` | [random steps](#random-steps), within the time of `within` |
 
 These keys say when a step is due; without them it is due at once:
@@ -116,6 +117,32 @@ order, a `never` or a `while` is the last step, 200 ms later at the earliest. If
 If an order changes what the next expectation is about, the state before the order does not fulfil it: after `request OP of unit 1`, the
 condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts. `for` checks that a state stays as it is.
 
+### Groups
+A group is a step with steps of its own. `at`, `after` and `when` say when it begins. Groups can be in groups, up to 16 deep.
+
+| group | what happens |
+|---|---|
+| `{ steps = [a, b] }` | the steps one after the other |
+| `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the begin of the one before; one that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
+| `{ together = [a, [b, c], d] }` | three sequences that begin at the same time; a list is a sequence. The next step waits for the last of them |
+| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. At most 10,000 steps |
+
+```toml groups.toml
+title = "contacts of two cables are loose at the same time, ten times"
+units = [{ model = "nx-ect101" }, { model = "nx-ect101", name = "N2", serial = 2 }]
+steps = [
+  { master = "take all units to OP" },
+  { expect = "all units are in OP", within = "1s" },
+  { repeat = 10, every = "100ms", jitter = "20ms", steps = [
+    { for.cable = [1, 2], together = [
+      [{ line = "unplug cable {cable}" }, { after = "{cable}ms", line = "plug cable {cable}" }],
+    ] },
+    { expect = "all units are in OP", for = "30ms" },
+  ] },
+]
+```
+
+### Times
 Times have a unit: `20us`, `1.5ms`, `2s`. A sentence has at most 65,536 bytes.
 
 A unit without power does nothing: an order that its software would carry out has no effect, which the trace says. What a hand does

@@ -3,8 +3,8 @@
 use time::Duration;
 
 use crate::model::{
-    Condition, CpuOrder, LineOrder, MasterOrder, Paths, Script, ScriptMaster, ScriptUnit, Step, StepForm,
-    UnitOrder,
+    Branch, Condition, CpuOrder, LineOrder, MasterOrder, Paths, Script, ScriptMaster, ScriptStep, ScriptUnit,
+    Step, StepForm, UnitOrder,
 };
 use crate::ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 use crate::run::Scenario;
@@ -41,6 +41,8 @@ pub struct ScenarioBuilder {
     programs: Vec<(String, String)>,
     /// The keys of the next step so far.
     next: StepForm,
+    /// The keys of the groups that are not complete, the outermost first.
+    groups: Vec<StepForm>,
     /// Number of steps so far, correct or not.
     said: usize,
     /// The mistakes in steps, before units and programs are known.
@@ -55,6 +57,7 @@ impl ScenarioBuilder {
             units: Vec::new(),
             programs: Vec::new(),
             next: StepForm::default(),
+            groups: Vec::new(),
             said: 0,
             wrong: Vec::new(),
         }
@@ -144,6 +147,57 @@ impl ScenarioBuilder {
     /// A condition that must not be true, to the end or until another condition is true.
     pub fn never(self, condition: impl Say<Condition>) -> Self {
         self.said_key("never", condition, |next| &mut next.never).add()
+    }
+
+    /// A group of steps that is repeated: each round begins `every` after the one before it. Its steps are those that `steps`
+    /// adds.
+    pub fn repeat(self, times: u64, every: Duration, steps: impl FnOnce(Self) -> Self) -> Self {
+        let group = |form: &mut StepForm, steps| {
+            (form.repeat, form.every, form.steps) = (Some(times), Some(every), Some(steps));
+        };
+        self.begin_group().members(steps, group).end_group()
+    }
+
+    /// Sequences of steps that begin at the same time. The next step waits for the last of them.
+    pub fn together<const N: usize>(self, sequences: [fn(Self) -> Self; N]) -> Self {
+        let add = |form: &mut StepForm, steps| {
+            form.together.get_or_insert_default().push(Branch::List(steps));
+        };
+        let group = self.begin_group();
+        sequences.into_iter().fold(group, |group, steps| group.members(steps, add)).end_group()
+    }
+
+    /// The steps from here on belong to a group, whose time is that of the next step.
+    fn begin_group(mut self) -> Self {
+        self.said += 1;
+        self.groups.push(core::mem::take(&mut self.next));
+        self
+    }
+
+    /// The steps that `steps` adds are members of the innermost group.
+    fn members(
+        mut self,
+        steps: impl FnOnce(Self) -> Self,
+        add: impl FnOnce(&mut StepForm, Vec<ScriptStep>),
+    ) -> Self {
+        let before = core::mem::take(&mut self.script.steps);
+        let mut after = steps(self);
+        let members = core::mem::replace(&mut after.script.steps, before);
+        if let Some(form) = after.groups.last_mut() {
+            add(form, members);
+        }
+        after
+    }
+
+    /// The innermost group is complete.
+    fn end_group(mut self) -> Self {
+        if let Some(form) = self.groups.pop() {
+            match form.read() {
+                Ok(group) => self.script.steps.push(group),
+                Err(wrong) => self.refuse(wrong.message, wrong.help),
+            }
+        }
+        self
     }
 
     /// Adds a typed step. It has its own time.

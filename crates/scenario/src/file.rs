@@ -1,12 +1,15 @@
 //! Reading a scenario file: its text becomes a script; lines and columns are kept separately, for messages.
 
 mod draft;
+mod groups;
 mod names;
 mod parameters;
 mod places;
 mod reader;
 mod steps;
 mod values;
+
+use std::collections::BTreeSet;
 
 use user_file::{Problem, Reader, Section, Wanted, read_toml};
 
@@ -107,9 +110,13 @@ fn cases<T>(
         let places = file_reader.places;
         let case = (!named.is_empty()).then(|| words(&named));
         let (one, problems) = make(draft, case);
+        let mut told = BTreeSet::new();
         for problem in problems {
-            let words = Problem::new(problem.message, "").with_help(problem.help);
-            reader.refuse(places.of(problem.part), words);
+            let place = places.of(problem.part);
+            // The values of a `for` can make the same mistake several times.
+            if told.insert((place.start, problem.message.clone())) {
+                reader.refuse(place, Problem::new(problem.message, "").with_help(problem.help));
+            }
         }
         if reader.refused() == refused && number == 0 {
             let help = "each value would make the same case: use the name in a text, or remove it";

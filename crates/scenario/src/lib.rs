@@ -19,8 +19,9 @@ pub mod words;
 pub use builder::ScenarioBuilder;
 pub use ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 pub use run::{
-    Aspect, DifferenceKind, Failure, FailureKind, MasterProgram, NotReplayable, ProgramFile, RandomPart,
-    RecordedFrames, Recording, Report, Scenario, UnitSource, UserProgram, WrittenStep,
+    Aspect, DifferenceKind, Failure, FailureKind, MasterProgram, NotReplayable, PlayedStep, ProgramFile,
+    RandomPart, RecordedFrames, Recording, Report, Scenario, UnitSource, UserProgram, WrittenGroup,
+    WrittenStep,
 };
 pub use search::Found;
 pub use trace_difference::{TraceDifference, trace_differences};

@@ -6,7 +6,7 @@ use time::Duration;
 
 use crate::model::{Order, Step, Trigger};
 use crate::pool::EVERYDAY;
-use crate::run::{DICE_OF_STEPS, Dice, RandomPart, Scenario, WrittenStep};
+use crate::run::{DICE_OF_STEPS, Dice, PlayedStep, RandomPart, Scenario, WrittenStep};
 use crate::words::{NoSentence, Spoken};
 
 pub(crate) use draws::{Draw, DrawnRow, ReadyDraws};
@@ -35,11 +35,11 @@ impl RandomStep {
         format!("{{ after = \"{after}\", {key} = \"{text}\" }}")
     }
 
-    fn step(&self, line: usize) -> WrittenStep {
+    fn step(&self, line: usize) -> PlayedStep {
         match order(self.key, &self.text) {
             Ok(order) => {
                 let step = Step { trigger: Trigger::After(self.after), order, repetition: None };
-                WrittenStep { step, line, text: self.text.clone() }
+                PlayedStep::Step(WrittenStep { step, line, text: self.text.clone() })
             }
             Err(problem) => panic!("`{}` of the pool: {}", self.text, problem.message),
         }
@@ -90,12 +90,12 @@ impl Scenario {
     }
 
     /// All steps, with the random ones in their places.
-    pub(crate) fn all_steps(&self, seed: u64) -> Vec<WrittenStep> {
+    pub(crate) fn all_steps(&self, seed: u64) -> Vec<PlayedStep> {
         self.steps_with(&self.random_steps(seed))
     }
 
     /// All steps, with these instead of the random ones.
-    pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<WrittenStep> {
+    pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<PlayedStep> {
         let mut steps = self.steps.clone();
         // From the last one on, so that the places of the others stay right.
         for (number, part) in self.random.iter().enumerate().rev() {

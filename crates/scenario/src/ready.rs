@@ -4,6 +4,7 @@ mod emergency;
 mod error;
 mod fault_names;
 mod files;
+mod groups;
 mod line;
 mod maker;
 mod master;
@@ -22,16 +23,17 @@ mod unit_files;
 mod units;
 mod written;
 
-use crate::model::Script;
+use crate::model::{Script, in_order};
 use crate::run::{RecordedFrames, Scenario};
 pub use error::{ErrorPlace, ScenarioError, ScenarioErrors};
 pub use files::Files;
 pub(crate) use files::{Remembered, Texts};
+pub(crate) use groups::DEPTH_MAX;
 use maker::Maker;
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
 pub(crate) use units::is_unit;
-pub(crate) use written::Written;
+pub(crate) use written::{Written, group_words};
 
 /// The remedy for a scenario without steps.
 pub(crate) const STEPS_WAY_OUT: &str = "such as `steps = [{ expect = \"unit 1 is in INIT\" }]`";
@@ -61,8 +63,8 @@ impl Scenario {
             let (message, help) = (empty_list("steps"), STEPS_WAY_OUT.to_owned());
             return Err(ScenarioErrors::of_script(vec![Problem { part: Part::Script, message, help }]));
         }
-        let written = script.steps.iter().enumerate().map(|(at, step)| Written::of_script(at, step));
-        let written = written.collect();
+        let entries = in_order(&script.steps).into_iter().enumerate();
+        let written = entries.map(|(at, step)| Written::of_script(at, step)).collect();
         let (scenario, problems) = ready(Draft { script, written, is_whole: true }, files);
         if problems.is_empty() { Ok(scenario) } else { Err(ScenarioErrors::of_script(problems)) }
     }

@@ -26,4 +26,4 @@ pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
 pub use report::{Failure, FailureKind, Report};
 pub(crate) use scenario::Replacement;
-pub use scenario::{RandomPart, Scenario, UnitSource, UserProgram, WrittenStep};
+pub use scenario::{PlayedStep, RandomPart, Scenario, UnitSource, UserProgram, WrittenGroup, WrittenStep};

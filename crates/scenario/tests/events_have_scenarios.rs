@@ -20,7 +20,7 @@ fn expected_events(folder: &Path) -> BTreeSet<String> {
 fn recorded_in(text: &str) -> Vec<String> {
     let scenario =
         Scenario::parse(text, |path| Err(format!("{path}: no unit files here"))).expect("a scenario");
-    let recorded = scenario.steps.iter().filter_map(|step| match &step.step.order {
+    let recorded = scenario.each_step().into_iter().filter_map(|step| match &step.step.order {
         Order::Expect(expectation) if expectation.mode != Mode::Never => match expectation.condition {
             Condition::Recorded { event, times: Some(1), .. } => Some(event.to_string()),
             _ => None,

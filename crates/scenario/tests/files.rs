@@ -394,7 +394,7 @@ serial = 5
 "#;
     let expected = "\
 line 1, column 1: unknown key `foo`
-  expected `title`, `seed`, `limit`, `cycle`, `cycle_phase`, `capture`, `master`, `units`, `steps` or `with`
+  expected `title`, `seed`, `limit`, `cycle`, `cycle_phase`, `calendar`, `capture`, `master`, `units`, `steps` or `with`
 line 2, column 1: unknown key `bar`
 line 3, column 9: `title` is an integer
   expected a text
@@ -403,14 +403,14 @@ line 4, column 1: unknown key `seeed`
 line 5, column 9: `soon`: not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"
 line 7, column 5: unknown key `expct`
   expected `at`, `after`, `when`, `master`, `unit`, `cpu`, `line`, `expect`, `never`, `within`, `for`, `until`, `while`, `repeat`, `every`, \
-`jitter` or `random`; did you mean `expect`?
+`jitter`, `random`, `steps` or `together`; did you mean `expect`?
 line 7, column 23: `at` is an integer
   expected a duration such as \"1.5ms\"
 line 8, column 12: `restrat unit 1` is not a valid sentence here
   did you mean `restart unit 1`?
 line 9, column 14: unknown key `unit.restrat`
   expected `restart`, `cycle_power`, `power_off`, `power_on`, `reset_errors`, `clear_event_log`, `set_id_switch`, \
-`invert_sii_word`, `erase_sii`, `conduct`, `inject_fault` or `remove_fault`; did you mean `restart`?
+`invert_sii_word`, `erase_sii`, `load_sii`, `replace`, `conduct`, `inject_fault` or `remove_fault`; did you mean `restart`?
 line 9, column 41: unknown key `whn`
   did you mean `when`?
 line 10, column 34: `expect.object.unit` is integer `0`

@@ -5,11 +5,11 @@ use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 use user_file::{Problem, Section, Value, field_names, wrong_type};
 
+use super::groups::{Scope, read_steps};
 use super::names::Names;
 use super::parameters::WITH;
 use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
-use super::steps::{StepReading, read_step};
 use super::values;
 use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
 use crate::ready::{Draft, STEPS_WAY_OUT, empty_list, is_unit};
@@ -110,15 +110,8 @@ impl FileReader<'_, '_> {
 
     fn steps<'d, 'i>(&mut self, file: &Section<'d, 'i>, names: &Names<'_, 'i>, script: &mut Script) {
         self.refuse_empty(file, "steps", STEPS_WAY_OUT);
-        for (at, step) in self.list(file, "steps").iter().enumerate() {
-            let replaced = (!names.are_none()).then(|| names.replaced(self.reader, step));
-            let step = replaced.as_ref().unwrap_or(step);
-            if let Some(StepReading { step, places, written }) = read_step(self, at, step) {
-                script.steps.push(step);
-                self.places.steps.push(places);
-                self.written.push(written);
-            }
-        }
+        let steps = self.list(file, "steps");
+        script.steps = read_steps(self, "steps", steps, Scope { names, depth: 0 });
     }
 
     /// The elements of a list.

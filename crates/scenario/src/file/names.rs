@@ -60,6 +60,18 @@ impl<'n, 'i> Names<'n, 'i> {
         Self { known: named.iter().collect() }
     }
 
+    /// These names and others.
+    pub(super) fn with<'m>(&self, named: &'m [Named<'i>]) -> Names<'m, 'i>
+    where
+        'n: 'm,
+    {
+        Names { known: self.known.iter().copied().chain(named).collect() }
+    }
+
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.known.iter().any(|named| named.name == name)
+    }
+
     /// No text is changed.
     pub(super) fn are_none(&self) -> bool {
         self.known.is_empty()

@@ -20,7 +20,7 @@ pub(super) struct Parameters<'d, 'i> {
 
 /// Values for one name, at least one.
 pub(super) struct Parameter<'d, 'i> {
-    name: Located<&'d str>,
+    pub(super) name: Located<&'d str>,
     values: &'d [Value<'i>],
 }
 

@@ -18,15 +18,18 @@ pub(super) struct StepReading {
 }
 
 /// A step; none if it has a mistake.
-pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<'_>) -> Option<StepReading> {
+pub(super) fn read_step(
+    file: &mut FileReader<'_, '_>,
+    place: &str,
+    value: &Value<'_>,
+) -> Option<StepReading> {
     let refused = file.reader.refused();
     let Some(step) = Section::of("", value) else {
-        file.reader
-            .refuse_by(value.span(), || wrong_type(&format!("steps[{at}]"), value.get_ref(), "a table"));
+        file.reader.refuse_by(value.span(), || wrong_type(place, value.get_ref(), "a table"));
         return None;
     };
     file.reader.only(&step, field_names::<StepForm>());
-    let mut part = PartReader { file, step: &step, order: None };
+    let mut part = PartReader::of(file, &step);
     let form = StepForm {
         at: part.duration("at"),
         after: part.duration("after"),
@@ -45,6 +48,7 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
         every: part.duration("every"),
         jitter: part.duration("jitter"),
         random: part.random(),
+        ..StepForm::default()
     };
     let (order, text) = part.order.unwrap_or_default();
     if file.reader.refused() > refused {
@@ -72,19 +76,23 @@ pub(super) fn read_step(file: &mut FileReader<'_, '_>, at: usize, value: &Value<
 }
 
 /// Reads the parts of one step.
-struct PartReader<'p, 'r, 't, 'd, 'i> {
+pub(super) struct PartReader<'p, 'r, 't, 'd, 'i> {
     file: &'p mut FileReader<'r, 't>,
     step: &'p Section<'d, 'i>,
     /// The place of the order, and its words.
     order: Option<(Span, String)>,
 }
 
-impl PartReader<'_, '_, '_, '_, '_> {
-    fn duration(&mut self, key: &str) -> Option<time::Duration> {
+impl<'p, 'r, 't, 'd, 'i> PartReader<'p, 'r, 't, 'd, 'i> {
+    pub(super) fn of(file: &'p mut FileReader<'r, 't>, step: &'p Section<'d, 'i>) -> Self {
+        Self { file, step, order: None }
+    }
+
+    pub(super) fn duration(&mut self, key: &str) -> Option<time::Duration> {
         self.file.value(self.step, key, values::duration)
     }
 
-    fn number(&mut self, key: &str) -> Option<u64> {
+    pub(super) fn number(&mut self, key: &str) -> Option<u64> {
         self.file.value(self.step, key, values::number)
     }
 
@@ -112,7 +120,7 @@ impl PartReader<'_, '_, '_, '_, '_> {
     }
 
     /// A text is a sentence, a table is the typed value.
-    fn said<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
+    pub(super) fn said<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
         let value = self.step.get(key)?;
         let reader = &mut *self.file.reader;
         match value.get_ref() {

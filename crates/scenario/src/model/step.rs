@@ -95,6 +95,42 @@ pub enum Mode {
     While(Condition),
 }
 
+/// A group of steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// The time at which it is due.
+    pub trigger: Trigger,
+    /// Its steps.
+    pub members: Members<ScriptStep>,
+}
+
+/// The steps of a group, and how they follow each other.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Members<S> {
+    /// One after the other.
+    Sequence(Vec<S>),
+    /// The same, in several rounds, each of which begins on time.
+    Repeat {
+        /// The number of rounds, the time from the begin of one to the begin of the next, and by how much each of them but
+        /// the first is earlier or later than its time: at most half of the period.
+        repetition: Repetition,
+        /// The steps of a round.
+        steps: Vec<S>,
+    },
+    /// Several sequences that begin at the same time.
+    Together(Vec<Vec<S>>),
+}
+
+impl<S> Members<S> {
+    /// All sequences.
+    pub fn sequences(&self) -> &[Vec<S>] {
+        match self {
+            Self::Sequence(steps) | Self::Repeat { steps, .. } => core::slice::from_ref(steps),
+            Self::Together(sequences) => sequences,
+        }
+    }
+}
+
 /// An entry of the list of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ScriptStep {
@@ -102,6 +138,14 @@ pub enum ScriptStep {
     Step(Step),
     /// Random steps.
     Random(RandomSteps),
+    /// A group of steps.
+    Group(Group),
+}
+
+impl From<Group> for ScriptStep {
+    fn from(group: Group) -> Self {
+        Self::Group(group)
+    }
 }
 
 impl From<Step> for ScriptStep {

@@ -6,10 +6,11 @@ use time::Duration;
 
 use super::condition::Condition;
 use super::cpu::CpuOrder;
+use super::group::Branch;
 use super::master::MasterOrder;
 use super::random::{RandomForm, RandomSteps};
 use super::spelling::optional_text;
-use super::step::{Expectation, Mode, Order, Repetition, ScriptStep, Step, Trigger};
+use super::step::{Expectation, Group, Members, Mode, Order, Repetition, ScriptStep, Step, Trigger};
 use super::unit::UnitOrder;
 
 /// The keys of a step.
@@ -50,6 +51,10 @@ pub(crate) struct StepForm {
     pub(crate) jitter: Option<Duration>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) random: Option<RandomForm>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) steps: Option<Vec<ScriptStep>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) together: Option<Vec<Branch>>,
 }
 
 /// Keys that contradict each other.
@@ -65,6 +70,10 @@ impl Contradiction {
     fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), help: "" }
     }
+
+    fn with_help(message: impl Into<String>, help: &'static str) -> Self {
+        Self { message: message.into(), help }
+    }
 }
 
 impl StepForm {
@@ -72,6 +81,9 @@ impl StepForm {
     pub(crate) fn read(self) -> Result<ScriptStep, Contradiction> {
         if let Some(random) = &self.random {
             return self.random_steps(random).map(ScriptStep::Random);
+        }
+        if self.steps.is_some() || self.together.is_some() {
+            return self.group().map(ScriptStep::Group);
         }
         let mode = self.mode()?;
         let repetition = self.repetition()?;
@@ -95,6 +107,75 @@ impl StepForm {
                 help: "such as `within = \"1s\"`",
             }),
         }
+    }
+
+    /// A group has steps, and no order of its own.
+    fn group(self) -> Result<Group, Contradiction> {
+        let repetition = self.repetition()?;
+        let trigger = self.trigger()?;
+        let alone = Self {
+            at: self.at,
+            after: self.after,
+            when: self.when.clone(),
+            repeat: self.repeat,
+            every: self.every,
+            jitter: self.jitter,
+            steps: self.steps.clone(),
+            together: self.together.clone(),
+            ..Self::default()
+        };
+        if alone != self {
+            let help = "its keys are `at`, `after`, `when`, `repeat`, `every` and `jitter`";
+            return Err(Contradiction::with_help(
+                "a group has no order and no expectation beside its steps",
+                help,
+            ));
+        }
+        let members = match (self.steps, self.together, repetition) {
+            (Some(steps), None, None) => Members::Sequence(steps),
+            (Some(steps), None, Some(repetition)) => Members::Repeat { repetition, steps },
+            (None, Some(branches), None) => {
+                Members::Together(branches.into_iter().map(Branch::steps).collect())
+            }
+            (None, Some(_), Some(_)) => {
+                let help = "such as `{ repeat = 5, every = \"1s\", steps = [{ together = […] }] }`";
+                return Err(Contradiction::with_help("`together` is not repeated", help));
+            }
+            (Some(_), Some(_), _) | (None, None, _) => {
+                return Err(Contradiction::new("a group has either `steps` or `together`"));
+            }
+        };
+        Ok(Group { trigger, members })
+    }
+
+    fn of_group(Group { trigger, members }: Group) -> Self {
+        let mut form = Self::default();
+        form.set_trigger(trigger);
+        match members {
+            Members::Sequence(steps) => form.steps = Some(steps),
+            Members::Repeat { repetition, steps } => {
+                form.set_repetition(repetition);
+                form.steps = Some(steps);
+            }
+            Members::Together(sequences) => {
+                form.together = Some(sequences.into_iter().map(Branch::List).collect());
+            }
+        }
+        form
+    }
+
+    fn set_trigger(&mut self, trigger: Trigger) {
+        match trigger {
+            Trigger::AtOnce => {}
+            Trigger::At(at) => self.at = Some(at),
+            Trigger::After(after) => self.after = Some(after),
+            Trigger::When(when) => self.when = Some(when),
+        }
+    }
+
+    fn set_repetition(&mut self, Repetition { times, every, jitter }: Repetition) {
+        (self.repeat, self.every) = (Some(times), Some(every));
+        self.jitter = Some(jitter).filter(|jitter| !jitter.is_zero());
     }
 
     fn trigger(&self) -> Result<Trigger, Contradiction> {
@@ -166,12 +247,7 @@ impl StepForm {
 
     fn of(step: Step) -> Self {
         let mut form = Self::default();
-        match step.trigger {
-            Trigger::AtOnce => {}
-            Trigger::At(at) => form.at = Some(at),
-            Trigger::After(after) => form.after = Some(after),
-            Trigger::When(when) => form.when = Some(when),
-        }
+        form.set_trigger(step.trigger);
         match step.order {
             Order::Master(order) => form.master = Some(order),
             Order::Unit(order) => form.unit = Some(order),
@@ -179,9 +255,8 @@ impl StepForm {
             Order::Line(order) => form.line = Some(order),
             Order::Expect(expectation) => form.expect(expectation),
         }
-        if let Some(Repetition { times, every, jitter }) = step.repetition {
-            (form.repeat, form.every) = (Some(times), Some(every));
-            form.jitter = Some(jitter).filter(|jitter| !jitter.is_zero());
+        if let Some(repetition) = step.repetition {
+            form.set_repetition(repetition);
         }
         form
     }
@@ -210,6 +285,7 @@ impl<'de> Deserialize<'de> for Step {
         match ScriptStep::deserialize(deserializer)? {
             ScriptStep::Step(step) => Ok(step),
             ScriptStep::Random(_) => Err(de::Error::custom("`random` is not a single step")),
+            ScriptStep::Group(_) => Err(de::Error::custom("a group is not a single step")),
         }
     }
 }
@@ -218,6 +294,7 @@ impl Serialize for ScriptStep {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let form = match self {
             Self::Step(step) => StepForm::of(step.clone()),
+            Self::Group(group) => StepForm::of_group(group.clone()),
             Self::Random(random) => {
                 let RandomSteps { count, within, draws } = random.clone();
                 let random = RandomForm { steps: count, draws };

@@ -34,6 +34,8 @@ pub(super) struct Maker<'f> {
     pub(super) lasting_values: Vec<LastingValue>,
     /// The faults of frames with names in the steps so far.
     pub(super) fault_names: FaultNames,
+    /// Number of steps and groups so far.
+    pub(super) entries: usize,
     /// The latest time at which the scenario ends.
     pub(super) limit: Duration,
     pub(super) problems: Vec<Problem>,
@@ -54,6 +56,7 @@ impl<'f> Maker<'f> {
             unreadable: Vec::new(),
             lasting_values: Vec::new(),
             fault_names: FaultNames::default(),
+            entries: 0,
             limit: Duration::ZERO,
             problems: Vec::new(),
         }

@@ -6,7 +6,7 @@ use time::Duration;
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber};
+use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber, in_order};
 use crate::run::{MasterProgram, MasterVariables, Node, UnitSource, changed_settings};
 
 /// Maximum number of characters of a device name.
@@ -91,7 +91,7 @@ fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
     for (node, settings) in nodes.iter().zip(&settings) {
         variables.add_slave(node, settings);
     }
-    for (unit, order) in steps.iter().filter_map(pdo_order) {
+    for (unit, order) in in_order(steps).into_iter().filter_map(pdo_order) {
         let at = unit.position();
         if let (Some(settings), Some(node)) = (settings.get_mut(at), nodes.get(at)) {
             changed_settings(settings, &node.device, order);

@@ -7,7 +7,7 @@ use plc::Builtin;
 use super::maker::Maker;
 use super::problem::Part;
 use super::program_values::LastingValue;
-use crate::model::{Condition, Controller, CpuOrder, Mode, Order, ScriptStep};
+use crate::model::{Condition, Controller, CpuOrder, Mode, Order, ScriptStep, in_order};
 use crate::run::{LoadedProgram, ProgramFile, UserProgram};
 
 /// How long a condition is checked.
@@ -45,9 +45,9 @@ pub(super) fn loads(steps: &[ScriptStep]) -> Vec<(usize, usize)> {
             Order::Cpu(CpuOrder::Load { unit, .. }) => Some(unit.position()),
             _ => None,
         },
-        ScriptStep::Random(_) => None,
+        ScriptStep::Random(_) | ScriptStep::Group(_) => None,
     };
-    steps.iter().enumerate().filter_map(|(at, step)| Some((at, unit(step)?))).collect()
+    in_order(steps).into_iter().enumerate().filter_map(|(at, step)| Some((at, unit(step)?))).collect()
 }
 
 impl Maker<'_> {

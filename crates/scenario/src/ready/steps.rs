@@ -8,7 +8,7 @@ use super::programs::{Lasting, loads};
 use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
 use crate::model::{Condition, Expectation, Mode, Order, Repetition, ScriptStep, Step, Trigger};
-use crate::run::{RandomPart, WrittenStep};
+use crate::run::{PlayedStep, RandomPart, WrittenStep};
 use crate::words::Spoken;
 
 /// Maximum number of repetitions of a step, and of random steps.
@@ -17,10 +17,23 @@ pub(super) const STEPS_MAX: u64 = 10_000;
 /// The executable steps, and the position of the random ones.
 #[derive(Default)]
 pub(super) struct ReadySteps {
-    pub(super) steps: Vec<WrittenStep>,
+    pub(super) steps: Vec<PlayedStep>,
     pub(super) random: Vec<RandomPart>,
     /// The earliest time of the next step.
     reached: Duration,
+}
+
+/// Where a step is.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    /// Its number among all steps and groups, from 0.
+    pub(super) at: usize,
+    /// The earliest time at which it is due.
+    pub(super) reached: Duration,
+    /// Number of groups around it.
+    pub(super) depth: usize,
+    /// One of them is repeated.
+    pub(super) is_repeated: bool,
 }
 
 /// Whether steps can be checked against units and programs.
@@ -43,27 +56,67 @@ impl Maker<'_> {
         let mut ready = ReadySteps::default();
         self.loads = loads(&steps);
         self.limit = limit;
-        for (at, (step, written)) in steps.into_iter().zip(written).enumerate() {
-            match step {
-                ScriptStep::Random(random) => self.random(at, random, written, ground, &mut ready),
-                ScriptStep::Step(mut step) => {
-                    self.check_moment(at, &step.trigger, &mut ready.reached, limit);
-                    if let Some(repetition) = step.repetition {
-                        self.check_repetition(at, repetition);
-                    }
-                    self.check_step(at, &mut step, ground);
-                    let Written { line, text, .. } = written;
-                    ready.steps.push(WrittenStep { step, line, text });
+        let mut written = written.into_iter();
+        for step in steps {
+            let place = Place { at: self.entries, reached: ready.reached, depth: 0, is_repeated: false };
+            if let ScriptStep::Random(random) = step {
+                self.entries += 1;
+                if let Some(written) = written.next() {
+                    self.random(place.at, random, written, ground, &mut ready);
                 }
+            } else if let Some((step, reached)) = self.entry(step, &mut written, place, ground) {
+                ready.steps.push(step);
+                ready.reached = reached;
             }
         }
         ready
     }
 
+    /// The executable form of a step or a group, and the earliest time of its end; none if it has none.
+    pub(super) fn entry(
+        &mut self,
+        step: ScriptStep,
+        written: &mut dyn Iterator<Item = Written>,
+        place: Place,
+        ground: Ground,
+    ) -> Option<(PlayedStep, Duration)> {
+        let own = written.next()?;
+        let at = self.entries;
+        self.entries += 1;
+        let mut place = Place { at, ..place };
+        match step {
+            ScriptStep::Random(_) => {
+                let message = "random steps are not in a group";
+                self.refuse(Part::Step(at, StepPart::Whole), message, "place `random` beside the group");
+                None
+            }
+            ScriptStep::Group(group) => {
+                self.check_moment(&mut place, &group.trigger);
+                let (group, reached) = self.group(group, own, written, place, ground)?;
+                Some((PlayedStep::Group(group), reached))
+            }
+            ScriptStep::Step(mut step) => {
+                self.check_moment(&mut place, &step.trigger);
+                if let Some(repetition) = step.repetition {
+                    self.check_repetition(at, repetition);
+                }
+                self.check_step(at, &mut step, ground);
+                let Written { line, text, .. } = own;
+                Some((PlayedStep::Step(WrittenStep { step, line, text }), place.reached))
+            }
+        }
+    }
+
     /// Times from the start that run backwards, or are after the limit, are impossible.
-    fn check_moment(&mut self, at: usize, trigger: &Trigger, reached: &mut Duration, limit: Duration) {
-        let part = Part::Step(at, StepPart::Whole);
+    fn check_moment(&mut self, place: &mut Place, trigger: &Trigger) {
+        let Place { at, reached, is_repeated, .. } = place;
+        let part = Part::Step(*at, StepPart::Whole);
+        let limit = self.limit;
         let moment = match trigger {
+            Trigger::At(_) if *is_repeated => {
+                let message = "`at` is a time from the beginning, and a repeated group has several rounds";
+                return self.refuse(part, message, "`after` is a time after the step before");
+            }
             Trigger::At(moment) if *moment < *reached => {
                 let message =
                     format!("{moment} is before the previous step, which is not earlier than {reached}");
@@ -80,7 +133,7 @@ impl Maker<'_> {
         }
     }
 
-    fn check_repetition(&mut self, at: usize, Repetition { times, every, jitter }: Repetition) {
+    pub(super) fn check_repetition(&mut self, at: usize, Repetition { times, every, jitter }: Repetition) {
         if !(1..=STEPS_MAX).contains(&times) {
             let message = format!("`repeat` is 1 to {STEPS_MAX} times");
             self.refuse(Part::Step(at, StepPart::Count), message, "");
@@ -95,9 +148,13 @@ impl Maker<'_> {
         }
     }
 
+    pub(super) fn check_when(&mut self, condition: &mut Condition, at: usize, ground: Ground) {
+        self.condition(condition, Part::Step(at, StepPart::When), ground, Lasting::Step);
+    }
+
     fn check_step(&mut self, at: usize, step: &mut Step, ground: Ground) {
         if let Trigger::When(condition) = &mut step.trigger {
-            self.condition(condition, Part::Step(at, StepPart::When), ground, Lasting::Step);
+            self.check_when(condition, at, ground);
         }
         let part = Part::Step(at, StepPart::Order);
         match &mut step.order {

@@ -2,7 +2,7 @@
 
 use core::ops::Range;
 
-use crate::model::{Expectation, Order, ScriptStep, Step};
+use crate::model::{Expectation, Members, Order, Repetition, ScriptStep, Step};
 use crate::words::Spoken;
 
 /// The words of a step and their place.
@@ -21,6 +21,7 @@ impl Written {
         let text = match step {
             ScriptStep::Step(Step { order, .. }) => sentence(order),
             ScriptStep::Random(_) => String::new(),
+            ScriptStep::Group(group) => group_words(&group.members),
         };
         Self { line: at + 1, bytes: 0..0, text }
     }
@@ -33,5 +34,16 @@ fn sentence(order: &Order) -> String {
         Order::Cpu(order) => order.to_string(),
         Order::Line(order) => order.sentence(),
         Order::Expect(Expectation { condition, .. }) => condition.to_string(),
+    }
+}
+
+/// The keys that make a group of steps.
+pub(crate) fn group_words<S>(members: &Members<S>) -> String {
+    match members {
+        Members::Sequence(_) => "steps".to_owned(),
+        Members::Repeat { repetition: Repetition { times, every, .. }, .. } => {
+            format!("repeat = {times}, every = \"{every}\"")
+        }
+        Members::Together(_) => "together".to_owned(),
     }
 }

@@ -19,7 +19,7 @@ use super::caught::caught;
 use super::dice::{DICE_OF_STEPS, Dice};
 use super::recording::Recording;
 use super::report::{Failure, Report};
-use super::scenario::{Scenario, WrittenStep};
+use super::scenario::{PlayedStep, Scenario};
 use super::stage::Stage;
 use super::virtual_stage::advance;
 use super::world::World;
@@ -30,7 +30,7 @@ use shared::Shared;
 use verdict::{Progress, Verdict};
 
 /// Replays these steps with the units of a scenario. A panic of what it runs is a failure of the step.
-pub(crate) fn play(scenario: &Scenario, steps: &[WrittenStep], seed: u64, recording: Recording) -> Report {
+pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recording: Recording) -> Report {
     let unused = recording.another();
     let mut world = match caught(|| World::power_on(scenario, seed, recording)) {
         Ok(world) => world,
@@ -73,7 +73,7 @@ enum Next {
 
 impl<'a> Player<'a> {
     /// Plays these steps, until `limit` at the latest.
-    fn new(steps: &'a [WrittenStep], seed: u64, limit: Instant) -> Self {
+    fn new(steps: &'a [PlayedStep], seed: u64, limit: Instant) -> Self {
         let dice = Dice::new(seed ^ DICE_OF_STEPS);
         Self { steps: Sequence::of(steps), rest: None, shared: Shared::new(dice, limit) }
     }
@@ -109,7 +109,7 @@ impl<'a> Player<'a> {
             if let waits @ Progress::Waits(_) = self.steps.poll(stage, &mut self.shared)? {
                 return Ok(waits);
             }
-            let last = self.shared.current;
+            let last = self.shared.last;
             self.rest = last.map(|last| Rest::after(last, stage.now(), &self.shared));
         }
         match &self.rest {

@@ -10,7 +10,7 @@ use time::Duration;
 use super::master::MasterProgram;
 use super::programs::{LoadedProgram, ProgramFile, SiiImage};
 use super::recorded::{NotReplayable, RecordedFrames};
-use crate::model::{Calendar, Step};
+use crate::model::{Calendar, Members, Step, Trigger};
 use crate::random::ReadyDraws;
 
 /// A scenario, ready to be replayed.
@@ -41,7 +41,7 @@ pub struct Scenario {
     /// Units that take the places of others.
     pub(crate) replacements: Vec<Replacement>,
     /// The steps, in this order.
-    pub steps: Vec<WrittenStep>,
+    pub steps: Vec<PlayedStep>,
     /// The capture whose frames a recorded master sends, as named in the file.
     pub capture: Option<String>,
     /// Its frames, after [`Scenario::load_capture`] has read them.
@@ -53,6 +53,14 @@ pub struct Scenario {
 }
 
 impl Scenario {
+    /// All steps in their order, those of groups once each.
+    #[must_use]
+    pub fn each_step(&self) -> Vec<&WrittenStep> {
+        let mut steps = Vec::new();
+        add_steps(&self.steps, &mut steps);
+        steps
+    }
+
     /// Stores the bytes of the capture in the file. Without them none of its frames are sent.
     ///
     /// # Errors
@@ -130,6 +138,28 @@ impl UserProgram {
     }
 }
 
+/// An entry of the executable steps.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PlayedStep {
+    /// A step.
+    Step(WrittenStep),
+    /// A group of steps.
+    Group(WrittenGroup),
+}
+
+/// A group of steps, and how it was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WrittenGroup {
+    /// The time at which it is due.
+    pub trigger: Trigger,
+    /// Its steps.
+    pub members: Members<PlayedStep>,
+    /// Its line in the file, from 1; for a script that is not a file, its number.
+    pub line: usize,
+    /// Its keys.
+    pub text: String,
+}
+
 /// One step, and how it was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrittenStep {
@@ -139,4 +169,15 @@ pub struct WrittenStep {
     pub line: usize,
     /// The sentence of the order or of the condition, as written.
     pub text: String,
+}
+
+fn add_steps<'s>(entries: &'s [PlayedStep], steps: &mut Vec<&'s WrittenStep>) {
+    for entry in entries {
+        match entry {
+            PlayedStep::Step(step) => steps.push(step),
+            PlayedStep::Group(group) => {
+                group.members.sequences().iter().for_each(|entries| add_steps(entries, steps));
+            }
+        }
+    }
 }

@@ -37,7 +37,7 @@ impl<'a> Rest<'a> {
         }
         if now < shared.limit {
             let until = if has_passed { shared.limit } else { self.until.min(shared.limit) };
-            return Ok(Progress::Waits(Waits { step: self.last, until }));
+            return Ok(Progress::Waits(Waits { origin: self.last.into(), until }));
         }
         let seen = match unfinished {
             Some(words) => format!("the limit has come, and the master is still at: {words}"),

@@ -1,40 +1,53 @@
-//! Steps one after the other.
+//! Steps and groups of steps, one after the other, and the groups: rounds, and sequences that are played together.
 
 use core::slice::Iter;
 
+use time::Instant;
+
 use super::shared::Shared;
 use super::step::StepPlay;
-use super::verdict::{Progress, Verdict};
-use crate::model::{Order, Trigger};
-use crate::run::scenario::WrittenStep;
+use super::verdict::{Origin, Progress, Verdict, Waits, failure};
+use super::wait::Wait;
+use crate::model::{Members, Order, Repetition, Trigger};
+use crate::run::scenario::{PlayedStep, WrittenGroup, WrittenStep};
 use crate::run::stage::Stage;
 
 /// A list of steps that is being played.
 pub(super) struct Sequence<'a> {
-    /// The steps that have not begun.
-    rest: Iter<'a, WrittenStep>,
-    current: Option<StepPlay<'a>>,
+    /// The steps and groups that have not begun.
+    rest: Iter<'a, PlayedStep>,
+    current: Option<Play<'a>>,
+}
+
+/// A step or a group that is being played.
+enum Play<'a> {
+    Step(StepPlay<'a>),
+    Group(GroupPlay<'a>),
 }
 
 impl<'a> Sequence<'a> {
-    pub(super) fn of(steps: &'a [WrittenStep]) -> Self {
+    pub(super) fn of(steps: &'a [PlayedStep]) -> Self {
         Self { rest: steps.iter(), current: None }
     }
 
     /// Takes all steps that are due.
     pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
         loop {
-            let step = match &mut self.current {
-                Some(step) => step,
+            let play = match &mut self.current {
+                Some(play) => play,
                 None => match self.rest.next() {
                     Some(next) => {
                         let expectation = expectation_at_once(self.rest.as_slice());
-                        self.current.insert(StepPlay::of(next, expectation, stage.now()))
+                        self.current.insert(Play::of(next, expectation, stage.now()))
                     }
                     None => return Ok(Progress::Done),
                 },
             };
-            match step.poll(stage, shared)? {
+            let progress = match play {
+                Play::Step(step) => step.poll(stage, shared)?,
+                Play::Group(group) => group.poll(stage, shared)?,
+            };
+            match progress {
                 Progress::Done => self.current = None,
                 waits @ Progress::Waits(_) => return Ok(waits),
             }
@@ -42,8 +55,171 @@ impl<'a> Sequence<'a> {
     }
 }
 
+impl<'a> Play<'a> {
+    fn of(entry: &'a PlayedStep, expectation: Option<&'a WrittenStep>, now: Instant) -> Self {
+        match entry {
+            PlayedStep::Step(step) => Self::Step(StepPlay::of(step, expectation, now)),
+            PlayedStep::Group(group) => Self::Group(GroupPlay::of(group, now)),
+        }
+    }
+}
+
 /// The expectation that follows at once, behind other orders of the same time.
-fn expectation_at_once(rest: &[WrittenStep]) -> Option<&WrittenStep> {
-    let at_once = rest.iter().take_while(|next| next.step.trigger == Trigger::AtOnce);
-    at_once.into_iter().find(|next| matches!(next.step.order, Order::Expect(_)))
+fn expectation_at_once(rest: &[PlayedStep]) -> Option<&WrittenStep> {
+    let at_once = |entry| match entry {
+        &PlayedStep::Step(ref step) if step.step.trigger == Trigger::AtOnce => Some(step),
+        PlayedStep::Step(_) | PlayedStep::Group(_) => None,
+    };
+    rest.iter().map_while(at_once).find(|next| matches!(next.step.order, Order::Expect(_)))
+}
+
+/// A group that is being played.
+struct GroupPlay<'a> {
+    group: &'a WrittenGroup,
+    state: State<'a>,
+}
+
+/// How far a group has come.
+enum State<'a> {
+    /// It waits for its time.
+    Due(Wait<'a>),
+    /// Its only sequence is played.
+    Sequence(Box<Sequence<'a>>),
+    /// Its rounds are played.
+    Rounds(Box<Rounds<'a>>),
+    /// Its sequences are played.
+    Together(Vec<Sequence<'a>>),
+}
+
+impl<'a> GroupPlay<'a> {
+    fn of(group: &'a WrittenGroup, now: Instant) -> Self {
+        Self { group, state: State::Due(Wait::for_trigger(&group.trigger, now)) }
+    }
+
+    fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
+        if let State::Due(wait) = &mut self.state {
+            let origin = Origin::from(self.group);
+            if let Some(until) = wait.look(origin, stage, shared.limit)? {
+                return Ok(Progress::Waits(Waits { origin, until }));
+            }
+            self.state = State::begin(self.group, stage, shared);
+        }
+        match &mut self.state {
+            State::Due(_) => Ok(Progress::Done),
+            State::Sequence(sequence) => sequence.poll(stage, shared),
+            State::Rounds(rounds) => rounds.poll(stage, shared),
+            State::Together(sequences) => poll_all(sequences, stage, shared),
+        }
+    }
+}
+
+impl<'a> State<'a> {
+    fn begin(group: &'a WrittenGroup, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Self {
+        match &group.members {
+            Members::Sequence(steps) => Self::Sequence(Box::new(Sequence::of(steps))),
+            Members::Repeat { repetition, steps } => {
+                Self::Rounds(Box::new(Rounds::begin(group, *repetition, steps, stage, shared)))
+            }
+            Members::Together(sequences) => {
+                Self::Together(sequences.iter().map(|steps| Sequence::of(steps)).collect())
+            }
+        }
+    }
+}
+
+/// All sequences, again and again until none of them has a step that is due: a step of one can be what another waits for.
+fn poll_all<'a>(
+    sequences: &mut [Sequence<'a>],
+    stage: &mut impl Stage,
+    shared: &mut Shared<'a>,
+) -> Verdict<Progress<'a>> {
+    loop {
+        let performed = shared.performed;
+        let mut first: Option<Waits<'a>> = None;
+        for sequence in &mut *sequences {
+            if let Progress::Waits(waits) = sequence.poll(stage, shared)? {
+                first = Some(match first {
+                    Some(first) if first.until <= waits.until => first,
+                    Some(_) | None => waits,
+                });
+            }
+        }
+        match first {
+            None => return Ok(Progress::Done),
+            Some(waits) if shared.performed == performed => return Ok(Progress::Waits(waits)),
+            Some(_) => {}
+        }
+    }
+}
+
+/// The rounds of a repeated group.
+struct Rounds<'a> {
+    group: &'a WrittenGroup,
+    repetition: Repetition,
+    steps: &'a [PlayedStep],
+    begun: Instant,
+    /// The number of the present round, from 1.
+    number: u64,
+    /// The present round; none: it is over.
+    round: Option<Sequence<'a>>,
+    /// The time of the next round.
+    next: Instant,
+}
+
+impl<'a> Rounds<'a> {
+    fn begin(
+        group: &'a WrittenGroup,
+        repetition: Repetition,
+        steps: &'a [PlayedStep],
+        stage: &mut impl Stage,
+        shared: &mut Shared<'a>,
+    ) -> Self {
+        let begun = stage.now();
+        let mut rounds = Self { group, repetition, steps, begun, number: 0, round: None, next: begun };
+        rounds.next_round(stage, shared);
+        rounds
+    }
+
+    fn next_round(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
+        self.number += 1;
+        stage.note_step(&format!("round {} of {}", self.number, self.repetition.times));
+        self.round = Some(Sequence::of(self.steps));
+        self.next = self.begun + shared.begin_of_round(self.repetition, self.number);
+    }
+
+    fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
+        loop {
+            let waits = match &mut self.round {
+                None => None,
+                Some(round) => match round.poll(stage, shared)? {
+                    Progress::Done => None,
+                    Progress::Waits(waits) => Some(waits),
+                },
+            };
+            let is_last = self.number >= self.repetition.times;
+            match waits {
+                Some(waits) if is_last => return Ok(Progress::Waits(waits)),
+                Some(waits) if stage.has_passed(self.next) => return Err(self.too_long(&waits, stage)),
+                Some(waits) => {
+                    return Ok(Progress::Waits(Waits { until: waits.until.min(self.next), ..waits }));
+                }
+                None if is_last => return Ok(Progress::Done),
+                None if stage.has_passed(self.next) => self.next_round(stage, shared),
+                None => {
+                    self.round = None;
+                    let origin = Origin::from(self.group);
+                    return Ok(Progress::Waits(Waits { origin, until: self.next }));
+                }
+            }
+        }
+    }
+
+    fn too_long(&self, waits: &Waits<'a>, stage: &impl Stage) -> crate::run::report::Failure {
+        let Self { number, repetition: Repetition { times, every, .. }, .. } = self;
+        let Origin { line, text } = waits.origin;
+        let words = format!(
+            "round {number} of {times} takes longer than {every}: the next one is due, and line {line} `{text}` still waits"
+        );
+        failure(Origin::from(self.group), stage.now(), words.into())
+    }
 }

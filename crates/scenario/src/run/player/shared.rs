@@ -17,6 +17,10 @@ pub(super) struct Shared<'a> {
     watches: Vec<Watch<'a>>,
     /// The step that was executed last; none before the first one.
     pub(super) current: Option<&'a WrittenStep>,
+    /// The step that was carried out last.
+    pub(super) last: Option<&'a WrittenStep>,
+    /// How many steps were carried out.
+    pub(super) performed: u64,
     /// An expectation whose condition was true before an order that ends it.
     pub(super) change: Option<Change<'a>>,
     /// The time at which the play must have ended.
@@ -32,7 +36,7 @@ pub(super) struct Change<'a> {
 
 impl<'a> Shared<'a> {
     pub(super) const fn new(dice: Dice, limit: Instant) -> Self {
-        Self { dice, watches: Vec::new(), current: None, change: None, limit }
+        Self { dice, watches: Vec::new(), current: None, last: None, performed: 0, change: None, limit }
     }
 
     /// Opens a watch. One to the end that is open is not opened again.
@@ -72,7 +76,19 @@ impl<'a> Shared<'a> {
             return Ok(());
         }
         let words = "the limit of the scenario is passed; set `limit` higher".to_owned();
-        Err(failure(waits.step, now, words.into()))
+        Err(failure(waits.origin, now, words.into()))
+    }
+
+    /// The begin of the round after this one, from the begin of the first; the random generator determines how much earlier
+    /// or later than its time.
+    pub(super) fn begin_of_round(&mut self, repetition: Repetition, number: u64) -> Duration {
+        let Repetition { every, jitter, .. } = repetition;
+        let time = every.as_nanos().saturating_mul(number);
+        if jitter.is_zero() {
+            return Duration::from_nanos(time);
+        }
+        let early = time.saturating_sub(jitter.as_nanos());
+        Duration::from_nanos(early.saturating_add(self.dice.below(jitter.as_nanos() * 2 + 1)))
     }
 
     /// The time from one repetition to the next; the random generator determines how much earlier or later.

@@ -41,8 +41,8 @@ impl<'a> StepPlay<'a> {
     pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
         shared.current = Some(self.step);
         loop {
-            if let Some(until) = self.wait.look(self.step, stage, shared.limit)? {
-                return Ok(Progress::Waits(Waits { step: self.step, until }));
+            if let Some(until) = self.wait.look(self.step.into(), stage, shared.limit)? {
+                return Ok(Progress::Waits(Waits { origin: self.step.into(), until }));
             }
             match (self.phase, self.step.step.repetition) {
                 (Phase::Due, _) => {
@@ -62,6 +62,8 @@ impl<'a> StepPlay<'a> {
     /// Carries the step out once, and returns what it waits for then.
     fn perform(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
         self.note_change(stage, shared);
+        shared.performed += 1;
+        shared.last = Some(self.step);
         match &self.step.step.order {
             Order::Master(order) => {
                 self.act(stage, shared, |stage| stage.master_order(order))?;

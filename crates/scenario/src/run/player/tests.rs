@@ -6,7 +6,7 @@ use time::{Duration, Instant};
 use super::{Next, Player};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, Step, UnitOrder};
 use crate::run::check::Seen;
-use crate::run::scenario::WrittenStep;
+use crate::run::scenario::{PlayedStep, WrittenStep};
 use crate::run::stage::Stage;
 
 /// A stage on which the master is idle when the test wants it to be.
@@ -53,14 +53,15 @@ impl Stage for Desk {
 }
 
 /// The steps of a file.
-fn steps(text: &str) -> Vec<WrittenStep> {
+fn steps(text: &str) -> Vec<PlayedStep> {
     #[derive(serde::Deserialize)]
     struct File {
         steps: Vec<Step>,
     }
     let File { steps } = toml::from_str(text).unwrap_or_else(|error| panic!("{error}"));
-    let written =
-        |(at, step): (usize, Step)| WrittenStep { step, line: at + 1, text: format!("step {}", at + 1) };
+    let written = |(at, step): (usize, Step)| {
+        PlayedStep::Step(WrittenStep { step, line: at + 1, text: format!("step {}", at + 1) })
+    };
     steps.into_iter().enumerate().map(written).collect()
 }
 

@@ -4,7 +4,7 @@ use time::Instant;
 
 use crate::run::check::Seen;
 use crate::run::report::Failure;
-use crate::run::scenario::WrittenStep;
+use crate::run::scenario::{WrittenGroup, WrittenStep};
 
 /// A result, or the expectation that failed.
 pub(super) type Verdict<T = ()> = Result<T, Failure>;
@@ -17,16 +17,36 @@ pub(super) enum Progress<'a> {
     Waits(Waits<'a>),
 }
 
-/// A step that waits.
+/// A step or a group that waits.
 pub(super) struct Waits<'a> {
-    /// The step.
-    pub(super) step: &'a WrittenStep,
+    /// Where it is written.
+    pub(super) origin: Origin<'a>,
     /// It needs another look after each event, and at this time at the latest.
     pub(super) until: Instant,
 }
 
+/// Line and words of a step or a group.
+#[derive(Clone, Copy)]
+pub(super) struct Origin<'a> {
+    pub(super) line: usize,
+    pub(super) text: &'a str,
+}
+
+impl<'a> From<&'a WrittenStep> for Origin<'a> {
+    fn from(step: &'a WrittenStep) -> Self {
+        Self { line: step.line, text: &step.text }
+    }
+}
+
+impl<'a> From<&'a WrittenGroup> for Origin<'a> {
+    fn from(group: &'a WrittenGroup) -> Self {
+        Self { line: group.line, text: &group.text }
+    }
+}
+
 /// A step has failed at this time.
-pub(super) fn failure(step: &WrittenStep, at: Instant, seen: Seen) -> Failure {
+pub(super) fn failure<'a>(origin: impl Into<Origin<'a>>, at: Instant, seen: Seen) -> Failure {
+    let Origin { line, text } = origin.into();
     let at = at.saturating_since(Instant::ZERO);
-    Failure { line: step.line, text: step.text.clone(), at, seen: seen.to_string(), panicked_at: None }
+    Failure { line, text: text.to_owned(), at, seen: seen.to_string(), panicked_at: None }
 }

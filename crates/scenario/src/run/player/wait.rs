@@ -2,11 +2,10 @@
 
 use time::Instant;
 
-use super::verdict::{Verdict, failure};
+use super::verdict::{Origin, Verdict, failure};
 use super::watch::judge_never;
 use crate::model::{Condition, Trigger};
 use crate::run::check::Seen;
-use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
 /// What a step waits for.
@@ -56,7 +55,7 @@ impl<'a> Wait<'a> {
     /// The time of the next look at the latest; none: the wait is over.
     pub(super) fn look(
         &mut self,
-        step: &WrittenStep,
+        step: Origin<'_>,
         stage: &mut impl Stage,
         limit: Instant,
     ) -> Verdict<Option<Instant>> {
