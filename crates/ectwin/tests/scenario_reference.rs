@@ -26,6 +26,7 @@ Every key, sentence, placeholder and fault of a scenario file. To start, read [w
 | `calendar` | date and time at the beginning, UTC, 1970 to 2078: object 10F8, time stamps, times in captures | `"2026-01-01T00:00:00"` |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file. Two units cannot have the same `name`; without names, no step can name a variable that two of them have | one unit at its factory setting |
 | `master` | a table: the [user program of the master](#the-masters-user-program) | no program: the master only follows the steps |
+| `use` | a [prelude](#preludes), or a list of them: files with keys and steps that several scenarios share | none |
 | `with` | a table of [parameters](#parameters), each with the list of its values | no parameters: the file is one case |
 | `capture` | a capture whose frames are sent again at their times: a recorded master | only the scripted master |
 | `steps` | list of steps, at least one | none: every file needs it |
@@ -33,6 +34,15 @@ Every key, sentence, placeholder and fault of a scenario file. To start, read [w
 Paths are relative to the folder of the scenario file; the program of a unit file is relative to the unit file. A unit can run the
 programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files in Structured Text: several, or a folder, are
 [one program](structured-text.md#several-files).
+
+## Preludes
+`use = "common.toml"` names a prelude: a file with the keys of a scenario, none of which is required. They hold where the scenario itself does
+not set them (`units` as a whole), of several preludes the first that sets them. The steps of preludes come first, in the order of the list.
+Paths in a prelude are relative to it, and preludes can use preludes, up to 16 in a row. The texts of a prelude can use the
+[parameters](#parameters) of the scenario; a prelude has no parameters and no random steps of its own. A failed step of a prelude is shown with the
+line of `use` and its place in the prelude, such as `common.toml:5: all units are in OP`.
+
+A folder is replayed with all files that end with `.toml`: give a prelude there another ending, such as `common.prelude`.
 
 ## Parameters
 `with` makes a case of each combination of values, at most 10,000 of a file. `{loss}` in any text of the file is replaced by the value of

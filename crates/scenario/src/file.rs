@@ -5,7 +5,9 @@ mod groups;
 mod names;
 mod parameters;
 mod places;
+mod preludes;
 mod reader;
+mod rebase;
 mod steps;
 mod values;
 
@@ -17,8 +19,8 @@ use crate::model::Script;
 use crate::ready::{Draft, Files, Problem as Mistake, Remembered, ScenarioErrors, Texts, ready};
 use crate::run::Scenario;
 use names::{Named, Names};
-use parameters::{CASES_MAX, Parameters};
-use reader::FileReader;
+use parameters::{CASES_MAX, Parameters, USE};
+use preludes::{Here, Whole, read_whole};
 
 impl Scenario {
     /// Reads the text of a scenario file that is one case. `files` returns the text of a unit file or of a user program, by
@@ -41,7 +43,7 @@ impl Scenario {
     /// As [`Scenario::parse`].
     pub fn parse_with(text: &str, files: &mut dyn Files) -> Result<Self, ScenarioErrors> {
         let one = read_toml(text, Wanted::Scenario, |reader, file| {
-            cases(text, reader, file, Number::One, |draft, case| scenario(draft, case, files))?.pop()
+            cases((text, reader), file, Number::One, files, scenario)?.pop()
         });
         one.map_err(ScenarioErrors::of_file)
     }
@@ -54,7 +56,7 @@ impl Scenario {
     pub fn cases(text: &str, files: &mut dyn Files) -> Result<Vec<Self>, ScenarioErrors> {
         let mut files = Remembered::of(files);
         let all = read_toml(text, Wanted::Scenario, |reader, file| {
-            cases(text, reader, file, Number::Any, |draft, case| scenario(draft, case, &mut files))
+            cases((text, reader), file, Number::Any, &mut files, scenario)
         });
         all.map_err(ScenarioErrors::of_file)
     }
@@ -67,8 +69,10 @@ impl Script {
     /// The mistakes, in the order of the file, as far as they are visible without units and programs.
     pub fn parse(text: &str) -> Result<Self, ScenarioErrors> {
         let script = read_toml(text, Wanted::Scenario, |reader, file| {
-            let script = |Draft { script, .. }: Draft, _: Option<String>| (script, Vec::new());
-            cases(text, reader, file, Number::One, script)?.pop()
+            let script =
+                |Draft { script, .. }: Draft, _: Option<String>, _: &mut dyn Files| (script, Vec::new());
+            let mut none = Texts(|path: &str| Err(format!("{path} is another file")));
+            cases((text, reader), file, Number::One, &mut none, script)?.pop()
         });
         script.map_err(ScenarioErrors::of_file)
     }
@@ -89,11 +93,11 @@ fn scenario(draft: Draft, case: Option<String>, files: &mut dyn Files) -> (Scena
 
 /// Reads the cases of a file, until one has a mistake; none then.
 fn cases<T>(
-    text: &str,
-    reader: &mut Reader<'_>,
+    (text, reader): (&str, &mut Reader<'_>),
     file: &Section<'_, '_>,
     wanted: Number,
-    mut make: impl FnMut(Draft, Option<String>) -> (T, Vec<Mistake>),
+    files: &mut dyn Files,
+    mut make: impl FnMut(Draft, Option<String>, &mut dyn Files) -> (T, Vec<Mistake>),
 ) -> Option<Vec<T>> {
     let parameters = Parameters::read(reader, file)?;
     let count = parameters.count();
@@ -105,17 +109,24 @@ fn cases<T>(
     for number in 0..count {
         let refused = reader.refused();
         let named = parameters.case(number);
-        let mut file_reader = FileReader::new(text, reader);
-        let draft = file_reader.draft(file, &Names::of(&named));
-        let places = file_reader.places;
+        let whole = read_whole((text, reader), file, &Names::of(&named), files, &Here::SCENARIO);
+        if file.get(USE).is_some() && reader.refused() == refused {
+            refuse_missing(reader, &whole);
+        }
+        if file.get(USE).is_some() && reader.refused() > refused {
+            // Without a prelude it is unknown which units there are.
+            return None;
+        }
+        let Whole { draft, places, .. } = whole;
         let case = (!named.is_empty()).then(|| words(&named));
-        let (one, problems) = make(draft, case);
+        let (one, problems) = make(draft, case, files);
         let mut told = BTreeSet::new();
         for problem in problems {
             let place = places.of(problem.part);
             // The values of a `for` can make the same mistake several times.
             if told.insert((place.start, problem.message.clone())) {
-                reader.refuse(place, Problem::new(problem.message, "").with_help(problem.help));
+                let message = places.in_prelude(problem.part).unwrap_or_default() + &problem.message;
+                reader.refuse(place, Problem::new(message, "").with_help(problem.help));
             }
         }
         if reader.refused() == refused && number == 0 {
@@ -128,6 +139,14 @@ fn cases<T>(
         made.push(one);
     }
     Some(made)
+}
+
+/// A scenario needs some keys, wherever they are.
+fn refuse_missing(reader: &mut Reader<'_>, whole: &Whole) {
+    for key in whole.missing() {
+        let problem = Problem::new(format!("`{key}` is missing, also in the preludes"), "");
+        reader.refuse(0..0, problem);
+    }
 }
 
 /// The name of a case: `loss = 1, state = OP`.

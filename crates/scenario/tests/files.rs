@@ -394,7 +394,7 @@ serial = 5
 "#;
     let expected = "\
 line 1, column 1: unknown key `foo`
-  expected `title`, `seed`, `limit`, `cycle`, `cycle_phase`, `calendar`, `capture`, `master`, `units`, `steps` or `with`
+  expected `title`, `seed`, `limit`, `cycle`, `cycle_phase`, `calendar`, `capture`, `master`, `units`, `steps`, `with` or `use`
 line 2, column 1: unknown key `bar`
 line 3, column 9: `title` is an integer
   expected a text

@@ -7,7 +7,7 @@ use user_file::{Problem, Section, Value, field_names, wrong_type};
 
 use super::groups::{Scope, read_steps};
 use super::names::Names;
-use super::parameters::WITH;
+use super::parameters::{USE, WITH};
 use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
 use super::values;
@@ -26,10 +26,8 @@ impl FileReader<'_, '_> {
     }
 
     fn keys(&mut self, file: &Section<'_, '_>) {
-        let keys: Vec<&str> = field_names::<Script>().iter().copied().chain([WITH]).collect();
+        let keys: Vec<&str> = field_names::<Script>().iter().copied().chain([WITH, USE]).collect();
         self.reader.only(file, &keys);
-        self.reader.require(file, "title", "`title = \"…\"`, what the scenario shows");
-        self.reader.require(file, "steps", "`steps = […]`, what happens");
     }
 
     /// All but the steps.
@@ -136,7 +134,7 @@ impl FileReader<'_, '_> {
 
 /// A copy of a file without its steps and its parameters.
 fn head<'i>(file: &Section<'_, 'i>) -> Value<'i> {
-    let entries = file.entries().into_iter().filter(|(key, _)| ![WITH, "steps"].contains(&key.value));
+    let entries = file.entries().into_iter().filter(|(key, _)| ![WITH, USE, "steps"].contains(&key.value));
     let entry = |(key, value): (user_file::Located<&str>, &Value<'i>)| {
         let name = DeString::Owned(key.value.to_owned());
         (Spanned::new(key.span.unwrap_or_default(), name), value.clone())

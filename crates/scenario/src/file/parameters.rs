@@ -8,6 +8,9 @@ use super::places::Span;
 /// The key of the parameters.
 pub(super) const WITH: &str = "with";
 
+/// The key of the preludes.
+pub(super) const USE: &str = "use";
+
 /// Maximum number of cases of a file.
 pub(super) const CASES_MAX: usize = 10_000;
 

@@ -1,6 +1,9 @@
 //! The places of the parts of a scenario in its file: kept separately from the typed values, for messages.
 
 use core::ops::Range;
+use std::rc::Rc;
+
+use user_file::line_and_column;
 
 use crate::ready::{Part, StepPart};
 
@@ -39,9 +42,28 @@ pub(super) struct StepPlaces {
     pub(super) span: Span,
     /// The repetition: `repeat` or `random`.
     pub(super) count: Span,
+    /// The prelude in which all this is; none: it is in the scenario.
+    pub(super) origin: Option<Rc<Origin>>,
+    /// Where the scenario uses the prelude.
+    pub(super) used_at: Span,
+}
+
+/// A prelude.
+pub(super) struct Origin {
+    pub(super) path: String,
+    pub(super) text: String,
 }
 
 impl Places {
+    /// The place in a prelude, to be followed by a message; none: the part is in the scenario.
+    pub(super) fn in_prelude(&self, part: Part) -> Option<String> {
+        let Part::Step(at, place) = part else { return None };
+        let step = self.steps.get(at)?;
+        let Origin { path, text } = &**step.origin.as_ref()?;
+        let (line, column) = line_and_column(text, step.of(place).start);
+        Some(format!("{path}:{line}:{column}: "))
+    }
+
     /// The place of a part.
     pub(super) fn of(&self, part: Part) -> Span {
         match part {
@@ -53,12 +75,17 @@ impl Places {
             Part::MasterProgram => self.master.program.clone(),
             Part::DeviceNames => self.master.device_names.clone(),
             Part::TaskPeriod => self.master.task_period.clone(),
-            Part::Step(at, part) => self.steps.get(at).map(|step| step.of(part)).unwrap_or_default(),
+            Part::Step(at, part) => self.steps.get(at).map(|step| step.in_scenario(part)).unwrap_or_default(),
         }
     }
 }
 
 impl StepPlaces {
+    /// Its place, or that of `use` if it is in a prelude.
+    fn in_scenario(&self, part: StepPart) -> Span {
+        if self.origin.is_some() { self.used_at.clone() } else { self.of(part) }
+    }
+
     fn of(&self, part: StepPart) -> Span {
         match part {
             StepPart::Whole => self.whole.clone(),

@@ -64,6 +64,7 @@ pub(super) fn read_step(
         r#while: span_of(&step, "while"),
         span: span_of(&step, "for"),
         count: span_of(&step, count),
+        ..StepPlaces::default()
     };
     let written = Written { line: file.lines.line(span.start), bytes: span.clone(), text };
     match form.read() {

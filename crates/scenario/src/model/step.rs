@@ -129,6 +129,13 @@ impl<S> Members<S> {
             Self::Together(sequences) => sequences,
         }
     }
+
+    pub(crate) fn sequences_mut(&mut self) -> &mut [Vec<S>] {
+        match self {
+            Self::Sequence(steps) | Self::Repeat { steps, .. } => core::slice::from_mut(steps),
+            Self::Together(sequences) => sequences,
+        }
+    }
 }
 
 /// An entry of the list of steps.
