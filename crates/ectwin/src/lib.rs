@@ -22,9 +22,11 @@
 //! [`link::memory::pair`], and `Twin::serve_ethercrab` for an ethercrab master in the same process. The test
 //! accesses the other side of the unit through [`Twin::unit`] and [`Handle::look`].
 
+mod disturbed;
 #[cfg(feature = "ethercrab")]
 mod ethercrab_port;
 pub mod explain;
+mod line;
 mod live;
 mod master_in_memory;
 mod memory_file;
@@ -45,6 +47,7 @@ pub use coe_kit::indicators::Pattern;
 pub use esi;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
+pub use line::FaultAtWork;
 pub use link::{self, FrameFate};
 pub use live::Live;
 pub use master;

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use device::{Device, Network};
 use link::{FrameFate, Responder};
 use plant::Powered;
+use plant::line::{ActiveFault, LineOrder, LineRefusal};
 use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
@@ -13,6 +14,7 @@ use storage::ChangesLost;
 use time::{Duration, Instant};
 use unit_model::ModelUnit;
 
+use crate::disturbed::Disturbed;
 use crate::memory_file::Keeper;
 use crate::unit_side::UnitSide;
 use crate::watched_program::WatchedProgram;
@@ -74,7 +76,7 @@ impl Twin {
             cpus.push(cpu);
             keepers.push(writer.map(Keeper::new));
         }
-        let line = Line { network: Network::power_on(units, now), keepers };
+        let line = Line { network: Network::power_on(units, now), disturbed: Disturbed::new(), keepers };
         Self { line, cpus: CpuUnits::new(cpus), programs, error_reset: ErrorReset::default(), now }
     }
 
@@ -83,6 +85,16 @@ impl Twin {
         let fate = self.line.frame(self.now, frame);
         self.line.poll(self.now);
         fate
+    }
+
+    /// Takes the next answer that came without a frame: the faults of the line made it late, or it is the second one of
+    /// its frame. At most 4,096 of them wait.
+    pub fn take_late_answer(&mut self) -> Option<Vec<u8>> {
+        self.line.disturbed.take_answer()
+    }
+
+    pub(crate) const fn line_mut(&mut self) -> &mut Line {
+        &mut self.line
     }
 
     /// Advances virtual time; work that becomes due is done at its time.
@@ -162,6 +174,8 @@ impl Twin {
 #[derive(Debug)]
 pub(crate) struct Line {
     network: Network<Box<dyn ModelUnit>>,
+    /// Its faults.
+    disturbed: Disturbed,
     /// For each unit, who stores its memory in a file, if anybody does.
     keepers: Vec<Option<Keeper>>,
 }
@@ -181,9 +195,30 @@ impl Line {
         (0..).map_while(|position| Some((position, self.network.device(position)?)))
     }
 
-    /// Lets the units react, and nothing else: [`Line::each_changed`] is to follow.
+    /// Lets the units react and late frames pass, and nothing else: [`Line::each_changed`] is to follow.
     pub(crate) fn react(&mut self, now: Instant) {
         self.network.poll(now);
+        if self.disturbed.deadline() <= now {
+            self.disturbed.poll(now, &mut self.network);
+        }
+    }
+
+    /// Carries out an order on cables or faults.
+    pub(crate) fn order(&mut self, now: Instant, order: &LineOrder) -> Result<(), LineRefusal> {
+        self.disturbed.order(now, order, &mut self.network)
+    }
+
+    /// The faults at work.
+    pub(crate) fn faults(&self, now: Instant) -> impl Iterator<Item = ActiveFault<'_>> {
+        self.disturbed.active(now)
+    }
+
+    pub(crate) const fn disturbed(&self) -> &Disturbed {
+        &self.disturbed
+    }
+
+    pub(crate) const fn disturbed_mut(&mut self) -> &mut Disturbed {
+        &mut self.disturbed
     }
 
     /// Stores the memories that have changed, and shows each unit that may be another than last time. The others are
@@ -218,7 +253,21 @@ impl Drop for Line {
 
 impl Responder for Line {
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
-        self.network.frame(now, frame)
+        if self.disturbed.is_quiet() {
+            return self.network.frame(now, frame);
+        }
+        self.disturbed.frame(now, frame, &mut self.network)
+    }
+
+    fn take_late_answer(&mut self, into: &mut [u8]) -> Option<usize> {
+        let answer = self.disturbed.take_answer()?;
+        let length_bytes = answer.len().min(into.len());
+        into.get_mut(..length_bytes)?.copy_from_slice(answer.get(..length_bytes)?);
+        Some(length_bytes)
+    }
+
+    fn is_disturbed(&self) -> bool {
+        !self.disturbed.is_quiet()
     }
 
     fn poll(&mut self, now: Instant) {
@@ -227,7 +276,7 @@ impl Responder for Line {
     }
 
     fn deadline(&self) -> Instant {
-        self.network.deadline()
+        self.network.deadline().min(self.disturbed.deadline())
     }
 
     fn carrier(&mut self, present: bool) {

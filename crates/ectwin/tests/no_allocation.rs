@@ -2,6 +2,7 @@
 
 use allocation_counter::measure;
 use ectwin::master::{Connected, Master};
+use ectwin::plant::line::{Choice, Disturbance, FrameFault, FrameKind, Frames};
 use ectwin::{AlState, Duration, EventLog, Fault, FrameFate, Setup, Twin};
 use wire::{Command, FrameBuilder};
 
@@ -201,4 +202,35 @@ fn events_allocate_nothing() {
     assert_eq!((counted.count_total, counted.bytes_total), (0, 0));
     assert_eq!(twin.unit(0).error_log().system.len(), 32);
     assert_eq!(twin.unit(0).state(), AlState::Op);
+}
+
+/// A fault that no frame meets, and faults that have ended.
+#[test]
+fn frames_that_meet_no_fault_allocate_nothing() {
+    let mut twin = Twin::from_toml(UNIT).expect("the unit file is good");
+    to_op(&mut twin);
+    let mut buffer = [0; 1518];
+    let outputs = FrameBuilder::new().logical(Command::Lrw, 0, &[1; PROCESS_DATA_BYTES]).finish();
+    let of = |choice, kind| Frames::of(choice).with_kind(kind);
+    for disturbance in [
+        Disturbance::new(FrameFault::Duplicate, of(Choice::Next(1), FrameKind::Any)),
+        Disturbance::new(FrameFault::LowerWorkingCounter, of(Choice::All, FrameKind::Any))
+            .called("all".parse().expect("a name")),
+        Disturbance::new(FrameFault::Lose, of(Choice::All, FrameKind::Sii)),
+        Disturbance::new(FrameFault::Lose, of(Choice::Every(1_000_000), FrameKind::Any)),
+    ] {
+        assert_eq!(twin.disturb(disturbance), Ok(()));
+    }
+    send(&mut twin, &outputs, &mut buffer);
+    assert_eq!(twin.end_fault(&"all".parse().expect("a name")), Ok(()));
+    let run = |twin: &mut Twin, buffer: &mut [u8; 1518]| {
+        for _ in 0..1_000 {
+            send(twin, &outputs, buffer);
+            twin.run_for(Duration::from_millis(1));
+        }
+    };
+    let beside_faults = measure(|| run(&mut twin, &mut buffer));
+    twin.be_quiet();
+    let without = measure(|| run(&mut twin, &mut buffer));
+    assert_eq!((beside_faults.count_total, without.count_total), (0, 0));
 }

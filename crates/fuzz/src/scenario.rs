@@ -155,7 +155,7 @@ fn step(random: &mut Random) -> String {
         0 | 1 => format!("master = \"{}\"", sentence(MASTER, random)),
         2 => format!("unit = \"{}\"", sentence(UNIT, random)),
         3 => format!("cpu = \"{}\"", sentence(CPU, random)),
-        4 => format!("line = \"{}\"", sentence(LINE, random)),
+        4 => format!("line = \"{}{}\"", sentence(LINE, random), ends_of_fault(random)),
         5 => format!("expect = \"{}\", within = \"{}\"", sentence(CONDITIONS, random), time(random)),
         6 => format!("never = \"{}\"", sentence(CONDITIONS, random)),
         _ => format!(
@@ -175,6 +175,13 @@ fn step(random: &mut Random) -> String {
 fn time(random: &mut Random) -> String {
     (random.text_of(&["0ms", "1us", "1ms", "2ms", "5ms", "10ms", "20ms", "45ms", "100ms", "1s", "3h"]))
         .to_owned()
+}
+
+/// What a fault of frames can end with.
+fn ends_of_fault(random: &mut Random) -> String {
+    let ends =
+        ["", "", " on the way back", " on cable 2", " for 20ms", " called storm", " for 1ms called storm"];
+    (random.text_of(&ends)).to_owned()
 }
 
 /// An example of a table, sometimes with a word replaced.

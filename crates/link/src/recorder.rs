@@ -137,6 +137,10 @@ impl Observer for Recorder {
             self.record(seen.answered, Direction::Outbound, answer);
         }
     }
+
+    fn late_answer(&mut self, answered: Instant, answer: &[u8]) {
+        self.record(answered, Direction::Outbound, answer);
+    }
 }
 
 /// The thread's side: frames become blocks.

@@ -26,6 +26,17 @@ pub trait Responder {
     /// The time at which [`Responder::poll`] must be called next without a frame; [`Instant::NEVER`]: no call needed.
     fn deadline(&self) -> Instant;
 
+    /// Takes an answer that is due without a frame, a late one or a second one, into this buffer; its length. Called after
+    /// each poll, until there is none.
+    fn take_late_answer(&mut self, _into: &mut [u8]) -> Option<usize> {
+        None
+    }
+
+    /// Whether faults of the line are at work: frames that do not return are no news then.
+    fn is_disturbed(&self) -> bool {
+        false
+    }
+
     /// Called in each turn of the loop: other threads may have requests.
     fn attend(&mut self) {}
 
@@ -49,6 +60,14 @@ impl<R: Responder + ?Sized> Responder for &mut R {
 
     fn deadline(&self) -> Instant {
         (**self).deadline()
+    }
+
+    fn take_late_answer(&mut self, into: &mut [u8]) -> Option<usize> {
+        (**self).take_late_answer(into)
+    }
+
+    fn is_disturbed(&self) -> bool {
+        (**self).is_disturbed()
     }
 
     fn attend(&mut self) {
@@ -81,6 +100,9 @@ pub struct Seen<'a> {
 pub trait Observer {
     /// A frame has been answered, or did not return.
     fn frame(&mut self, seen: Seen<'_>);
+
+    /// An answer without a frame at this moment, a late one or a second one, had been sent at this time.
+    fn late_answer(&mut self, _answered: Instant, _answer: &[u8]) {}
 }
 
 /// The result of a run.
@@ -88,8 +110,11 @@ pub trait Observer {
 pub struct Statistics {
     /// Frames received.
     pub frames: u64,
-    /// Frames that did not return: destroyed, sent out at the far end, or answers of other slaves.
+    /// Frames that did not return at once: destroyed, sent out at the far end, answers of other slaves, or lost or late
+    /// by a fault of the line.
     pub destroyed: u64,
+    /// Answers that were sent without a frame at that moment: late ones and second ones.
+    pub late_answers: u64,
     /// Frames whose EtherCAT length exceeded their end.
     pub overlong: u64,
     /// Frames that arrived but had no room in the medium, so that they were not received.
@@ -172,7 +197,21 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
             self.answer(length_bytes, buffers);
         }
         self.poll(received.is_some());
+        self.send_late_answers(&mut buffers.frame);
         Ok(())
+    }
+
+    fn send_late_answers(&mut self, buffer: &mut [u8]) {
+        while let Some(length_bytes) = self.responder.take_late_answer(buffer) {
+            let Some(answer) = buffer.get(..length_bytes) else { return };
+            self.statistics.late_answers += 1;
+            self.send(answer);
+            let now = self.clock.now();
+            self.answers.remember(now, true, answer);
+            if let Some(observer) = &mut self.observer {
+                observer.late_answer(now, answer);
+            }
+        }
     }
 
     fn answer(&mut self, length_bytes: usize, buffers: &mut Buffers) {
@@ -210,6 +249,7 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
                 self.send(frame);
                 self.answers.remember(now, was_marked, frame);
             }
+            FrameFate::Destroyed | FrameFate::CrossedOver if self.responder.is_disturbed() => {}
             FrameFate::Destroyed | FrameFate::CrossedOver => self.losses.count(frame, fate),
         }
         fate

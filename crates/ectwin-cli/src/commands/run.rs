@@ -126,6 +126,6 @@ fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {
 }
 
 fn tell(statistics: Statistics) {
-    let Statistics { frames, destroyed, dropped, unsent, overlong, late_polls } = statistics;
-    tracing::info!(frames, destroyed, dropped, unsent, overlong, late_polls, "stopped");
+    let Statistics { frames, destroyed, late_answers, dropped, unsent, overlong, late_polls } = statistics;
+    tracing::info!(frames, destroyed, late_answers, dropped, unsent, overlong, late_polls, "stopped");
 }

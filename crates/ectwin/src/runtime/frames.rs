@@ -46,6 +46,14 @@ impl Responder for Frames<'_> {
         }
     }
 
+    fn take_late_answer(&mut self, into: &mut [u8]) -> Option<usize> {
+        self.line.take_late_answer(into)
+    }
+
+    fn is_disturbed(&self) -> bool {
+        self.line.is_disturbed()
+    }
+
     fn carrier(&mut self, present: bool) {
         self.line.carrier(present);
     }

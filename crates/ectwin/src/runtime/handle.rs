@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use link::Clock;
+use time::Instant;
 
 use super::shared::{Shared, wake};
 use super::status::UnitStatus;
+use crate::twin::Line;
 use crate::unit_side::UnitSide;
 
 /// Access from any thread to the units of a [`crate::Runtime`]; clones access the same units, also after its end.
@@ -27,6 +29,14 @@ impl Handle {
         let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
         let seen = look(&mut line.unit(&mut cpus, position, self.clock.now()));
         // Here too: the frame thread publishes in its next turn, and not after its end.
+        line.each_changed(|position, device| self.shared.units.publish(position, device));
+        seen
+    }
+
+    /// Accesses the line. Frames wait until `look` returns.
+    pub(crate) fn look_at_line<T>(&self, look: impl FnOnce(&mut Line, Instant) -> T) -> T {
+        let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
+        let seen = look(&mut line, self.clock.now());
         line.each_changed(|position, device| self.shared.units.publish(position, device));
         seen
     }

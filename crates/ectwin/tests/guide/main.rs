@@ -11,6 +11,7 @@ mod cpu_variables;
 mod ethercrab_in_memory;
 mod events;
 mod frames_in_virtual_time;
+mod line_faults;
 mod link_in_memory;
 mod master_in_virtual_time;
 mod messages;
