@@ -443,9 +443,13 @@ fn a_cut_frame_is_accepted_by_no_unit_and_a_cut_answer_arrives_short() {
 #[test]
 fn a_fault_ends_after_its_time_by_its_name_or_when_it_has_met_its_frames() {
     let mut bench = Bench::with(all(FrameFault::Lose).lasting(MS * 5));
-    bench.send(1..=10);
+    let at_work = |bench: &Bench| bench.faults.active(bench.now).count();
+    bench.send(1..=4);
+    assert_eq!(at_work(&bench), 1);
+    bench.send([5]);
+    assert_eq!(at_work(&bench), 0);
+    bench.send(6..=10);
     assert_eq!(bench.answered(), [6, 7, 8, 9, 10]);
-    assert_eq!(bench.faults.active(bench.now).count(), 0);
 
     let mut bench = Bench::with(all(FrameFault::Lose).called(name("storm")));
     let twice = Disturbance::new(FrameFault::Duplicate, Frames::of(Choice::Next(3))).called(name("echo"));
