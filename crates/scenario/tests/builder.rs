@@ -37,7 +37,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
         ("after after line", |it| quiet(it.after(SHORT).after(SHORT)), "a step has one `after`"),
         (
             "when when line",
-            |it| quiet(it.when(Condition::MasterIdle).when(Condition::SdoTaken)),
+            |it| quiet(it.when(Condition::MasterIdle).when(Condition::SdoTaken { unit: None })),
             "a step has one `when`",
         ),
         ("within line", |it| quiet(it.within(SHORT)), BELONG),
@@ -45,7 +45,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
         ("within never", |it| it.within(SHORT).never(Condition::MasterGaveUp), BELONG),
         (
             "within until expect",
-            |it| it.within(SHORT).until(Condition::MasterIdle).expect(Condition::SdoTaken),
+            |it| it.within(SHORT).until(Condition::MasterIdle).expect(Condition::SdoTaken { unit: None }),
             "`within`, `for`, `until` and `while` contradict each other",
         ),
         (

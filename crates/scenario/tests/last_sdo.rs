@@ -73,3 +73,28 @@ fn an_sdo_that_is_given_up_has_no_answer() {
     let gave_up = r#"{ expect = "the master has given up", within = "6s" }"#;
     assert_eq!(failed_step(&[READ_VENDOR, VENDOR_READ, mute, READ_VENDOR, never, gave_up]), None);
 }
+
+#[test]
+fn the_last_sdo_of_a_unit_is_not_that_of_another() {
+    let text = r#"title = "t"
+units = [{ model = "nx-ect101" }, { model = "nx-ect101", name = "N2", serial = 2 }]
+steps = [
+  { master = "take all units to PRE-OP" },
+  { expect = "all units are in PRE-OP", within = "1s" },
+  { master = "read SDO 1018:01 of unit 2" },
+  { master = "write SDO 1018:01 of unit 1 as 00 00 00 00" },
+  { expect = "the last SDO was refused with 0x06010002", within = "50ms" },
+  { expect = "the last SDO of unit 1 was refused with 0x06010002" },
+  { expect = "the last SDO of unit 2 was taken" },
+  { expect = "the last SDO of unit 2 gave 83 00 00 00" },
+  { master = "read SDO 1018:01 of unit 2" },
+  { expect = "the last SDO of unit 1 was refused with 0x06010002" },
+  { expect = "the last SDO of unit 2 was taken" },
+]"#;
+    let scenario = Scenario::parse(text, |_| Err(String::new())).expect("a right scenario");
+    let failure = scenario.replay(1, Recording::new(false, false)).failure.expect("it waits");
+    assert_eq!((failure.line, failure.seen.as_str()), (14, "the last SDO is not answered yet"));
+    let third = text.replace("of unit 2 gave", "of unit 3 gave");
+    let refused = Scenario::parse(&third, |_| Err(String::new())).expect_err("two units").to_string();
+    assert!(refused.contains("refers to a unit that does not exist"), "{refused}");
+}

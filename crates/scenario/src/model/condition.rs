@@ -140,14 +140,21 @@ pub enum Condition {
     MasterIdle,
     #[serde(with = "nothing")]
     MasterGaveUp,
+    /// Without a unit: of all units, as in the next two.
     SdoRefused {
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<UnitNumber>,
         abort_code: Hex<u32>,
     },
     SdoGave {
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<UnitNumber>,
         value: Bytes,
     },
-    #[serde(with = "nothing")]
-    SdoTaken,
+    SdoTaken {
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        unit: Option<UnitNumber>,
+    },
     /// The value of the register that was ordered last.
     RegisterGave {
         value: Bytes,

@@ -114,6 +114,9 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::Emergency { unit: Some(unit), .. }
         | Condition::DiagnosisMessage { unit, .. }
         | Condition::DiagnosisMessageBytes { unit, .. }
+        | Condition::SdoRefused { unit: Some(unit), .. }
+        | Condition::SdoGave { unit: Some(unit), .. }
+        | Condition::SdoTaken { unit: Some(unit) }
         | Condition::WorkingCounter { unit, .. } => Subject::Units(UnitSet::One(*unit)),
         Condition::ProgramVariable { controller, .. }
         | Condition::UserDefinedError { controller, .. }
@@ -126,9 +129,9 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp
-        | Condition::SdoRefused { .. }
-        | Condition::SdoGave { .. }
-        | Condition::SdoTaken
+        | Condition::SdoRefused { unit: None, .. }
+        | Condition::SdoGave { unit: None, .. }
+        | Condition::SdoTaken { unit: None }
         | Condition::RegisterGave { .. }
         | Condition::MailboxGave { .. }
         | Condition::MailboxSilent

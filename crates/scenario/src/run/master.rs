@@ -25,9 +25,10 @@ use time::{Duration, Instant};
 use wire::{Returned, returned_datagrams};
 
 use super::story::Story;
+use crate::model::UnitNumber;
 
 use answer::{Outcome, Step};
-use last_sdo::LastSdo;
+use last_sdo::{LastSdo, LastSdos};
 use operation::Operation;
 use process_data::ProcessData;
 use program::Task;
@@ -79,7 +80,7 @@ pub(crate) struct Master {
     /// How it handles mailboxes, correctly or not. All units share the counters of its messages.
     mailbox: MailboxConduct,
     gave_up: Option<String>,
-    last_sdo: LastSdo,
+    last_sdos: LastSdos,
     raw: Raw,
     emergencies: Vec<Received>,
     /// Whether it reads the mailboxes for emergencies while it has nothing else to do.
@@ -114,7 +115,7 @@ impl Master {
             ticket: 0,
             mailbox: RIGHT_CONDUCT,
             gave_up: None,
-            last_sdo: LastSdo::default(),
+            last_sdos: LastSdos::of(units),
             raw: Raw::default(),
             emergencies: Vec::new(),
             looks_for_emergencies: true,
@@ -308,9 +309,9 @@ impl Master {
                     let any = self.listens.contains(&true);
                     self.next_listen = if any { now + LISTEN_PERIOD } else { Instant::NEVER };
                 }
-                Step::SdoResult { number, words, result } => {
+                Step::SdoResult { unit, number, words, result } => {
                     self.story.push(words);
-                    self.last_sdo.answer(number, result);
+                    self.last_sdos.answer(unit, number, &result);
                 }
                 Step::RawAnswer { number, bytes } => self.story.push(self.raw.answer(number, bytes)),
                 Step::Tell(words) => self.story.push(words),
@@ -332,7 +333,7 @@ impl Master {
         self.keep_counters();
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
         for operation in self.operations.drain(..parts.max(1)) {
-            self.last_sdo.give_up(operation.ordered_sdo());
+            self.last_sdos.give_up(operation.unit, operation.ordered_sdo());
             if let Some(number) = operation.raw_number() {
                 self.raw.give_up(number);
             }
@@ -357,8 +358,9 @@ impl Master {
         self.gave_up.as_deref()
     }
 
-    pub(crate) const fn last_sdo(&self) -> &LastSdo {
-        &self.last_sdo
+    /// The SDO that was ordered last of a unit, or of all units.
+    pub(crate) fn last_sdo(&self, unit: Option<UnitNumber>) -> &LastSdo {
+        self.last_sdos.get(unit)
     }
 
     /// What it has read without any service.

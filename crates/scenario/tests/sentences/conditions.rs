@@ -213,6 +213,24 @@ fn masters() -> Vec<ConditionRow> {
             "20ms",
         ),
         condition(
+            "the last SDO of unit 1 was refused with 0x06020000",
+            &[PRE_OP, IN_PRE_OP, NO_OBJECT],
+            &[PRE_OP, IN_PRE_OP, SERIAL],
+            "20ms",
+        ),
+        condition(
+            "the last SDO of unit 1 gave 01 00 00 00",
+            &[PRE_OP, IN_PRE_OP, SERIAL],
+            &[PRE_OP, IN_PRE_OP, NO_OBJECT],
+            "20ms",
+        ),
+        condition(
+            "the last SDO of unit 1 was taken",
+            &[PRE_OP, IN_PRE_OP, EMERGENCIES],
+            &[PRE_OP, IN_PRE_OP, NO_OBJECT],
+            "20ms",
+        ),
+        condition(
             "the master has received emergency 0xFF20",
             &[PRE_OP, EMERGENCIES, ALLOWED, BROKEN],
             &[PRE_OP, EMERGENCIES, ALLOWED],

@@ -1,7 +1,7 @@
 //! Conditions of the scripted master and of the recorded one.
 
 use super::seen::{Seen, holds};
-use crate::model::Bytes;
+use crate::model::{Bytes, UnitNumber};
 use crate::run::world::World;
 
 type Check = Result<(), Seen>;
@@ -20,19 +20,19 @@ pub(super) fn gave_up(world: &World) -> Check {
     holds(world.master().gave_up().is_some(), || "the master has not given up".to_owned())
 }
 
-pub(super) fn sdo_refused(world: &World, abort_code: u32) -> Check {
-    let sdo = world.master().last_sdo();
+pub(super) fn sdo_refused(world: &World, unit: Option<UnitNumber>, abort_code: u32) -> Check {
+    let sdo = world.master().last_sdo(unit);
     holds(sdo.result() == Some(&Err(abort_code)), || sdo.words())
 }
 
-pub(super) fn sdo_gave(world: &World, value: &Bytes) -> Check {
-    let sdo = world.master().last_sdo();
+pub(super) fn sdo_gave(world: &World, unit: Option<UnitNumber>, value: &Bytes) -> Check {
+    let sdo = world.master().last_sdo(unit);
     let is_it = matches!(sdo.result(), Some(Ok(seen)) if *seen == value.0);
     holds(is_it, || sdo.words())
 }
 
-pub(super) fn sdo_taken(world: &World) -> Check {
-    let sdo = world.master().last_sdo();
+pub(super) fn sdo_taken(world: &World, unit: Option<UnitNumber>) -> Check {
+    let sdo = world.master().last_sdo(unit);
     holds(matches!(sdo.result(), Some(Ok(_))), || sdo.words())
 }
 

@@ -30,7 +30,7 @@ pub(crate) enum Step {
     /// A unit has a mailbox from now on, or no longer has one.
     Listen { unit: usize, listens: bool },
     /// An SDO was answered; in words with its object and its value.
-    SdoResult { number: Option<SdoNumber>, words: String, result: SdoResult },
+    SdoResult { unit: usize, number: Option<SdoNumber>, words: String, result: SdoResult },
     /// A register or a mailbox message was read.
     RawAnswer { number: RawNumber, bytes: Vec<u8> },
     /// A report.
@@ -90,7 +90,7 @@ impl Operation {
 
 fn sdo_result(unit: usize, number: Option<SdoNumber>, asked: &AskedSdo, result: SdoResult) -> Step {
     let words = format!("{asked} of unit {} {}", unit + 1, asked.outcome_words(&result));
-    Step::SdoResult { number, words, result }
+    Step::SdoResult { unit, number, words, result }
 }
 
 /// The level of a state; none for BOOT and for a value that is not a state.

@@ -1,6 +1,6 @@
 //! The SDO that was ordered last, and its answer: "the last SDO" in sentences.
 
-use crate::model::hex;
+use crate::model::{UnitNumber, hex};
 
 /// The value that was read, empty after a write, or the abort code.
 pub(super) type SdoResult = Result<Vec<u8>, u32>;
@@ -9,10 +9,52 @@ pub(super) type SdoResult = Result<Vec<u8>, u32>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SdoNumber(u64);
 
+/// The last SDO of all units, and that of each unit.
+#[derive(Debug)]
+pub(crate) struct LastSdos {
+    ordered: u64,
+    of_all: LastSdo,
+    of_each: Vec<LastSdo>,
+}
+
+impl LastSdos {
+    /// For this number of units.
+    pub(super) fn of(units: usize) -> Self {
+        let of_each = (0..units).map(|_| LastSdo::default()).collect();
+        Self { ordered: 0, of_all: LastSdo::default(), of_each }
+    }
+
+    /// A step orders an SDO of a unit.
+    pub(super) fn order(&mut self, unit: usize) -> SdoNumber {
+        self.ordered += 1;
+        let number = SdoNumber(self.ordered);
+        self.concerned(unit).for_each(|sdo| sdo.order(number));
+        number
+    }
+
+    /// An SDO of a unit is answered; without a number it is one that the master sends on the way to a state.
+    pub(super) fn answer(&mut self, unit: usize, number: Option<SdoNumber>, result: &SdoResult) {
+        self.concerned(unit).for_each(|sdo| sdo.answer(number, result));
+    }
+
+    /// An SDO of a unit is dropped.
+    pub(super) fn give_up(&mut self, unit: usize, number: Option<SdoNumber>) {
+        self.concerned(unit).for_each(|sdo| sdo.give_up(number));
+    }
+
+    fn concerned(&mut self, unit: usize) -> impl Iterator<Item = &mut LastSdo> {
+        core::iter::once(&mut self.of_all).chain(self.of_each.get_mut(unit))
+    }
+
+    /// That of a unit, which is there; without a unit that of all.
+    pub(crate) fn get(&self, unit: Option<UnitNumber>) -> &LastSdo {
+        unit.and_then(|unit| self.of_each.get(unit.position())).unwrap_or(&self.of_all)
+    }
+}
+
 /// The state of the last SDO.
 #[derive(Debug, Default)]
 pub(crate) struct LastSdo {
-    ordered: u64,
     /// It has been ordered, and neither answered nor dropped.
     awaited: Option<SdoNumber>,
     result: Option<SdoResult>,
@@ -20,22 +62,19 @@ pub(crate) struct LastSdo {
 
 impl LastSdo {
     /// A step orders an SDO. From now on answers to older ones are ignored.
-    pub(super) const fn order(&mut self) -> SdoNumber {
-        self.ordered += 1;
-        let number = SdoNumber(self.ordered);
+    const fn order(&mut self, number: SdoNumber) {
         self.awaited = Some(number);
-        number
     }
 
     /// An SDO is answered; without a number it is one that the master sends on the way to a state.
-    pub(super) fn answer(&mut self, number: Option<SdoNumber>, result: SdoResult) {
+    fn answer(&mut self, number: Option<SdoNumber>, result: &SdoResult) {
         if self.awaited.is_none() || self.awaited == number {
-            (self.awaited, self.result) = (None, Some(result));
+            (self.awaited, self.result) = (None, Some(result.clone()));
         }
     }
 
     /// An SDO is dropped. If it is the last one, it has no answer, and never gets one.
-    pub(super) fn give_up(&mut self, number: Option<SdoNumber>) {
+    fn give_up(&mut self, number: Option<SdoNumber>) {
         if number.is_some() && self.awaited == number {
             (self.awaited, self.result) = (None, None);
         }

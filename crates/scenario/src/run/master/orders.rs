@@ -114,7 +114,7 @@ impl Master {
         now: Instant,
         order: impl Fn(usize, MailboxChannels) -> Operation,
     ) {
-        let number = self.last_sdo.order();
+        let number = self.last_sdos.order(unit.position());
         match self.slaves.get(unit.position()).and_then(Slave::mailbox) {
             Some(channels) => {
                 self.queue_for(UnitSet::One(unit), now, |unit| order(unit, channels).ordered_as(number));
@@ -122,7 +122,7 @@ impl Master {
             None => {
                 let reason = format!("unit {} has no mailbox", unit.position() + 1);
                 self.fail(reason);
-                self.last_sdo.give_up(Some(number));
+                self.last_sdos.give_up(unit.position(), Some(number));
             }
         }
     }
