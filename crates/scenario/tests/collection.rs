@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use scenario::{Recording, Scenario};
+use scenario::{Files, Recording, Scenario, Wanted};
 
 fn main() -> ExitCode {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
@@ -35,12 +35,24 @@ fn scenario_files(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
+/// The files of a folder.
+struct Beside(PathBuf);
+
+impl Files for Beside {
+    fn text(&mut self, path: &str, _: Wanted) -> Result<String, String> {
+        fs::read_to_string(self.0.join(path)).map_err(|error| error.to_string())
+    }
+}
+
+/// All cases of a file.
 fn replay(file: &Path) -> Result<(), Failed> {
     let text = fs::read_to_string(file)?;
     let beside = file.parent().unwrap_or(file);
-    let mut scenario = Scenario::parse(&text, |unit_file| {
-        fs::read_to_string(beside.join(unit_file)).map_err(|error| error.to_string())
-    })?;
+    let cases = Scenario::cases(&text, &mut Beside(beside.to_owned()))?;
+    cases.into_iter().try_for_each(|scenario| replay_case(file, beside, scenario))
+}
+
+fn replay_case(file: &Path, beside: &Path, mut scenario: Scenario) -> Result<(), Failed> {
     if let Some(capture) = &scenario.capture {
         let bytes = fs::read(beside.join(capture))?;
         scenario.load_capture(&bytes)?;

@@ -16,6 +16,10 @@ impl Files for OneUnit {
         self.reads += 1;
         if path == "unit.toml" { Ok("model = \"nx-ect101\"".to_owned()) } else { Err(format!("no {path}")) }
     }
+
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        if path == "blank.bin" { Ok(vec![0xFF; 2_048]) } else { Err(format!("no {path}")) }
+    }
 }
 
 fn cases(text: &str) -> Result<Vec<Scenario>, ScenarioErrors> {
@@ -66,6 +70,13 @@ fn each_file_is_read_once_for_all_cases() {
     let text = TWO.replace("with =", "units = [\"unit.toml\"]\nwith =");
     let all = Scenario::cases(&text, &mut files).expect("a right file");
     assert_eq!((all.len(), files.reads), (4, 1));
+}
+
+#[test]
+fn files_that_are_no_texts_are_read_too() {
+    let order = "load blank.bin as it is into the SII of unit 1";
+    let text = format!("title = \"t\"\nsteps = [{{ unit = \"{order}\" }}]");
+    assert_eq!(cases(&text).map(|cases| cases.len()), Ok(1));
 }
 
 #[test]

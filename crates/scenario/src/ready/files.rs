@@ -70,6 +70,10 @@ impl Files for Remembered<'_> {
         text
     }
 
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        self.files.bytes(path)
+    }
+
     fn program_files(&mut self, paths: &[String]) -> Result<Vec<String>, (String, String)> {
         if let Some((_, files)) = self.programs.iter().find(|(known, _)| known == paths) {
             return files.clone();
