@@ -7,8 +7,9 @@ use core::fmt;
 use core::sync::atomic::AtomicBool;
 use std::sync::Arc;
 
-use nx_bus::{CpuEnd, CpuHeader};
+use nx_bus::{CpuEnd, CpuHeader, NxRequest};
 use time::{Duration, Instant};
+use wire::{ObjectIndex, SubIndex};
 
 use crate::cpu_event::{CpuEvent, CpuRecord};
 use crate::device_variables::DeviceVariables;
@@ -219,6 +220,18 @@ impl CpuUnit {
     #[must_use]
     pub fn is_io_stopped(&self) -> bool {
         self.nx_bus_function.refreshing() == IoRefreshing::Stopped
+    }
+
+    /// Sends this number of NX messages at once, in addition to those of the program: reads whose answers nobody takes.
+    /// Those for which the bus has no room are given up, which the unit detects.
+    pub fn load_nx_bus(&mut self, count: u64) {
+        for _ in 0..count {
+            // No call of a program has this number.
+            let request = NxRequest { number: 0, index: ObjectIndex(0x1000), sub: SubIndex(0), value: None };
+            if self.bus.messages.send(request).is_err() {
+                return self.bus.messages.discard();
+            }
+        }
     }
 
     /// Sets whether the CPU Unit does I/O refreshing on the NX bus, from the next task period on. A CPU Unit

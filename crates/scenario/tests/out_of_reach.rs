@@ -150,6 +150,30 @@ fn a_unit_that_takes_the_place_of_another_is_the_one_of_later_steps() {
     assert!(trace.contains("unit 2    is replaced by other.toml"), "{trace}");
 }
 
+/// The NX bus has room for eight messages.
+#[test]
+fn the_load_of_nx_messages_causes_an_error_that_ends_with_a_reset() {
+    trace(
+        "",
+        &[
+            "cpu = \"send 8 NX messages to unit 1\"",
+            "after = \"20ms\", expect = \"unit 1 has recorded nothing\"",
+            "cpu = \"send 9 NX messages to unit 1\"",
+            "expect = \"unit 1 has the error 80220000\", within = \"5ms\"",
+            "after = \"1s\", expect = \"unit 1 has the error 80220000\"",
+            "unit = \"reset the errors of unit 1\"",
+            "expect = \"unit 1 has no error\"",
+            "after = \"1s\", expect = \"unit 1 has recorded 80220000 1 times\"",
+        ],
+    );
+    let found = mistake("cpu = \"send 0 NX messages to unit 1\"");
+    assert!(found.starts_with("0 messages do nothing"), "{found}");
+    let refused =
+        parse("units = [{ model = \"digital\", inputs = 8 }]", &["cpu = \"send 9 NX messages to unit 1\""]);
+    let refused = refused.err().unwrap_or_default();
+    assert!(refused[0].starts_with("unit 1 is a digital, which has no NX objects"), "{refused:?}");
+}
+
 #[test]
 fn a_cpu_unit_without_power_obeys_nothing() {
     let trace = trace(

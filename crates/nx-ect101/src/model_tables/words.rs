@@ -20,7 +20,9 @@ pub(super) const fn recovery(recovery: Recovery) -> &'static str {
             "reset the error: in the NX Bus Function Module if the fail-soft setting is Stop, in the unit if it is \
              Fail-soft"
         }
-        Recovery::None => "none needed",
+        Recovery::None => {
+            "none needed; if the event is a current error, that ends with a reset of the errors or a start of the unit"
+        }
     }
 }
 

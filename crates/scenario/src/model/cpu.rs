@@ -30,6 +30,8 @@ pub enum CpuOrder {
     PowerOffRack { units: UnitSet },
     /// Switches the power of CPU Unit and unit on.
     PowerOnRack { units: UnitSet },
+    /// Sends NX messages at once, in addition to those of the program.
+    SendNxMessages { units: UnitSet, count: u64 },
     /// Bytes C to M, from the first one on.
     SetInputs { unit: UnitNumber, bytes: Bytes },
     /// The system time jumps ahead.

@@ -5,7 +5,7 @@ use wire::AlState;
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{Condition, ConductOrder, ID_SWITCH, UnitOrder, UnitSet};
+use crate::model::{Condition, ConductOrder, CpuOrder, ID_SWITCH, UnitOrder, UnitSet};
 
 /// Whether a unit knows a word.
 type IsKnown = Box<dyn Fn(&dyn UnitSection) -> bool>;
@@ -51,6 +51,21 @@ impl Maker<'_> {
             | UnitOrder::EraseSii { .. } => return Some(()),
         };
         self.check_words(&needed, part)
+    }
+
+    /// Whether the units of an order to CPU Units have what it is about.
+    pub(super) fn check_words_of_cpu(&mut self, order: &CpuOrder, part: Part) -> Option<()> {
+        let CpuOrder::SendNxMessages { units, count } = order else { return Some(()) };
+        if *count == 0 {
+            self.refuse(
+                part,
+                "0 messages do nothing",
+                "a number from 1, such as `send 9 NX messages to unit 1`",
+            );
+            return None;
+        }
+        let is_known = Box::new(|unit: &dyn UnitSection| !unit.model().tables().nx_objects.is_empty());
+        self.check_words(&Needed { units: *units, words: "NX objects".to_owned(), is_known }, part)
     }
 
     /// Whether the units of a condition know its words.

@@ -59,6 +59,7 @@ pub(super) fn unit_of_cpu(order: &CpuOrder) -> Option<UnitSet> {
         | CpuOrder::ResetNxBusErrors { units }
         | CpuOrder::CycleRackPower { units }
         | CpuOrder::PowerOffRack { units }
+        | CpuOrder::SendNxMessages { units, .. }
         | CpuOrder::PowerOnRack { units }
         | CpuOrder::JumpSystemTime { units, .. } => Some(*units),
         CpuOrder::SetInputs { unit, .. } | CpuOrder::Load { unit, .. } => Some(UnitSet::One(*unit)),

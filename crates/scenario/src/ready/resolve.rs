@@ -29,6 +29,7 @@ impl Maker<'_> {
             | CpuOrder::ResetNxBusErrors { .. }
             | CpuOrder::CycleRackPower { .. }
             | CpuOrder::PowerOffRack { .. }
+            | CpuOrder::SendNxMessages { .. }
             | CpuOrder::PowerOnRack { .. }
             | CpuOrder::SetInputs { .. }
             | CpuOrder::JumpSystemTime { .. }

@@ -217,6 +217,7 @@ impl Maker<'_> {
         }
         match order {
             Order::Cpu(order) => {
+                self.check_words_of_cpu(order, part)?;
                 self.check_inputs(order, part)?;
                 self.check_variables(order, part)
             }

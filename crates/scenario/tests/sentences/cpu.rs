@@ -113,6 +113,7 @@ fn modes_and_tasks() -> Vec<OrderRow> {
             "10ms",
         )
         .with(STOPPING),
+        order("send 9 NX messages to unit 1", &[], &[], "unit 1 has recorded 80220000", "10ms"),
         order("power off the CPU Rack of unit 1", &[OP, IN_OP], &[], "RUN of unit 1 is not_lit", "10ms"),
         order(
             "power on the CPU Rack of unit 1",

@@ -94,6 +94,9 @@ impl World {
             CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = true),
             CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
             CpuOrder::CycleRackPower { units } => self.each(*units, Self::cycle_rack_power),
+            CpuOrder::SendNxMessages { units, count } => {
+                self.each_cpu(*units, |cpu| cpu.unit.load_nx_bus(*count));
+            }
             CpuOrder::PowerOffRack { units } => self.each(*units, Self::power_off_rack),
             CpuOrder::PowerOnRack { units } => self.each(*units, Self::power_on_rack),
             CpuOrder::JumpSystemTime { units, by } => {
