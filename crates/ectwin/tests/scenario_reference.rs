@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use coe_kit::indicators::Pattern;
-use nx_ect101::{Event, Fault};
+use nx_ect101::{Event, Fault, Outage};
 use scenario::pool::{GROUPS, MARKS};
 use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
 
@@ -247,12 +247,16 @@ fn faults(page: &mut String) {
         let name = Event::find(code).map_or("", |event| event.name.as_str());
         [format!("`{fault:?}`"), format!("[{code}](../events/{code}.md) {name}")]
     });
+    // Only the indicators show these.
+    let outages = Outage::ALL.iter().map(|outage| {
+        [format!("`{outage:?}`"), format!("no event: {}, on the [indicators](indicators.md)", outage.words())]
+    });
     section(
         page,
         "faults",
         "The faults of `break` and `repair`, and the events that they raise.",
         ["fault", "event"],
-        rows,
+        rows.chain(outages),
     );
 }
 

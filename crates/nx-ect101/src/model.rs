@@ -25,6 +25,7 @@ use crate::indicators::Indicators;
 use crate::memory::{Damage, LogRecord, MemoryAtPowerOn, NonVolatileMemory};
 use crate::model_tables;
 use crate::named_bits::NAMED_BITS;
+use crate::outage::Outage;
 use crate::settings::UnitSettings;
 use crate::settings_check;
 use crate::tables::object_table;
@@ -40,11 +41,14 @@ pub static MODEL: NxEct101Model = NxEct101Model;
 pub struct NxEct101Model;
 
 /// The names of the faults, in the order of [`Fault::ALL`].
-const FAULTS: [&str; Fault::ALL.len()] = {
-    let mut names = [""; Fault::ALL.len()];
+const FAULTS: [&str; Fault::ALL.len() + Outage::ALL.len()] = {
+    let mut names = [""; Fault::ALL.len() + Outage::ALL.len()];
     let mut at = 0;
     while at < names.len() {
-        names[at] = Fault::ALL[at].name();
+        names[at] = match at.checked_sub(Fault::ALL.len()) {
+            None => Fault::ALL[at].name(),
+            Some(outage) => Outage::ALL[outage].name(),
+        };
         at += 1;
     }
     names
@@ -255,12 +259,18 @@ impl ModelUnit for NxEct101 {
     }
 
     fn inject(&mut self, fault: &str) -> Result<(), NotThere> {
-        self.inject(Fault::named(fault).ok_or(NotThere)?);
+        match Outage::named(fault) {
+            Some(outage) => self.begin_outage(outage),
+            None => self.inject(Fault::named(fault).ok_or(NotThere)?),
+        }
         Ok(())
     }
 
     fn remove(&mut self, fault: &str) -> Result<(), NotThere> {
-        self.remove(Fault::named(fault).ok_or(NotThere)?);
+        match Outage::named(fault) {
+            Some(outage) => self.end_outage(outage),
+            None => self.remove(Fault::named(fault).ok_or(NotThere)?),
+        }
         Ok(())
     }
 
@@ -295,7 +305,9 @@ mod tests {
         let model = unit.model();
         for fault in model.faults() {
             assert_eq!((unit.inject(fault), unit.remove(fault)), (Ok(()), Ok(())), "{fault}");
-            assert_eq!(Fault::named(fault).map(|fault| format!("{fault:?}")).as_deref(), Some(*fault));
+            let word = Fault::named(fault).map(|fault| format!("{fault:?}"));
+            let word = word.or_else(|| Outage::named(fault).map(|outage| format!("{outage:?}")));
+            assert_eq!(word.as_deref(), Some(*fault));
         }
         for indicator in model.indicators() {
             assert!(unit.indicator(indicator, &SlaveView::default()).is_some(), "{indicator}");

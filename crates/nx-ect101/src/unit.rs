@@ -26,6 +26,7 @@ use crate::finding::Finding;
 use crate::indicators::Indicator;
 use crate::memory::MemoryAtPowerOn;
 use crate::nx_objects::nx_objects;
+use crate::outage::Outages;
 use crate::pdo_settings;
 use crate::rules;
 use crate::settings::UnitSettings;
@@ -75,6 +76,7 @@ pub struct NxEct101 {
     /// Number of error resets of the NX Bus Function Module that the unit has completed.
     error_resets: u32,
     reported: Reported,
+    outages: Outages,
 }
 
 impl NxEct101 {
@@ -128,6 +130,7 @@ impl NxEct101 {
             io_stopped: false,
             error_resets: 0,
             reported: Reported::default(),
+            outages: Outages::default(),
             settings: settings.clone(),
         };
         (unit, cpu_end)
@@ -158,7 +161,8 @@ impl NxEct101 {
 
     /// Whether the I/O allocation, the state of the unit and the NX bus permit I/O refreshing.
     fn io_is_refreshed(&self) -> bool {
-        self.io_findings.is_empty() && !self.objects.diagnosis.stops_io() && !self.io_stopped
+        let is_stopped = self.objects.diagnosis.stops_io() || self.io_stopped || self.outages.is_any();
+        self.io_findings.is_empty() && !is_stopped
     }
 
     /// Calculates the status words of both sides (manual, 6-3-2 and 7-5-5).
@@ -278,9 +282,10 @@ impl Unit for NxEct101 {
     /// A fault that keeps the slave in INIT has priority. The alias is the ID at power-on, then the value set
     /// by object 10E0.
     fn take_action(&mut self) -> Option<Action> {
+        let stop_in_init = self.stop_in_init();
         let objects = &mut self.objects;
         self.reported
-            .fault(objects.diagnosis.stop_in_init())
+            .fault(stop_in_init)
             .or_else(|| self.reported.station_alias(objects.identification.station_alias()))
             .or_else(|| objects.take_status_change().then_some(Action::Refresh))
             .or_else(|| objects.diagnosis.take_emergency().map(Action::Emergency))

@@ -174,6 +174,38 @@ fn the_load_of_nx_messages_causes_an_error_that_ends_with_a_reset() {
     assert!(refused[0].starts_with("unit 1 is a digital, which has no NX objects"), "{refused:?}");
 }
 
+/// Manual, 8-2-2: what fails without an event shows only at the indicators.
+#[test]
+fn outages_have_no_event_and_end_with_a_start_without_their_cause() {
+    for (outage, err) in [("Hardware", "lit"), ("CpuUnit", "not_lit")] {
+        let [broken, repaired] =
+            ["break", "repair"].map(|verb| format!("unit = \"{verb} {outage} of unit 1\""));
+        let err = format!("expect = \"ERR of unit 1 is {err}\"");
+        trace(
+            "",
+            &[
+                "master = \"take unit 1 to OP\"",
+                "expect = \"unit 1 is in OP\", within = \"1s\"",
+                &broken,
+                "after = \"5ms\", expect = \"unit 1 is in INIT\"",
+                "expect = \"RUN of unit 1 is not_lit\"",
+                &err,
+                "expect = \"TS red of unit 1 is lit\"",
+                "expect = \"TS green of unit 1 is not_lit\"",
+                "expect = \"the I/O data of unit 1 is not active\", within = \"5ms\"",
+                "expect = \"the CPU Unit of unit 1 sees an error\"",
+                &repaired,
+                "after = \"1s\", expect = \"TS red of unit 1 is lit\"",
+                "unit = \"cycle the power of unit 1\"",
+                "after = \"500ms\", expect = \"TS green of unit 1 is lit\"",
+                "master = \"take unit 1 to OP\"",
+                "expect = \"unit 1 is in OP\", within = \"2s\"",
+                "expect = \"unit 1 has recorded nothing\"",
+            ],
+        );
+    }
+}
+
 #[test]
 fn a_cpu_unit_without_power_obeys_nothing() {
     let trace = trace(

@@ -10,6 +10,7 @@ use crate::events::{Event, EventCode, EventLevel, EventLog};
 use crate::fault::Fault;
 use crate::indicators::{IndicatorCauses, Indicators, NxCondition};
 use crate::memory::ErrorLog;
+use crate::outage::Outage;
 use crate::settings::LevelNotChangeable;
 use crate::unit::NxEct101;
 use coe_kit::indicators::PortCondition;
@@ -24,6 +25,16 @@ impl NxEct101 {
     /// The cause of a fault disappears. Its effect remains until the recovery in the manual.
     pub fn remove(&mut self, fault: Fault) {
         self.objects.diagnosis.remove(fault);
+    }
+
+    /// Something fails without an event, immediately.
+    pub const fn begin_outage(&mut self, outage: Outage) {
+        self.outages.begin(outage);
+    }
+
+    /// The cause of an outage disappears. It lasts until the next start of the unit.
+    pub const fn end_outage(&mut self, outage: Outage) {
+        self.outages.end(outage);
     }
 
     /// The faults that the unit has found and has not recovered from.
@@ -89,7 +100,8 @@ impl NxEct101 {
     /// NX Unit Error Status: the unit has an error (manual, 8-1-1). A fault that is not a current error, such
     /// as a broken memory, counts too.
     pub(super) fn has_error(&self) -> bool {
-        self.error_status() != 0 || self.objects.diagnosis.found().next().is_some()
+        let is_faulty = self.objects.diagnosis.found().next().is_some() || self.outages.is_any();
+        self.error_status() != 0 || is_faulty
     }
 
     /// The state of the indicators, for the AL status of the stack and the ports IN and OUT; the unit has power.
@@ -118,13 +130,14 @@ impl NxEct101 {
             (true, false, true) => NxCondition::Normal,
             (true, ..) => NxCondition::Initializing,
         };
-        errors.map(NxCondition::Error).fold(condition, NxCondition::or_worse)
+        errors.map(NxCondition::Error).chain(self.outages.conditions()).fold(condition, NxCondition::or_worse)
     }
 
     /// The AL status code of the fault that keeps the unit in INIT, if there is one.
     #[must_use]
     pub fn stop_in_init(&self) -> Option<AlStatusCode> {
-        self.objects.diagnosis.stop_in_init()
+        let outage = self.outages.is_any().then_some(AlStatusCode::NO_ERROR);
+        self.objects.diagnosis.stop_in_init().or(outage)
     }
 
     /// The unit restarts; returns the AL status code for the master. A reset of the ESC is not a start of the
@@ -134,6 +147,7 @@ impl NxEct101 {
             return None;
         }
         self.start_to_watch();
+        self.outages.start();
         let diagnosis = &mut self.objects.diagnosis;
         diagnosis.see_no_more(Fault::SiiVerification);
         if start == Start::PowerOn {
