@@ -208,7 +208,7 @@ fn is_sii(bytes: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    const ALL: [Wanted; 6] = [
+    const ALL: [Wanted; 7] = [
         Wanted::UnitFile,
         Wanted::Scenario,
         Wanted::Program,
