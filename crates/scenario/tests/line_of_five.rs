@@ -21,7 +21,7 @@ const DECISIVE: &[(&str, &str, &str)] = &[
         "unit 5 is in SAFE-OP with AL status code 0x001B",
         "unit 4 is in SAFE-OP with AL status code 0x001B",
     ),
-    ("intermittent-contact", "register 0x0310 of unit 4 is 03", "register 0x0310 of unit 4 is 02"),
+    ("intermittent-contact", "register 0x0310 of unit 4 is 0A", "register 0x0310 of unit 4 is 09"),
     ("reordered-sdo-answers", "the last SDO gave 04 00 00 00", "the last SDO gave 01 00 00 00"),
     ("second-tool-on-the-line", "unit 5 is in INIT", "unit 4 is in INIT"),
     ("storm-of-requests", "unit 4 has recorded 350C0000 200 times", "unit 4 has recorded 350C0000 199 times"),
