@@ -1,6 +1,5 @@
 //! What a script needs before it can run: its units and programs, and steps that refer to existing names.
 
-mod emergency;
 mod error;
 mod fault_names;
 mod files;
@@ -17,6 +16,7 @@ mod programs;
 mod random;
 mod raw;
 mod reach;
+mod reports;
 mod resolve;
 mod steps;
 mod unit_files;

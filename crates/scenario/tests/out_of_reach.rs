@@ -92,6 +92,29 @@ fn what_cannot_be_sent_or_loaded_is_refused() {
     assert!(mistake(&long).starts_with("401 bytes for a mailbox of 400"), "{}", mistake(&long));
 }
 
+/// A terminal has no logs and no mailbox, so that a condition on them would always hold, or never.
+#[test]
+fn reports_that_a_unit_cannot_make_are_refused() {
+    let terminal = "units = [{ model = \"digital\", inputs = 8 }]";
+    for (condition, message) in [
+        ("the access event log of unit 1 is empty", "unit 1 is a digital, which has no event log"),
+        ("unit 1 has 1 diagnosis messages", "unit 1 is a digital, which has no event log"),
+        (
+            "diagnosis message 1 of unit 1 without its time begins with 00",
+            "unit 1 is a digital, which has no diagnosis history",
+        ),
+        ("no emergency of all units is lost", "unit 1 is a digital, which has no mailbox"),
+        ("the master has received emergency 0xFF20 from unit 1", "unit 1 is a digital, which has no mailbox"),
+        (
+            "the master has received emergency 0xFF20",
+            "no unit of this scenario has an event with the emergency error code 0xFF20",
+        ),
+    ] {
+        let refused = parse(terminal, &[&format!("never = \"{condition}\"")]).err().unwrap_or_default();
+        assert!(refused.first().is_some_and(|found| found.starts_with(message)), "{condition}: {refused:?}");
+    }
+}
+
 #[test]
 fn a_calendar_that_is_none_is_refused_at_its_place() {
     let refused = |text: &str| match parse(&format!("calendar = {text}"), &["line = \"be quiet\""]) {
@@ -129,7 +152,7 @@ fn the_system_time_begins_at_the_calendar() {
 fn a_unit_that_takes_the_place_of_another_is_the_one_of_later_steps() {
     let units = "units = [{ model = \"nx-ect101\" }, { model = \"nx-ect101\", name = \"N2\" }]";
     let swap = "unit = \"replace unit 2 by other.toml\"";
-    let log = "expect = \"the access event log of unit 2 is empty\"";
+    let log = "expect = \"unit 2 is in INIT\"";
     let no_event = "expect = \"unit 2 has recorded 85000000\"";
     assert!(parse(units, &[no_event, swap, log]).is_ok());
     let refused = parse(units, &[swap, no_event]).err().unwrap_or_default();

@@ -8,14 +8,14 @@ use super::problem::Part;
 use crate::model::{Condition, ConductOrder, CpuOrder, ID_SWITCH, UnitOrder, UnitSet};
 
 /// Whether a unit knows a word.
-type IsKnown = Box<dyn Fn(&dyn UnitSection) -> bool>;
+pub(super) type IsKnown = Box<dyn Fn(&dyn UnitSection) -> bool>;
 
 /// A word that the model of each unit has to know.
-struct Needed {
-    units: UnitSet,
+pub(super) struct Needed {
+    pub(super) units: UnitSet,
     /// What it is, such as `fault Processing`.
-    words: String,
-    is_known: IsKnown,
+    pub(super) words: String,
+    pub(super) is_known: IsKnown,
 }
 
 impl Maker<'_> {
@@ -88,7 +88,7 @@ impl Maker<'_> {
         Some(())
     }
 
-    fn check_words(&mut self, needed: &Needed, part: Part) -> Option<()> {
+    pub(super) fn check_words(&mut self, needed: &Needed, part: Part) -> Option<()> {
         let positions = needed.units.positions(self.units.len());
         let units = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section())));
         let missing = units.into_iter().find(|(_, unit)| !(needed.is_known)(*unit));

@@ -266,7 +266,7 @@ impl Maker<'_> {
         }
         self.check_words_of_condition(condition, part)?;
         self.check_process_data(condition, part)?;
-        self.check_emergency(condition, part)?;
+        self.check_reports(condition, part)?;
         self.resolve(condition, part)?;
         if lasting == Lasting::ToTheEnd {
             self.value_lasts(condition, part);
