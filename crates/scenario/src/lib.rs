@@ -19,10 +19,10 @@ pub mod words;
 pub use builder::ScenarioBuilder;
 pub use ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
 pub use run::{
-    Aspect, DifferenceKind, Failure, FailureKind, MasterProgram, NotReplayable, PlayedStep, ProgramFile,
-    RandomPart, RecordedFrames, Recording, Report, Scenario, UnitSource, UserProgram, WrittenGroup,
-    WrittenStep,
+    Aspect, DifferenceKind, Fact, FactKind, Failure, FailureKind, MasterProgram, Met, NotReplayable,
+    PlayedStep, ProgramFile, RandomPart, RecordedFrames, Recording, Report, Scenario, UnitSource,
+    UserProgram, WrittenGroup, WrittenStep,
 };
-pub use search::Found;
+pub use search::{Found, Search, Trial};
 pub use trace_difference::{TraceDifference, trace_differences};
 pub use user_file::Wanted;

@@ -1,7 +1,18 @@
 //! Search: many seeds, until a replay fails; then the failing steps are reduced to the necessary ones.
+//!
+//! A seed that meets something that the scenario does not meet without its random steps is varied: its first steps are
+//! kept, others follow. As long as a variation meets something new, the next one continues from it. What is done for a
+//! seed depends on nothing else, so that seeds can be tried in any order and on any machine.
+
+use time::Duration;
 
 use crate::random::RandomStep;
-use crate::run::{Failure, Recording, Scenario, play};
+use crate::run::{DICE_OF_STEPS, Dice, Failure, Met, Recording, Report, Scenario, play};
+
+/// Maximum number of variations of a seed.
+const VARIATIONS_MAX: u64 = 4;
+/// Makes different dice for the variations of a seed.
+const DICE_OF_VARIATIONS: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// The result of a search.
 #[derive(Clone, Debug)]
@@ -18,17 +29,47 @@ pub struct Found {
     pub text: String,
 }
 
+/// A search in a scenario with random steps.
+#[derive(Clone, Debug)]
+pub struct Search<'a> {
+    scenario: &'a Scenario,
+    /// What the scenario meets without its random steps.
+    known: Met,
+}
+
+/// The runs of one seed, up to the first that fails.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The seed.
+    pub seed: u64,
+    /// The last run: 0 is the seed itself, as `replay` plays it, then its variations follow.
+    pub variation: u64,
+    /// The virtual time of all runs together.
+    pub lasted: Duration,
+    /// The process data cycles of all runs together.
+    pub cycles: u64,
+    /// The failure of the last run.
+    pub failure: Option<Failure>,
+    /// What the runs have met.
+    pub met: Met,
+    /// The random steps of the last run.
+    steps: Vec<RandomStep>,
+}
+
 impl Scenario {
-    /// Replays seeds from `first` on, `runs` of them, until one fails, and reduces its steps. `text` is the
-    /// text of the scenario's file. Seed 0 follows the last one. None if all pass.
+    /// A search for seeds and variations that fail.
+    #[must_use]
+    pub fn searched(&self) -> Search<'_> {
+        let report = play(self, &self.steps_with(&[]), self.seed, Recording::new(false, false).with_met());
+        Search { scenario: self, known: met(&report) }
+    }
+
+    /// Tries seeds from `first` on, `runs` of them, until one fails, and reduces its steps. `text` is the text of the
+    /// scenario's file. Seed 0 follows the last one. None if all pass.
     #[must_use]
     pub fn search(&self, text: &str, first: u64, runs: u64) -> Option<Found> {
-        (0..runs).find_map(|run| {
-            let seed = first.wrapping_add(run);
-            let steps = self.random_steps(seed);
-            self.fails(&steps, seed)?;
-            Some(self.shrink(text, seed, steps))
-        })
+        let search = self.searched();
+        (0..runs).find_map(|run| search.reduce(text, &search.seed(first.wrapping_add(run))))
     }
 
     fn fails(&self, random: &[RandomStep], seed: u64) -> Option<Failure> {
@@ -93,6 +134,60 @@ impl Scenario {
         text.push('\n');
         text
     }
+}
+
+impl Search<'_> {
+    /// Replays a seed, and its variations while they meet something new.
+    #[must_use]
+    pub fn seed(&self, seed: u64) -> Trial {
+        let mut trial = Trial {
+            seed,
+            variation: 0,
+            lasted: Duration::ZERO,
+            cycles: 0,
+            failure: None,
+            met: self.known.clone(),
+            steps: self.scenario.random_steps(seed),
+        };
+        let mut dice = Dice::new(seed ^ DICE_OF_STEPS ^ DICE_OF_VARIATIONS);
+        loop {
+            let is_new = self.run(&mut trial);
+            if trial.failure.is_some() || !is_new || trial.variation == VARIATIONS_MAX {
+                return trial;
+            }
+            trial.variation += 1;
+            trial.steps = self.varied(&trial.steps, &mut dice);
+        }
+    }
+
+    /// Replays the steps of a trial. Whether it has met something new.
+    fn run(&self, trial: &mut Trial) -> bool {
+        let steps = self.scenario.steps_with(&trial.steps);
+        let report = play(self.scenario, &steps, trial.seed, Recording::new(false, false).with_met());
+        trial.lasted = trial.lasted + report.lasted;
+        trial.cycles += report.cycles;
+        let is_new = trial.met.add(&met(&report)) > 0;
+        trial.failure = report.failure;
+        is_new
+    }
+
+    /// The first steps, and others behind them.
+    fn varied(&self, steps: &[RandomStep], dice: &mut Dice) -> Vec<RandomStep> {
+        let others = self.scenario.random_steps(dice.below(u64::MAX));
+        let kept = dice.below(steps.len().max(1) as u64) as usize;
+        steps.iter().take(kept).chain(others.iter().skip(kept)).cloned().collect()
+    }
+
+    /// Reduces the steps of a trial that has failed; none if it has not. `text` is the text of the scenario's file.
+    #[must_use]
+    pub fn reduce(&self, text: &str, trial: &Trial) -> Option<Found> {
+        trial.failure.as_ref()?;
+        Some(self.scenario.shrink(text, trial.seed, trial.steps.clone()))
+    }
+}
+
+fn met(report: &Report) -> Met {
+    report.recording.met().cloned().unwrap_or_default()
 }
 
 /// The text with other steps in this place; without any, the comma behind them goes too.

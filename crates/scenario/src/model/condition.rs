@@ -40,6 +40,11 @@ pub enum Condition {
     HasNoError {
         units: UnitSet,
     },
+    /// Of its events, its diagnosis history, its current errors and its emergencies none contradicts another.
+    DiagnosisConsistent {
+        units: UnitSet,
+        consistent: bool,
+    },
     NewMessages {
         units: UnitSet,
         available: bool,

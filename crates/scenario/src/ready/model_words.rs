@@ -1,7 +1,7 @@
 //! Words of steps that mean something to some models only: faults, the ID switch, indicators, events.
 
 use unit_model::{EventCode, UnitSection};
-use wire::AlState;
+use wire::{AlState, ObjectIndex};
 
 use super::maker::Maker;
 use super::problem::Part;
@@ -75,6 +75,12 @@ impl Maker<'_> {
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().indicators().contains(&name));
             return self
                 .check_words(&Needed { units: *units, words: format!("indicator {name}"), is_known }, part);
+        }
+        if let Condition::DiagnosisConsistent { units, .. } = condition {
+            let is_known: IsKnown =
+                Box::new(|unit: &dyn UnitSection| unit.objects().object(ObjectIndex(0x10F3)).is_some());
+            let words = "diagnosis history 10F3".to_owned();
+            return self.check_words(&Needed { units: *units, words, is_known }, part);
         }
         if let Condition::Recorded { units, event, .. }
         | Condition::HasError { units, event }

@@ -98,6 +98,7 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::RecordedNothing { units }
         | Condition::HasError { units, .. }
         | Condition::HasNoError { units }
+        | Condition::DiagnosisConsistent { units, .. }
         | Condition::NewMessages { units, .. }
         | Condition::DataValid { units, .. }
         | Condition::DirectionValid { units, .. }

@@ -4,6 +4,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod diagnosis;
 mod emergency;
 mod logs;
 mod master;
@@ -31,6 +32,9 @@ pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen
             each(*units, world, |world, at| unit::has_error(world, at, *event))
         }
         Condition::HasNoError { units } => each(*units, world, unit::has_no_error),
+        Condition::DiagnosisConsistent { units, consistent } => {
+            each(*units, world, |world, at| diagnosis::is_consistent(world, at, *consistent))
+        }
         Condition::NewMessages { units, available } => {
             each(*units, world, |world, at| unit::new_messages(world, at, *available))
         }

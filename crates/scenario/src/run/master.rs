@@ -83,6 +83,8 @@ pub(crate) struct Master {
     last_sdos: LastSdos,
     raw: Raw,
     emergencies: Vec<Received>,
+    /// Abort codes of refused SDOs that the observer has not taken.
+    refusals: Vec<u32>,
     /// Whether it reads the mailboxes for emergencies while it has nothing else to do.
     looks_for_emergencies: bool,
     story: Vec<String>,
@@ -118,6 +120,7 @@ impl Master {
             last_sdos: LastSdos::of(units),
             raw: Raw::default(),
             emergencies: Vec::new(),
+            refusals: Vec::new(),
             looks_for_emergencies: true,
             story: Vec::new(),
         }
@@ -311,6 +314,7 @@ impl Master {
                 }
                 Step::SdoResult { unit, number, words, result } => {
                     self.story.push(words);
+                    self.refusals.extend(result.as_ref().err());
                     self.last_sdos.answer(unit, number, &result);
                 }
                 Step::RawAnswer { number, bytes } => self.story.push(self.raw.answer(number, bytes)),
@@ -395,6 +399,11 @@ impl Master {
     /// The value of a variable of its user program as text.
     pub(crate) fn program_variable(&self, name: &str) -> Option<String> {
         self.task.as_ref()?.value(name)
+    }
+
+    /// The abort codes of SDOs that were refused since the last call.
+    pub(crate) fn take_refusals(&mut self) -> Vec<u32> {
+        core::mem::take(&mut self.refusals)
     }
 
     /// Its reports since the last call.

@@ -4,6 +4,7 @@ use capture::{Direction, PcapngWriter};
 use time::Instant;
 
 use super::frame_words::frame_words;
+use super::met::Met;
 use crate::model::Calendar;
 
 /// The trace of a replay, and its capture if requested.
@@ -12,6 +13,7 @@ pub struct Recording {
     capture: Option<PcapngWriter<Vec<u8>>>,
     /// The system time at the start, in nanoseconds since 1970.
     start_ns: u64,
+    met: Option<Met>,
 }
 
 impl Recording {
@@ -19,7 +21,7 @@ impl Recording {
     #[must_use]
     pub fn new(trace: bool, capture: bool) -> Self {
         let capture = capture.then(|| PcapngWriter::new(Vec::new(), "scenario").ok()).flatten();
-        Self { trace: trace.then(String::new), capture, start_ns: Calendar::default().as_nanos() }
+        Self { trace: trace.then(String::new), capture, start_ns: Calendar::default().as_nanos(), met: None }
     }
 
     /// The same with this system time at the start.
@@ -29,13 +31,34 @@ impl Recording {
 
     /// A new one that records the same.
     pub(crate) fn another(&self) -> Self {
-        Self::new(self.trace.is_some(), self.capture.is_some())
+        Self {
+            met: self.met.as_ref().map(|_| Met::default()),
+            ..Self::new(self.trace.is_some(), self.capture.is_some())
+        }
     }
 
     /// Records the trace too.
     pub(crate) fn with_trace(mut self) -> Self {
         self.trace.get_or_insert_default();
         self
+    }
+
+    /// Records what the run meets too.
+    #[must_use]
+    pub fn with_met(mut self) -> Self {
+        self.met.get_or_insert_default();
+        self
+    }
+
+    /// What the run has met; none if it was not requested.
+    #[must_use]
+    pub const fn met(&self) -> Option<&Met> {
+        self.met.as_ref()
+    }
+
+    /// Notes what the run meets, if it is requested.
+    pub(crate) fn meets(&mut self, note: impl FnMut(&mut Met)) {
+        self.met.iter_mut().for_each(note);
     }
 
     /// The trace, line by line; none if it was not requested.
@@ -79,6 +102,7 @@ impl Recording {
             self.note_frame(now, frame, comment);
         }
         self.packet(now, Direction::Inbound, frame, comment);
+        self.meets(|met| met.frame(frame));
     }
 
     /// It returns.

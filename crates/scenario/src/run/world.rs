@@ -16,6 +16,7 @@ use unit_model::{EventCode, ModelUnit, PowerOn};
 use wire::{AlStatus, AlStatusCode};
 
 use super::dice::{Dice, dice_of_phases};
+use super::ledger::{Ledger, emergency_code};
 use super::master::{Master, Sent, Ticket};
 use super::programs::{LoadedProgram, SiiImage};
 use super::recorded::Recorded;
@@ -51,6 +52,8 @@ struct Watched {
     code: AlStatusCode,
     recorded: Vec<EventCode>,
     patterns: Patterns,
+    /// Its diagnosis history, as these events say.
+    ledger: Ledger,
 }
 
 impl World {
@@ -164,12 +167,20 @@ impl World {
                     &format!("records {event} {name}"),
                 );
                 watched.recorded.push(event);
+                self.recording.meets(|met| met.event(unit.model(), event));
+                if let Some(code) = emergency_code(unit.model(), event) {
+                    watched.ledger.record(code);
+                }
             }
             if (status, code) != (watched.status, watched.code) {
+                self.recording.meets(|met| met.status(watched.status, status, code));
                 (watched.status, watched.code) = (status, code);
                 let words = state_words(status, code);
                 self.recording.tell(self.now, &format!("unit {}", at + 1), &format!("is in {words}"));
             }
+        }
+        for abort_code in self.master.take_refusals() {
+            self.recording.meets(|met| met.refusal(abort_code));
         }
         for words in self.master.take_story() {
             self.recording.tell(self.now, "master", &words);

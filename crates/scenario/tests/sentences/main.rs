@@ -58,10 +58,14 @@ fn each_order_to_the_line_does_what_it_says() {
     orders::<LineOrder>("line", &line::rows());
 }
 
+/// Only a bug of a model makes the first one fail and the second one hold: the planted bugs of `tests/planted` do.
+const ORACLES: [&str; 2] =
+    ["the diagnosis of unit 1 is consistent", "the diagnosis of unit 1 is contradictory"];
+
 #[test]
 fn each_condition_holds_and_fails() {
     let rows = [conditions::rows(), messages::conditions(), raw::conditions()].concat();
-    let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).collect();
+    let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).chain(ORACLES).collect();
     assert_eq!(missing::<Condition>(&sentences), [""; 0], "conditions without a row");
     all_are_right(rows.iter().map(ConditionRow::try_out));
 }

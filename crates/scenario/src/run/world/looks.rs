@@ -1,5 +1,7 @@
 //! The values that conditions check.
 
+use std::collections::BTreeMap;
+
 use coe_kit::indicators::{Pattern, PortCondition};
 use device::{Device, Unit};
 use esc::Port;
@@ -9,6 +11,7 @@ use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
 
 use super::{World, state_words};
 use crate::model::IndicatorName;
+use crate::run::ledger::{Ledger, emergency_code};
 
 /// The two levels of current errors, the more severe first.
 const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observation];
@@ -48,6 +51,26 @@ impl World {
 
     pub(crate) fn recorded(&self, at: usize) -> &[EventCode] {
         &self.watched[at].recorded
+    }
+
+    /// The diagnosis history as the recorded events say.
+    pub(crate) fn ledger_mut(&mut self, at: usize) -> &mut Ledger {
+        &mut self.watched[at].ledger
+    }
+
+    /// The emergency error codes that the master has received from a unit, each with its number.
+    pub(crate) fn received_codes(&self, at: usize) -> BTreeMap<u16, usize> {
+        let mut codes = BTreeMap::new();
+        for received in self.master.emergencies().iter().filter(|received| received.unit == at) {
+            *codes.entry(received.emergency.code).or_default() += 1;
+        }
+        codes
+    }
+
+    /// Number of recorded events with this emergency error code.
+    pub(crate) fn recorded_with(&self, at: usize, code: u16) -> usize {
+        let model = self.unit(at).model();
+        self.recorded(at).iter().filter(|event| emergency_code(model, **event) == Some(code)).count()
     }
 
     pub(crate) fn recorded_words(&self, at: usize) -> String {

@@ -232,6 +232,7 @@ impl World {
 
     fn start(&mut self, at: usize, start: Start) {
         self.network.restart(at, self.now, start);
+        self.watched[at].ledger.start();
     }
 }
 
