@@ -143,6 +143,9 @@ pub(crate) struct ReplayArgs {
     /// Print the actions with their times, below each case
     #[arg(long)]
     pub(crate) trace: bool,
+    /// Print which states, transitions, codes, events, registers and rules no case has met
+    #[arg(long, conflicts_with_all = ["bless", "list"])]
+    pub(crate) coverage: bool,
     /// Write a JUnit file, for CI systems
     #[arg(long, value_name = "OUT")]
     pub(crate) junit: Option<PathBuf>,
@@ -209,6 +212,22 @@ pub(crate) struct SearchArgs {
     /// Write the reduced scenario of a failure to this file; default: beside FILE, with the seed in its name
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: Option<PathBuf>,
+    /// Search all seeds, and reduce each different failure, not only the first
+    #[arg(long, conflicts_with = "output")]
+    pub(crate) all: bool,
+    /// End after this time, such as 600s: with the next result
+    #[arg(long, value_name = "TIME")]
+    pub(crate) budget: Option<time::Duration>,
+    /// Number of threads; default: as many as the machine can run in parallel. It does not change the results
+    #[arg(long, value_name = "N", value_parser = count::jobs)]
+    jobs: Option<NonZeroUsize>,
+}
+
+impl SearchArgs {
+    /// Number of threads.
+    pub(crate) fn jobs(&self) -> NonZeroUsize {
+        self.jobs.or_else(|| std::thread::available_parallelism().ok()).unwrap_or(NonZeroUsize::MIN)
+    }
 }
 
 #[derive(Debug, Args)]

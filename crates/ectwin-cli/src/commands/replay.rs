@@ -6,6 +6,7 @@
 mod campaign;
 mod captures;
 mod case;
+mod coverage;
 mod failed_cases;
 mod files;
 mod golden;
@@ -44,6 +45,7 @@ pub(crate) use partition::{Partition, PartitionChoice};
 pub(crate) use result::{CaseResult, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
+pub(crate) use threads::replay as on_threads;
 
 /// Replays all cases of the selected part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
@@ -72,7 +74,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let wanted = wanted(args);
     let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
     threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
-    results.close(shard.partition, cases.len() as u64, campaign.count())
+    results.close(shard.partition, cases.len() as u64, &campaign)
 }
 
 /// The outputs of replays: a failed case has a trace in files of results, and a capture in the folder for failures.
@@ -80,7 +82,7 @@ fn wanted(args: &ReplayArgs) -> Wanted {
     let keeps = args.on_failure.is_some();
     let of_each = Outputs { trace: args.trace, capture: args.pcap.is_some() };
     let trace = keeps || args.json.is_some() || args.junit.is_some();
-    Wanted { of_each, of_failed: Outputs { trace, capture: keeps } }
+    Wanted { of_each, of_failed: Outputs { trace, capture: keeps }, met: args.coverage }
 }
 
 /// Of a campaign with several seeds only the failed cases are printed, unless their traces are wanted.

@@ -1,13 +1,16 @@
-//! `ectwin search FILE`: seeds, until a replay fails; the result is a scenario file of a few steps.
+//! `ectwin search FILE`: seeds and their variations, until a replay fails; the result is a scenario file of a few steps.
 
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use ectwin::user_files::{self, Beside, Wanted};
-use scenario::{Found, Recording, Scenario};
+use scenario::{FailureKind, Found, Recording, Scenario, Search, Trial};
 use time::Duration;
 use user_file::on_one_line;
 
-use super::replay::{quoted, read_scenario, scenario_in};
+use super::replay::{on_threads, quoted, read_scenario, scenario_in};
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
 use crate::output::{self, shown};
@@ -30,34 +33,92 @@ pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
         refuse_existing(output)?;
         refuse_elsewhere(path, &text, output)?;
     }
-    let (found, lasted) = search(&scenario, &text, args);
-    match found {
-        None => tell_nothing(args, lasted),
-        Some(found) => tell_found(args, &scenario, &found),
-    }
+    let mut hunt = Hunt::new(args, &scenario, &text);
+    hunt.run()?;
+    hunt.end()
 }
 
-/// The first seed that fails, reduced, and the virtual time of all replays up to it.
-fn search(scenario: &Scenario, text: &str, args: &SearchArgs) -> (Option<Found>, Duration) {
-    let mut lasted = Duration::ZERO;
-    for run in 0..args.runs.get() {
-        let seed = args.seed.wrapping_add(run);
-        let report = scenario.replay(seed, Recording::new(false, false));
-        lasted = lasted + report.lasted;
-        if report.failure.is_some() {
-            return (scenario.search(text, seed, 1), lasted);
+/// Number of seeds that are given to the threads at once.
+const SEEDS_AT_ONCE: u64 = 10_000;
+
+/// A search, and what it has found so far.
+struct Hunt<'a> {
+    args: &'a SearchArgs,
+    scenario: &'a Scenario,
+    text: &'a str,
+    started: Instant,
+    /// The failures that have been reduced.
+    known: BTreeSet<FailureKind>,
+    runs: u64,
+    variations: u64,
+    lasted: Duration,
+}
+
+impl<'a> Hunt<'a> {
+    fn new(args: &'a SearchArgs, scenario: &'a Scenario, text: &'a str) -> Self {
+        let (known, lasted) = (BTreeSet::new(), Duration::ZERO);
+        Self { args, scenario, text, started: Instant::now(), known, runs: 0, variations: 0, lasted }
+    }
+
+    /// Tries the seeds on all threads, and takes their results in the order of the seeds.
+    fn run(&mut self) -> Result<(), Failure> {
+        let (args, scenario) = (self.args, self.scenario);
+        let search = scenario.searched();
+        let runs = args.runs.get();
+        while self.runs < runs {
+            let first = self.runs;
+            let seeds: Vec<u64> = (first..runs.min(first.saturating_add(SEEDS_AT_ONCE))).collect();
+            let mut is_over = false;
+            let try_seed = |run: u64| search.seed(args.seed.wrapping_add(run));
+            on_threads(&seeds, args.jobs(), try_seed, |trial| {
+                let flow = self.take(&search, &trial)?;
+                is_over = flow.is_break();
+                Ok(flow)
+            })?;
+            if is_over {
+                break;
+            }
         }
+        Ok(())
     }
-    (None, lasted)
-}
 
-fn tell_nothing(args: &SearchArgs, lasted: Duration) -> Result<(), Failure> {
-    let (path, runs) = (shown(&args.scenario), args.runs);
-    let runs = if runs.get() == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
-    output::print_line(format_args!(
-        "{path}: nothing found in {runs} from seed {} on, {lasted} of virtual time",
-        args.seed
-    ))
+    /// The result of the next seed. A failure that is not known yet is reduced, printed and written.
+    fn take(&mut self, search: &Search<'_>, trial: &Trial) -> Result<ControlFlow<()>, Failure> {
+        self.runs += 1;
+        self.variations += trial.variation;
+        self.lasted = self.lasted + trial.lasted;
+        let is_new = trial.failure.as_ref().is_some_and(|failure| self.known.insert(failure.kind()));
+        if is_new && let Some(found) = search.reduce(self.text, trial) {
+            tell_found(self.args, self.scenario, &found)?;
+        }
+        let spent =
+            Duration::from_nanos(u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX));
+        let is_over = (is_new && !self.args.all) || self.args.budget.is_some_and(|budget| spent >= budget);
+        Ok(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    fn end(&self) -> Result<(), Failure> {
+        let Self { args, known, runs, variations, lasted, .. } = self;
+        let runs = if *runs == 1 { "1 run".to_owned() } else { format!("{runs} runs") };
+        let variations = match variations {
+            0 => String::new(),
+            1 => ", 1 variation".to_owned(),
+            count => format!(", {count} variations"),
+        };
+        let found = match known.len() {
+            0 => "nothing found".to_owned(),
+            1 => "1 failure".to_owned(),
+            count => format!("{count} different failures"),
+        };
+        if known.is_empty() || args.all {
+            output::print_line(format_args!(
+                "{}: {found} in {runs} from seed {} on{variations}, {lasted} of virtual time",
+                shown(&args.scenario),
+                args.seed
+            ))?;
+        }
+        if known.is_empty() { Ok(()) } else { Err(Failure::CasesFailed) }
+    }
 }
 
 /// The failure with the line numbers of the written file, which differ from those of the file with random steps. It
@@ -86,7 +147,7 @@ fn tell_found(args: &SearchArgs, scenario: &Scenario, found: &Found) -> Result<(
         let again = format!("--seed {seed} --runs 1 -o OUT");
         tracing::error!("{}; `ectwin search` with {again} finds the steps again", on_one_line(&message));
     }
-    Err(Failure::CasesFailed)
+    Ok(())
 }
 
 /// `whatever-happens.toml` and seed 7: `whatever-happens-7.toml` in the same folder; if that is another file,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
-use scenario::Scenario;
+use scenario::{Met, Scenario};
 use user_file::Problem;
 
 use super::case::{CASES_MAX, Case};
@@ -114,6 +114,15 @@ impl Campaign {
     /// Number of cases in all parts.
     pub(super) fn count(&self) -> u64 {
         self.scenarios.len() as u64 * self.seeds_each()
+    }
+
+    /// What the units of all scenarios could meet.
+    pub(super) fn possible(&self) -> Met {
+        let mut all = Met::default();
+        for Loaded { scenario, .. } in &self.scenarios {
+            all.add(&Met::possible(scenario));
+        }
+        all
     }
 
     fn seeds_each(&self) -> u64 {

@@ -154,6 +154,7 @@ mod tests {
             differences: Vec::new(),
             trace_differences: Vec::new(),
             trace: failure_trace,
+            met: None,
         }
     }
 

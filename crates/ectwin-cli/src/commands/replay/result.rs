@@ -47,6 +47,9 @@ pub(crate) struct CaseResult {
     /// The last lines of the trace of a failed case; left out if it passed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) trace: Option<String>,
+    /// What the case has met; left out unless the coverage is asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) met: Option<Vec<String>>,
 }
 
 /// Answers that differ from the captured ones in the same way.
@@ -123,6 +126,7 @@ impl CaseResult {
             differences: report.differences.iter().map(Difference::of).collect(),
             trace_differences: report.trace_differences.iter().map(ToString::to_string).collect(),
             trace: None,
+            met: None,
         }
     }
 

@@ -4,9 +4,12 @@ use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
+use scenario::Met;
 use time::Duration;
 
+use super::campaign::Campaign;
 use super::captures::Captures;
+use super::coverage;
 use super::on_failure::OnFailure;
 use super::partition::Partition;
 use super::printed::Printed;
@@ -30,6 +33,8 @@ pub(super) struct Results {
     passed: u64,
     failed: u64,
     lasted: Duration,
+    /// What all cases have met; none unless it is asked for.
+    met: Option<Met>,
 }
 
 impl Results {
@@ -47,12 +52,16 @@ impl Results {
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
         let fails_fast = args.fail_fast;
         let (passed, failed, lasted) = (0, 0, Duration::ZERO);
-        Ok(Self { printed, lines, captures, on_failure, junit, fails_fast, passed, failed, lasted })
+        let met = args.coverage.then(Met::default);
+        Ok(Self { printed, lines, captures, on_failure, junit, fails_fast, passed, failed, lasted, met })
     }
 
     /// The next case. Breaks if no more are wanted.
     pub(super) fn take(&mut self, ended: Ended) -> Result<ControlFlow<()>, Failure> {
-        let Ended { result, trace, capture } = ended;
+        let Ended { result, trace, capture, met } = ended;
+        if let (Some(all), Some(met)) = (&mut self.met, &met) {
+            all.add(met);
+        }
         self.count(&result);
         self.printed.case(&result, trace.as_deref(), self.failed)?;
         if let (Verdict::Failed, Some(on_failure)) = (result.verdict, &self.on_failure) {
@@ -82,8 +91,13 @@ impl Results {
         self.lasted = self.lasted + Duration::from_nanos(result.virtual_ns);
     }
 
-    /// All results of this part, which has `of_part` cases, are complete; `all` is the total number.
-    pub(super) fn close(mut self, partition: Partition, of_part: u64, all: u64) -> Result<(), Failure> {
+    /// All results of this part, which has `of_part` cases, are complete.
+    pub(super) fn close(
+        mut self,
+        partition: Partition,
+        of_part: u64,
+        campaign: &Campaign,
+    ) -> Result<(), Failure> {
         if let Some((path, lines)) = &mut self.lines {
             // A part without cases has no lines.
             lines.complete().map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
@@ -93,7 +107,7 @@ impl Results {
         }
         let part = match partition.count() {
             1 => String::new(),
-            _ => format!(" (part {partition} of {})", story::cases(all)),
+            _ => format!(" (part {partition} of {})", story::cases(campaign.count())),
         };
         let (passed, failed) = (self.passed, self.failed);
         let ended = passed + failed;
@@ -102,7 +116,10 @@ impl Results {
             count => format!(", {count} not replayed"),
         };
         let cases = story::cases(ended);
-        let totals = format!("{cases}{part}: {passed} ok, {failed} failed{not_replayed}\n");
+        let mut totals = format!("{cases}{part}: {passed} ok, {failed} failed{not_replayed}\n");
+        if let Some(met) = &self.met {
+            totals.push_str(&coverage::text(met, &campaign.possible()));
+        }
         self.printed.end(&totals, ended, self.lasted)?;
         if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
     }

@@ -7,9 +7,10 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
 use std::thread;
 
-use scenario::Recording;
+use scenario::{Met, Recording};
 
 use super::case::Case;
+use super::coverage;
 use super::partition::Partition;
 use super::result::CaseResult;
 use crate::failure::Failure;
@@ -21,6 +22,8 @@ pub(super) struct Wanted {
     pub(super) of_each: Outputs,
     /// Those of a failed case, which is replayed again for them.
     pub(super) of_failed: Outputs,
+    /// What each case meets.
+    pub(super) met: bool,
 }
 
 /// Whether trace and capture are wanted.
@@ -46,13 +49,17 @@ pub(super) struct Ended {
     pub(super) result: CaseResult,
     pub(super) trace: Option<String>,
     pub(super) capture: Option<Vec<u8>>,
+    pub(super) met: Option<Met>,
 }
 
 impl Ended {
     /// Replays a case.
     pub(super) fn replay(case: &Case<'_>, partition: Partition, wanted: Wanted) -> Self {
-        let replay =
-            |Outputs { trace, capture }| case.scenario.replay(case.seed, Recording::new(trace, capture));
+        let replay = |Outputs { trace, capture }| {
+            let recording = Recording::new(trace, capture);
+            let recording = if wanted.met { recording.with_met() } else { recording };
+            case.scenario.replay(case.seed, recording)
+        };
         let mut report = replay(wanted.of_each);
         let has_failed = report.failure.is_some();
         if has_failed && !wanted.of_failed.are_in(wanted.of_each) {
@@ -61,20 +68,22 @@ impl Ended {
         }
         let has_trace = wanted.of_each.trace || has_failed && wanted.of_failed.trace;
         let mut result = CaseResult::new(case, partition, &report);
+        let met = report.recording.met().cloned();
+        result.met = met.as_ref().map(coverage::codes);
         let trace = report.recording.trace().filter(|_| has_trace).map(str::to_owned);
         if has_failed && wanted.of_failed.trace {
             result.keep_trace(trace.as_deref().unwrap_or_default());
         }
-        Self { result, trace, capture: report.recording.into_capture() }
+        Self { result, trace, capture: report.recording.into_capture(), met }
     }
 }
 
 /// Replays all cases, and passes their results on in order. Ends early if `take` fails or wants no more.
-pub(super) fn replay(
+pub(crate) fn replay<T: Send>(
     cases: &[u64],
     threads: NonZeroUsize,
-    replay: impl Fn(u64) -> Ended + Sync,
-    mut take: impl FnMut(Ended) -> Result<ControlFlow<()>, Failure>,
+    replay: impl Fn(u64) -> T + Sync,
+    mut take: impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
 ) -> Result<(), Failure> {
     let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (sender, receiver) = mpsc::channel();
@@ -100,9 +109,9 @@ pub(super) fn replay(
 }
 
 /// Keeps results that are early.
-fn in_order(
-    ended: impl Iterator<Item = (usize, Ended)>,
-    take: &mut impl FnMut(Ended) -> Result<ControlFlow<()>, Failure>,
+fn in_order<T>(
+    ended: impl Iterator<Item = (usize, T)>,
+    take: &mut impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
 ) -> Result<(), Failure> {
     let (mut early, mut due) = (BTreeMap::new(), 0);
     for (place, ended) in ended {
@@ -130,7 +139,7 @@ mod tests {
         "title = \"a program panics\"\nsteps = [{ after = \"20ms\", expect = \"unit 1 is in INIT\" }]\n";
 
     const TRACE: Outputs = Outputs { trace: true, capture: false };
-    const WANTED: Wanted = Wanted { of_each: TRACE, of_failed: TRACE };
+    const WANTED: Wanted = Wanted { of_each: TRACE, of_failed: TRACE, met: false };
 
     /// Every second case has a program that panics.
     fn ended(number: u64, scenarios: &[Scenario; 2]) -> Ended {
