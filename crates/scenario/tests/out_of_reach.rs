@@ -139,7 +139,8 @@ fn the_system_time_begins_at_the_calendar() {
         ("", 1_767_225_600_000_000_000),
     ] {
         let trace = trace(head, &steps);
-        let (_, answer) = trace.split_once("SDO upload 10F8:00 of unit 1 gives ").unwrap_or_else(|| panic!("{trace}"));
+        let (_, answer) =
+            trace.split_once("SDO upload 10F8:00 of unit 1 gives ").unwrap_or_else(|| panic!("{trace}"));
         let bytes =
             answer.split_whitespace().take(8).map(|byte| u8::from_str_radix(byte, 16).unwrap_or_default());
         let time_ns = u64::from_le_bytes(bytes.collect::<Vec<_>>().try_into().unwrap_or_default());

@@ -3,6 +3,7 @@
 //! A campaign is scenarios × seeds. Its cases have numbers, so that parts of it can run anywhere and in
 //! parallel: output is in the order of the numbers, independent of the threads.
 
+mod bless;
 mod campaign;
 mod captures;
 mod case;
@@ -52,7 +53,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let shard = shard(args.partition)?;
     let mut campaign = Campaign::read(args)?;
     if args.bless {
-        return golden::bless(&mut campaign, &args.files);
+        return bless::bless(&mut campaign, &args.files);
     }
     let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
     if args.list {

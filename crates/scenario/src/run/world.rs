@@ -8,6 +8,7 @@ mod orders;
 mod plugged;
 mod variables;
 
+use coe_kit::indicators::Pattern;
 use device::Network;
 use plant::line::LineFaults;
 use plant::{PowerConditions, Powered};
@@ -25,7 +26,6 @@ use super::scenario::{Replacement, Scenario, UnitSource};
 use crate::model::StateName;
 
 use cpus::{Cpu, Cpus};
-use indicators::Patterns;
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
@@ -51,7 +51,8 @@ struct Watched {
     status: AlStatus,
     code: AlStatusCode,
     recorded: Vec<EventCode>,
-    patterns: Patterns,
+    /// The pattern of each indicator, in the order of the unit's model.
+    patterns: Vec<Pattern>,
     /// Its diagnosis history, as these events say.
     ledger: Ledger,
 }

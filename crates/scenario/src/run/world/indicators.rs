@@ -4,9 +4,6 @@ use coe_kit::indicators::Pattern;
 
 use super::World;
 
-/// The pattern of each indicator of a unit, in the order of its model.
-pub(super) type Patterns = Vec<Pattern>;
-
 impl World {
     /// Records the indicators whose patterns have changed. Without a trace they are not looked at.
     pub(super) fn watch_indicators(&mut self) {
@@ -16,7 +13,7 @@ impl World {
         for at in 0..self.count() {
             let names = self.unit(at).model().indicators();
             let patterns = names.iter().map(|name| self.pattern(at, name).unwrap_or_default());
-            let patterns: Patterns = patterns.collect();
+            let patterns: Vec<Pattern> = patterns.collect();
             let before = self.watched.get(at).map_or(&[][..], |watched| &watched.patterns);
             if patterns == before {
                 continue;
