@@ -381,18 +381,26 @@ impl Esc {
     }
 
     pub(crate) fn visible_al_events(&self) -> AlEvents {
-        self.all_al_events() & AlEvents::from_bits_truncate(self.memory.u32(at::AL_EVENT_MASK))
+        let mask = AlEvents::from_bits_truncate(self.memory.u32(at::AL_EVENT_MASK));
+        self.al_events & mask | self.sync_manager_events(mask)
     }
 
     /// The AL event request: the events stored here, and those of the SyncManagers.
     pub(crate) fn all_al_events(&self) -> AlEvents {
-        let count = usize::from(self.config.sync_manager_count);
-        let sync_managers = self.sync_managers.iter().take(count).enumerate();
-        let bits = sync_managers
-            // An event is rarer than a SyncManager that may have one.
-            .filter(|(_, sm)| sm.pdi_event && sm.active && sm.settings.pdi_event)
-            .fold(0, |bits, (n, _)| bits | 0x100 << n);
-        self.al_events | AlEvents::from_bits_truncate(bits)
+        self.al_events | self.sync_manager_events(AlEvents::SYNC_MANAGERS)
+    }
+
+    /// The events of the SyncManagers in this mask. The others are not looked at.
+    fn sync_manager_events(&self, mask: AlEvents) -> AlEvents {
+        let existing = (1 << self.config.sync_manager_count.min(SYNC_MANAGERS_MAX as u8)) - 1;
+        let (mut asked, mut bits) = ((mask & AlEvents::SYNC_MANAGERS).bits() >> 8 & existing, 0);
+        while asked != 0 {
+            let number = asked.trailing_zeros();
+            asked &= asked - 1;
+            let sm = &self.sync_managers[number as usize];
+            bits |= u32::from(sm.pdi_event && sm.active && sm.settings.pdi_event) << (8 + number);
+        }
+        AlEvents::from_bits_truncate(bits)
     }
 
     pub(crate) fn all_ecat_events(&self) -> EcatEvents {

@@ -166,9 +166,9 @@ impl NxEct101 {
     }
 
     /// Calculates the status words of both sides (manual, 6-3-2 and 7-5-5).
-    fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader) {
+    fn update_status(&mut self, exchange: &Exchange<'_>, cpu: CpuHeader, io_is_refreshed: bool) {
         let process_data = matches!(exchange.state, AlState::SafeOp | AlState::Op);
-        let refreshing = self.is_refreshed_by_cpu() && self.io_is_refreshed();
+        let refreshing = self.is_refreshed_by_cpu() && io_is_refreshed;
         let messages = &self.objects.messages;
         self.status = SlaveStatus {
             sdo_enabled: process_data || exchange.state == AlState::PreOp,
@@ -189,11 +189,11 @@ impl NxEct101 {
     }
 
     /// Receives outputs and reports the status to the CPU Unit.
-    fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>) {
-        if let Some(outputs) = outputs.filter(|_| self.io_is_refreshed()) {
-            self.plan.copies(Direction::MToC).apply(outputs, &mut self.m_to_c);
-        }
-        if self.io_is_refreshed() {
+    fn refresh_m_to_c(&mut self, outputs: Option<&[u8]>, io_is_refreshed: bool) {
+        if io_is_refreshed {
+            if let Some(outputs) = outputs {
+                self.plan.copies(Direction::MToC).apply(outputs, &mut self.m_to_c);
+            }
             self.objects.give_unmapped_entries(&mut self.m_to_c);
         }
         self.bus.m_to_c.publish(self.header(), &self.m_to_c);
@@ -202,9 +202,9 @@ impl NxEct101 {
     /// Fills the inputs with the data of the CPU Unit that were received one period before: the unit processes
     /// them for one T_slave. That is the third T_slave of the I/O response time (manual, 7-9-1); the other two
     /// are the waits for a refresh.
-    fn refresh_c_to_m(&mut self, cause: RefreshCause, inputs: &mut [u8]) {
+    fn refresh_c_to_m(&mut self, cause: RefreshCause, inputs: &mut [u8], io_is_refreshed: bool) {
         inputs.fill(0);
-        let image = self.io_is_refreshed().then_some(self.c_to_m.as_slice());
+        let image = io_is_refreshed.then_some(self.c_to_m.as_slice());
         if let Some(image) = image {
             self.plan.copies(Direction::CToM).apply(image, inputs);
         }
@@ -313,9 +313,10 @@ impl Unit for NxEct101 {
         self.watch_io_communications(exchange.cause, cpu);
         self.follow_nx_bus(cpu);
         self.answer_messages();
-        self.update_status(&exchange, cpu);
-        self.refresh_m_to_c(exchange.outputs);
-        self.refresh_c_to_m(exchange.cause, exchange.inputs);
+        let io_is_refreshed = self.io_is_refreshed();
+        self.update_status(&exchange, cpu, io_is_refreshed);
+        self.refresh_m_to_c(exchange.outputs, io_is_refreshed);
+        self.refresh_c_to_m(exchange.cause, exchange.inputs, io_is_refreshed);
         // Only now, so that no flag is older than a response that the CPU Unit has received.
         self.bus.messages.send();
     }

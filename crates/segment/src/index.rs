@@ -31,6 +31,8 @@ pub(crate) struct Index {
     are_many: bool,
     /// Logical bytes for which a walk was the shorter way: the same frame comes in each cycle.
     walked: Range<u64>,
+    /// The mapping behind those that were found last: mostly the next datagram begins there.
+    next_mapping: usize,
     /// For the moment: ESCs whose addresses change, or that a datagram means.
     some: Positions,
 }
@@ -62,6 +64,7 @@ impl Index {
             changed_too: Positions::new(escs.len()),
             are_many: false,
             walked: 0..0,
+            next_mapping: 0,
             some: Positions::new(escs.len()),
         };
         (0..escs.len()).for_each(|position| index.has_changed(position));
@@ -157,19 +160,30 @@ impl Index {
     }
 
     fn bisect(&mut self, bytes: Range<u64>, stretch: Range<usize>) -> bool {
-        let from = self.ends.partition_point(|end| *end <= bytes.start);
-        let to = self.mappings.entries.partition_point(|mapped| mapped.start < bytes.end);
-        let candidates = self.mappings.entries.get(from..to).unwrap_or_default();
-        if candidates.len() * WALKS_PER_FIND > stretch.len() {
+        let from = self.first_ending_after(bytes.start);
+        let behind = self.mappings.entries.get(from..).unwrap_or_default();
+        let most = stretch.len() / WALKS_PER_FIND;
+        let count = behind.iter().take(most + 1).take_while(|mapped| mapped.start < bytes.end).count();
+        if count > most {
             self.walked = bytes;
             return false;
         }
-        for mapped in candidates {
+        for mapped in &behind[..count] {
             if mapped.end > bytes.start && stretch.contains(&mapped.position) {
                 self.some.insert(mapped.position);
             }
         }
+        self.next_mapping = from + count;
         true
+    }
+
+    /// The first mapping that, or one before it, ends after this logical byte.
+    fn first_ending_after(&self, byte: u64) -> usize {
+        let next = self.next_mapping;
+        let is_passed = |end: &u64| *end <= byte;
+        let is_next = next.checked_sub(1).is_none_or(|last| self.ends.get(last).is_some_and(is_passed))
+            && !self.ends.get(next).is_some_and(is_passed);
+        if is_next { next } else { self.ends.partition_point(is_passed) }
     }
 
     /// Takes the first of the ESCs that were found.

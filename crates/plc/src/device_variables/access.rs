@@ -38,7 +38,7 @@ impl Io {
     /// There is no such variable or element, it is read-only, or the value does not fit.
     pub fn write(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
         let place = self.variables.writable(target.into(), value)?;
-        self.memory.of_mut(place.area).write(place, value);
+        self.memory.write(place, value);
         Ok(())
     }
 
@@ -48,7 +48,7 @@ impl Io {
     /// There is no such variable or element, or the value does not fit.
     pub fn force(&mut self, target: impl Into<Target>, value: &[u8]) -> Result<(), VariableError> {
         let place = self.variables.fitting(target.into(), value)?;
-        self.memory.of_mut(place.area).force(place, value);
+        self.memory.force(place, value);
         Ok(())
     }
 
@@ -58,7 +58,7 @@ impl Io {
     /// There is no such variable or element.
     pub fn release(&mut self, target: impl Into<Target>) -> Result<(), VariableError> {
         let place = self.variables.place(target.into())?;
-        self.memory.of_mut(place.area).release(place);
+        self.memory.release(place);
         Ok(())
     }
 

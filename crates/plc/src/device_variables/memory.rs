@@ -17,6 +17,8 @@ pub(crate) struct Memory {
     cpu_unit: Image,
     /// What its bits mean.
     status_word: StatusWord,
+    /// Bits of at least one image are forced: mostly none are, and no image is looked at.
+    has_forced: bool,
 }
 
 impl Memory {
@@ -29,6 +31,7 @@ impl Memory {
             status: Image::new(STATUS_BYTES),
             cpu_unit: Image::new(CPU_UNIT_BYTES),
             status_word: unit.status,
+            has_forced: false,
         }
     }
 
@@ -99,17 +102,36 @@ impl Memory {
 
     /// Restores the value of all forced bits that have been overwritten.
     pub(crate) fn apply_forced(&mut self) {
-        self.m_to_c.apply_forced();
-        self.c_to_m.apply_forced();
-        self.status.apply_forced();
-        self.cpu_unit.apply_forced();
+        if self.has_forced {
+            self.images_mut().into_iter().for_each(Image::apply_forced);
+        }
+    }
+
+    /// Writes the bits of a place that are not forced. Excess bytes are ignored.
+    pub(super) fn write(&mut self, place: Place, value: &[u8]) {
+        self.of_mut(place.area).write(place, value);
+    }
+
+    /// Forces a place. Excess bytes are ignored.
+    pub(super) fn force(&mut self, place: Place, value: &[u8]) {
+        self.of_mut(place.area).force(place, value);
+        self.has_forced = true;
+    }
+
+    /// Releases a place; it keeps its value until it is written or refreshed.
+    pub(super) fn release(&mut self, place: Place) {
+        self.of_mut(place.area).release(place);
+        self.has_forced = self.images_mut().iter().any(|image| image.has_forced());
     }
 
     /// Releases everything that is forced.
     pub(crate) fn release_all(&mut self) {
-        for image in [&mut self.m_to_c, &mut self.c_to_m, &mut self.status, &mut self.cpu_unit] {
-            image.release_all();
-        }
+        self.images_mut().into_iter().for_each(Image::release_all);
+        self.has_forced = false;
+    }
+
+    const fn images_mut(&mut self) -> [&mut Image; 4] {
+        [&mut self.m_to_c, &mut self.c_to_m, &mut self.status, &mut self.cpu_unit]
     }
 
     /// Copies values and forcing from another memory of the same size.
@@ -118,6 +140,7 @@ impl Memory {
         self.c_to_m.copy_from(&other.c_to_m);
         self.status.copy_from(&other.status);
         self.cpu_unit.copy_from(&other.cpu_unit);
+        self.has_forced = other.has_forced;
     }
 
     pub(super) const fn of(&self, area: Area) -> &Image {
@@ -129,7 +152,7 @@ impl Memory {
         }
     }
 
-    pub(super) const fn of_mut(&mut self, area: Area) -> &mut Image {
+    const fn of_mut(&mut self, area: Area) -> &mut Image {
         match area {
             Area::MToC => &mut self.m_to_c,
             Area::CToM => &mut self.c_to_m,
@@ -147,20 +170,16 @@ pub(crate) struct Image {
     forced: Vec<u8>,
     /// Their values; 0 where nothing is forced.
     values: Vec<u8>,
-    has_forced: bool,
 }
 
 impl Image {
     /// Zeros, nothing forced.
     pub(crate) fn new(size_bytes: usize) -> Self {
         let zeros = vec![0; size_bytes];
-        Self { bytes: zeros.clone(), forced: zeros.clone(), values: zeros, has_forced: false }
+        Self { bytes: zeros.clone(), forced: zeros.clone(), values: zeros }
     }
 
     fn apply_forced(&mut self) {
-        if !self.has_forced {
-            return;
-        }
         for ((byte, forced), value) in self.bytes.iter_mut().zip(&self.forced).zip(&self.values) {
             *byte = *byte & !forced | value;
         }
@@ -176,7 +195,6 @@ impl Image {
             let length_bytes = own.len().min(other.len());
             own[..length_bytes].copy_from_slice(&other[..length_bytes]);
         }
-        self.has_forced = other.has_forced;
     }
 
     /// Frees everything; it stays until it is written or refreshed.
@@ -184,7 +202,6 @@ impl Image {
         self.apply_forced();
         self.forced.fill(0);
         self.values.fill(0);
-        self.has_forced = false;
     }
 
     /// The value; forced bits have their forced value even after they have been overwritten.
@@ -195,7 +212,7 @@ impl Image {
     }
 
     /// Writes the bits that are not forced. Excess bytes are ignored.
-    pub(super) fn write(&mut self, place: Place, value: &[u8]) {
+    fn write(&mut self, place: Place, value: &[u8]) {
         let bytes = self.bytes.iter_mut().zip(&self.forced).skip(place.start).take(place.length_bytes);
         for ((byte, forced), new) in bytes.zip(value) {
             let mask = place.mask() & !forced;
@@ -204,25 +221,27 @@ impl Image {
     }
 
     /// Forces the value. Excess bytes are ignored.
-    pub(super) fn force(&mut self, place: Place, value: &[u8]) {
+    fn force(&mut self, place: Place, value: &[u8]) {
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for ((forced, fixed), new) in bits.zip(value) {
             *forced |= place.mask();
             *fixed = *fixed & !place.mask() | place.to_memory(*new) & place.mask();
         }
-        self.has_forced = true;
         self.apply_forced();
     }
 
     /// Releases the value; it is kept until it is written or refreshed.
-    pub(super) fn release(&mut self, place: Place) {
+    fn release(&mut self, place: Place) {
         self.apply_forced();
         let bits = self.forced.iter_mut().zip(&mut self.values).skip(place.start).take(place.length_bytes);
         for (forced, fixed) in bits {
             *forced &= !place.mask();
             *fixed &= !place.mask();
         }
-        self.has_forced = self.forced.iter().any(|&forced| forced != 0);
+    }
+
+    fn has_forced(&self) -> bool {
+        self.forced.iter().any(|&forced| forced != 0)
     }
 
     /// Whether all of it is forced.

@@ -22,7 +22,7 @@ use std::sync::Arc;
 use ::master::{Answer, LostRead, MailboxConduct, Progress};
 use esi::KnownDevice;
 use time::{Duration, Instant};
-use wire::{Returned, returned_datagrams};
+use wire::{DatagramView, datagrams};
 
 use super::story::Story;
 use crate::model::UnitNumber;
@@ -227,19 +227,17 @@ impl Master {
         if let Some(words) = self.raw.receive(ticket, &frame) {
             return self.story.push(words);
         }
-        let datagrams = returned_datagrams(&frame);
-        self.process_data.reuse(frame);
-        let is_cyclic =
-            self.process_data.receive(ticket, &datagrams) || self.states.receive(ticket, &datagrams);
-        if is_cyclic || self.waiting.ticket != Some(ticket) {
-            return;
+        let is_cyclic = self.process_data.receive(ticket, &frame) || self.states.receive(ticket, &frame);
+        if !is_cyclic && self.waiting.ticket == Some(ticket) {
+            self.waiting.ticket = None;
+            if let Some(answer) = datagrams(&frame).next() {
+                self.answer(&answer, now);
+            }
         }
-        self.waiting.ticket = None;
-        let Some(answer) = datagrams.first() else { return };
-        self.answer(answer, now);
+        self.process_data.reuse(frame);
     }
 
-    fn answer(&mut self, Returned { working_counter, data, .. }: &Returned, now: Instant) {
+    fn answer(&mut self, DatagramView { working_counter, data, .. }: &DatagramView<'_>, now: Instant) {
         let Some(operation) = self.operations.front_mut() else { return };
         let answer = Answer { working_counter: *working_counter, data };
         let unit = operation.unit;

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use ::master::{Address, Answer, Commands, Exchange, FmmuSettings, Grouping, SlaveSettings};
 use time::{Duration, Instant};
-use wire::{FrameBuilder, Returned};
+use wire::{FrameBuilder, datagrams};
 
 use super::sent::{Sent, Ticket};
 
@@ -131,13 +131,14 @@ impl ProcessData {
     }
 
     /// Processes a returned frame; false if it does not belong to this exchange.
-    pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
+    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8]) -> bool {
         let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
             return false;
         };
         let (_, numbers) = self.awaited.remove(place);
-        for (number, Returned { working_counter, data, .. }) in numbers.zip(datagrams) {
-            let _ = self.exchange.answer(number, Answer { working_counter: *working_counter, data });
+        for (number, datagram) in numbers.zip(datagrams(frame)) {
+            let answer = Answer { working_counter: datagram.working_counter, data: datagram.data };
+            let _ = self.exchange.answer(number, answer);
         }
         true
     }

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use ::master::{Access, Address, AlReport, registers};
-use wire::{AlState, AlStatus, FrameBuilder, Returned};
+use wire::{AlState, AlStatus, DatagramView, FrameBuilder, datagrams};
 
 use super::sent::{Sent, Ticket};
 
@@ -56,13 +56,13 @@ impl States {
     }
 
     /// Processes a returned frame; false if it is not such a read.
-    pub(crate) fn receive(&mut self, ticket: u64, datagrams: &[Returned]) -> bool {
+    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8]) -> bool {
         let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
             return false;
         };
         let (_, slaves) = self.awaited.remove(place);
-        for (look, answer) in self.looks[slaves].iter_mut().zip(datagrams) {
-            look.receive(answer);
+        for (look, answer) in self.looks[slaves].iter_mut().zip(datagrams(frame)) {
+            look.receive(&answer);
         }
         true
     }
@@ -75,12 +75,12 @@ impl States {
 }
 
 impl Look {
-    fn receive(&mut self, answer: &Returned) {
+    fn receive(&mut self, answer: &DatagramView<'_>) {
         if answer.working_counter == 0 {
             return self.miss();
         }
         self.missed = 0;
-        self.status = Some(AlReport::parse(&answer.data).status);
+        self.status = Some(AlReport::parse(answer.data).status);
     }
 
     const fn miss(&mut self) {
@@ -94,17 +94,22 @@ impl Look {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use wire::returned_datagrams;
+    use wire::FrameKind;
 
     /// One read, answered with this state and working counter, or not at all.
     fn look(states: &mut States, answer: Option<(u16, u16)>) -> Option<AlState> {
         let mut ticket = 7;
         let sent = states.send(&mut ticket).remove(0);
         if let Some((bits, working_counter)) = answer {
-            let mut answers = returned_datagrams(&sent.frame);
-            answers[0].data = bits.to_le_bytes().to_vec();
-            answers[0].working_counter = working_counter;
-            assert!(states.receive(8, &answers) && !states.receive(8, &answers));
+            let mut frame = sent.frame;
+            if let FrameKind::Datagrams(layout) = FrameKind::of(&frame) {
+                for mut datagram in layout.datagrams(&mut frame) {
+                    datagram.data.copy_from_slice(&bits.to_le_bytes());
+                    datagram.working_counter = working_counter;
+                    datagram.close();
+                }
+            }
+            assert!(states.receive(8, &frame) && !states.receive(8, &frame));
         }
         states.state(0)
     }
