@@ -2,6 +2,9 @@
 
 use wire::{Command, FrameBuilder};
 
+/// Maximum number of data bytes of one datagram, which is then alone in its frame.
+pub(crate) const DATAGRAM_BYTES_MAX: usize = 1_486;
+
 /// The slaves that an access addresses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {

@@ -6,6 +6,7 @@ use esi::sii::SiiContents;
 
 use wire::Emergency;
 
+use crate::access::DATAGRAM_BYTES_MAX;
 use crate::reaction::ServiceFailure;
 use crate::sii::SiiFailure;
 use crate::state::AlReport;
@@ -69,6 +70,11 @@ pub enum Failure {
         /// Their number.
         length_bytes: usize,
     },
+    /// An area of process data is longer than an FMMU can map, which is 65,535 bytes.
+    AreaTooLong {
+        /// Its length.
+        length_bytes: usize,
+    },
     /// The frame did not return.
     Lost,
     /// The slave does not accept the access.
@@ -90,7 +96,10 @@ impl fmt::Display for Failure {
         match self {
             Self::NoSlave => formatter.write_str("there is no such slave"),
             Self::TooLong { length_bytes } => {
-                write!(formatter, "{length_bytes} bytes in one datagram, 1486 at most")
+                write!(formatter, "{length_bytes} bytes in one datagram, {DATAGRAM_BYTES_MAX} at most")
+            }
+            Self::AreaTooLong { length_bytes } => {
+                write!(formatter, "{length_bytes} bytes of process data for one FMMU, {} at most", u16::MAX)
             }
             Self::Lost => formatter.write_str("the frame did not return"),
             Self::NoAnswer => formatter.write_str("the slave does not accept the access"),

@@ -16,15 +16,16 @@ pub struct Habits {
     pub datagrams_max: usize,
     /// The contents of the index field of datagrams.
     pub indexes: Indexes,
-    /// Time-out for an answer; then the frame counts as lost.
+    /// Time-out for an answer; then the frame counts as lost. At least [`Habits::PERIOD_MIN`].
     pub answer_patience: Duration,
-    /// Time between two reads of a status.
+    /// Time between two reads of a status. At least [`Habits::PERIOD_MIN`].
     pub poll_period: Duration,
     /// Time-out for an access that no slave accepts or answers.
     pub access_patience: Duration,
     /// Time-out for one command of the SII.
     pub sii_patience: Duration,
-    /// Time between two reads of a mailbox for emergencies; none: it reads the mailbox only after a request.
+    /// Time between two reads of a mailbox for emergencies, at least [`Habits::PERIOD_MIN`]; none: it reads the
+    /// mailbox only after a request.
     pub listen_period: Option<Duration>,
     /// The initial handling of mailboxes.
     pub mailbox: MailboxConduct,
@@ -82,6 +83,21 @@ impl Default for Habits {
 }
 
 impl Habits {
+    /// The shortest period and time-out: a master that repeats an access without any time in between would never come
+    /// to an end in virtual time.
+    pub const PERIOD_MIN: Duration = Duration::from_micros(1);
+
+    /// The same with periods and time-outs of at least [`Habits::PERIOD_MIN`].
+    pub(crate) fn that_take_time(self) -> Self {
+        let long_enough = |period: Duration| period.max(Self::PERIOD_MIN);
+        Self {
+            answer_patience: long_enough(self.answer_patience),
+            poll_period: long_enough(self.poll_period),
+            listen_period: self.listen_period.map(long_enough),
+            ..self
+        }
+    }
+
     /// Time-out of a dialogue that waits for this; for a state and a mailbox it is the device's time-out.
     pub(crate) const fn patience(&self, patience: Patience, timeouts: &Timeouts) -> Duration {
         match patience {

@@ -1,8 +1,7 @@
 //! Jobs: the dialogues in a slave's queue, and their results.
 
-use crate::access::Dialogue;
+use crate::access::{DATAGRAM_BYTES_MAX, Dialogue};
 use crate::event::{Failure, Outcome};
-use crate::load::DATAGRAM_BYTES_MAX;
 use crate::mailbox::MailboxDialogue;
 use crate::reaction::ServiceFailure;
 use crate::register::{RegisterRead, RegisterWrite};

@@ -6,9 +6,6 @@ use crate::access::{Access, Address};
 use crate::flight::{Part, Sender};
 use crate::process_data::ProcessData;
 
-/// Maximum number of data bytes of one datagram, which is then alone in its frame.
-pub(crate) const DATAGRAM_BYTES_MAX: usize = 1_486;
-
 /// The next frame.
 pub(crate) struct Load {
     builder: FrameBuilder,

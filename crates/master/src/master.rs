@@ -68,9 +68,11 @@ const EVERYBODYS: Timeouts = Timeouts::USUAL;
 const NOBODYS: RequestId = RequestId(0);
 
 impl Master {
-    /// A master with these habits, without any known slaves.
+    /// A master with these habits, without any known slaves. Periods and time-outs that are too short are
+    /// lengthened: see [`Habits`].
     #[must_use]
     pub fn new(habits: Habits) -> Self {
+        let habits = habits.that_take_time();
         Self {
             everybody: Queue::new(MailboxConduct::default()),
             slaves: Vec::new(),

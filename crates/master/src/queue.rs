@@ -167,8 +167,11 @@ impl Queue {
 
     /// Ends the first job, if it is due and has waited for too long, or does not fit into any frame.
     pub(crate) fn give_up(&mut self, pace: &Pace<'_>) -> Option<Over> {
+        if !self.due(pace.now) {
+            return None;
+        }
         let is_sendable = self.until > pace.now && self.tasks.front().is_none_or(|task| task.job.fits());
-        if self.deadline() > pace.now || is_sendable {
+        if is_sendable {
             return None;
         }
         let Task { request, job, then } = self.pop(pace)?;

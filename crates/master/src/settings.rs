@@ -231,6 +231,12 @@ impl SlaveSettings {
         self.process_data.iter().filter(move |area| area.direction == direction)
     }
 
+    /// The length in bytes of the first area that is too long for an FMMU; none if all can be mapped.
+    pub(crate) fn too_long_area(&self) -> Option<usize> {
+        let lengths = self.process_data.iter().map(|area| area.bits.div_ceil(8) as usize);
+        lengths.into_iter().find(|length_bytes| *length_bytes > usize::from(u16::MAX))
+    }
+
     /// Sets the number of bits of a SyncManager's process data, and its length. Without bits it is disabled. A
     /// SyncManager without process data is unchanged.
     pub fn set_bits(&mut self, sync_manager: u8, bits: u32) {

@@ -120,6 +120,11 @@ impl Master {
             (Then::DeviceId, Outcome::Data(data)) => return Ok(Outcome::DeviceId(word(&data))),
             (Then::Walk(target), Outcome::Data(data)) => {
                 let shown = AlReport::parse(&data);
+                if sets_process_data(shown.status.state, target)
+                    && let Some(length_bytes) = slave.settings.too_long_area()
+                {
+                    return Err(Failure::AreaTooLong { length_bytes });
+                }
                 self.walk(now, position, request, shown, target);
                 return Ok(Outcome::State(shown));
             }

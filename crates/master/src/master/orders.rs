@@ -5,11 +5,10 @@ use time::Instant;
 use wire::{AlState, Command, SdoInfoRequest, SdoTarget};
 
 use super::{EVERYBODYS, Master, NOBODYS, OwnDatagram};
-use crate::access::Address;
+use crate::access::{Address, DATAGRAM_BYTES_MAX};
 use crate::event::{Event, Failure, RequestId};
 use crate::information::EscInformation;
 use crate::job::Job;
-use crate::load::DATAGRAM_BYTES_MAX;
 use crate::mailbox::{MailboxConduct, MailboxDialogue};
 use crate::process_data::ProcessData;
 use crate::queue::{Found, Pace, Task, Then};

@@ -7,14 +7,12 @@ use wire::{Command, DATAGRAM_OVERHEAD_BYTES, FrameBuilder};
 use super::exchange::{Commands, Exchange, Grouping, StatusRead};
 use super::image::{Bits, Image, copy};
 use super::layout::Place;
-use crate::access::{Access, Address};
+use crate::access::{Access, Address, DATAGRAM_BYTES_MAX};
 use crate::registers;
 use crate::settings::Direction;
 
 /// Maximum length of all datagrams of one frame in bytes.
-const FRAME_BYTES_MAX: usize = 1_498;
-/// Maximum data length of one datagram.
-const DATAGRAM_BYTES_MAX: usize = FRAME_BYTES_MAX - DATAGRAM_OVERHEAD_BYTES;
+const FRAME_BYTES_MAX: usize = DATAGRAM_BYTES_MAX + DATAGRAM_OVERHEAD_BYTES;
 const AL_STATUS_BYTES: u16 = 2;
 
 /// One datagram of the cycle.

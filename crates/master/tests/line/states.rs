@@ -2,7 +2,7 @@
 
 use crate::bench::{channels, connected, connected_with, terminals};
 use device::TransitionTimes;
-use master::{AlReport, Failure, Master, StateRequest, Wait};
+use master::{AlReport, Failure, Habits, Master, StateRequest, Wait};
 use nx_ect101::UnitSettings;
 use time::Duration;
 use wire::{AlControl, AlState, AlStatusCode, Command, SdoTarget, datagrams};
@@ -185,4 +185,35 @@ fn a_slave_that_falls_back_is_taken_up_again() {
     bench.master.exchange(now, Duration::from_millis(2));
     assert_eq!(bench.take_all_to(AlState::Op), Ok(()));
     assert_eq!(bench.al_report(1).map(AlReport::is_good), Ok(true));
+}
+
+#[test]
+fn periods_of_no_length_are_very_short_ones() {
+    let habits = Habits {
+        answer_patience: Duration::ZERO,
+        poll_period: Duration::ZERO,
+        listen_period: Some(Duration::ZERO),
+        ..Habits::default()
+    };
+    let mut bench = connected_with(Master::new(habits), 1, |_, config| {
+        let mut times = TransitionTimes::default();
+        times.set("IP", Duration::from_micros(100));
+        config.conduct.transition_times = times;
+    });
+    assert_eq!(bench.search(), Ok(1));
+    assert_eq!(bench.take_to(0, AlState::PreOp), Ok(()), "polled while time passes");
+    bench.run_for(Duration::from_micros(100));
+}
+
+#[test]
+fn process_data_longer_than_an_fmmu_are_refused() {
+    let mut bench = connected(1);
+    bench.search().expect("one slave");
+    let areas = &mut bench.master.settings_mut(0).expect("a slave").process_data;
+    areas.first_mut().expect("outputs").bits = 8 * 65_536;
+    assert_eq!(bench.take_to(0, AlState::SafeOp), Err(Failure::AreaTooLong { length_bytes: 65_536 }));
+    let areas = &mut bench.master.settings_mut(0).expect("a slave").process_data;
+    areas.first_mut().expect("outputs").bits = 8 * 65_535;
+    let result = bench.take_to(0, AlState::SafeOp);
+    assert!(!matches!(result, Err(Failure::AreaTooLong { .. })), "an FMMU can map them: {result:?}");
 }
