@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use coe_kit::indicators::Pattern;
 use nx_ect101::{Event, Fault, Outage};
 use scenario::pool::{GROUPS, MARKS};
-use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, Sentence, UNIT};
+use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, QUANTITIES, Sentence, UNIT};
 
 /// If this variable is set, the test writes the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
@@ -159,6 +159,14 @@ A unit without power does nothing: an order that its software would carry out ha
 has an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
 errors, objects, registers, the validity of its data) fails while it has no power.
 
+Values compare as numbers by their type: those of a variable and of an object with a signed or real type as such, bytes otherwise as unsigned
+little-endian numbers. `is` and `is not` keep the notation of the sentence with `is`: bytes of objects, registers and process data are hexadecimal,
+the numbers of the other comparisons decimal unless they begin with `0x` or `16#`. A comparison that every value passes, or none, is a mistake.
+
+Conditions combine: `not (…)`, `all of (…; …)`, `any of (…; …)`, at most 16 deep. A condition on what is not there, such as a byte beyond
+the process data, is neither true nor false: `not` leaves it so, `all of` is false if another part is, `any of` true if another part is. `never`
+checks that its condition is false, which is what `not` checks at one moment.
+
 An expectation that cannot fail, or that can never hold, is a mistake of the file: a condition of the program of a unit that has none at that
 time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data. Orders on such bytes, and on
 what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
@@ -177,6 +185,8 @@ fn page() -> String {
         "The conditions of `expect`, `never`, `when` and `until`.",
         CONDITIONS,
     );
+    let opening = "What has a value: the placeholder `{quantity}` of conditions. A variable with brackets is an element.";
+    sentences(&mut page, "quantities", opening, QUANTITIES);
     places(&mut page);
     faults(&mut page);
     patterns(&mut page);

@@ -8,6 +8,7 @@ mod places;
 mod preludes;
 mod reader;
 mod rebase;
+mod said;
 mod steps;
 mod values;
 

@@ -3,6 +3,7 @@
 //! No sentences are read here, and the model is independent of the world that its values describe. Units and
 //! cables are identified by their numbers, from 1; faults, patterns, variables and programs by their names.
 
+mod amount;
 mod bytes;
 mod calendar;
 mod condition;
@@ -12,20 +13,25 @@ mod master;
 mod names;
 mod numbers;
 mod random;
+mod same;
 mod script;
 mod spelling;
 mod step;
 mod step_form;
 mod unit;
 mod units;
+mod value;
 
 pub use plant::line::{
     Choice, Delay, Direction, Disturbance, FaultName, FrameFault, FrameKind, Frames, LineOrder, Way,
 };
 
+pub use amount::Amount;
+pub(crate) use amount::Number;
 pub(crate) use bytes::hex;
 pub use bytes::{Bytes, Entry};
 pub use calendar::Calendar;
+pub(crate) use condition::LOGIC_DEPTH_MAX;
 pub use condition::{Condition, DataDirection};
 pub use cpu::{CpuMode, CpuOrder};
 pub(crate) use group::{Branch, in_order};
@@ -35,6 +41,7 @@ pub use numbers::{EventCode, Hex, UserErrorCode};
 pub(crate) use random::EXPECTED as RANDOM_EXPECTED;
 pub use random::{Draws, RandomSteps};
 pub(crate) use random::{RandomForm, RandomTable};
+pub(crate) use same::Same;
 pub use script::{FileWithProgram, Paths, Script, ScriptMaster, ScriptUnit};
 pub use spelling::NotAValue;
 pub(crate) use spelling::{hexadecimal, number};
@@ -43,3 +50,4 @@ pub(crate) use step_form::StepForm;
 pub use unit::{ConductOrder, EventLog, UnitOrder};
 pub(crate) use unit::{ID_SWITCH, Needs};
 pub use units::{CableNumber, Controller, UnitNumber, UnitSet};
+pub use value::{Quantity, Test};

@@ -21,6 +21,7 @@ mod resolve;
 mod steps;
 mod unit_files;
 mod units;
+mod values;
 mod written;
 
 use crate::model::{Script, in_order};

@@ -7,6 +7,7 @@ mod frame_words;
 mod ledger;
 mod master;
 mod met;
+mod observed;
 mod player;
 mod programs;
 mod recorded;
@@ -18,6 +19,7 @@ mod story;
 mod virtual_stage;
 mod world;
 
+pub(crate) use check::{is_signed, register_bytes};
 pub(crate) use dice::{DICE_OF_STEPS, Dice};
 pub use master::MasterProgram;
 pub(crate) use master::{MasterVariables, NODE_ADDRESS_MAX, Node, changed_settings};

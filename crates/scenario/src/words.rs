@@ -7,13 +7,20 @@ mod spoken;
 mod tables;
 mod value;
 
+use crate::model::Quantity;
+
 pub use place::Place;
 pub(crate) use sentence::try_read;
 pub use sentence::{NoSentence, Sentence, read, row_of};
 pub(crate) use spoken::mistake;
 pub use spoken::{Say, Spoken};
-pub use tables::{CONDITIONS, CPU, LINE, MASTER, UNIT};
+pub use tables::{CONDITIONS, CPU, LINE, MASTER, QUANTITIES, UNIT};
 pub use value::Value;
+
+/// The sentence of what has a value.
+pub(crate) fn quantity_words(of: &Quantity) -> String {
+    sentence::say(QUANTITIES, of).unwrap_or_else(|| format!("{of:?}"))
+}
 
 #[cfg(test)]
 mod tests;

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestRunner;
 use scenario::model::{Condition, ConductOrder, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitOrder};
-use scenario::words::{Place, Spoken};
+use scenario::words::{Place, QUANTITIES, Spoken};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -145,6 +145,9 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "time" => (0..=60_000_000_000_u64).prop_map(|n| format!("{n}ns")).boxed(),
         "pause" => (1..=60_000_000_000_u64).prop_map(|n| format!("{n}ns")).boxed(),
         "code" => (1..=0xFFFF_u16).prop_map(|n| format!("0x{n:04X}")).boxed(),
+        "record" => (1..=250_u8).prop_map(|n| n.to_string()).boxed(),
+        "file" => one_of(&["units/a.toml", "a.bin"]).boxed(),
+        "size" => (1..=1486_u16).prop_map(|n| n.to_string()).boxed(),
         "length" => (14..=1513_u16).prop_map(|n| n.to_string()).boxed(),
         "bytes" => bytes()
             .prop_map(|bytes| bytes.iter().map(|byte| format!("0x{byte:x}")).collect::<Vec<_>>().join(" "))
@@ -205,6 +208,18 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "position" => {
             (1..999_usize, 1..999_usize).prop_map(|(line, column)| format!("{line}:{column}")).boxed()
         }
+        "amount" => one_of(&["5", "-3", "0x1F", "16#1F", "1.5", "-0.25", "T#20ms"]).boxed(),
+        "other" => one_of(&["01 FF", "5", "TRUE"]).boxed(),
+        "quantity" => select(QUANTITIES.iter().map(|row| row.pattern).collect::<Vec<_>>())
+            .prop_flat_map(sentences)
+            .boxed(),
+        "condition" => one_of(&["(unit 1 is in OP)", "( not (100 cycles are done) )"]).boxed(),
+        "conditions" => one_of(&[
+            "(unit 1 is in OP)",
+            "(unit 1 is in OP;all units are in OP ; not (unit 1 has no error))",
+            "(any of (the master has nothing to do; variable N1_a has the value '(;'); unit 1 has no error)",
+        ])
+        .boxed(),
         other => panic!("no words for the place {other}"),
     }
 }

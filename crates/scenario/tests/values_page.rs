@@ -34,6 +34,23 @@ ok      typed.toml: a unit reaches OP, and the cable is unplugged (…ms)
 1 case: 1 ok, 0 failed
 ```
 
+The conditions of `not`, `all_of` and `any_of` are sentences or typed values too:
+
+```toml logic.toml
+title = "in OP, or on the way to it, but never with an error"
+steps = [
+  { master = "take unit 1 to OP" },
+  { never = { not = "unit 1 has no error" } },
+  { expect = { all_of = ["unit 1 is in OP", { not = { cycles = { at_least = 500 } } }] }, within = "100ms" },
+]
+```
+
+```console
+$ ectwin replay logic.toml
+ok      logic.toml: in OP, or on the way to it, but never with an error (…ms)
+1 case: 1 ok, 0 failed
+```
+
 Messages and the trace show a typed value as its sentence. A value that no sentence can say, such as mailbox counter 8, is refused.
 
 ## In JSON
@@ -69,6 +86,7 @@ const VALUES: &str = r##"
 | a code, a register, a PDO | a text in hexadecimal such as `"0x001B"`, or a number |
 | bytes | a text in hexadecimal: `"01 FF"` |
 | an entry of an object | `"10F3:05"` |
+| an amount that is compared | a number, or a text: `5`, `"-3"`, `"1.5"`, `"T#20ms"` |
 | a time | a text with a unit: `"1.5ms"` |
 | `choice` of frames | `"all"`, `{ "next": 3 }`, `{ "percent": 5 }`, `{ "per_mille": 5 }`, `{ "every": 10 }`, `{ "behind": { "skip": 2, "count": 7 } }` |
 | `kind` of frames | `"any"` (the default), `"process_data"`, `"mailbox"`, `"sii"`, or a command: `"brd"` |

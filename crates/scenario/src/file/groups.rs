@@ -125,7 +125,7 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
         StepForm {
             at: part.duration("at"),
             after: part.duration("after"),
-            when: part.said("when"),
+            when: part.condition("when"),
             repeat: part.number("repeat"),
             every: part.duration("every"),
             jitter: part.duration("jitter"),

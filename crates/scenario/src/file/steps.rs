@@ -5,10 +5,11 @@ use user_file::{DeValue, Problem, Section, Value, field_names, wrong_type};
 
 use super::places::{Span, StepPlaces};
 use super::reader::{FileReader, span_of};
+use super::said::{condition, said};
 use super::values;
-use crate::model::{RANDOM_EXPECTED, RandomForm, RandomTable, ScriptStep, StepForm};
+use crate::model::{Condition, RANDOM_EXPECTED, RandomForm, RandomTable, ScriptStep, StepForm};
 use crate::ready::Written;
-use crate::words::{NoSentence, Spoken, mistake, try_read};
+use crate::words::Spoken;
 
 /// A step of a file.
 pub(super) struct StepReading {
@@ -33,17 +34,17 @@ pub(super) fn read_step(
     let form = StepForm {
         at: part.duration("at"),
         after: part.duration("after"),
-        when: part.said("when"),
+        when: part.condition("when"),
         master: part.order("master"),
         unit: part.order("unit"),
         cpu: part.order("cpu"),
         line: part.order("line"),
-        expect: part.order("expect"),
-        never: part.order("never"),
+        expect: part.expectation("expect"),
+        never: part.expectation("never"),
         within: part.duration("within"),
         r#for: part.duration("for"),
-        until: part.said("until"),
-        r#while: part.said("while"),
+        until: part.condition("until"),
+        r#while: part.condition("while"),
         repeat: part.number("repeat"),
         every: part.duration("every"),
         jitter: part.duration("jitter"),
@@ -111,36 +112,27 @@ impl<'p, 'r, 't, 'd, 'i> PartReader<'p, 'r, 't, 'd, 'i> {
         }
     }
 
-    /// The order of the step, or its expectation. A typed value gets the words of its sentence.
+    /// The order of the step. A typed value gets the words of its sentence.
     fn order<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
-        let value: T = self.said(key)?;
-        let written = self.step.get(key)?;
-        let text = written.get_ref().as_str().map_or_else(|| value.sentence(), str::to_owned);
-        self.order = Some((written.span(), text));
-        Some(value)
+        let value = self.step.get(key)?;
+        let order: T = said(self.file.reader, key, value)?;
+        self.written(value, &order);
+        Some(order)
     }
 
-    /// A text is a sentence, a table is the typed value.
-    pub(super) fn said<T: Spoken + DeserializeOwned>(&mut self, key: &str) -> Option<T> {
-        let value = self.step.get(key)?;
-        let reader = &mut *self.file.reader;
-        match value.get_ref() {
-            DeValue::String(text) => match try_read(T::SENTENCES, text) {
-                Ok(value) => Some(value),
-                Err(misfit) => {
-                    reader.refuse_by(value.span(), || {
-                        let NoSentence { message, help } = mistake(text, &misfit);
-                        Problem::new(message, "").with_help(help)
-                    });
-                    None
-                }
-            },
-            DeValue::Table(_) => reader.typed(key, value),
-            other => {
-                let expected = "a sentence, or a table with one key, its typed form";
-                reader.refuse_by(value.span(), || wrong_type(key, other, expected));
-                None
-            }
-        }
+    /// The expectation of the step.
+    fn expectation(&mut self, key: &str) -> Option<Condition> {
+        let condition = self.condition(key)?;
+        self.written(self.step.get(key)?, &condition);
+        Some(condition)
+    }
+
+    pub(super) fn condition(&mut self, key: &str) -> Option<Condition> {
+        condition(self.file.reader, key, self.step.get(key)?)
+    }
+
+    fn written<T: Spoken>(&mut self, written: &Value<'_>, value: &T) {
+        let text = written.get_ref().as_str().map_or_else(|| value.sentence(), str::to_owned);
+        self.order = Some((written.span(), text));
     }
 }

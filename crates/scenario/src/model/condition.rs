@@ -9,6 +9,7 @@ use super::numbers::{EventCode, Hex, UserErrorCode};
 use super::spelling::nothing;
 use super::unit::EventLog;
 use super::units::{Controller, UnitNumber, UnitSet};
+use super::value::{Quantity, Test};
 
 /// What can be true.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -230,6 +231,47 @@ pub enum Condition {
     AnswersDiffer {
         at_most: u64,
     },
+    /// A value passes a test.
+    Value {
+        of: Quantity,
+        test: Test,
+    },
+    /// The part is false.
+    Not(Box<Self>),
+    /// Every part is true.
+    AllOf(Vec<Self>),
+    /// At least one part is true.
+    AnyOf(Vec<Self>),
+}
+
+/// Maximum depth of conditions in conditions.
+pub(crate) const LOGIC_DEPTH_MAX: usize = 16;
+
+impl Condition {
+    /// The conditions of which it consists; none for one that looks at the world itself.
+    #[must_use]
+    pub fn parts(&self) -> &[Self] {
+        match self {
+            Self::Not(part) => core::slice::from_ref(part),
+            Self::AllOf(parts) | Self::AnyOf(parts) => parts,
+            _ => &[],
+        }
+    }
+
+    /// Whether it is false at the beginning of its step, because a value has not changed yet.
+    pub(crate) fn needs_a_change(&self) -> bool {
+        match self {
+            Self::Value { test: Test::Changes, .. } => true,
+            Self::AllOf(parts) => parts.iter().any(Self::needs_a_change),
+            Self::AnyOf(parts) => parts.iter().all(Self::needs_a_change),
+            _ => false,
+        }
+    }
+
+    /// How deep its conditions are nested; 0 without parts.
+    pub(crate) fn depth(&self) -> usize {
+        self.parts().iter().map(|part| part.depth() + 1).max().unwrap_or(0)
+    }
 }
 
 /// The direction of data between the EtherCAT master and the CPU Unit.

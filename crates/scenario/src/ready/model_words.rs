@@ -5,7 +5,7 @@ use wire::{AlState, ObjectIndex};
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{Condition, ConductOrder, CpuOrder, ID_SWITCH, UnitOrder, UnitSet};
+use crate::model::{Condition, ConductOrder, CpuOrder, ID_SWITCH, Quantity, UnitOrder, UnitSet};
 
 /// Whether a unit knows a word.
 pub(super) type IsKnown = Box<dyn Fn(&dyn UnitSection) -> bool>;
@@ -90,6 +90,12 @@ impl Maker<'_> {
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
             return self
                 .check_words(&Needed { units: *units, words: format!("event {event}"), is_known }, part);
+        }
+        if let Condition::Value { of: Quantity::Records { unit, event }, .. } = condition {
+            let code = EventCode(event.0);
+            let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
+            let needed = Needed { units: UnitSet::One(*unit), words: format!("event {event}"), is_known };
+            return self.check_words(&needed, part);
         }
         Some(())
     }

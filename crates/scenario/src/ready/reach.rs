@@ -1,7 +1,7 @@
 //! The units of an order, to check whether they exist.
 
 use crate::model::{
-    CableNumber, Condition, Controller, CpuOrder, LineOrder, MasterOrder, UnitNumber, UnitSet,
+    CableNumber, Condition, Controller, CpuOrder, LineOrder, MasterOrder, Quantity, UnitNumber, UnitSet,
 };
 
 pub(super) fn line_of(units: usize) -> String {
@@ -89,6 +89,8 @@ pub(super) enum Subject {
     Master,
     /// The frames of a capture.
     Capture,
+    /// Those of the conditions of which it consists.
+    Parts,
 }
 
 pub(super) fn subject(condition: &Condition) -> Subject {
@@ -142,5 +144,11 @@ pub(super) fn subject(condition: &Condition) -> Subject {
         | Condition::EveryWorkingCounterExpected
         | Condition::Emergency { unit: None, .. } => Subject::Master,
         Condition::CaptureReplayed | Condition::AnswersDiffer { .. } => Subject::Capture,
+        Condition::Value { of: Quantity::ProgramVariable { controller, .. }, .. } => {
+            Subject::Controller(*controller)
+        }
+        Condition::Value { of: Quantity::Variable { .. }, .. } => Subject::Variable,
+        Condition::Value { of, .. } => of.units().map_or(Subject::Master, Subject::Units),
+        Condition::Not(_) | Condition::AllOf(_) | Condition::AnyOf(_) => Subject::Parts,
     }
 }

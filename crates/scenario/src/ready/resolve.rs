@@ -1,6 +1,6 @@
 //! Names and values of variables in steps: whether they exist and have the correct type.
 
-use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess};
+use plc::{DeviceVariables, Target, TextProblem, ValueTextError, VariableAccess, VariableType};
 use wire::{ObjectIndex, SubIndex};
 
 use super::maker::Maker;
@@ -60,6 +60,22 @@ impl Maker<'_> {
 
     /// Whether a unit has an object, and the object this length.
     fn check_object(&mut self, unit: UnitNumber, entry: Entry, value: &Bytes, part: Part) -> Option<()> {
+        let size_bytes = self.check_object_exists(unit, entry, part)?;
+        if value.0.len() != size_bytes {
+            let message = format!("{} bytes for object {entry}, which has {size_bytes}", value.0.len());
+            self.refuse(part, message, "the condition is about all bytes of the object");
+            return None;
+        }
+        Some(())
+    }
+
+    /// The number of bytes of an object.
+    pub(super) fn check_object_exists(
+        &mut self,
+        unit: UnitNumber,
+        entry: Entry,
+        part: Part,
+    ) -> Option<usize> {
         let device = self.units.get(unit.position())?.known_device();
         let Some(found) = device.objects.entry(ObjectIndex(entry.index), SubIndex(entry.sub)) else {
             let message = format!("{unit} has no object {entry}");
@@ -70,13 +86,13 @@ impl Maker<'_> {
             self.refuse(part, message, help);
             return None;
         };
-        if value.0.len() != found.size_bytes() {
-            let message =
-                format!("{} bytes for object {entry}, which has {}", value.0.len(), found.size_bytes());
-            self.refuse(part, message, "the condition is about all bytes of the object");
-            return None;
-        }
-        Some(())
+        Some(found.size_bytes())
+    }
+
+    /// The type of a device variable.
+    pub(super) fn type_of_variable(&mut self, name: &str, part: Part) -> Option<VariableType> {
+        let (at, target) = self.target(name, part)?;
+        self.variables.get(at)?.type_of(target).ok()
     }
 
     fn target(&mut self, name: &str, part: Part) -> Option<(usize, Target)> {
@@ -159,8 +175,7 @@ impl Maker<'_> {
         match canonical {
             Ok(value) => Some(value),
             Err(VariableProblem::NoSuchVariable) => {
-                let message = format!("the program of {of} has no variable {name}");
-                self.refuse(part, message, "such as counter, Main.counter, timer.Q or table[3]");
+                self.refuse_missing_variable(of, name, part);
                 None
             }
             Err(VariableProblem::NoValue { such_as }) => {
@@ -169,6 +184,11 @@ impl Maker<'_> {
                 None
             }
         }
+    }
+
+    pub(super) fn refuse_missing_variable(&mut self, of: Controller, name: &str, part: Part) {
+        let message = format!("the program of {of} has no variable {name}");
+        self.refuse(part, message, "such as counter, Main.counter, timer.Q or table[3]");
     }
 
     /// Whether a controller has a program that a condition can be about.

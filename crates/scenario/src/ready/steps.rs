@@ -7,7 +7,9 @@ use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
 use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
 use super::written::Written;
-use crate::model::{Condition, Expectation, Mode, Order, Repetition, ScriptStep, Step, Trigger};
+use crate::model::{
+    Condition, Expectation, LOGIC_DEPTH_MAX, Mode, Order, Repetition, ScriptStep, Step, Trigger,
+};
 use crate::run::{PlayedStep, RandomPart, WrittenStep};
 use crate::words::Spoken;
 
@@ -160,6 +162,7 @@ impl Maker<'_> {
         match &mut step.order {
             Order::Expect(Expectation { condition, mode }) => {
                 self.condition(condition, part, ground, Lasting::of(mode));
+                self.check_can_change(condition, mode, part);
                 self.check_mode(at, mode, ground);
             }
             order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
@@ -240,9 +243,30 @@ impl Maker<'_> {
         ground: Ground,
         lasting: Lasting,
     ) -> Option<()> {
+        self.check_depth(condition, part)?;
         self.said(condition, part)?;
         if ground == Ground::Missing {
             return None;
+        }
+        self.condition_there(condition, part, lasting)
+    }
+
+    /// Whether what a condition is about exists, in each of its parts.
+    pub(super) fn condition_there(
+        &mut self,
+        condition: &mut Condition,
+        part: Part,
+        lasting: Lasting,
+    ) -> Option<()> {
+        match condition {
+            Condition::Not(inner) => return self.condition_there(inner, part, lasting),
+            Condition::AllOf(inner) | Condition::AnyOf(inner) => {
+                return inner
+                    .iter_mut()
+                    .try_for_each(|inner| self.condition_there(inner, part, lasting).ok_or(()))
+                    .ok();
+            }
+            _ => {}
         }
         let units = self.units.len();
         match subject(condition) {
@@ -257,12 +281,15 @@ impl Maker<'_> {
                 self.refuse(part, "the scenario has no capture", help);
                 return None;
             }
-            Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture => {}
+            Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture | Subject::Parts => {}
         }
         if matches!(condition, Condition::Cycles { at_least: 0 }) {
             let message = "0 cycles are done at the beginning too, so it always holds";
             self.refuse(part, message, "a number from 1, such as `100 cycles are done`");
             return None;
+        }
+        if let Condition::Value { of, test } = condition {
+            self.check_value(of, test, part, lasting)?;
         }
         self.check_words_of_condition(condition, part)?;
         self.check_process_data(condition, part)?;
@@ -270,6 +297,30 @@ impl Maker<'_> {
         self.resolve(condition, part)?;
         if lasting == Lasting::ToTheEnd {
             self.value_lasts(condition, part);
+        }
+        Some(())
+    }
+
+    /// A value has not changed yet when its step begins.
+    fn check_can_change(&mut self, condition: &Condition, mode: &Mode, part: Part) {
+        let is_checked_at_once = match mode {
+            Mode::Now | Mode::For(_) | Mode::Until(_) => true,
+            Mode::Within(_) | Mode::Never | Mode::NeverUntil(_) | Mode::While(_) => false,
+        };
+        if is_checked_at_once && condition.needs_a_change() {
+            let message = "no value has changed when the step begins, so it can never hold";
+            self.refuse(part, message, "give it time, such as `within = \"100ms\"`");
+        }
+    }
+
+    /// Refuses conditions that are nested too deep.
+    fn check_depth(&mut self, condition: &Condition, part: Part) -> Option<()> {
+        let depth = condition.depth();
+        if depth > LOGIC_DEPTH_MAX {
+            let message =
+                format!("conditions are nested {depth} deep, and at most {LOGIC_DEPTH_MAX} are read");
+            self.refuse(part, message, "`all of` and `any of` take any number of conditions side by side");
+            return None;
         }
         Some(())
     }

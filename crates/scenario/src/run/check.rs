@@ -6,20 +6,24 @@
 
 mod diagnosis;
 mod emergency;
+mod logic;
 mod logs;
 mod master;
 mod program;
 mod raw;
 mod seen;
 mod unit;
+mod value;
 
+use super::observed::Observed;
 use super::world::World;
 use crate::model::{Condition, UnitSet};
 
 pub(super) use seen::Seen;
+pub(crate) use value::{is_signed, register_bytes};
 
-/// Whether a condition is true now; otherwise the actual state.
-pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen> {
+/// Whether a condition is true now; otherwise the actual state. `observed` has the values at the beginning of its step.
+pub(super) fn check(condition: &Condition, observed: &mut Observed, world: &mut World) -> Result<(), Seen> {
     match condition {
         Condition::State { units, state, al_status_code } => {
             each(*units, world, |world, at| unit::state(world, at, *state, *al_status_code))
@@ -118,6 +122,10 @@ pub(super) fn check(condition: &Condition, world: &mut World) -> Result<(), Seen
         }
         Condition::CaptureReplayed => master::capture_replayed(world),
         Condition::AnswersDiffer { at_most } => master::answers_differ(world, *at_most),
+        Condition::Value { of, test } => value::value(of, test, observed, world, check),
+        Condition::Not(part) => logic::not(part, check(part, observed, world)),
+        Condition::AllOf(parts) => logic::all_of(parts, |part| check(part, observed, world)),
+        Condition::AnyOf(parts) => logic::any_of(parts, |part| check(part, observed, world)),
     }
 }
 

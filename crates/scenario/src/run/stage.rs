@@ -5,6 +5,7 @@ use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::Seen;
+use super::observed::Observed;
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
 
 /// A world in which steps are played.
@@ -15,8 +16,9 @@ pub(crate) trait Stage {
     /// Whether everything that is due up to this time has happened.
     fn has_passed(&self, time: Instant) -> bool;
 
-    /// Whether a condition is true now; otherwise the actual state.
-    fn check(&mut self, condition: &Condition) -> Result<(), Seen>;
+    /// Whether a condition is true now; otherwise the actual state. `observed` has the values at the beginning
+    /// of the step.
+    fn check(&mut self, condition: &Condition, observed: &mut Observed) -> Result<(), Seen>;
 
     /// Gives an order to the scripted master, which carries it out from now on.
     fn master_order(&mut self, order: &MasterOrder);

@@ -4,6 +4,7 @@ use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::{Seen, check};
+use super::observed::Observed;
 use super::stage::Stage;
 use super::world::{QUIET_STEP, World};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
@@ -17,8 +18,8 @@ impl Stage for World {
         self.deadline() > time && self.now() >= time
     }
 
-    fn check(&mut self, condition: &Condition) -> Result<(), Seen> {
-        check(condition, self)
+    fn check(&mut self, condition: &Condition, observed: &mut Observed) -> Result<(), Seen> {
+        check(condition, observed, self)
     }
 
     fn master_order(&mut self, order: &MasterOrder) {

@@ -1,6 +1,7 @@
 //! The places of a sentence: the meaning of a word at `{…}` in a pattern.
 
 mod frames;
+mod group;
 mod read;
 
 use unit_model::keys::{AL_STATUS_CODES, AL_STATUS_CODES_WORDS, TIMES, TIMES_WORDS};
@@ -10,11 +11,15 @@ use crate::model::{Delay, FaultName};
 use frames::{
     called, delay, direction, fault_name, fitting_frames, fitting_way, frames, lasting, percent, way,
 };
+use group::group;
 use read::{
     bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
     fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
     requested, state, transition, unit, units, user_error,
 };
+
+/// The place that is a sentence of the table of quantities.
+pub(super) const QUANTITY: &str = "quantity";
 
 /// A kind of place.
 #[derive(Clone, Copy, Debug)]
@@ -184,4 +189,24 @@ const PLACES: &[Place] = &[
         one(words, user_error)
     }),
     place("position", "line and column, both from 1, such as 5:9", |words| one(words, position)),
+    place(
+        "amount",
+        "a number or a time as Structured Text writes it, such as 5, -3, 0x1F, 1.5 or T#20ms",
+        |words| one(words, |word| word.parse().ok().map(Value::Amount)),
+    ),
+    place("other", "what the sentence with `is` has there, such as 01 FF or 5", |words| {
+        (!words.is_empty()).then(|| (Value::Text(words.join(" ")), words.len()))
+    }),
+    // The rows of the sentence have its words.
+    place(QUANTITY, "what has a value, by one of the [quantities](#quantities)", |_| None),
+    place("condition", "a condition in parentheses such as (unit 1 is in OP), at most 16 deep", |words| {
+        group(words)
+            .filter(|(parts, _)| parts.len() == 1)
+            .map(|(parts, length)| (Value::Group(parts), length))
+    }),
+    place(
+        "conditions",
+        "conditions in parentheses, with `;` between them, such as (unit 1 is in OP; unit 2 is in OP), at most 16 deep",
+        |words| group(words).map(|(parts, length)| (Value::Group(parts), length)),
+    ),
 ];

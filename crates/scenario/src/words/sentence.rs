@@ -5,9 +5,9 @@
 
 use core::fmt;
 
-use super::place::Place;
+use super::place::{Place, QUANTITY};
 use super::value::Value;
-use crate::model::UnitSet;
+use crate::model::{Quantity, UnitSet};
 
 /// A row of a table: a sentence of the language.
 pub struct Sentence<T> {
@@ -19,10 +19,21 @@ pub struct Sentence<T> {
     pub meaning: &'static str,
     /// It is an old spelling: it is read, and neither written nor suggested.
     pub is_old: bool,
+    /// The sentences of its place `{quantity}`.
+    pub(super) quantities: &'static [Sentence<Quantity>],
     /// The typed value, from the values of its places, in their order.
-    pub(super) build: fn(&[Value]) -> Option<T>,
+    pub(super) build: fn(&[Value]) -> Result<T, Unbuilt>,
     /// The values of its places for a typed value; none if the value has another sentence.
     pub(super) take_apart: fn(&T) -> Option<Vec<Value>>,
+}
+
+/// Why values of places do not make a typed value.
+#[derive(Debug)]
+pub(super) enum Unbuilt {
+    /// The value has other fields than the pattern has places: a mistake of the table.
+    OtherFields,
+    /// A sentence inside the sentence has a mistake.
+    Inner(NoSentence),
 }
 
 /// A row of a table: pattern, example, meaning, and the typed value with the fields of the places, in their
@@ -37,12 +48,14 @@ macro_rules! row {
             example: $example,
             meaning: $meaning,
             is_old: false,
+            quantities: &[],
             build: |values| match values {
                 [$($field),*] => {
-                    $(let $field = $crate::words::value::Field::of($field)?;)*
-                    Some($($value)+)
+                    $(let $field = $crate::words::value::Field::of($field)
+                        .ok_or($crate::words::sentence::Unbuilt::OtherFields)?;)*
+                    Ok($($value)+)
                 }
-                _ => None,
+                _ => Err($crate::words::sentence::Unbuilt::OtherFields),
             },
             take_apart: |value| match value {
                 $($value)+ => Some(vec![$($crate::words::value::Field::value($field)),*]),
@@ -89,18 +102,21 @@ pub fn read<T>(table: &[Sentence<T>], text: &str) -> Result<T, NoSentence> {
 /// The same; the message of a mistake is made only on request.
 pub(crate) fn try_read<'a, T>(table: &'a [Sentence<T>], text: &'a str) -> Result<T, Misfit<'a, T>> {
     if too_long(text).is_some() {
-        return Err(Misfit { table, text });
+        return Err(Misfit { table, text, inner: None });
     }
     let words: Vec<&str> = text.split_whitespace().collect();
     for sentence in table {
-        if let Ok(values) = fit(sentence.pattern, &words) {
-            match (sentence.build)(&values) {
-                Some(value) => return Ok(value),
-                None => panic!("`{}` has other places than its value", sentence.pattern),
-            }
+        if let Ok(values) = fit(sentence, &words) {
+            return match (sentence.build)(&values) {
+                Ok(value) => Ok(value),
+                Err(Unbuilt::Inner(inner)) => Err(Misfit { table, text, inner: Some(inner) }),
+                Err(Unbuilt::OtherFields) => {
+                    panic!("`{}` has other places than its value", sentence.pattern)
+                }
+            };
         }
     }
-    Err(Misfit { table, text })
+    Err(Misfit { table, text, inner: None })
 }
 
 /// The row that reads a sentence.
@@ -110,16 +126,19 @@ pub fn row_of<'t, T>(table: &'t [Sentence<T>], text: &str) -> Option<&'t Sentenc
         return None;
     }
     let words: Vec<&str> = text.split_whitespace().collect();
-    table.iter().find(|sentence| fit(sentence.pattern, &words).is_ok())
+    table.iter().find(|sentence| fit(sentence, &words).is_ok())
 }
 
 /// The sentence of a value. Of several with the same meaning it is the one whose verb agrees with the units,
 /// else the first. None if the table has none, which a test excludes.
 pub(super) fn say<T>(table: &[Sentence<T>], value: &T) -> Option<String> {
-    let said = rows(table).filter_map(|row| (row.take_apart)(value).map(|values| (row.pattern, values)));
+    let said = rows(table).filter_map(|row| {
+        let values = (row.take_apart)(value)?;
+        Some((agrees(row.pattern, &values), fill(row, &values)?))
+    });
     let said: Vec<_> = said.collect();
-    let agreeing = said.iter().find(|(pattern, values)| agrees(pattern, values));
-    agreeing.or(said.first()).map(|(pattern, values)| fill(pattern, values))
+    let agreeing = said.iter().find(|(agrees, _)| *agrees);
+    agreeing.or(said.first()).map(|(_, sentence)| sentence.clone())
 }
 
 /// The rows that are written and suggested.
@@ -135,14 +154,17 @@ fn agrees(pattern: &str, values: &[Value]) -> bool {
     is_plural == (*units == UnitSet::All)
 }
 
-fn fill(pattern: &str, values: &[Value]) -> String {
+/// The sentence of a row with these values; none if what has a value has no sentence in this row.
+fn fill<T>(row: &Sentence<T>, values: &[Value]) -> Option<String> {
     let mut values = values.iter();
-    let words = pattern.split_whitespace().map(|part| match place(part).and_then(|_| values.next()) {
-        Some(value) => value.to_string(),
-        None => part.to_owned(),
+    let words = row.pattern.split_whitespace().map(|part| match place(part).and_then(|_| values.next()) {
+        Some(Value::Quantity(quantity)) => say(row.quantities, quantity),
+        Some(value) => Some(value.to_string()),
+        None => Some(part.to_owned()),
     });
     // Some places may be empty.
-    words.filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" ")
+    let words: Vec<String> = words.collect::<Option<_>>()?;
+    Some(words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "))
 }
 
 /// The name of the place in a part of a pattern.
@@ -158,10 +180,20 @@ type Fit = (usize, bool, f64);
 pub(crate) struct Misfit<'a, T> {
     table: &'a [Sentence<T>],
     text: &'a str,
+    /// The mistake of a sentence inside it; the rest fits.
+    inner: Option<NoSentence>,
 }
 
 impl<T> Misfit<'_, T> {
+    /// Whether the mistake is in a sentence inside the text, which is a sentence of this table otherwise.
+    pub(super) const fn is_inside(&self) -> bool {
+        self.inner.is_some()
+    }
+
     pub(crate) fn words(&self) -> NoSentence {
+        if let Some(inner) = &self.inner {
+            return inner.clone();
+        }
         if let Some(too_long) = too_long(self.text) {
             return too_long;
         }
@@ -177,7 +209,7 @@ impl<T> Misfit<'_, T> {
     /// The row that matches furthest, the nearest of several, and the mistake there; none: no word matches.
     fn furthest(&self) -> Option<(&Sentence<T>, Problem<'_>)> {
         let words: Vec<&str> = self.text.split_whitespace().collect();
-        let misfits = rows(self.table).filter_map(|row| Some((row, fit(row.pattern, &words).err()?)));
+        let misfits = rows(self.table).filter_map(|row| Some((row, fit(row, &words).err()?)));
         let mut furthest: Option<(Fit, &Sentence<T>, Problem<'_>)> = None;
         for (row, (reached, problem)) in misfits.filter(|(_, (reached, _))| *reached > 0) {
             // A wrong value of a place is more likely than another sentence.
@@ -267,25 +299,57 @@ impl fmt::Display for Problem<'_> {
     }
 }
 
-/// Reads words by a pattern; otherwise the number of matching words, and the mistake in the next one.
-pub(super) fn fit<'a>(pattern: &'static str, words: &[&'a str]) -> Result<Vec<Value>, (usize, Problem<'a>)> {
+/// Values of places, or the number of matching words and the mistake in the next one.
+type Fitted<'a, V> = Result<V, (usize, Problem<'a>)>;
+
+/// Reads words by the pattern of a row; otherwise the number of matching words, and the mistake in the next one.
+pub(super) fn fit<'a, T>(row: &Sentence<T>, words: &[&'a str]) -> Fitted<'a, Vec<Value>> {
+    let (values, length) = fit_start(row, words)?;
+    match words.get(length) {
+        None => Ok(values),
+        Some(word) => Err((length, Problem::More(word))),
+    }
+}
+
+/// The same of the first words, with their number.
+fn fit_start<'a, T>(row: &Sentence<T>, words: &[&'a str]) -> Fitted<'a, (Vec<Value>, usize)> {
     let mut values = Vec::new();
     let mut at = 0;
-    for part in pattern.split_whitespace() {
+    for part in row.pattern.split_whitespace() {
         let rest = words.get(at..).unwrap_or_default();
         match place(part) {
             None if rest.first() == Some(&part) => at += 1,
             None => return Err((at, Problem::Expected { word: part, found: rest.first().copied() })),
             Some(name) => {
-                let read = Place::named(name).read(rest);
-                let (value, length) = read.map_err(|(fitting, why)| (at + fitting, Problem::Place(why)))?;
+                let read = match name {
+                    QUANTITY => quantity(row.quantities, rest),
+                    _ => {
+                        Place::named(name).read(rest).map_err(|(fitting, why)| (fitting, Problem::Place(why)))
+                    }
+                };
+                let (value, length) = read.map_err(|(fitting, problem)| (at + fitting, problem))?;
                 values.push(value);
                 at += length;
             }
         }
     }
-    match words.get(at) {
-        None => Ok(values),
-        Some(word) => Err((at, Problem::More(word))),
+    Ok((values, at))
+}
+
+/// What has a value, by the row that takes most of the words.
+fn quantity<'a>(table: &[Sentence<Quantity>], words: &[&'a str]) -> Fitted<'a, (Value, usize)> {
+    let mut longest: Option<(Value, usize)> = None;
+    let mut furthest = (0, Problem::Place(format!("expected {}", Place::named(QUANTITY).meaning)));
+    for row in table {
+        match fit_start(row, words) {
+            Ok((values, length)) if longest.as_ref().is_none_or(|(_, other)| length > *other) => {
+                let read = (row.build)(&values).ok().map(|quantity| (Value::Quantity(quantity), length));
+                longest = read.or(longest);
+            }
+            Ok(_) => {}
+            Err(misfit) if misfit.0 > furthest.0 => furthest = misfit,
+            Err(_) => {}
+        }
     }
+    longest.ok_or(furthest)
 }

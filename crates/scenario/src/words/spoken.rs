@@ -28,11 +28,11 @@ pub trait Spoken: Clone + fmt::Debug + 'static {
 /// The mistake in a text that is not a sentence of its key: another key has it, or the nearest sentence of its own.
 pub(crate) fn mistake<T>(text: &str, misfit: &Misfit<'_, T>) -> NoSentence {
     match keys_of(text) {
-        Some(keys) => NoSentence {
+        Some(keys) if !misfit.is_inside() => NoSentence {
             message: format!("`{text}` is a sentence of another key"),
             help: format!("this sentence belongs to {keys}"),
         },
-        None => misfit.words(),
+        Some(_) | None => misfit.words(),
     }
 }
 

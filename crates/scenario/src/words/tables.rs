@@ -4,10 +4,12 @@ mod condition;
 mod cpu;
 mod line;
 mod master;
+mod quantity;
 mod unit;
 
 pub use condition::CONDITIONS;
 pub use cpu::CPU;
 pub use line::LINE;
 pub use master::MASTER;
+pub use quantity::QUANTITIES;
 pub use unit::UNIT;

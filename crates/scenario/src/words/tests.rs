@@ -11,7 +11,7 @@ use crate::model::{
 fn examples_are_read_and_written<T: Spoken + PartialEq>() {
     for sentence in T::SENTENCES {
         let words: Vec<&str> = sentence.example.split_whitespace().collect();
-        let values = fit(sentence.pattern, &words).map_err(|(_, problem)| problem.to_string());
+        let values = fit(sentence, &words).map_err(|(_, problem)| problem.to_string());
         let alone = (sentence.build)(&values.expect(sentence.example)).expect(sentence.pattern);
         assert_eq!(T::from_sentence(sentence.example).as_ref(), Ok(&alone), "{}", sentence.example);
         assert_ne!(sentence.is_old, alone.sentence() == sentence.example, "{}", sentence.example);

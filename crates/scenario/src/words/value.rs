@@ -6,8 +6,8 @@ use time::Duration;
 use wire::AlState;
 
 use crate::model::{
-    Bytes, CableNumber, Choice, Controller, Delay, Direction, Entry, EventCode, FaultName, FrameKind, Frames,
-    Hex, IndicatorName, Position, StateName, UnitNumber, UnitSet, UserErrorCode, Way,
+    Amount, Bytes, CableNumber, Choice, Controller, Delay, Direction, Entry, EventCode, FaultName, FrameKind,
+    Frames, Hex, IndicatorName, Position, Quantity, StateName, UnitNumber, UnitSet, UserErrorCode, Way,
 };
 
 /// The value of a place.
@@ -63,6 +63,12 @@ pub enum Value {
     Text(String),
     /// `5:9`, line and column.
     Position(Position),
+    /// `5`, `T#20ms`, a number that is compared.
+    Amount(Amount),
+    /// `object 2002:01 of unit 1`, what has a value. Its row has the words.
+    Quantity(Quantity),
+    /// `(unit 1 is in OP; unit 2 is in OP)`: sentences inside a sentence.
+    Group(Vec<String>),
 }
 
 impl fmt::Display for Value {
@@ -105,6 +111,9 @@ impl fmt::Display for Value {
             Self::UserError(code) => code.fmt(formatter),
             Self::Text(text) => formatter.write_str(text),
             Self::Position(position) => position.fmt(formatter),
+            Self::Amount(amount) => amount.fmt(formatter),
+            Self::Quantity(quantity) => write!(formatter, "{quantity:?}"),
+            Self::Group(sentences) => write!(formatter, "({})", sentences.join("; ")),
         }
     }
 }
@@ -212,6 +221,8 @@ fields! {
     UserErrorCode: UserError;
     String: Text;
     Position: Position;
+    Amount: Amount;
+    Quantity: Quantity;
 }
 
 macro_rules! numbers {

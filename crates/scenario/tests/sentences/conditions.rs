@@ -31,7 +31,7 @@ const FORCE_6: &str = r#"{ cpu = "force N1_UINTs_01_M_to_C[0] to 6" }"#;
 const FORCE_20: &str = r#"{ cpu = "force N1_UINTs_01_M_to_C[0] to 20" }"#;
 
 pub(crate) fn rows() -> Vec<ConditionRow> {
-    [states_and_events(), data(), programs(), validity(), masters(), captures()]
+    [states_and_events(), data(), programs(), validity(), masters(), captures(), comparisons(), logic()]
         .into_iter()
         .flatten()
         .collect()
@@ -242,6 +242,101 @@ fn masters() -> Vec<ConditionRow> {
             &[PRE_OP, EMERGENCIES, ALLOWED, BROKEN],
             "50ms",
         ),
+    ]
+}
+
+/// Each test of a value, with quantities of each kind; `quantities` has the others.
+fn comparisons() -> Vec<ConditionRow> {
+    const TWO: &[&str] = &[RESTART, r#"{ after = "1s", unit = "restart unit 1" }"#];
+    const LATER: &str = r#"{ after = "10ms", line = "be quiet" }"#;
+    vec![
+        condition(
+            "object 10F3:05 of unit 1 is not 00 00",
+            &[PRE_OP, r#"{ master = "write SDO 10F3:05 of unit 1 as 01 00" }"#],
+            &[PRE_OP],
+            "50ms",
+        ),
+        condition("the number of records of 94B80000 by unit 1 is at least 2", TWO, &[RESTART], "10ms"),
+        condition("the number of records of 94B80000 by unit 1 is at most 1", &[RESTART], TWO, "0s"),
+        condition("the number of cycles is above 50", &[OP], &[], "200ms"),
+        condition(
+            "the working counter of unit 1 is below 3",
+            &[r#"{ line = "lower the working counter of all process data frames" }"#, OP],
+            &[OP],
+            "100ms",
+        ),
+        condition(
+            "register 0x0010 of unit 1 is between 6 and 8",
+            &[r#"{ master = "write register 0x0010 of unit 1 as 07 00" }"#],
+            &[],
+            "5ms",
+        ),
+        condition(
+            "variable N1_UINTs_01_C_to_M begins with 05 00",
+            &[r#"{ cpu = "write N1_UINTs_01_C_to_M[0] as 5" }"#],
+            &[],
+            "2ms",
+        ),
+        condition("register 0x0130 of unit 1 has bits 0x08", &[OP], &[PRE_OP], "100ms"),
+        condition(
+            "register 0x0130 of unit 1 has no bits 0x01",
+            &[r#"{ master = "take unit 1 to SAFE-OP" }"#],
+            &[],
+            "100ms",
+        ),
+        condition("input byte 2 of unit 1 changes", &[OP, IN_OP, INPUTS], &[OP, IN_OP], "10ms"),
+        condition(
+            "the inputs of unit 1 change",
+            &[OP, IN_OP, r#"{ after = "20ms", cpu = "set the inputs of unit 1 to 2A" }"#],
+            &[OP, IN_OP, LATER, r#"{ after = "20ms", line = "be quiet" }"#],
+            "10ms",
+        ),
+        condition(
+            "the outputs of unit 1 change",
+            &[OP, IN_OP, r#"{ after = "20ms", master = "set output byte 2 of unit 1 to 2A" }"#],
+            &[OP, IN_OP, LATER],
+            "10ms",
+        ),
+    ]
+}
+
+/// Every quantity holds and fails, with a test of its own.
+pub(crate) fn quantities() -> Vec<ConditionRow> {
+    const WRITE: &str = r#"{ cpu = "write N1_UINTs_01_C_to_M[0] as 5" }"#;
+    const ALLOWED: &[&str] = &[
+        PRE_OP,
+        r#"{ master = "write SDO 10F3:05 of unit 1 as 01 00" }"#,
+        r#"{ expect = "object 10F3:05 of unit 1 has bits 0x01", within = "100ms" }"#,
+        r#"{ unit = "break IoCommunications of unit 1" }"#,
+    ];
+    let program =
+        condition("program variable n of unit 1 is at least 5", &[FORCE_5], &[], "5ms").with(PROGRAM);
+    vec![
+        condition("object 2002:01 of unit 1 is above 0", &[BROKEN], &[], "10ms"),
+        condition("register 0x0130 of unit 1 is at least 8", &[OP], &[PRE_OP], "100ms"),
+        condition("output byte 2 of unit 1 is not 00", &[OUTPUTS, OP], &[OP], "100ms"),
+        condition("input byte 2 of unit 1 is between 0x2A and 0x2A", &[INPUTS, OP], &[OP], "100ms"),
+        condition("variable N1_UINTs_01_C_to_M[0] is above 4", &[WRITE], &[], "2ms"),
+        program,
+        condition(
+            "the working counter of unit 1 is not 2",
+            &[OP],
+            &[r#"{ line = "lower the working counter of all process data frames" }"#, OP],
+            "100ms",
+        ),
+        condition("the number of records of 94B80000 by unit 1 is not 0", &[RESTART], &[], "10ms"),
+        condition("the number of emergencies is at least 1", ALLOWED, &[PRE_OP], "50ms"),
+        condition("the number of emergencies 0xFF20 changes", ALLOWED, &[PRE_OP], "50ms"),
+        condition("the number of cycles is between 20 and 60", &[OP], &[], "100ms"),
+    ]
+}
+
+fn logic() -> Vec<ConditionRow> {
+    const LATER: &str = r#"{ after = "10ms", line = "be quiet" }"#;
+    vec![
+        condition("not (unit 1 is in INIT)", &[OP], &[], "100ms"),
+        condition("all of (unit 1 is in OP; 20 cycles are done)", &[OP], &[PRE_OP], "200ms"),
+        condition("any of (unit 1 is in BOOT; not (unit 1 has no error))", &[BROKEN], &[LATER], "10ms"),
     ]
 }
 

@@ -13,7 +13,7 @@ mod unit;
 
 use rows::{ConditionRow, OrderRow};
 use scenario::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
-use scenario::words::{Spoken, row_of};
+use scenario::words::{QUANTITIES, Spoken, row_of};
 
 /// The sentences of a table without a row.
 fn missing<T: Spoken>(rows: &[&str]) -> Vec<&'static str> {
@@ -67,5 +67,19 @@ fn each_condition_holds_and_fails() {
     let rows = [conditions::rows(), messages::conditions(), raw::conditions()].concat();
     let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).chain(ORACLES).collect();
     assert_eq!(missing::<Condition>(&sentences), [""; 0], "conditions without a row");
+    all_are_right(rows.iter().map(ConditionRow::try_out));
+}
+
+#[test]
+fn each_quantity_has_a_value_that_passes_and_fails() {
+    let rows = conditions::quantities();
+    let begins_with = |pattern: &str, row: &&ConditionRow| {
+        let first: Vec<&str> = pattern.split_whitespace().take_while(|word| !word.starts_with('{')).collect();
+        row.sentence.starts_with(&first.join(" "))
+    };
+    assert_eq!(rows.len(), QUANTITIES.len(), "one row for each");
+    for (quantity, row) in QUANTITIES.iter().zip(&rows) {
+        assert!(begins_with(quantity.pattern, &row), "{} is not {}", row.sentence, quantity.pattern);
+    }
     all_are_right(rows.iter().map(ConditionRow::try_out));
 }

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::model::{Bytes, hex};
+use crate::model::{Bytes, Condition, hex};
 
 /// What is seen in place of the expected.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,6 +16,17 @@ impl Seen {
     /// What the condition is about is not there: it is neither true nor false.
     pub(super) fn not_there(words: impl Into<String>) -> Self {
         Self { words: words.into(), is_there: false }
+    }
+
+    /// What is seen in place of a part of a condition.
+    pub(super) fn of(self, part: &Condition) -> Self {
+        Self { words: format!("`{part}`: {}", self.words), ..self }
+    }
+
+    /// What is seen in place of several parts: they are false together if each of them is.
+    pub(super) fn together(parts: &[Self]) -> Self {
+        let words: Vec<&str> = parts.iter().map(|seen| seen.words.as_str()).collect();
+        Self { words: words.join("; "), is_there: parts.iter().all(|seen| seen.is_there) }
     }
 
     /// Whether the condition is false.

@@ -14,7 +14,7 @@ fn name(at: usize) -> String {
 }
 
 /// A unit without power is in no state, and shows nothing that is inside it.
-fn has_power(world: &World, at: usize) -> Check {
+pub(super) fn has_power(world: &World, at: usize) -> Check {
     holds(!world.is_off(at), || format!("{} has no power", name(at)))
 }
 

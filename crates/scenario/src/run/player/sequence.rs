@@ -9,6 +9,7 @@ use super::step::StepPlay;
 use super::verdict::{Origin, Progress, Verdict, Waits, failure};
 use super::wait::Wait;
 use crate::model::{Members, Order, Repetition, Trigger};
+use crate::run::observed::Observed;
 use crate::run::scenario::{PlayedStep, WrittenGroup, WrittenStep};
 use crate::run::stage::Stage;
 
@@ -81,8 +82,8 @@ struct GroupPlay<'a> {
 
 /// How far a group has come.
 enum State<'a> {
-    /// It waits for its time.
-    Due(Wait<'a>),
+    /// It waits for its time, with the values at the beginning of the wait.
+    Due(Wait<'a>, Observed),
     /// Its only sequence is played.
     Sequence(Box<Sequence<'a>>),
     /// Its rounds are played.
@@ -93,19 +94,19 @@ enum State<'a> {
 
 impl<'a> GroupPlay<'a> {
     fn of(group: &'a WrittenGroup, now: Instant) -> Self {
-        Self { group, state: State::Due(Wait::for_trigger(&group.trigger, now)) }
+        Self { group, state: State::Due(Wait::for_trigger(&group.trigger, now), Observed::default()) }
     }
 
     fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
-        if let State::Due(wait) = &mut self.state {
+        if let State::Due(wait, observed) = &mut self.state {
             let origin = Origin::from(self.group);
-            if let Some(until) = wait.look(origin, stage, shared.limit)? {
+            if let Some(until) = wait.look(origin, stage, shared.limit, observed)? {
                 return Ok(Progress::Waits(Waits { origin, until }));
             }
             self.state = State::begin(self.group, stage, shared);
         }
         match &mut self.state {
-            State::Due(_) => Ok(Progress::Done),
+            State::Due(..) => Ok(Progress::Done),
             State::Sequence(sequence) => sequence.poll(stage, shared),
             State::Rounds(rounds) => rounds.poll(stage, shared),
             State::Together(sequences) => poll_all(sequences, stage, shared),

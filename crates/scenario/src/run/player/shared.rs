@@ -66,7 +66,7 @@ impl<'a> Shared<'a> {
     /// The end: expectations that had to be true to the end are fulfilled.
     pub(super) fn end(&mut self, stage: &mut impl Stage) -> Verdict {
         self.look(stage)?;
-        self.watches.iter().try_for_each(|watch| watch.end(stage))
+        self.watches.iter_mut().try_for_each(|watch| watch.end(stage))
     }
 
     /// Nothing may wait after the limit.

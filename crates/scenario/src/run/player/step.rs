@@ -8,6 +8,7 @@ use super::verdict::{Progress, Verdict, Waits, failure};
 use super::wait::{UntilThen, Wait};
 use super::watch::{Wanted, Watch};
 use crate::model::{Condition, Expectation, Mode, Order};
+use crate::run::observed::Observed;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
@@ -20,6 +21,8 @@ pub(super) struct StepPlay<'a> {
     more: u64,
     /// The expectation that follows at once.
     next: Option<&'a WrittenStep>,
+    /// The values at the beginning of its present wait.
+    observed: Observed,
 }
 
 /// What a step waits for now.
@@ -35,17 +38,25 @@ impl<'a> StepPlay<'a> {
     pub(super) fn of(step: &'a WrittenStep, next: Option<&'a WrittenStep>, now: Instant) -> Self {
         let times = step.step.repetition.map_or(1, |repetition| repetition.times);
         let wait = Wait::for_trigger(&step.step.trigger, now);
-        Self { step, wait, phase: Phase::Due, more: times.saturating_sub(1), next }
+        Self {
+            step,
+            wait,
+            phase: Phase::Due,
+            more: times.saturating_sub(1),
+            next,
+            observed: Observed::default(),
+        }
     }
 
     pub(super) fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
         shared.current = Some(self.step);
         loop {
-            if let Some(until) = self.wait.look(self.step.into(), stage, shared.limit)? {
+            if let Some(until) = self.wait.look(self.step.into(), stage, shared.limit, &mut self.observed)? {
                 return Ok(Progress::Waits(Waits { origin: self.step.into(), until }));
             }
             match (self.phase, self.step.step.repetition) {
                 (Phase::Due, _) => {
+                    self.observed = Observed::default();
                     self.wait = self.perform(stage, shared)?;
                     self.phase = Phase::Doing;
                 }
@@ -60,7 +71,7 @@ impl<'a> StepPlay<'a> {
     }
 
     /// Carries the step out once, and returns what it waits for then.
-    fn perform(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
+    fn perform(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
         self.note_change(stage, shared);
         shared.performed += 1;
         shared.last = Some(self.step);
@@ -86,7 +97,7 @@ impl<'a> StepPlay<'a> {
         let Some((condition, expectation)) = self.next.and_then(|next| Some((within(next)?, next))) else {
             return;
         };
-        if stage.check(condition).is_err() {
+        if stage.check(condition, &mut Observed::default()).is_err() {
             shared.change = None;
         } else if ends(&self.step.step.order, condition) {
             shared.change = Some(Change { order: self.step, expectation });
@@ -105,16 +116,19 @@ impl<'a> StepPlay<'a> {
     }
 
     fn expect(
-        &self,
+        &mut self,
         Expectation { condition, mode }: &'a Expectation,
         stage: &mut impl Stage,
         shared: &mut Shared<'a>,
     ) -> Verdict<Wait<'a>> {
         let (step, now) = (self.step, stage.now());
-        let watch = |wanted, until| Watch { step, condition, wanted, begun: now, until };
+        let watch = |wanted, until| {
+            let observed = Observed::default();
+            Watch { step, condition, wanted, begun: now, until, observed }
+        };
         match mode {
             Mode::Now => {
-                stage.check(condition).map_err(|seen| failure(step, now, seen))?;
+                stage.check(condition, &mut self.observed).map_err(|seen| failure(step, now, seen))?;
                 Ok(Wait::Over)
             }
             Mode::Within(limit) => {
@@ -125,7 +139,7 @@ impl<'a> StepPlay<'a> {
                 })
             }
             Mode::For(span) => {
-                stage.check(condition).map_err(|seen| failure(step, now, seen))?;
+                stage.check(condition, &mut self.observed).map_err(|seen| failure(step, now, seen))?;
                 let until = now + *span;
                 shared.open(watch(Wanted::Always, until));
                 Ok(Wait::Time(until))

@@ -6,6 +6,7 @@ use time::{Duration, Instant};
 use super::{Next, Player};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, Step, UnitOrder};
 use crate::run::check::Seen;
+use crate::run::observed::Observed;
 use crate::run::scenario::{PlayedStep, WrittenStep};
 use crate::run::stage::Stage;
 
@@ -26,7 +27,7 @@ impl Stage for Desk {
         self.now >= time
     }
 
-    fn check(&mut self, condition: &Condition) -> Result<(), Seen> {
+    fn check(&mut self, condition: &Condition, _: &mut Observed) -> Result<(), Seen> {
         assert_eq!(*condition, Condition::MasterIdle);
         if self.is_idle { Ok(()) } else { Err("busy".to_owned().into()) }
     }

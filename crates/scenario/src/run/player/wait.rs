@@ -6,6 +6,7 @@ use super::verdict::{Origin, Verdict, failure};
 use super::watch::judge_never;
 use crate::model::{Condition, Trigger};
 use crate::run::check::Seen;
+use crate::run::observed::Observed;
 use crate::run::stage::Stage;
 
 /// What a step waits for.
@@ -58,38 +59,41 @@ impl<'a> Wait<'a> {
         step: Origin<'_>,
         stage: &mut impl Stage,
         limit: Instant,
+        observed: &mut Observed,
     ) -> Verdict<Option<Instant>> {
         let now = stage.now();
         let failed = |seen: Seen| Err(failure(step, now, seen));
         match self {
             Self::Over => Ok(None),
             Self::Time(time) => Ok((!stage.has_passed(*time)).then_some(*time)),
-            Self::When(condition) => match stage.check(condition) {
+            Self::When(condition) => match stage.check(condition, observed) {
                 Ok(()) => Ok(None),
                 Err(_) if now < limit => Ok(Some(limit)),
                 Err(seen) => {
                     failed(format!("the condition of `when` is not true before the limit: {seen}").into())
                 }
             },
-            Self::Within(condition, until) => match stage.check(condition) {
+            Self::Within(condition, until) => match stage.check(condition, observed) {
                 Ok(()) => Ok(None),
                 Err(_) if now < *until => Ok(Some(*until)),
                 Err(seen) => failed(seen),
             },
-            Self::AfterChange(condition, until, order) => match stage.check(condition) {
+            Self::AfterChange(condition, until, order) => match stage.check(condition, observed) {
                 Err(_) => {
                     *self = Self::Within(condition, *until);
-                    self.look(step, stage, limit)
+                    self.look(step, stage, limit, observed)
                 }
                 Ok(()) if now < *until => Ok(Some(*until)),
                 Ok(()) => failed(unchanged(order)),
             },
-            Self::Until { condition, end, wanted, has_begun } => match stage.check(end) {
+            Self::Until { condition, end, wanted, has_begun } => match stage.check(end, observed) {
                 Ok(()) if *has_begun => Ok(None),
                 Ok(()) => failed(nothing_to_check()),
                 Err(waiting) => {
                     *has_begun = true;
-                    wanted.judge(stage.check(condition)).map_err(|seen| failure(step, now, seen))?;
+                    wanted
+                        .judge(stage.check(condition, observed))
+                        .map_err(|seen| failure(step, now, seen))?;
                     if now < limit {
                         return Ok(Some(limit));
                     }

@@ -5,6 +5,7 @@ use time::Instant;
 use super::verdict::{Verdict, failure};
 use crate::model::Condition;
 use crate::run::check::Seen;
+use crate::run::observed::Observed;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
 
@@ -17,6 +18,8 @@ pub(super) struct Watch<'a> {
     pub(super) begun: Instant,
     /// The time at which it is decided; never: at the end.
     pub(super) until: Instant,
+    /// The values at the beginning of the step.
+    pub(super) observed: Observed,
 }
 
 /// When a condition must be true.
@@ -68,22 +71,22 @@ impl<'a> Watch<'a> {
 
     fn judge(&mut self, stage: &mut impl Stage) -> Result<(), Seen> {
         match &mut self.wanted {
-            Wanted::Always => stage.check(self.condition),
-            Wanted::Never => judge_never(stage.check(self.condition)),
+            Wanted::Always => stage.check(self.condition, &mut self.observed),
+            Wanted::Never => judge_never(stage.check(self.condition, &mut self.observed)),
             Wanted::While { condition, was_true } => {
-                if stage.check(condition).is_err() {
+                if stage.check(condition, &mut self.observed).is_err() {
                     return Ok(());
                 }
                 *was_true = true;
-                stage.check(self.condition)
+                stage.check(self.condition, &mut self.observed)
             }
         }
     }
 
     /// At the end: what must have been true at some time has been.
-    pub(super) fn end(&self, stage: &mut impl Stage) -> Verdict {
+    pub(super) fn end(&mut self, stage: &mut impl Stage) -> Verdict {
         let Wanted::While { condition, was_true: false } = self.wanted else { return Ok(()) };
-        let seen = match stage.check(condition) {
+        let seen = match stage.check(condition, &mut self.observed) {
             Ok(()) => String::new(),
             Err(seen) => format!(": {seen}"),
         };

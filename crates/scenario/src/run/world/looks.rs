@@ -7,7 +7,7 @@ use device::{Device, Unit};
 use esc::Port;
 use plc::Io;
 use unit_model::{EventCode, EventLevel, ModelUnit, SlaveView};
-use wire::{AlStatus, AlStatusCode, ObjectIndex, SdoAbort, SubIndex};
+use wire::{AlStatus, AlStatusCode, DataType, ObjectIndex, SdoAbort, SubIndex};
 
 use super::{World, state_words};
 use crate::model::IndicatorName;
@@ -104,6 +104,12 @@ impl World {
         let entry = objects.table().entry(index, sub).ok_or(missing)?;
         let mut value = vec![0; entry.size_bytes()];
         objects.read(index, sub, &mut value).map(|()| value)
+    }
+
+    /// The data type of an entry; none if the unit does not have it.
+    pub(crate) fn object_type(&mut self, at: usize, index: ObjectIndex, sub: SubIndex) -> Option<DataType> {
+        let objects = self.network.device_mut(at).and_then(|device| device.unit_mut().objects())?;
+        objects.table().entry(index, sub).map(|entry| entry.data_type)
     }
 
     pub(crate) fn registers(&self, at: usize, offset: u16, length_bytes: usize) -> Vec<u8> {

@@ -1,8 +1,11 @@
 //! Sentences of conditions: for `expect` and for `when`.
 
+use core::slice;
+
 use crate::model::Condition::{self, *};
-use crate::model::{DataDirection, EventLog};
+use crate::model::{DataDirection, EventLog, Quantity, Test};
 use crate::words::sentence::{Sentence, row};
+use crate::words::tables::quantity::QUANTITIES;
 
 /// All of them.
 #[rustfmt::skip]
@@ -88,6 +91,37 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
     row!("variable {variable} has the value {value}", "variable N1_UINTs_01_M_to_C[3] has the value 5",
         "a device variable, or an element of it, by a value of its type",
         |variable, value| VariableValue { variable, value }),
+    // Before the sentence whose value takes all words.
+    comparison(row!("{quantity} is not {other}", "object 2002:01 of unit 1 is not 20",
+        "it has a value, and another one than the sentence with `is` says. While it has none, as in a unit without power, the condition is false",
+        |of, other| Value { of, test: Test::IsNot(other) })),
+    comparison(row!("{quantity} is at least {amount}", "the working counter of unit 1 is at least 2",
+        "as a number",
+        |of, amount| Value { of, test: Test::AtLeast(amount) })),
+    comparison(row!("{quantity} is at most {amount}", "the number of emergencies is at most 3",
+        "as a number",
+        |of, amount| Value { of, test: Test::AtMost(amount) })),
+    comparison(row!("{quantity} is above {amount}", "program variable Scans of unit 1 is above 100",
+        "as a number; not equal",
+        |of, amount| Value { of, test: Test::Above(amount) })),
+    comparison(row!("{quantity} is below {amount}", "register 0x0300 of unit 1 is below 5",
+        "as a number; not equal",
+        |of, amount| Value { of, test: Test::Below(amount) })),
+    comparison(row!("{quantity} is between {amount} and {amount}", "variable N1_UINTs_01_M_to_C[3] is between 10 and 20",
+        "as a number; either end is in it",
+        |of, from, to| Value { of, test: Test::Between { from, to } })),
+    comparison(row!("{quantity} begins with {bytes}", "object 1008:00 of unit 1 begins with 4E 58",
+        "its first bytes",
+        |of, bytes| Value { of, test: Test::BeginsWith(bytes) })),
+    comparison(row!("{quantity} has bits {dword}", "register 0x0130 of unit 1 has bits 0x00000010",
+        "as a number: all of these bits are 1",
+        |of, bits| Value { of, test: Test::HasBits(bits) })),
+    comparison(row!("{quantity} has no bits {dword}", "register 0x0130 of unit 1 has no bits 0x00000010",
+        "as a number: each of these bits is 0",
+        |of, bits| Value { of, test: Test::HasNoBits(bits) })),
+    comparison(row!("{quantity} changes", "object 10F3:02 of unit 1 changes",
+        "it is another value than at the beginning of the step; for `within`, `never`, `when` and `until`",
+        |of| Value { of, test: Test::Changes })),
     row!("program variable {name} of {controller} is {value}", "program variable CPUUnit_RunMode of the master is FALSE",
         "a variable that the user program in Structured Text declares",
         |name, controller, value| ProgramVariable { controller, name, value }),
@@ -268,4 +302,66 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
     row!("at most {number} answers differ", "at most 3 answers differ",
         "from those of the capture",
         |at_most| AnswersDiffer { at_most }),
+    row!("the outputs of {unit} change", "the outputs of unit 1 change",
+        "all bytes that its CPU Unit has; for `within`, `never`, `when` and `until`",
+        |unit| Value { of: Quantity::Outputs { unit }, test: Test::Changes }),
+    row!("the inputs of {unit} change", "the inputs of unit 1 change",
+        "all bytes that the master has, status included; for `within`, `never`, `when` and `until`",
+        |unit| Value { of: Quantity::Inputs { unit }, test: Test::Changes }),
+    Sentence {
+        pattern: "not {condition}",
+        example: "not (unit 1 is in OP)",
+        meaning: "the condition is false. A condition on what is not there, such as a byte beyond the process data, is neither true nor false, and so is its `not`",
+        is_old: false,
+        quantities: &[],
+        build: |values| logic::one(values).map(Not),
+        take_apart: |condition| if let Not(part) = condition { Some(logic::said(slice::from_ref(part))) } else { None },
+    },
+    Sentence {
+        pattern: "all of {conditions}",
+        example: "all of (unit 1 is in OP; 100 cycles are done)",
+        meaning: "every one of them is true at the same moment",
+        is_old: false,
+        quantities: &[],
+        build: |values| logic::several(values).map(AllOf),
+        take_apart: |condition| if let AllOf(parts) = condition { Some(logic::said(parts)) } else { None },
+    },
+    Sentence {
+        pattern: "any of {conditions}",
+        example: "any of (unit 1 is in OP; not (unit 1 has no error))",
+        meaning: "at least one of them is true; it is no matter whether the others are true, false, or about what is not there",
+        is_old: false,
+        quantities: &[],
+        build: |values| logic::several(values).map(AnyOf),
+        take_apart: |condition| if let AnyOf(parts) = condition { Some(logic::said(parts)) } else { None },
+    },
 ];
+
+/// A row with the place `{quantity}`.
+const fn comparison(row: Sentence<Condition>) -> Sentence<Condition> {
+    Sentence { quantities: QUANTITIES, ..row }
+}
+
+/// Conditions inside a condition: each is a sentence of the same table.
+mod logic {
+    use super::CONDITIONS;
+    use crate::model::Condition;
+    use crate::words::sentence::{Unbuilt, read, say};
+    use crate::words::value::Value;
+
+    pub(super) fn several(values: &[Value]) -> Result<Vec<Condition>, Unbuilt> {
+        let [Value::Group(sentences)] = values else { return Err(Unbuilt::OtherFields) };
+        sentences.iter().map(|sentence| read(CONDITIONS, sentence).map_err(Unbuilt::Inner)).collect()
+    }
+
+    pub(super) fn one(values: &[Value]) -> Result<Box<Condition>, Unbuilt> {
+        let parts: [Condition; 1] = several(values)?.try_into().map_err(|_| Unbuilt::OtherFields)?;
+        let [part] = parts;
+        Ok(Box::new(part))
+    }
+
+    pub(super) fn said(parts: &[Condition]) -> Vec<Value> {
+        let said = |part: &Condition| say(CONDITIONS, part).unwrap_or_else(|| format!("{part:?}"));
+        vec![Value::Group(parts.iter().map(said).collect())]
+    }
+}
