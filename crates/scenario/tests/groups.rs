@@ -440,7 +440,7 @@ proptest! {
         let end = write(&trees, 0, &mut text, &mut times);
         times.sort_unstable();
         let flat: String = times.iter().map(|time| format!("{{ at = \"{time}us\", line = \"be quiet\" }}, ")).collect();
-        let behind = format!("{{ after = \"1us\", line = \"be quiet\" }}");
+        let behind = "{ after = \"1us\", line = \"be quiet\" }".to_owned();
         let in_groups = played(&file(&format!("{text}{behind}")));
         let one_by_one = played(&file(&format!("{flat}{{ at = \"{}us\", line = \"be quiet\" }}", end + 1)));
         prop_assert_eq!(in_groups, one_by_one);

@@ -164,7 +164,8 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
             return None;
         };
         let list = parameters(file.reader, &section)?;
-        for Parameter { name, .. } in list.iter().filter(|other| self.scope.names.has(other.name.value)) {
+        if let Some(Parameter { name, .. }) = list.iter().find(|other| self.scope.names.has(other.name.value))
+        {
             let message = format!("`{{{}}}` has a value here already", name.value);
             let problem = Problem::new(message, "").with_help("give it another name");
             file.reader.refuse(name.span.clone().unwrap_or_default(), problem);

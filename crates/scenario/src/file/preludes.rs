@@ -172,7 +172,7 @@ impl Whole {
                 "limit" => (own.limit, self.places.limit) = (limit, span.clone()),
                 "cycle" => (own.cycle, self.places.cycle) = (cycle, span.clone()),
                 "cycle_phase" => (own.cycle_phase, self.places.cycle_phase) = (cycle_phase, span.clone()),
-                "calendar" => own.calendar = calendar.clone(),
+                "calendar" => own.calendar = calendar,
                 "capture" => own.capture = capture.clone(),
                 "master" => {
                     own.master = master.clone();

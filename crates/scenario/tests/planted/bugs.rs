@@ -78,16 +78,10 @@ impl Bug for RecordKept {
 }
 
 /// There is no place for the 33rd event.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct LogOverflow {
     slots: [u32; 32],
     next: usize,
-}
-
-impl Default for LogOverflow {
-    fn default() -> Self {
-        Self { slots: [0; 32], next: 0 }
-    }
 }
 
 impl Bug for LogOverflow {

@@ -60,17 +60,21 @@ mod tests {
     }
 
     fn evaluate(condition: &Condition, table: &[Truth]) -> Check {
-        match condition {
-            Cycles { at_least } => match table[*at_least as usize] {
+        if let Cycles { at_least } = condition {
+            return match table[*at_least as usize] {
                 Some(true) => Ok(()),
                 Some(false) => Err("false".to_owned().into()),
                 None => Err(Seen::not_there("not there")),
-            },
-            Not(part) => not(part, evaluate(part, table)),
-            AllOf(parts) => all_of(parts, |part| evaluate(part, table)),
-            AnyOf(parts) => any_of(parts, |part| evaluate(part, table)),
-            other => panic!("{other}"),
+            };
         }
+        if let Not(part) = condition {
+            return not(part, evaluate(part, table));
+        }
+        if let AllOf(parts) = condition {
+            return all_of(parts, |part| evaluate(part, table));
+        }
+        let AnyOf(parts) = condition else { panic!("{condition}") };
+        any_of(parts, |part| evaluate(part, table))
     }
 
     fn part(number: u64) -> Condition {

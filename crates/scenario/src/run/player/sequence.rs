@@ -66,9 +66,9 @@ impl<'a> Play<'a> {
 }
 
 /// The expectation that follows at once, behind other orders of the same time.
-fn expectation_at_once(rest: &[PlayedStep]) -> Option<&WrittenStep> {
-    let at_once = |entry| match entry {
-        &PlayedStep::Step(ref step) if step.step.trigger == Trigger::AtOnce => Some(step),
+fn expectation_at_once<'a>(rest: &'a [PlayedStep]) -> Option<&'a WrittenStep> {
+    let at_once = |entry: &'a PlayedStep| match entry {
+        PlayedStep::Step(step) if step.step.trigger == Trigger::AtOnce => Some(step),
         PlayedStep::Step(_) | PlayedStep::Group(_) => None,
     };
     rest.iter().map_while(at_once).find(|next| matches!(next.step.order, Order::Expect(_)))
