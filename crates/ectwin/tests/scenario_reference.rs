@@ -224,7 +224,7 @@ const RANDOM: &str = r#"
 `{ random = 30, within = "3s" }` is replaced by 30 steps that the seed chooses, after pauses that together take at most 3 s. A scenario can
 have several of them. With a table the steps are drawn from groups of the pool, or from own sentences:
 
-```toml
+```text
 { random = { steps = 30, from = ["line", "sdo", "break Processing of unit #"], weights = [3, 2, 1] }, within = "3s" }
 ```
 
