@@ -38,7 +38,7 @@ planted! {
     torn_input TornInput "torn input after a pulled cable" "unit",
     late_fall_back LateFallBack "late fall-back from the second time on" "unit",
     alias_lost AliasLost "alias lost by a restart" "unit",
-    watchdog_tick WatchdogTick "watchdog one tick long" "unit",
+    held_outputs HeldOutputs "outputs held for one refresh too long" "unit",
     wrong_part WrongPart "wrong part of a mismatch" "mapping",
     wrong_value_read WrongValueRead "wrong value read after three downloads" "messages",
     brown_out BrownOut "brown-out during the start" "start-up",
@@ -194,11 +194,11 @@ impl Bug for LateFallBack {
     }
 }
 
-/// Outputs are used for one period more.
+/// Outputs are used for one refresh more.
 #[derive(Debug, Default)]
-struct WatchdogTick(Hold);
+struct HeldOutputs(Hold);
 
-impl Bug for WatchdogTick {
+impl Bug for HeldOutputs {
     fn outputs<'a>(&'a mut self, now: Instant, outputs: Option<&'a [u8]>) -> Option<&'a [u8]> {
         self.0.outputs(now, outputs, Duration::from_millis(2))
     }
