@@ -218,6 +218,15 @@ pub(crate) struct SearchArgs {
     /// End after this time, such as 600s: with the next result
     #[arg(long, value_name = "TIME")]
     pub(crate) budget: Option<time::Duration>,
+    /// Write one JSON line for each different failure, for other programs
+    #[arg(long, value_name = "OUT")]
+    pub(crate) json: Option<PathBuf>,
+    /// Write a JUnit file, for CI systems: a failed case for each different failure, a passed one if nothing is found
+    #[arg(long, value_name = "OUT")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Search only this part of the seeds, such as 1/4; `auto` uses the variables of the CI system
+    #[arg(long, value_name = "i/n|auto")]
+    pub(crate) partition: Option<PartitionChoice>,
     /// Number of threads; default: as many as the machine can run in parallel. It does not change the results
     #[arg(long, value_name = "N", value_parser = count::jobs)]
     jobs: Option<NonZeroUsize>,

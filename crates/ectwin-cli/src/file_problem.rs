@@ -92,6 +92,11 @@ impl FileProblems {
         self.list.iter().map(FileProblem::row)
     }
 
+    /// The message of the first one, without its place.
+    pub(crate) fn first_message(&self) -> Option<&str> {
+        self.rows().next().map(|row| row.message)
+    }
+
     /// Whether there are more than the first ones.
     pub(crate) const fn are_more(&self) -> bool {
         self.more > 0 || self.have_stopped

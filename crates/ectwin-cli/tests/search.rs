@@ -142,3 +142,229 @@ fn what_cannot_be_searched_is_refused_with_a_way_out() {
         assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
     }
 }
+
+/// Either of two expectations fails, by the first fault of a seed.
+const TWO_ERRORS: &str = r#"title = "neither of two errors"
+steps = [
+  { master = "take all units to OP" },
+  { when = "all units are in OP", expect = "unit 1 has no error" },
+  { random = { steps = 3, from = ["break Processing of unit #", "break IoCommunications of unit #", "reset the errors of unit #"] }, within = "1s" },
+  { expect = "unit 1 has recorded 40200000 0 times" },
+  { expect = "unit 1 has recorded 80200000 0 times" },
+]
+"#;
+
+/// What `ectwin search two.toml` gives with these options, in a folder of its own: stdout, JSON lines, JUnit, files.
+fn searched(name: &str, options: &[&str]) -> (String, String, String, Vec<(String, String)>) {
+    let bench = Bench::new(name);
+    bench.put("two.toml", TWO_ERRORS);
+    let arguments = ["search", "two.toml", "--runs", "30", "--json", "f.jsonl", "--junit", "f.xml"];
+    let ended = bench.ectwin(&[&arguments, options].concat());
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
+    let files = std::fs::read_dir(&bench.folder).unwrap().map(|entry| entry.unwrap().file_name());
+    let mut files: Vec<String> = files.map(|name| name.into_string().unwrap()).collect();
+    files.retain(|name| name.starts_with("two-"));
+    files.sort();
+    let files = files.into_iter().map(|name| (name.clone(), bench.text(&name))).collect();
+    (ended.stdout, bench.text("f.jsonl"), bench.text("f.xml"), files)
+}
+
+fn lines(text: &str) -> Vec<serde_json::Value> {
+    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+#[test]
+fn all_finds_two_different_failures_and_one_search_the_first() {
+    let (stdout, json, junit, files) = searched("search-all", &["--all"]);
+    assert_eq!(stdout.matches("FAILED  two.toml: neither of two errors\n").count(), 2, "{stdout}");
+    assert!(stdout.contains("two.toml: 2 different failures in 30 runs from seed 1 on, "), "{stdout}");
+    let found = lines(&json);
+    let mut steps: Vec<_> = found.iter().map(|line| line["failure"]["step"].as_str().unwrap()).collect();
+    steps.sort_unstable();
+    assert_eq!(
+        steps,
+        ["unit 1 has recorded 40200000 0 times", "unit 1 has recorded 80200000 0 times"],
+        "{json}"
+    );
+    assert_eq!(files.len(), 2);
+    for (line, (name, text)) in found.iter().zip(&files) {
+        let written = files.iter().find(|(name, _)| line["written"] == name.as_str());
+        assert!(written.is_some(), "{name}: {line}\n{text}");
+        assert_eq!((&line["file"], &line["steps"]), (&"two.toml".into(), &1.into()), "{line}");
+        assert_eq!((&line["steps_before"], &line["title"]), (&3.into(), &"neither of two errors".into()));
+    }
+    assert!(
+        junit.starts_with("<?xml") && junit.contains("<testsuites name=\"ectwin search\" tests=\"2\""),
+        "{junit}"
+    );
+    assert!(junit.contains("failures=\"2\"") && junit.contains("file=\"two-"), "{junit}");
+
+    let (stdout, json, junit, files) = searched("search-first", &[]);
+    assert_eq!((lines(&json), files.len()), (found[..1].to_vec(), 1), "{stdout}");
+    assert!(junit.contains("tests=\"1\"") && !stdout.contains("different failures"), "{stdout}");
+}
+
+#[test]
+fn the_bytes_are_the_same_with_any_number_of_threads() {
+    assert_eq!(
+        searched("search-one-thread", &["--all", "--jobs", "1"]),
+        searched("search-four-threads", &["--all", "--jobs", "4"])
+    );
+}
+
+#[test]
+fn parts_find_together_what_the_whole_search_finds() {
+    let (_, json, _, files) = searched("search-whole", &["--all"]);
+    let part = |part: &str, jobs: &str| {
+        let name = format!("search-part-{}-{jobs}", part.replace('/', "-"));
+        searched(&name, &["--all", "--partition", part, "--jobs", jobs])
+    };
+    let parts = [part("1/2", "1"), part("2/2", "4")];
+    assert_eq!(parts, [part("1/2", "4"), part("2/2", "1")]);
+    assert!(parts[1].0.contains(" in 15 runs (part 2/2 of 30 runs) from seed 1 on, "), "{}", parts[1].0);
+    let mut found: Vec<_> = parts.iter().flat_map(|(_, json, _, _)| lines(json)).collect();
+    found.sort_by_key(|line| line["seed"].as_u64());
+    let mut steps = std::collections::BTreeSet::new();
+    found.retain(|line| steps.insert(line["failure"]["step"].to_string()));
+    assert_eq!(found, lines(&json));
+    let of_parts: Vec<_> = parts.iter().flat_map(|(_, _, _, files)| files).collect();
+    assert!(files.iter().all(|file| of_parts.contains(&file)), "{of_parts:?}");
+}
+
+#[test]
+fn a_part_is_that_of_the_ci_system_too() {
+    let bench = Bench::new("search-auto");
+    bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
+    let variables = [("CI_NODE_INDEX", "3"), ("CI_NODE_TOTAL", "3")];
+    let ended = bench.ectwin_with(
+        &variables,
+        &["search", "holds.toml", "--runs", "5", "--partition", "auto", "--json", "-"],
+    );
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), ""), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("nothing found in 1 run (part 3/3 of 5 runs) from seed 1 on"),
+        "{}",
+        ended.stderr
+    );
+}
+
+#[test]
+fn a_search_that_finds_nothing_is_a_passed_case_of_junit_and_no_line() {
+    let bench = Bench::new("search-passed");
+    bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
+    bench.put("f.jsonl", "from an earlier search\n");
+    let ended =
+        bench.ectwin(&["search", "holds.toml", "--runs", "2", "--json", "f.jsonl", "--junit", "f.xml"]);
+    assert_eq!((ended.code, bench.text("f.jsonl").as_str()), (Some(0), ""), "{}", ended.stderr);
+    let junit = bench.text("f.xml");
+    assert!(junit.contains("tests=\"1\"") && junit.contains("failures=\"0\""), "{junit}");
+    assert!(
+        junit.contains("<testcase name=\"no error at all (seed 1)\" classname=\"holds.toml\""),
+        "{junit}"
+    );
+}
+
+#[test]
+fn a_budget_ends_the_search() {
+    let bench = Bench::new("search-budget");
+    bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
+    let ended = bench.ectwin(&["search", "holds.toml", "--runs", "1000000", "--budget", "1ms"]);
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""), "{}", ended.stdout);
+    assert!(
+        ended.stdout.starts_with("holds.toml: nothing found in 1 run from seed 1 on"),
+        "{}",
+        ended.stdout
+    );
+}
+
+#[test]
+fn the_steps_of_a_failure_are_written_into_a_file_with_a_prelude() {
+    let bench = Bench::new("search-prelude");
+    bench.put("common.toml", "seed = 9\nsteps = [ { master = \"take all units to OP\" } ]\n");
+    let own =
+        NEVER_AN_ERROR.replace("  { master = \"take all units to OP\" },\n", "").replace("seed = 3\n", "");
+    bench.put(
+        "never.toml",
+        &format!("use = \"common.toml\"\nwith = {{ times = [0] }}\n{own}")
+            .replace("0 times", "{times} times"),
+    );
+    let ended = bench.ectwin(&["search", "never.toml", "-o", "found.toml"]);
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
+    assert!(
+        ended.stdout.contains("found.toml:8: `unit 1 has recorded 40200000 0 times`"),
+        "{}",
+        ended.stdout
+    );
+    assert!(bench.text("found.toml").contains("use = \"common.toml\""), "{}", bench.text("found.toml"));
+    assert_eq!(bench.ectwin(&["replay", "found.toml"]).code, Some(1));
+}
+
+#[test]
+fn a_file_in_which_no_steps_can_be_written_is_refused_before_the_search() {
+    let bench = Bench::new("search-unwritten");
+    let own = "title = \"t\"\nwith = { unit = [1] }\nsteps = [\n  { random = { steps = 2, from = [\"break Processing \
+               of unit {unit}\"] }, within = \"1s\" },\n]\n";
+    bench.put("parameter.toml", own);
+    bench.put("tables.toml", "title = \"t\"\n[[steps]]\nrandom = 3\nwithin = \"1s\"\n");
+    bench.put(
+        "cases.toml",
+        &format!("with = {{ times = [0, 1] }}\n{TWO_ERRORS}").replace(" 0 times", " {times} times"),
+    );
+    bench.put("two.toml", TWO_ERRORS);
+    let in_prelude = "a prelude has no random steps; they belong into the scenario";
+    bench.put("use.toml", "use = \"two.toml\"\n");
+    let in_parameter =
+        "parameter.toml:4: the steps of a failure cannot be written in the place of `random`: `{unit}`";
+    let in_tables =
+        "tables.toml:2: the steps of a failure cannot be written in the place of `random`: not TOML";
+    for (arguments, fragment, help) in [
+        (
+            &["parameter.toml"][..],
+            in_parameter,
+            "help: write `steps = [ … ]` with `random` in a step of its own",
+        ),
+        (&["tables.toml"], in_tables, "help: write `steps = [ … ]`"),
+        (
+            &["cases.toml"],
+            "cases.toml has 2 cases, where one is needed",
+            "help: give each of its parameters one value",
+        ),
+        (&["use.toml"], in_prelude, ""),
+        (&["two.toml", "--partition", "4/3"], "--partition <i/n|auto>", "such as 1/4"),
+        (&["two.toml", "--partition", "auto"], "none of the variables", "help: use `--partition i/n`"),
+        (&["two.toml", "--budget", "soon"], "--budget <TIME>", "such as"),
+        (&["two.toml", "--jobs", "0"], "--jobs <N>", "expected 1 or more"),
+        (&["two.toml", "--all", "-o", "x.toml"], "cannot be used with", "--all"),
+        (
+            &["two.toml", "--json", "two.toml"],
+            "--json two.toml would overwrite two.toml",
+            "help: give another file",
+        ),
+        (
+            &["two.toml", "--json", "f", "--junit", "f"],
+            "is the file of --json too",
+            "help: give another file",
+        ),
+        (
+            &["two.toml", "--json", "-", "--junit", "-"],
+            "is the file of --json too",
+            "help: give another file",
+        ),
+    ] {
+        let ended = bench.ectwin(&[&["search"], arguments].concat());
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{arguments:?}: {}", ended.stderr);
+        for fragment in [fragment, help] {
+            assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
+        }
+    }
+}
+
+#[test]
+fn a_parameter_with_the_name_seed_is_no_seed_of_the_file() {
+    let bench = Bench::new("search-parameter-seed");
+    let own = NEVER_AN_ERROR.replace(" 0 times", " {seed} times");
+    bench.put("never.toml", &format!("{own}\n[with]\nseed = [0]\n"));
+    let ended = bench.ectwin(&["search", "never.toml", "-o", "found.toml"]);
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
+    assert!(bench.text("found.toml").contains("[with]\nseed = [0]\n"), "{}", bench.text("found.toml"));
+}

@@ -126,7 +126,10 @@ impl Scenario {
                 steps.iter().filter(|step| step.part == number).map(RandomStep::toml).collect();
             text = replaced(&text, part.bytes.clone(), &lines.join(",\n  "));
         }
-        let kept: Vec<&str> = text.lines().filter(|line| !is_seed(line)).collect();
+        // A key `seed` of a table is another one.
+        let tables = text.lines().position(|line| line.starts_with('[')).unwrap_or(usize::MAX);
+        let kept = text.lines().enumerate().filter(|(at, line)| *at > tables || !is_seed(line));
+        let kept: Vec<&str> = kept.map(|(_, line)| line).collect();
         let mut text = kept.join("\n");
         // After the title, before the first table or list.
         let at = text.find("\nsteps").map_or(0, |at| at + 1);
@@ -137,6 +140,21 @@ impl Scenario {
 }
 
 impl Search<'_> {
+    /// The file that a failure with all random steps of this seed would be written to. If it is no scenario, or has other
+    /// steps, random steps cannot be written in the place of `random` of this file. `text` is the text of the scenario's
+    /// file.
+    #[must_use]
+    pub fn with_all_steps(&self, text: &str, seed: u64) -> String {
+        self.scenario.without_dice(text, seed, &self.scenario.random_steps(seed))
+    }
+
+    /// Whether this scenario has the steps of a file with all random steps of this seed.
+    #[must_use]
+    pub fn has_all_steps(&self, seed: u64, written: &Scenario) -> bool {
+        let wanted = self.scenario.steps_with(&self.scenario.random_steps(seed));
+        written.random.is_empty() && written.seed == seed && wanted.len() == written.steps.len()
+    }
+
     /// Replays a seed, and its variations while they meet something new.
     #[must_use]
     pub fn seed(&self, seed: u64) -> Trial {

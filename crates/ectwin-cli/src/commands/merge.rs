@@ -58,7 +58,7 @@ fn report(
 ) -> Result<(), Failure> {
     let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
     let file = LaterOutput::open(path)?.begin();
-    let mut report = JunitReport::begin(file, found.totals).map_err(unwritable)?;
+    let mut report = JunitReport::begin(file, "ectwin replay", found.totals).map_err(unwritable)?;
     for place in &found.places {
         let result = again.read(place)?;
         report.take(&result).map_err(unwritable)?;

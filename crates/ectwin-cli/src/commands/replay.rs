@@ -20,11 +20,10 @@ mod progress;
 mod result;
 mod results;
 mod seeds;
+mod shard;
 mod spool;
 mod story;
 mod threads;
-
-use std::fs;
 
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
@@ -33,7 +32,6 @@ use crate::overwrite::{self, Output};
 
 use campaign::Campaign;
 use captures::Captures;
-use partition::Shard;
 use printed::{Printed, Shown};
 use results::Results;
 use threads::{Outputs, Wanted};
@@ -43,21 +41,24 @@ pub(crate) use case::CASES_MAX;
 pub(crate) use failed_cases::FailedCases;
 pub(crate) use junit::{JunitReport, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};
-pub(crate) use result::{CaseResult, Verdict};
+pub(crate) use progress::{Counted, Progress};
+pub(crate) use result::{CaseResult, FailedStep, Verdict, title};
 pub(crate) use seeds::{SeedChoice, SeedRange};
+pub(crate) use shard::chosen as chosen_part;
+pub(crate) use spool::Spool;
 pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
 pub(crate) use threads::replay as on_threads;
 
 /// Replays all cases of the selected part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
-    let shard = shard(args.partition)?;
+    let partition = shard::chosen(args.partition)?;
     let mut campaign = Campaign::read(args)?;
     if args.bless {
         return bless::bless(&mut campaign, &args.files);
     }
-    let cases: Vec<u64> = campaign.cases_of(shard.partition).collect();
+    let cases: Vec<u64> = campaign.cases_of(partition).collect();
     if args.list {
-        return list::print(&campaign, shard.partition);
+        return list::print(&campaign, partition);
     }
     overwrite::refuse(&outputs(args), campaign.inputs())?;
     let people = People::beside(outputs(args).iter().map(|output| output.path));
@@ -73,9 +74,9 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let printed = Printed::new(people, shown(args), args.trace, cases.len() as u64);
     let mut results = Results::open(args, captures, printed, campaign.inputs())?;
     let wanted = wanted(args);
-    let replay = |case: u64| threads::Ended::replay(&campaign.case(case), shard.partition, wanted);
+    let replay = |case: u64| threads::Ended::replay(&campaign.case(case), partition, wanted);
     threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
-    results.close(shard.partition, cases.len() as u64, &campaign)
+    results.close(partition, cases.len() as u64, &campaign)
 }
 
 /// The outputs of replays: a failed case has a trace in files of results, and a capture in the folder for failures.
@@ -99,25 +100,4 @@ fn outputs(args: &ReplayArgs) -> Vec<Output<'_>> {
     let all = [("--json", &args.json), ("--junit", &args.junit), ("--pcap", &args.pcap)];
     let given = all.into_iter().filter_map(|(option, path)| Some(Output { option, path: path.as_deref()? }));
     given.collect()
-}
-
-/// The selected part of the cases. Only `--partition auto` reads the environment.
-fn shard(choice: Option<PartitionChoice>) -> Result<Shard, Failure> {
-    let partition = match choice {
-        None => Partition::WHOLE,
-        Some(PartitionChoice::Given(partition)) => partition,
-        Some(PartitionChoice::Auto) => return automatic_shard(),
-    };
-    Ok(Shard { partition, status_file: None })
-}
-
-fn automatic_shard() -> Result<Shard, Failure> {
-    let shard = partition::from_environment(&|name| std::env::var(name).ok()).map_err(|message| {
-        let help = "use `--partition i/n`; docs/user/campaigns.md lists the variables of CI systems";
-        Failure::Refused { message: format!("--partition auto: {message}"), help: help.to_owned() }
-    })?;
-    if let Some(path) = &shard.status_file {
-        fs::write(path, []).map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
-    }
-    Ok(shard)
 }

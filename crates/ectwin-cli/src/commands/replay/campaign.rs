@@ -142,7 +142,7 @@ impl Campaign {
 
     /// Numbers of the cases of a part, in order.
     pub(super) fn cases_of(&self, partition: Partition) -> impl Iterator<Item = u64> {
-        (1..=self.count()).filter(move |&case| partition.has(case))
+        partition.cases(self.count())
     }
 
     /// The case with this number: all seeds of a scenario, then the next scenario.
@@ -179,10 +179,12 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
     Err(Failure::Refused { message, help })
 }
 
-/// Reads one scenario, and its files, relative to its folder.
-pub(crate) fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
-    let cases = load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut Vec::new());
-    only(path, cases.map_err(Failure::BadFile)?)
+/// Reads one scenario, and its files, relative to its folder. Also returns the paths of all files that were read, and
+/// of the memories of the units.
+pub(crate) fn read_scenario(path: &Path) -> Result<(Scenario, Vec<PathBuf>), Failure> {
+    let mut inputs = Vec::new();
+    let cases = load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut inputs);
+    Ok((only(path, cases.map_err(Failure::BadFile)?)?, inputs))
 }
 
 /// The scenario that a file at this path would be, with this text.

@@ -44,14 +44,15 @@ pub(crate) struct JunitReport<W: Write> {
 }
 
 impl<W: Write> JunitReport<W> {
-    pub(crate) fn begin(to: W, totals: Totals) -> io::Result<Self> {
+    /// `command` is the name of the report, such as `ectwin replay`.
+    pub(crate) fn begin(to: W, command: &str, totals: Totals) -> io::Result<Self> {
         let mut writer = Writer::new_with_indent(BufWriter::new(to), b' ', INDENT);
         let (tests, failures) = (totals.cases.to_string(), totals.failed.to_string());
         let time = seconds(totals.lasted_ns);
         writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         let (tests, failures) = (("tests", tests.as_str()), ("failures", failures.as_str()));
         let (none_skipped, no_errors, time) = (("skipped", "0"), ("errors", "0"), ("time", time.as_str()));
-        let report = [("name", "ectwin replay"), tests, none_skipped, failures, no_errors, time];
+        let report = [("name", command), tests, none_skipped, failures, no_errors, time];
         writer.write_event(Event::Start(BytesStart::new(REPORT).with_attributes(report)))?;
         let suite = [("name", "scenarios"), tests, none_skipped, no_errors, failures, time];
         let suite = BytesStart::new(SUITE).with_attributes(suite);
@@ -162,7 +163,7 @@ mod tests {
         let mut totals = Totals::default();
         results.iter().for_each(|result| totals.add(result));
         let mut bytes = Vec::new();
-        let mut report = JunitReport::begin(&mut bytes, totals).unwrap();
+        let mut report = JunitReport::begin(&mut bytes, "ectwin replay", totals).unwrap();
         results.iter().for_each(|result| report.take(result).unwrap());
         report.end().unwrap();
         String::from_utf8(bytes).unwrap()

@@ -55,6 +55,11 @@ impl Partition {
         cases / self.count + (self.number <= cases % self.count) as u64
     }
 
+    /// Its cases of this total number, counted from 1, in order.
+    pub(crate) fn cases(self, cases: u64) -> impl Iterator<Item = u64> {
+        (self.number..=cases).step_by(usize::try_from(self.count).unwrap_or(usize::MAX))
+    }
+
     /// Whether this case, counted from 1, is in it.
     pub(crate) fn has(self, case: u64) -> bool {
         Self::of_case(case, self.count) == self
@@ -236,6 +241,10 @@ mod tests {
                 let parts = (1..=count).filter_map(|number| Partition::new(number, count));
                 assert_eq!(parts.filter(|part| part.has(case)).count(), 1, "case {case} of {count}");
             }
+        }
+        for part in (1..=7).filter_map(|number| Partition::new(number, 7)) {
+            assert!(part.cases(20).eq((1..=20).filter(|&case| part.has(case))), "{part}");
+            assert!(part.cases(3).eq((1..=3).filter(|&case| part.has(case))), "{part} of 3 cases");
         }
         let thirds = [1, 2, 3].map(|number| Partition::new(number, 3).map(|part| part.cases_of(8)));
         assert_eq!(thirds, [Some(3), Some(3), Some(2)]);

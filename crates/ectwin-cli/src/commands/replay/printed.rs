@@ -5,7 +5,7 @@ use std::time::Instant;
 use time::Duration;
 
 use super::failed_cases::FailedCases;
-use super::progress::Progress;
+use super::progress::{Counted, Progress};
 use super::result::{CaseResult, Verdict};
 use super::story;
 use crate::failure::Failure;
@@ -36,7 +36,7 @@ pub(super) struct Printed {
 impl Printed {
     /// Of this number of cases.
     pub(super) fn new(people: People, shown: Shown, traces: bool, cases: u64) -> Self {
-        let progress = Progress::of(cases, shown == Shown::OnlyFailed);
+        let progress = Progress::of(cases, Counted::Cases, shown == Shown::OnlyFailed);
         Self { people, shown, traces, failed: FailedCases::default(), progress, began: Instant::now() }
     }
 

@@ -1,40 +1,64 @@
-//! The progress of a campaign, on a terminal only.
+//! The progress of a campaign or of a search, on a terminal only.
 
 use std::io::{self, IsTerminal};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A line on stderr with the number of cases that have ended, and the time that is left.
-pub(super) struct Progress {
+/// What is counted.
+#[derive(Clone, Copy)]
+pub(crate) enum Counted {
+    /// The cases of a campaign, and those that have failed.
+    Cases,
+    /// The seeds of a search, and the different failures that have been found.
+    Seeds,
+}
+
+impl Counted {
+    /// The words for what has ended, and for its failures.
+    const fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Cases => ("cases", "failed"),
+            Self::Seeds => ("seeds", "found"),
+        }
+    }
+}
+
+/// A line on stderr with the number of cases or seeds that have ended, and the time that is left.
+pub(crate) struct Progress {
     bar: ProgressBar,
+    counted: Counted,
 }
 
 impl Progress {
-    /// Of this number of cases. Unless stderr is a terminal, nothing is shown.
-    pub(super) fn of(cases: u64, is_quiet: bool) -> Self {
-        if is_quiet || cases < 2 || !io::stderr().is_terminal() {
-            return Self { bar: ProgressBar::hidden() };
+    /// Of this number of cases or seeds. Unless stderr is a terminal, nothing is shown.
+    pub(crate) fn of(count: u64, counted: Counted, is_quiet: bool) -> Self {
+        if is_quiet || count < 2 || !io::stderr().is_terminal() {
+            return Self { bar: ProgressBar::hidden(), counted };
         }
-        let style = ProgressStyle::with_template("{bar:30} {pos} of {len} cases{msg}, {eta} left");
-        let bar = ProgressBar::new(cases);
-        Self { bar: style.map_or_else(|_| ProgressBar::hidden(), |style| bar.with_style(style)) }
+        let (noun, _) = counted.words();
+        let style = ProgressStyle::with_template(&format!(
+            "{{bar:30}} {{pos}} of {{len}} {noun}{{msg}}, {{eta}} left"
+        ));
+        let bar = ProgressBar::new(count);
+        Self { bar: style.map_or_else(|_| ProgressBar::hidden(), |style| bar.with_style(style)), counted }
     }
 
-    /// One more case has ended, and so many have failed.
-    pub(super) fn ended(&self, failed: u64) {
-        if failed > 0 {
-            self.bar.set_message(format!(", {failed} failed"));
+    /// One more has ended; `failures` is the number of failures up to now.
+    pub(crate) fn ended(&self, failures: u64) {
+        if failures > 0 {
+            let (_, verb) = self.counted.words();
+            self.bar.set_message(format!(", {failures} {verb}"));
         }
         self.bar.inc(1);
     }
 
     /// Prints something else, without the line of the progress in it.
-    pub(super) fn beside<T>(&self, print: impl FnOnce() -> T) -> T {
+    pub(crate) fn beside<T>(&self, print: impl FnOnce() -> T) -> T {
         self.bar.suspend(print)
     }
 
     /// Removes the line.
-    pub(super) fn end(&self) {
+    pub(crate) fn end(&self) {
         self.bar.finish_and_clear();
     }
 }

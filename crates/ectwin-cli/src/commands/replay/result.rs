@@ -103,13 +103,7 @@ impl CaseResult {
 
     /// From a report.
     pub(super) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
-        let failure = report.failure.as_ref().map(|failure| FailedStep {
-            line: failure.line,
-            step: failure.text.clone(),
-            at_ns: failure.at.as_nanos(),
-            seen: failure.seen.clone(),
-            panicked_at: failure.panicked_at.clone(),
-        });
+        let failure = report.failure.as_ref().map(FailedStep::of);
         Self {
             case: case.number,
             cases: case.count,
@@ -117,7 +111,7 @@ impl CaseResult {
             campaign: format!("{:016x}", case.fingerprint),
             file: case.path.display().to_string(),
             parameters: case.scenario.case.clone(),
-            title: case.scenario.title.split_whitespace().collect::<Vec<_>>().join(" "),
+            title: title(case.scenario),
             seed: case.seed,
             verdict: if failure.is_none() { Verdict::Passed } else { Verdict::Failed },
             failure,
@@ -138,6 +132,24 @@ impl CaseResult {
             0 => last,
             count => format!("… {count} lines before this one\n{last}"),
         });
+    }
+}
+
+/// The title of a scenario, in one line.
+pub(crate) fn title(scenario: &scenario::Scenario) -> String {
+    scenario.title.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+impl FailedStep {
+    /// From a report.
+    pub(crate) fn of(failure: &scenario::Failure) -> Self {
+        Self {
+            line: failure.line,
+            step: failure.text.clone(),
+            at_ns: failure.at.as_nanos(),
+            seen: failure.seen.clone(),
+            panicked_at: failure.panicked_at.clone(),
+        }
     }
 }
 

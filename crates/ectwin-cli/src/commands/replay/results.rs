@@ -46,7 +46,7 @@ impl Results {
         inputs: &[PathBuf],
     ) -> Result<Self, Failure> {
         let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
-        let junit = args.junit.as_deref().map(Spool::open).transpose()?;
+        let junit = args.junit.as_deref().map(|path| Spool::open(path, "ectwin replay")).transpose()?;
         captures.make_folder()?;
         let on_failure = args.on_failure.clone().map(|folder| OnFailure::make(folder, inputs)).transpose()?;
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));

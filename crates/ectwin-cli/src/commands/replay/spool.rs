@@ -10,25 +10,29 @@ use crate::failure::Failure;
 use crate::later_output::{LaterOutput, ResultOut};
 
 /// A report that is written when the last result is there.
-pub(super) struct Spool {
+pub(crate) struct Spool {
     path: PathBuf,
+    /// The name of the report.
+    command: &'static str,
     report: LaterOutput,
     results: BufWriter<File>,
     totals: Totals,
 }
 
 impl Spool {
-    /// Of the report in this file, which is changed at the end only.
-    pub(super) fn open(path: &Path) -> Result<Self, Failure> {
+    /// Of the report of a command in this file, which is changed at the end only.
+    pub(crate) fn open(path: &Path, command: &'static str) -> Result<Self, Failure> {
         let report = LaterOutput::open(path)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         // The folder of the report has room for it; that of a device may take no files.
         let file = tempfile::tempfile_in(folder).or_else(|_| tempfile::tempfile());
         let file = file.map_err(unwritable(path))?;
-        Ok(Self { path: path.to_owned(), report, results: BufWriter::new(file), totals: Totals::default() })
+        let (path, results) = (path.to_owned(), BufWriter::new(file));
+        Ok(Self { path, command, report, results, totals: Totals::default() })
     }
 
-    pub(super) fn take(&mut self, result: &CaseResult) -> Result<(), Failure> {
+    /// Takes the next result.
+    pub(crate) fn take(&mut self, result: &CaseResult) -> Result<(), Failure> {
         self.totals.add(result);
         let line = serde_json::to_string(result).map_err(io::Error::from);
         let written = line.and_then(|line| writeln!(self.results, "{line}"));
@@ -36,17 +40,17 @@ impl Spool {
     }
 
     /// Writes the report.
-    pub(super) fn close(self) -> Result<(), Failure> {
-        let Self { path, report, results, totals } = self;
+    pub(crate) fn close(self) -> Result<(), Failure> {
+        let Self { path, command, report, results, totals } = self;
         let spooled = results.into_inner().map_err(io::IntoInnerError::into_error);
         let spooled = spooled.map_err(unwritable(&path))?;
-        write_report(report.begin(), totals, spooled).map_err(unwritable(&path))
+        write_report(report.begin(), command, totals, spooled).map_err(unwritable(&path))
     }
 }
 
-fn write_report(to: ResultOut, totals: Totals, mut spooled: File) -> io::Result<()> {
+fn write_report(to: ResultOut, command: &str, totals: Totals, mut spooled: File) -> io::Result<()> {
     spooled.rewind()?;
-    let mut report = JunitReport::begin(to, totals)?;
+    let mut report = JunitReport::begin(to, command, totals)?;
     let mut lines = BufReader::new(spooled);
     let mut line = Vec::new();
     while lines.read_until(b'\n', &mut line)? > 0 {
