@@ -87,6 +87,10 @@ impl UnitSection for UnitFile {
         terminal::refresh_period(self.settings.inputs)
     }
 
+    fn names_refresh_phase(&self) -> bool {
+        self.names_refresh_phase
+    }
+
     fn power_on(&self, conditions: &PowerOn) -> PoweredUnit {
         let mut settings = if conditions.fast { &self.fast } else { &self.settings }.clone();
         if !self.names_refresh_phase {

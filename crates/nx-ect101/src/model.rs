@@ -157,6 +157,10 @@ impl UnitSection for UnitFile {
         Some(slave_period(self.timing.value, self.io_allocation().total_bytes()))
     }
 
+    fn names_refresh_phase(&self) -> bool {
+        self.refresh_phase.is_some()
+    }
+
     fn check_settings(&self) -> Option<SettingsCheck> {
         Some(settings_check::check(self))
     }

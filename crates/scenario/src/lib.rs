@@ -5,6 +5,7 @@
 //! reads a clock or a file: the caller passes texts in and gets bytes out.
 
 mod builder;
+mod dice_use;
 mod file;
 pub mod model;
 pub mod pool;

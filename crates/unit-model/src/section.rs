@@ -56,6 +56,11 @@ pub trait UnitSection: Any + Debug + Send + Sync {
     /// Time between two refreshes by the unit's own timer; none if it has no timer.
     fn refresh_period(&self) -> Option<Duration>;
 
+    /// Whether the file sets the phase of the refresh, so that that of the conditions has no effect.
+    fn names_refresh_phase(&self) -> bool {
+        false
+    }
+
     /// Evaluates the setting rules for the unit file; none for a model without rules.
     fn check_settings(&self) -> Option<SettingsCheck> {
         None

@@ -112,3 +112,39 @@ fn unit_files_of_a_folder_are_passed_over_and_named() {
     assert!(ended.code == Some(2) && ended.stderr.contains("this is a unit file"), "{}", ended.stderr);
     assert_eq!(bench.ectwin(&["replay", "s/units"]).code, Some(2), "there is no scenario");
 }
+
+#[test]
+fn a_file_without_dice_is_one_case_for_any_number_of_seeds() {
+    let bench = campaign("no-dice");
+    let phases = "cycle_phase = \"0us\"\n\
+                  units = [{ model = \"nx-ect101\", refresh_phase = \"0us\", cpu.task_phase = \"0us\" }]\nsteps";
+    bench.put("s/2-wrong.toml", &wrong().replacen("steps", phases, 1));
+    let ended = bench.ectwin(&["replay", "s", "--seeds", "11..15", "--json", "out.jsonl"]);
+    assert!(ended.stdout.ends_with("11 cases: 10 ok, 1 failed\n"), "{}{}", ended.stdout, ended.stderr);
+    let seeds: Vec<u64> =
+        bench.json_lines("out.jsonl").iter().map(|line| line["seed"].as_u64().unwrap()).collect();
+    assert_eq!(seeds, [11, 12, 13, 14, 15, 1, 11, 12, 13, 14, 15]);
+    for part in ["1/2", "2/2"] {
+        let file = format!("part-{}.jsonl", &part[..1]);
+        bench.ectwin(&["replay", "s", "--seeds", "11..15", "--partition", part, "--json", &file]);
+    }
+    let merged = bench.ectwin(&["merge", "part-1.jsonl", "part-2.jsonl"]);
+    assert!(merged.stdout.ends_with("11 cases: 10 ok, 1 failed\n"), "{}{}", merged.stdout, merged.stderr);
+    let one = bench.ectwin(&["replay", "s/2-wrong.toml", "--seed", "9"]);
+    assert!(one.stdout.contains("--seed 9"), "{}", one.stdout);
+}
+
+#[test]
+fn numbers_that_are_times_are_refused_with_the_text_that_is_meant() {
+    let bench = Bench::new("times-without-unit");
+    bench.put(
+        "a.toml",
+        &WATCHDOG.replace("{ expect = \"unit 1 is in", "{ after = 50, expect = \"unit 1 is in"),
+    );
+    bench.put("b.toml", &WATCHDOG.replace("steps", "sedd = 3\nsteps"));
+    let told = bench.ectwin(&["replay", "."]);
+    assert_eq!(told.code, Some(2), "{}", told.stdout);
+    for fragment in ["a.toml:5:13]", "\"50ms\"", "b.toml:2:1]", "did you mean `seed`?"] {
+        assert!(told.stderr.contains(fragment), "`{fragment}` is not in:\n{}", told.stderr);
+    }
+}

@@ -154,6 +154,15 @@ impl Choice {
         }
     }
 
+    /// Whether the random generator decides which frames it selects.
+    #[must_use]
+    pub const fn is_random(self) -> bool {
+        match self {
+            Self::Percent(_) | Self::PerMille(_) => true,
+            Self::Next(_) | Self::Behind { .. } | Self::Every(_) | Self::All => false,
+        }
+    }
+
     /// Whether it selects some frames, and its numbers are within their limits.
     #[must_use]
     pub const fn is_possible(self) -> bool {

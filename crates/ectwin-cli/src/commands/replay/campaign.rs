@@ -25,6 +25,8 @@ pub(super) struct Campaign {
     /// The unit files in the folders of the command line, which are not replayed.
     unit_files: Vec<PathBuf>,
     seeds: Seeds,
+    /// The number of the last case of each scenario.
+    ends: Vec<u64>,
     is_drawn: bool,
     fingerprint: u64,
 }
@@ -50,6 +52,24 @@ impl Seeds {
             (None, Some(choice)) => Self::These(vec![choice.draw()]),
             (None, None) => Self::Own,
         }
+    }
+
+    /// The seeds of this scenario instead of its own one. If no seed has an effect, several seeds are not needed.
+    fn of(&self, scenario: &Scenario) -> &[u64] {
+        match self {
+            Self::These(seeds) if seeds.len() == 1 || scenario.has_dice() => seeds,
+            Self::These(_) | Self::Own => &[],
+        }
+    }
+
+    /// The numbers of the last cases of the scenarios.
+    fn ends(&self, scenarios: &[Loaded]) -> Vec<u64> {
+        let counts = scenarios.iter().map(|loaded| self.of(&loaded.scenario).len().max(1) as u64);
+        let add = |count: &mut u64, more: u64| {
+            *count = count.saturating_add(more);
+            Some(*count)
+        };
+        counts.scan(0, add).collect()
     }
 }
 
@@ -86,7 +106,9 @@ impl Campaign {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
         }
         let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
-        let campaign = Self { scenarios, inputs, unit_files, seeds, is_drawn, fingerprint: fingerprint.0 };
+        let ends = seeds.ends(&scenarios);
+        let campaign =
+            Self { scenarios, inputs, unit_files, seeds, ends, is_drawn, fingerprint: fingerprint.0 };
         match campaign.count() {
             0..=CASES_MAX => Ok(campaign),
             count => Err(Failure::Refused {
@@ -113,7 +135,7 @@ impl Campaign {
 
     /// Number of cases in all parts.
     pub(super) fn count(&self) -> u64 {
-        self.scenarios.len() as u64 * self.seeds_each()
+        self.ends.last().copied().unwrap_or_default()
     }
 
     /// What the units of all scenarios could meet.
@@ -123,13 +145,6 @@ impl Campaign {
             all.add(&Met::possible(scenario));
         }
         all
-    }
-
-    fn seeds_each(&self) -> u64 {
-        match &self.seeds {
-            Seeds::Own => 1,
-            Seeds::These(seeds) => seeds.len() as u64,
-        }
     }
 
     /// The seed, if it was chosen at random and is not known to the user yet.
@@ -150,12 +165,11 @@ impl Campaign {
     /// # Panics
     /// If there is no such case: numbers come from [`Self::cases_of`].
     pub(super) fn case(&self, number: u64) -> Case<'_> {
-        let place = number - 1;
-        let Loaded { path, scenario } = &self.scenarios[(place / self.seeds_each()) as usize];
-        let seed = match &self.seeds {
-            Seeds::Own => scenario.seed,
-            Seeds::These(seeds) => seeds[(place % self.seeds_each()) as usize],
-        };
+        let place = self.ends.partition_point(|&end| end < number);
+        let before = place.checked_sub(1).map_or(0, |before| self.ends[before]);
+        let Loaded { path, scenario } = &self.scenarios[place];
+        let seed =
+            self.seeds.of(scenario).get((number - before - 1) as usize).copied().unwrap_or(scenario.seed);
         Case { number, count: self.count(), fingerprint: self.fingerprint, path, scenario, seed }
     }
 }

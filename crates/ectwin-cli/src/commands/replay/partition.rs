@@ -104,6 +104,8 @@ pub(crate) struct Shard {
     pub(crate) partition: Partition,
     /// The file that Bazel checks to see that sharding is supported (its test encyclopedia, "Test sharding").
     pub(crate) status_file: Option<PathBuf>,
+    /// What the values leave open, as a warning.
+    pub(crate) doubt: Option<String>,
 }
 
 /// The variables of a CI system for the part.
@@ -111,6 +113,8 @@ struct Source {
     name: &'static str,
     /// Present in a job with several parts.
     index: &'static str,
+    /// What its variables leave open.
+    doubt: fn(&Variables) -> Option<String>,
     partition: fn(u64, &Variables) -> Result<Option<Partition>, String>,
 }
 
@@ -121,18 +125,21 @@ const SOURCES: &[Source] = &[
     Source {
         name: "Bazel",
         index: "TEST_SHARD_INDEX",
+        doubt: |_| None,
         partition: |index, of| Ok(from_zero(index, number("TEST_TOTAL_SHARDS", of)?)),
     },
     Source {
         name: "GitLab",
         index: "CI_NODE_INDEX",
+        doubt: |_| None,
         partition: |index, of| Ok(Partition::new(index, number("CI_NODE_TOTAL", of)?)),
     },
-    Source { name: "Slurm", index: "SLURM_ARRAY_TASK_ID", partition: slurm },
+    Source { name: "Slurm", index: "SLURM_ARRAY_TASK_ID", doubt: slurm_doubt, partition: slurm },
     Source {
         name: "Kubernetes",
         index: "JOB_COMPLETION_INDEX",
-        partition: |index, of| Ok(from_zero(index, number("ECTWIN_SHARDS", of)?)),
+        doubt: |_| None,
+        partition: |index, of| Ok(from_zero(index, number(SHARDS, of)?)),
     },
 ];
 
@@ -157,7 +164,7 @@ pub(crate) fn from_environment(of: &Variables) -> Result<Shard, String> {
         format!("the variables of {} contradict each other: {}={index}", source.name, source.index)
     })?;
     let status_file = of("TEST_SHARD_STATUS_FILE").filter(|_| source.name == "Bazel").map(PathBuf::from);
-    Ok(Shard { partition, status_file })
+    Ok(Shard { partition, status_file, doubt: (source.doubt)(of) })
 }
 
 fn number(name: &str, of: &Variables) -> Result<u64, String> {
@@ -169,16 +176,56 @@ fn from_zero(index: u64, count: u64) -> Option<Partition> {
     Partition::new(index.checked_add(1)?, count)
 }
 
-/// An array may begin anywhere and have steps; one with gaps cannot be mapped to parts.
+/// The number of parts of the whole campaign, for systems that do not know it.
+const SHARDS: &str = "ECTWIN_SHARDS";
+
+/// With the number of parts, the task n is part n, also in an array that repeats some tasks: Slurm sets minimum, maximum
+/// and count of the array that runs, so that `--array=4` has one task. Without it an array may begin anywhere and have
+/// steps; one with gaps cannot be mapped to parts, and neither can a single task, unless it is the first.
 fn slurm(index: u64, of: &Variables) -> Result<Option<Partition>, String> {
+    if of(SHARDS).is_some() {
+        let shards = number(SHARDS, of)?;
+        let no_part = || {
+            format!(
+                "the task {index} of Slurm is not one of {shards}: submit the array as --array=1-{shards}"
+            )
+        };
+        return Partition::new(index, shards).map(Some).ok_or_else(no_part);
+    }
     let (first, last) = (number("SLURM_ARRAY_TASK_MIN", of)?, number("SLURM_ARRAY_TASK_MAX", of)?);
     let count = number("SLURM_ARRAY_TASK_COUNT", of)?;
+    if count == 1 && first > 1 {
+        return Err(format!(
+            "the job array of Slurm has only the task {index}: if it repeats a task of a larger array, set {SHARDS} to \
+             the number of tasks of that array"
+        ));
+    }
     let step = of("SLURM_ARRAY_TASK_STEP").map_or(Ok(1), |_| number("SLURM_ARRAY_TASK_STEP", of))?.max(1);
     let place = |id: u64| id.checked_sub(first).filter(|above| above % step == 0).map(|above| above / step);
     if place(last).and_then(|places| places.checked_add(1)) != Some(count) {
-        return Err("the job array of Slurm has gaps: submit it as --array=1-N".to_owned());
+        return Err(format!(
+            "the job array of Slurm has gaps: submit it as --array=1-N; to repeat some of its tasks, set {SHARDS} to N"
+        ));
     }
     Ok(place(index).and_then(|place| from_zero(place, count)))
+}
+
+/// What Slurm leaves open: an array that is not 1-N or 0-N may repeat some tasks of a larger one.
+fn slurm_doubt(of: &Variables) -> Option<String> {
+    if of(SHARDS).is_some() {
+        return None;
+    }
+    let value = |name: &str| number(name, of).ok();
+    let (first, last) = (value("SLURM_ARRAY_TASK_MIN")?, value("SLURM_ARRAY_TASK_MAX")?);
+    let count = value("SLURM_ARRAY_TASK_COUNT")?;
+    let is_whole = count > 1 && first <= 1 && last.checked_sub(first)?.checked_add(1)? == count;
+    let doubt = || {
+        format!(
+            "the array of Slurm has the tasks {first} to {last}, {count} of them, and these are taken as all parts; if it \
+             repeats tasks of a larger array, set {SHARDS} to the number of tasks of that array"
+        )
+    };
+    (!is_whole).then(doubt)
 }
 
 #[cfg(test)]
@@ -232,6 +279,68 @@ mod tests {
             let refused = told(variables).unwrap_err();
             assert!(refused.contains(expected), "{refused}");
         }
+    }
+
+    /// The variables of a task, as Slurm sets them for an array.
+    fn slurm_task(
+        id: &str,
+        min: &str,
+        max: &str,
+        count: &str,
+        step: &str,
+        shards: Option<&str>,
+    ) -> Result<Shard, String> {
+        let of = |name: &str| {
+            let value = match name {
+                "SLURM_ARRAY_TASK_ID" => Some(id),
+                "SLURM_ARRAY_TASK_MIN" => Some(min),
+                "SLURM_ARRAY_TASK_MAX" => Some(max),
+                "SLURM_ARRAY_TASK_COUNT" => Some(count),
+                "SLURM_ARRAY_TASK_STEP" => Some(step),
+                SHARDS => shards,
+                _ => None,
+            };
+            value.map(str::to_owned)
+        };
+        from_environment(&of)
+    }
+
+    #[test]
+    fn a_task_that_is_repeated_keeps_its_part_if_the_number_of_parts_is_known() {
+        let part = |id, min, max, count, step| {
+            let shard = slurm_task(id, min, max, count, step, Some("64"));
+            shard.map(|shard| (shard.partition.to_string(), shard.doubt))
+        };
+        for repeated in
+            [part("4", "1", "64", "64", "1"), part("4", "4", "4", "1", "1"), part("4", "4", "9", "2", "5")]
+        {
+            assert_eq!(repeated, Ok(("4/64".to_owned(), None)));
+        }
+        for wrong in [part("0", "0", "63", "64", "1"), part("65", "65", "65", "1", "1")] {
+            assert!(wrong.is_err_and(|message| message.contains("submit the array as --array=1-64")));
+        }
+    }
+
+    #[test]
+    fn where_slurm_does_not_say_it_the_user_is_warned_or_asked() {
+        let told = |id, min, max, count, step| {
+            let shard = slurm_task(id, min, max, count, step, None);
+            shard.map(|shard| (shard.partition.to_string(), shard.doubt.is_some()))
+        };
+        let taken = |part: &str, is_in_doubt| Ok((part.to_owned(), is_in_doubt));
+        assert_eq!(told("4", "1", "64", "64", "1"), taken("4/64", false));
+        assert_eq!(told("4", "0", "63", "64", "1"), taken("5/64", false));
+        assert_eq!(told("7", "3", "7", "2", "4"), taken("2/2", true), "--array=3,7");
+        assert_eq!(told("8", "0", "8", "5", "2"), taken("5/5", true), "--array=0-9:2");
+        assert_eq!(told("5", "3", "9", "7", "1"), taken("3/7", true), "--array=3-9");
+        assert_eq!(told("1", "1", "1", "1", "1"), taken("1/1", true), "--array=1");
+        let single = told("4", "4", "4", "1", "1");
+        assert!(single.is_err_and(|message| message.contains("set ECTWIN_SHARDS")), "--array=4");
+        let gaps = told("7", "3", "7", "2", "1");
+        assert!(
+            gaps.is_err_and(|message| message.contains("has gaps")),
+            "--array=3,7 of a Slurm without step"
+        );
     }
 
     #[test]

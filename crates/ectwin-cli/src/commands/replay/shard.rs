@@ -4,6 +4,7 @@ use std::fs;
 
 use super::partition::{self, Partition, PartitionChoice};
 use crate::failure::Failure;
+use crate::output::People;
 
 /// The part of the command line; without one, the whole.
 pub(crate) fn chosen(choice: Option<PartitionChoice>) -> Result<Partition, Failure> {
@@ -19,6 +20,9 @@ fn automatic() -> Result<Partition, Failure> {
         let help = "use `--partition i/n`; docs/user/campaigns.md lists the variables of CI systems";
         Failure::Refused { message: format!("--partition auto: {message}"), help: help.to_owned() }
     })?;
+    if let Some(doubt) = &shard.doubt {
+        People::Stderr.print_line(format_args!("warning: --partition auto: {doubt}"))?;
+    }
     if let Some(path) = &shard.status_file {
         fs::write(path, []).map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
     }
