@@ -164,6 +164,9 @@ pub(crate) struct ReplayArgs {
     /// Print the files, titles and numbers of cases, and exit
     #[arg(long, conflicts_with_all = ["bless", "json", "junit", "pcap", "trace", "on_failure", "fail_fast"])]
     pub(crate) list: bool,
+    /// Print the expectations that test nothing: the case passes with the contrary of one too
+    #[arg(long, conflicts_with_all = ["bless", "junit", "pcap", "trace", "on_failure", "fail_fast", "list"])]
+    pub(crate) vacuous: bool,
     /// End after the first case that fails, in the order of the cases
     #[arg(long)]
     pub(crate) fail_fast: bool,

@@ -3,8 +3,8 @@
 //! The seed is used for random steps, for the jitter of repetitions, for random faults of frames, and for the phases that
 //! the files leave out. Where it is not sure that a random number has no effect, the scenario counts as one with dice.
 
-use crate::model::{Delay, FrameFault, LineOrder, Order, Step};
-use crate::run::{Scenario, UnitSource, WrittenStep};
+use crate::model::{Delay, FrameFault, LineOrder, Members, Order, Step};
+use crate::run::{PlayedStep, Scenario, UnitSource, WrittenStep};
 
 impl Scenario {
     /// Whether its replay may depend on the seed.
@@ -14,7 +14,7 @@ impl Scenario {
         !self.random.is_empty()
             || self.cycle_phase.is_none()
             || units.into_iter().any(UnitSource::has_dice)
-            || self.steps.iter().any(WrittenStep::has_dice)
+            || self.steps.iter().any(PlayedStep::has_dice)
     }
 }
 
@@ -24,6 +24,21 @@ impl UnitSource {
         let section = self.file.section();
         let has_refresh_phase = section.refresh_period().is_some() && !section.names_refresh_phase();
         has_refresh_phase || self.file.cpu().task_phase.is_none()
+    }
+}
+
+impl PlayedStep {
+    fn has_dice(&self) -> bool {
+        match self {
+            Self::Step(step) => step.has_dice(),
+            Self::Group(group) => {
+                let has_jitter = match &group.members {
+                    Members::Repeat { repetition, steps: _ } => !repetition.jitter.is_zero(),
+                    Members::Sequence(_) | Members::Together(_) => false,
+                };
+                has_jitter || group.members.sequences().iter().flatten().any(Self::has_dice)
+            }
+        }
     }
 }
 
@@ -96,7 +111,9 @@ mod tests {
             "{ line = \"lose 5 per mille of the frames\" }",
             "{ line = \"delay all frames by 1ms to 3ms\" }",
             "{ line = \"be quiet\", repeat = 3, every = \"5ms\", jitter = \"1ms\" }",
-            "{ random = { steps = 2 } }",
+            "{ random = { steps = 2 }, within = \"20ms\" }",
+            "{ repeat = 3, every = \"5ms\", jitter = \"1ms\", steps = [{ line = \"be quiet\" }] }",
+            "{ together = [{ line = \"lose 5 % of the frames\" }, { line = \"be quiet\" }] }",
         ] {
             assert!(scenario(PHASES, step).has_dice(), "{step}");
         }

@@ -15,6 +15,7 @@ mod replay;
 mod run;
 mod search;
 mod trace_difference;
+mod vacuous;
 pub mod words;
 
 pub use builder::ScenarioBuilder;
@@ -27,3 +28,4 @@ pub use run::{
 pub use search::{Found, Search, Trial};
 pub use trace_difference::{TraceDifference, trace_differences};
 pub use user_file::Wanted;
+pub use vacuous::{Vacuity, VacuousStep};

@@ -405,7 +405,7 @@ line 7, column 5: unknown key `expct`
   expected `at`, `after`, `when`, `master`, `unit`, `cpu`, `line`, `expect`, `never`, `within`, `for`, `until`, `while`, `repeat`, `every`, \
 `jitter`, `random`, `steps` or `together`; did you mean `expect`?
 line 7, column 23: `at` is an integer
-  expected a duration such as \"1.5ms\"
+  expected a duration such as \"5ms\"
 line 8, column 12: `restrat unit 1` is not a valid sentence here
   did you mean `restart unit 1`?
 line 9, column 14: unknown key `unit.restrat`

@@ -24,6 +24,7 @@ mod shard;
 mod spool;
 mod story;
 mod threads;
+mod vacuous;
 
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
@@ -59,6 +60,9 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let cases: Vec<u64> = campaign.cases_of(partition).collect();
     if args.list {
         return list::print(&campaign, partition);
+    }
+    if args.vacuous {
+        return vacuous::run(&campaign, shard.partition, args);
     }
     overwrite::refuse(&outputs(args), campaign.inputs())?;
     let people = People::beside(outputs(args).iter().map(|output| output.path));

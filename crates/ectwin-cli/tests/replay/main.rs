@@ -11,6 +11,7 @@ mod for_people;
 mod golden_traces;
 mod on_failure;
 mod parameters;
+mod vacuous;
 
 use bench::Bench;
 

@@ -14,7 +14,17 @@ pub(super) fn number(place: &str, value: &DeValue<'_>) -> Result<u64, Problem> {
 }
 
 pub(super) fn duration(place: &str, value: &DeValue<'_>) -> Result<Duration, Problem> {
-    let text = values::text(place, value, "a duration such as \"1.5ms\"")?;
+    let expected = match value {
+        // The number without its unit, most often meant in milliseconds.
+        DeValue::Integer(number) => format!("a duration such as \"{}ms\"", shown(number.as_str())),
+        DeValue::String(_)
+        | DeValue::Float(_)
+        | DeValue::Boolean(_)
+        | DeValue::Datetime(_)
+        | DeValue::Array(_)
+        | DeValue::Table(_) => "a duration such as \"1.5ms\"".to_owned(),
+    };
+    let text = values::text(place, value, &expected)?;
     text.parse().map_err(|error| Problem::new(format!("`{}`: {error}", shown(text)), ""))
 }
 

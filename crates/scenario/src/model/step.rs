@@ -130,6 +130,7 @@ impl<S> Members<S> {
         }
     }
 
+    /// All sequences, to be changed.
     pub(crate) fn sequences_mut(&mut self) -> &mut [Vec<S>] {
         match self {
             Self::Sequence(steps) | Self::Repeat { steps, .. } => core::slice::from_mut(steps),

@@ -24,6 +24,8 @@ use super::stage::Stage;
 use super::virtual_stage::advance;
 use super::world::World;
 
+pub(crate) use change::ends;
+
 use rest::Rest;
 use sequence::Sequence;
 use shared::Shared;

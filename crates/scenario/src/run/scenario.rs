@@ -56,9 +56,7 @@ impl Scenario {
     /// All steps in their order, those of groups once each.
     #[must_use]
     pub fn each_step(&self) -> Vec<&WrittenStep> {
-        let mut steps = Vec::new();
-        add_steps(&self.steps, &mut steps);
-        steps
+        each_step(&self.steps)
     }
 
     /// Stores the bytes of the capture in the file. Without them none of its frames are sent.
@@ -169,6 +167,13 @@ pub struct WrittenStep {
     pub line: usize,
     /// The sentence of the order or of the condition, as written.
     pub text: String,
+}
+
+/// All steps in their order, those of groups once each.
+pub(crate) fn each_step(entries: &[PlayedStep]) -> Vec<&WrittenStep> {
+    let mut steps = Vec::new();
+    add_steps(entries, &mut steps);
+    steps
 }
 
 fn add_steps<'s>(entries: &'s [PlayedStep], steps: &mut Vec<&'s WrittenStep>) {

@@ -7,7 +7,7 @@ use crate::model::{Bytes, Condition, CpuOrder, MasterOrder, Order, UnitOrder, Un
 const POSITIONS: usize = 1 << 16;
 
 /// Whether an order changes what a condition is about to something else than the condition.
-pub(super) fn ends(order: &Order, condition: &Condition) -> bool {
+pub(crate) fn ends(order: &Order, condition: &Condition) -> bool {
     match order {
         Order::Master(order) => master_ends(order, condition),
         Order::Unit(order) => unit_ends(order, condition),

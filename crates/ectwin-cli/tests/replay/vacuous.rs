@@ -1,0 +1,49 @@
+//! `ectwin replay --vacuous`: the expectations that test nothing.
+
+use crate::bench::{Bench, top_folder};
+use crate::{WATCHDOG, wrong};
+
+/// The unplugged cable has no effect on the state yet, and the expectation is fulfilled.
+const STALE: &str = r#"title = "a cable is pulled"
+steps = [
+  { master = "take all units to OP" },
+  { expect = "unit 1 is in OP", within = "1s" },
+  { line = "unplug cable 1" },
+  { expect = "unit 1 is in OP", within = "50ms" },
+]
+"#;
+
+#[test]
+fn an_expectation_that_tests_nothing_is_named_with_its_line_and_sentence() {
+    let bench = Bench::new("vacuous");
+    bench.put("right.toml", WATCHDOG);
+    bench.put("stale.toml", STALE);
+    let ended = bench.ectwin(&["replay", ".", "--vacuous", "--json", "out.jsonl"]);
+    let expected = "./stale.toml:6: `unit 1 is in OP` tests nothing: its contrary passes too\n\
+                    2 cases, 4 expectations: 1 test nothing\n";
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(1), expected), "{}", ended.stderr);
+    let lines = bench.json_lines("out.jsonl");
+    assert_eq!((&lines[0]["expectations"], &lines[0]["vacuous"]), (&2.into(), &serde_json::json!([])));
+    assert_eq!(lines[1]["vacuous"], serde_json::json!([{ "line": 6, "step": "unit 1 is in OP" }]));
+    assert_eq!(lines[1]["file"], "./stale.toml");
+}
+
+#[test]
+fn a_file_whose_expectations_can_fail_passes_and_one_that_fails_is_reported_as_such() {
+    let bench = Bench::new("not-vacuous");
+    bench.put("right.toml", WATCHDOG);
+    let ended = bench.ectwin(&["replay", "right.toml", "--vacuous"]);
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), "1 case, 2 expectations: 0 test nothing\n"));
+    bench.put("wrong.toml", &wrong());
+    let ended = bench.ectwin(&["replay", "wrong.toml", "--vacuous"]);
+    assert_eq!(ended.code, Some(1));
+    assert!(ended.stdout.starts_with("FAILED  wrong.toml: "), "{}", ended.stdout);
+    assert!(ended.stdout.ends_with("1 case, 1 failed, 0 expectations: 0 test nothing\n"), "{}", ended.stdout);
+}
+
+#[test]
+fn no_expectation_of_the_collection_tests_nothing() {
+    let folder = top_folder().join("scenarios");
+    let ended = Bench::new("vacuous-collection").ectwin(&["replay", folder.to_str().unwrap(), "--vacuous"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+}

@@ -1,0 +1,225 @@
+//! Expectations that test nothing: the scenario passes although the expectation is turned into its contrary, or whatever
+//! the orders before it do.
+//!
+//! | expectation | contrary |
+//! |---|---|
+//! | `never` | its condition is true at some time before the end |
+//! | `until` another is true | its condition is false at every time until the other one is true |
+//! | `never`, `until` another is true | its condition is true at every time until the other one is true |
+//! | now, `for` a time, `while` another holds | a fulfilled one has found its condition true, so that the contrary fails: it is not replayed |
+//! | `within` a time | the condition has not been true from before the orders directly before it until the expectation |
+//!
+//! So `within` tests nothing if the state from before the orders fulfils it. If the player knows that an order ends the
+//! condition, it waits until the condition has been false, and the expectation counts. This is looked for outside of
+//! groups.
+//!
+//! A replay with one contrary is the same until the time of its step.
+
+use crate::model::{Condition, Expectation, Mode, Order, Step, Trigger};
+use crate::run::{PlayedStep, Recording, Scenario, WrittenStep, each_step, ends, play};
+
+/// The expectations of a scenario, and those among them that test nothing.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Vacuity {
+    /// Number of expectations.
+    pub expectations: usize,
+    /// Those whose contrary is fulfilled too, in the order of the steps.
+    pub vacuous: Vec<VacuousStep>,
+}
+
+/// An expectation that tests nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VacuousStep {
+    /// Its line in the file, from 1.
+    pub line: usize,
+    /// Its sentence.
+    pub text: String,
+}
+
+impl Scenario {
+    /// Replays the scenario, which must pass with this seed, once for each expectation, with the contrary of this one.
+    #[must_use]
+    pub fn vacuity(&self, seed: u64) -> Vacuity {
+        let steps = self.all_steps(seed);
+        let mut vacuity = Vacuity::default();
+        for (place, step) in each_step(&steps).into_iter().enumerate() {
+            let Order::Expect(expectation) = &step.step.order else { continue };
+            vacuity.expectations += 1;
+            let is_vacuous = match &expectation.mode {
+                Mode::Within(_) => self.is_fulfilled_before(step, &steps, seed),
+                _ => contrary(expectation).is_some_and(|contrary| {
+                    let mut turned = steps.clone();
+                    set_expectation(&mut turned, place, &contrary);
+                    !self.fails_in(step, &turned, seed)
+                }),
+            };
+            if is_vacuous {
+                vacuity.vacuous.push(VacuousStep { line: step.line, text: step.text.clone() });
+            }
+        }
+        vacuity
+    }
+
+    /// Whether the condition of an expectation with `within` is true before the orders directly before it, and after them.
+    fn is_fulfilled_before(&self, step: &WrittenStep, steps: &[PlayedStep], seed: u64) -> bool {
+        let is_it =
+            |entry: &PlayedStep| matches!(entry, PlayedStep::Step(other) if core::ptr::eq(other, step));
+        let (Some(place), Order::Expect(expectation)) = (steps.iter().position(is_it), &step.step.order)
+        else {
+            return false;
+        };
+        let Some(first) = first_order_before(place, steps) else { return false };
+        let condition = &expectation.condition;
+        let orders = each_step(steps.get(first..place).unwrap_or_default());
+        if orders
+            .iter()
+            .any(|order| ends(&order.step.order, condition) || is_work(&order.step.order, condition))
+        {
+            return false;
+        }
+        let now = Order::Expect(Expectation { condition: condition.clone(), mode: Mode::Now });
+        let mut turned = steps.to_vec();
+        let Some(PlayedStep::Step(order)) = turned.get_mut(first) else { return false };
+        let trigger = core::mem::replace(&mut order.step.trigger, Trigger::AtOnce);
+        let before = Step { trigger, order: now.clone(), repetition: None };
+        if let Some(PlayedStep::Step(step)) = turned.get_mut(place) {
+            step.step.order = now;
+        }
+        let before = WrittenStep { step: before, line: step.line, text: step.text.clone() };
+        turned.insert(first, PlayedStep::Step(before));
+        !self.fails_in(step, &turned, seed)
+    }
+
+    /// Whether the replay of these steps fails in this one. One that fails in a later step has passed this one.
+    fn fails_in(&self, step: &WrittenStep, steps: &[PlayedStep], seed: u64) -> bool {
+        let report = play(self, steps, seed, Recording::new(false, false));
+        report.failure.is_some_and(|failure| (failure.line, &failure.text) == (step.line, &step.text))
+    }
+}
+
+/// Replaces the expectation of the step at this place among all steps.
+fn set_expectation(entries: &mut [PlayedStep], place: usize, expectation: &Expectation) {
+    fn set(entries: &mut [PlayedStep], left: &mut usize, expectation: &Expectation) {
+        for entry in entries {
+            match entry {
+                PlayedStep::Step(step) => {
+                    if *left == 0 {
+                        step.step.order = Order::Expect(expectation.clone());
+                    }
+                    *left = left.wrapping_sub(1);
+                }
+                PlayedStep::Group(group) => {
+                    group.members.sequences_mut().iter_mut().for_each(|steps| set(steps, left, expectation));
+                }
+            }
+        }
+    }
+    let mut left = place;
+    set(entries, &mut left, expectation);
+}
+
+/// The first of the orders directly before a step that is due at once.
+fn first_order_before(place: usize, steps: &[PlayedStep]) -> Option<usize> {
+    let at_once = |place: usize| match steps.get(place)? {
+        PlayedStep::Step(step) => Some((step, step.step.trigger == Trigger::AtOnce)),
+        PlayedStep::Group(_) => None,
+    };
+    let mut first = place;
+    while at_once(first).is_some_and(|(_, is_at_once)| is_at_once) {
+        let before = first.checked_sub(1);
+        let Some((before, (step, _))) = before.and_then(|before| Some((before, at_once(before)?))) else {
+            break;
+        };
+        if matches!(step.step.order, Order::Expect(_)) {
+            break;
+        }
+        first = before;
+    }
+    (first < place).then_some(first)
+}
+
+/// Whether an order makes a master work that is expected to have nothing to do: it can be done in no virtual time.
+fn is_work(order: &Order, condition: &Condition) -> bool {
+    matches!((order, condition), (Order::Master(_), Condition::MasterIdle))
+}
+
+/// The contrary of an expectation, if a fulfilled one could fulfil it too.
+fn contrary(Expectation { condition, mode }: &Expectation) -> Option<Expectation> {
+    let mode = match mode {
+        // Whenever it is true it is true, and it is true at some time.
+        Mode::Never => Mode::While(condition.clone()),
+        Mode::Until(end) => Mode::NeverUntil(end.clone()),
+        Mode::NeverUntil(end) => Mode::Until(end.clone()),
+        Mode::Now | Mode::Within(_) | Mode::For(_) | Mode::While(_) => return None,
+    };
+    Some(Expectation { condition: condition.clone(), mode })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Scenario;
+
+    use super::*;
+
+    fn scenario(steps: &str) -> Scenario {
+        let text = format!(
+            "title = \"t\"\nlimit = \"2s\"\nsteps = [\n{{ master = \"take unit 1 to OP\" }},\n{steps}\n]\n"
+        );
+        Scenario::parse(&text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn a_within_that_the_state_before_the_orders_fulfils_tests_nothing() {
+        let head = "{ after = \"500ms\", expect = \"unit 1 is in OP\" },\n";
+        let lines = |steps: &str| {
+            let vacuous = scenario(&format!("{head}{steps}")).vacuity(1).vacuous;
+            vacuous.iter().map(|step| step.line).collect::<Vec<_>>()
+        };
+        let within = "{ expect = \"unit 1 is in OP\", within = \"50ms\" }";
+        assert_eq!(lines(&format!("{{ line = \"unplug cable 1\" }},\n{within}")), [7]);
+        assert_eq!(
+            lines(&format!(
+                "{{ after = \"1ms\", line = \"be quiet\" }},\n{{ unit = \"reset the errors of unit 1\" }},\n{within}"
+            )),
+            [8]
+        );
+        let none: [usize; 0] = [];
+        assert_eq!(
+            lines("{ line = \"unplug cable 1\" },\n{ expect = \"unit 1 is in OP\", for = \"50ms\" }"),
+            none
+        );
+        assert_eq!(
+            lines(
+                "{ line = \"unplug cable 1\" },\n{ expect = \"unit 1 is in SAFE-OP with AL status code 0x001B\", within = \"150ms\" }"
+            ),
+            none
+        );
+        assert_eq!(
+            lines(&format!(
+                "{{ unit = \"restart unit 1\" }},\n{{ master = \"take unit 1 to OP\" }},\n{}",
+                within.replace("50ms", "1500ms")
+            )),
+            none
+        );
+    }
+
+    #[test]
+    fn the_contrary_of_each_kind_of_expectation_fails_where_the_expectation_passes() {
+        for steps in [
+            "{ after = \"500ms\", expect = \"unit 1 is in OP\" }",
+            "{ expect = \"unit 1 is in OP\", within = \"500ms\" }",
+            "{ after = \"500ms\", expect = \"unit 1 is in OP\", for = \"50ms\" }",
+            "{ never = \"unit 1 is in BOOT\" },\n{ expect = \"unit 1 is in OP\", within = \"500ms\" }",
+            "{ never = \"unit 1 is in BOOT\", until = \"unit 1 is in OP\" }",
+            "{ when = \"unit 1 is in PRE-OP\", expect = \"unit 1 has no error\", until = \"unit 1 is in OP\" }",
+            "{ expect = \"unit 1 has no error\", while = \"unit 1 is in OP\" },\n\
+             { expect = \"unit 1 is in OP\", within = \"500ms\" }",
+        ] {
+            let scenario = scenario(steps);
+            let report = scenario.replay(1, Recording::new(false, false));
+            assert_eq!(report.failure, None, "{steps}");
+            let Vacuity { expectations, vacuous } = scenario.vacuity(1);
+            assert!(expectations > 0 && vacuous.is_empty(), "{steps}: {vacuous:?}");
+        }
+    }
+}
