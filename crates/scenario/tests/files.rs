@@ -168,7 +168,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"take unit 1 to OP\" }", "of another key", "this sentence belongs to `master`"),
         (
             "{ expect = \"unit 1 has error 85000000\" }",
-            "expected `the`, found `error`",
+            "expected `recorded`, `the`, `no` or `new`, found `error`",
             "`{units} has the error {event}`",
         ),
         ("{ expect = \"unit 1 records 85000000\" }", "found `records`", "`{units} has recorded {event}`"),

@@ -172,9 +172,14 @@ fn place(part: &str) -> Option<&str> {
     part.strip_prefix('{')?.strip_suffix('}')
 }
 
-/// How well a row fits: the number of words that match, whether a value of a place is wrong behind them, and how alike
-/// the words are.
-type Fit = (usize, bool, f64);
+/// How well a row fits: the number of words that match, and how likely it is the one that is meant.
+type Fit = (usize, f64);
+
+/// A wrong value of a place is more likely than another sentence, unless the words of that one are more alike by this.
+const PLACE_LIKELIER: f64 = 0.2;
+
+/// Number of expected words that a message names.
+const EXPECTED_WORDS_NAMED: usize = 6;
 
 /// A text that is not a sentence of a table.
 pub(crate) struct Misfit<'a, T> {
@@ -197,9 +202,13 @@ impl<T> Misfit<'_, T> {
         if let Some(too_long) = too_long(self.text) {
             return too_long;
         }
-        match self.furthest() {
-            Some((Sentence { pattern, example, .. }, problem)) => NoSentence {
-                message: problem.to_string(),
+        let words: Vec<&str> = self.text.split_whitespace().collect();
+        match self.furthest(&words) {
+            Some((Sentence { pattern, example, .. }, reached, problem)) => NoSentence {
+                message: match problem {
+                    Problem::Expected { found, .. } => expected(&self.expected(&words, reached), found),
+                    Problem::Place(_) | Problem::More(_) => problem.to_string(),
+                },
                 help: format!("the sentence is `{pattern}`, such as `{example}`"),
             },
             None => self.nearest(),
@@ -207,18 +216,38 @@ impl<T> Misfit<'_, T> {
     }
 
     /// The row that matches furthest, the nearest of several, and the mistake there; none: no word matches.
-    fn furthest(&self) -> Option<(&Sentence<T>, Problem<'_>)> {
-        let words: Vec<&str> = self.text.split_whitespace().collect();
-        let misfits = rows(self.table).filter_map(|row| Some((row, fit(row, &words).err()?)));
-        let mut furthest: Option<(Fit, &Sentence<T>, Problem<'_>)> = None;
-        for (row, (reached, problem)) in misfits.filter(|(_, (reached, _))| *reached > 0) {
-            // A wrong value of a place is more likely than another sentence.
-            let fit = (reached, matches!(problem, Problem::Place(_)), likeness(row, self.text));
+    fn furthest<'w>(&self, words: &'w [&'w str]) -> Option<(&Sentence<T>, usize, Problem<'w>)> {
+        let mut furthest: Option<(Fit, &Sentence<T>, Problem<'w>)> = None;
+        for (row, (reached, problem)) in self.misfits(words) {
+            let is_place = matches!(problem, Problem::Place(_));
+            let fit = (reached, likeness(row, self.text) + if is_place { PLACE_LIKELIER } else { 0.0 });
             if furthest.as_ref().is_none_or(|(other, _, _)| fit > *other) {
                 furthest = Some((fit, row, problem));
             }
         }
-        furthest.map(|(_, row, problem)| (row, problem))
+        furthest.map(|((reached, _), row, problem)| (row, reached, problem))
+    }
+
+    /// The rows that some words match, with the mistakes in them.
+    fn misfits<'w>(
+        &self,
+        words: &'w [&'w str],
+    ) -> impl Iterator<Item = (&Sentence<T>, (usize, Problem<'w>))> {
+        let misfits = rows(self.table).filter_map(|row| Some((row, fit(row, words).err()?)));
+        misfits.filter(move |(row, (reached, _))| *reached > 0 && has_verb_of(row.pattern, words))
+    }
+
+    /// The words that the sentences have behind so many words.
+    fn expected(&self, words: &[&str], reached: usize) -> Vec<&'static str> {
+        let mut expected = Vec::new();
+        for (_, (_, problem)) in self.misfits(words).filter(|(_, (other, _))| *other == reached) {
+            if let Problem::Expected { word, .. } = problem
+                && !expected.contains(&word)
+            {
+                expected.push(word);
+            }
+        }
+        expected
     }
 
     /// No part of the text matches: the example with the nearest words, if it is near.
@@ -275,6 +304,18 @@ fn has_a_word_of<T>(sentence: &Sentence<T>, text: &str) -> bool {
     words.any(|word| example().any(|known| strsim::jaro_winkler(word, known) >= ALIKE))
 }
 
+/// Whether a row that begins with units has the verb of these words: `unit 1` is not followed by `are`.
+fn has_verb_of(pattern: &str, words: &[&str]) -> bool {
+    let is_plural = match (pattern.split_whitespace().next(), words.first()) {
+        (Some("{units}"), Some(&"unit")) => false,
+        (Some("{units}"), Some(&("all" | "units"))) => true,
+        _ => return true,
+    };
+    let verb = pattern.split_whitespace().nth(1);
+    let verbs = if is_plural { ["is", "has"] } else { ["are", "have"] };
+    verb.is_none_or(|verb| !verbs.contains(&verb))
+}
+
 /// The mistake at the position where a pattern stops matching.
 #[derive(Debug)]
 pub(super) enum Problem<'a> {
@@ -289,14 +330,25 @@ pub(super) enum Problem<'a> {
 impl fmt::Display for Problem<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Expected { word, found: Some(found) } => {
-                write!(formatter, "expected `{word}`, found `{found}`")
-            }
-            Self::Expected { word, found: None } => write!(formatter, "expected `{word}`, found the end"),
+            Self::Expected { word, found } => formatter.write_str(&expected(&[word], *found)),
             Self::Place(reason) => formatter.write_str(reason),
             Self::More(word) => write!(formatter, "`{word}` is more than the sentence has"),
         }
     }
+}
+
+/// The message that one of these words was expected; of many the first are named.
+fn expected(words: &[&str], found: Option<&str>) -> String {
+    let found = found.map_or("the end".to_owned(), |found| format!("`{found}`"));
+    let quoted: Vec<String> =
+        words.iter().take(EXPECTED_WORDS_NAMED).map(|word| format!("`{word}`")).collect();
+    let named = match quoted.split_last() {
+        _ if words.len() > EXPECTED_WORDS_NAMED => format!("{} …", quoted.join(", ")),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+        None => String::new(),
+    };
+    format!("expected {named}, found {found}")
 }
 
 /// Values of places, or the number of matching words and the mistake in the next one.

@@ -43,6 +43,14 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
     assert!(problem("unit one is in OP").contains("is not a valid sentence here / did you mean"));
     assert!(problem("unit 0 is in OP").contains("is not a valid sentence"), "units count from 1");
     assert!(problem("").contains("is not a valid sentence"));
+    let help = "the sentence is `{units} has the error {event}`, such as `unit 1 has the error 39170000`";
+    assert!(problem("unit 1 wobbles").starts_with("expected `is` or `has`, found `wobbles` / "));
+    assert_eq!(
+        problem("unit 1 has error"),
+        format!("expected `recorded`, `the`, `no` or `new`, found `error` / {help}")
+    );
+    assert!(problem("all units is in OP2").starts_with("expected `are` or `have`, found `is` / "));
+    assert!(problem("unit 1 are in SAVE-OP").contains("expected `is` or `has`, found `are`"));
     let indicators = "expected RUN, ERR, L/A IN, L/A OUT, TS green or TS red, found `of`";
     assert!(problem("TS of unit 1 is lit").starts_with(indicators), "{}", problem("TS of unit 1 is lit"));
     let al_status = problem("AL status of unit 1 is 08");
