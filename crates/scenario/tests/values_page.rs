@@ -23,7 +23,7 @@ title = "a unit reaches OP, and the cable is unplugged"
 steps = [
   { master = { take = { units = "all", state = "OP" } } },
   { expect = "unit 1 is in OP", within = "100ms" },
-  { line = { unplug = { cable = 1 } } },
+  { when = "the master has nothing to do", line = { unplug = { cable = 1 } } },
   { expect = { state = { units = 1, state = "SAFE-OP", al_status_code = 0x001B } }, within = "110ms" },
 ]
 ```

@@ -62,7 +62,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         return list::print(&campaign, partition);
     }
     if args.vacuous {
-        return vacuous::run(&campaign, shard.partition, args);
+        return vacuous::run(&campaign, partition, args);
     }
     overwrite::refuse(&outputs(args), campaign.inputs())?;
     let people = People::beside(outputs(args).iter().map(|output| output.path));
