@@ -1,4 +1,4 @@
-//! docs/user/scenario-reference.md agrees with the tables of the language.
+//! The reference pages of scenarios agree with the tables of the language: files, sentences, random steps.
 
 use std::path::{Path, PathBuf};
 
@@ -10,10 +10,11 @@ use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, QUANTITIES, Sentence
 /// If this variable is set, the test writes the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
 
-const HEAD: &str = r#"<!-- Generated: cargo xtask bless -->
+const FILES: &str = r#"<!-- Generated: cargo xtask bless -->
 # Scenario files
 
-Every key, sentence, placeholder and fault of a scenario file. To start, read [write a scenario](write-a-scenario.md).
+Every key of a scenario file and of a step. To start, read [write a scenario](write-a-scenario.md); the sentences are in the
+[reference of sentences](scenario-reference.md).
 
 ## The file
 | key | value | default |
@@ -93,14 +94,14 @@ A step is a table. It happens after the step before it, and has one of these key
 
 | key | addressee or check |
 |---|---|
-| `master` | the [scripted master](#master), which carries out its orders one after the other |
-| `unit` | a manual operation at a [unit](#unit) |
-| `cpu` | a [CPU Unit](#cpu) |
-| `line` | the [line](#line): cables and frames |
-| `expect` | the [condition](#conditions) has to hold now |
+| `master` | the [scripted master](scenario-reference.md#master), which carries out its orders one after the other |
+| `unit` | a manual operation at a [unit](scenario-reference.md#unit) |
+| `cpu` | a [CPU Unit](scenario-reference.md#cpu) |
+| `line` | the [line](scenario-reference.md#line): cables and frames |
+| `expect` | the [condition](scenario-reference.md#conditions) has to hold now |
 | `never` | the condition must not hold at any moment from now to the end |
 | `steps`, `together` | a [group](#groups) of steps |
-| `random` | [random steps](#random-steps), within the time of `within` |
+| `random` | [random steps](random-steps.md), within the time of `within` |
 
 These keys say when a step is due; without them it is due at once:
 
@@ -173,8 +174,20 @@ what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistak
 that later steps load. If the variable is not there when the condition is checked, the step fails.
 "#;
 
-fn page() -> String {
-    let mut page = HEAD.to_owned();
+/// The pages, by their names.
+fn pages() -> [(&'static str, String); 3] {
+    [("scenario-files", FILES.to_owned()), ("scenario-reference", reference()), ("random-steps", pool())]
+}
+
+const SENTENCES: &str = r"<!-- Generated: cargo xtask bless -->
+# Sentences of scenarios
+
+Every sentence, placeholder and fault of a scenario. [Scenario files](scenario-files.md) has the keys of files and steps, and
+[random steps](random-steps.md) what random steps are drawn from.
+";
+
+fn reference() -> String {
+    let mut page = SENTENCES.to_owned();
     sentences(&mut page, "master", "The sentences of `master`.", MASTER);
     sentences(&mut page, "unit", "The sentences of `unit`.", UNIT);
     sentences(&mut page, "cpu", "The sentences of `cpu`.", CPU);
@@ -182,7 +195,7 @@ fn page() -> String {
     sentences(
         &mut page,
         "conditions",
-        "The conditions of `expect`, `never`, `when` and `until`.",
+        "The conditions of `expect`, `never`, `when`, `until` and `while`.",
         CONDITIONS,
     );
     let opening = "What has a value: the placeholder `{quantity}` of conditions. A variable with brackets is an element.";
@@ -190,7 +203,6 @@ fn page() -> String {
     places(&mut page);
     faults(&mut page);
     patterns(&mut page);
-    pool(&mut page);
     page
 }
 
@@ -202,8 +214,8 @@ fn sentences<T>(page: &mut String, heading: &str, opening: &str, table: &[Senten
 }
 
 /// The pool of random steps.
-fn pool(page: &mut String) {
-    page.push_str(RANDOM);
+fn pool() -> String {
+    let mut page = RANDOM.to_owned();
     for group in GROUPS {
         page.push_str(&format!("| `{}` | {} |\n", group.name, group.meaning));
     }
@@ -212,15 +224,17 @@ fn pool(page: &mut String) {
         page.push_str(&format!("| `{}` | {} |\n", mark.word, mark.meaning));
     }
     for group in GROUPS {
-        page.push_str(&format!("\n### {}\n| key | sentence | weight |\n|---|---|---|\n", group.name));
+        page.push_str(&format!("\n## {}\n| key | sentence | weight |\n|---|---|---|\n", group.name));
         for row in group.rows() {
             page.push_str(&format!("| `{}` | `{}` | {} |\n", row.key, row.sentence, row.weight));
         }
     }
+    page
 }
 
-const RANDOM: &str = r#"
-## Random steps
+const RANDOM: &str = r#"<!-- Generated: cargo xtask bless -->
+# Random steps
+
 `{ random = 30, within = "3s" }` is replaced by 30 steps that the seed chooses, after pauses that together take at most 3 s. A scenario can
 have several of them. With a table the steps are drawn from groups of the pool, or from own sentences:
 
@@ -294,25 +308,26 @@ fn section<const N: usize>(
     rows.for_each(|cells| page.push_str(&line(&cells)));
 }
 
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user/scenario-reference.md")
+fn path(page: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user").join(page).with_extension("md")
 }
 
 #[test]
-fn the_page_is_what_the_tables_say() {
-    if std::env::var_os(BLESS).is_some() {
-        std::fs::write(path(), page()).expect("the page can be written");
+fn the_pages_are_what_the_tables_say() {
+    for (name, page) in pages() {
+        let path = path(name);
+        if std::env::var_os(BLESS).is_some() {
+            std::fs::write(&path, &page).expect("the page can be written");
+        }
+        let written = std::fs::read_to_string(&path).expect("the page");
+        assert_eq!(written, page, "cargo xtask bless");
     }
-    let written = std::fs::read_to_string(path()).expect("the page");
-    assert_eq!(written, page(), "cargo xtask bless");
 }
 
 #[test]
 fn every_place_of_a_sentence_is_in_the_table_of_places() {
-    let page = page();
-    // Before the first table of sentences, braces are names of parameters.
-    let (_, tables) = page.split_once("\n## master\n").expect("a table of sentences");
-    let (sentences, places) = tables.split_once("\n## places\n").expect("a table of places");
+    let page = reference();
+    let (sentences, places) = page.split_once("\n## places\n").expect("a table of places");
     for place in sentences.split('{').skip(1).filter_map(|rest| rest.split('}').next()) {
         assert!(places.contains(&format!("`{{{place}}}`")), "{place}");
     }

@@ -13,7 +13,7 @@ const HEAD: &str = r##"<!-- Generated: cargo xtask bless -->
 # Typed values of scenarios
 
 Programs build steps as data: the order or the condition of a step is a typed value, and its sentence is one spelling of it.
-[Scenario files](scenario-reference.md) has the sentences.
+[The reference](scenario-reference.md) has the sentences.
 
 ## In a file
 Where a text is a sentence, a table is a typed value. Both can stand in one list of steps:
