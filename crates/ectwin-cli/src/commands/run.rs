@@ -127,5 +127,5 @@ fn finish(recorder: Recorder, args: &RunArgs) -> Result<(), Failure> {
 
 fn tell(statistics: Statistics) {
     let Statistics { frames, destroyed, late_answers, dropped, unsent, overlong, late_polls } = statistics;
-    tracing::info!(frames, destroyed, late_answers, dropped, unsent, overlong, late_polls, "stopped");
+    tracing::info!(frames, destroyed, dropped, unsent, overlong, late_polls, late_answers, "stopped");
 }
