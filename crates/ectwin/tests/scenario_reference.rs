@@ -39,7 +39,7 @@ programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files 
 ## Preludes
 `use = "common.toml"` names a prelude: a file with the keys of a scenario, none of which is required. They hold where the scenario itself does
 not set them (`units` as a whole), of several preludes the first that sets them. The steps of preludes come first, in the order of the list.
-Paths in a prelude are relative to it, and preludes can use preludes, up to 16 in a row. The texts of a prelude can use the
+Paths in a prelude are relative to it, and preludes can use preludes, up to 16 in a row and 100 in all. The texts of a prelude can use the
 [parameters](#parameters) of the scenario; a prelude has no parameters and no random steps of its own. A failed step of a prelude is shown with the
 line of `use` and its place in the prelude, such as `common.toml:5: all units are in OP`.
 

@@ -12,6 +12,7 @@ mod said;
 mod steps;
 mod values;
 
+use core::cell::Cell;
 use std::collections::BTreeSet;
 
 use user_file::{Problem, Reader, Section, Wanted, read_toml};
@@ -110,7 +111,8 @@ fn cases<T>(
     for number in 0..count {
         let refused = reader.refused();
         let named = parameters.case(number);
-        let whole = read_whole((text, reader), file, &Names::of(&named), files, &Here::SCENARIO);
+        let whole =
+            read_whole((text, reader), file, &Names::of(&named), files, &Here::scenario(&Cell::new(0)));
         if file.get(USE).is_some() && reader.refused() == refused {
             refuse_missing(reader, &whole);
         }

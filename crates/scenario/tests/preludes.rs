@@ -113,6 +113,10 @@ fn mistakes_of_preludes_are_told_with_their_place() {
         let errors = errors(&file(used));
         assert!(errors.contains(place) && errors.contains(message), "{used}\n{errors}");
     }
+    let uses = |count: usize| format!("[{}]", vec!["\"keys.toml\""; count].join(", "));
+    let many = errors(&file(&uses(101)));
+    assert!(many.contains("keys.toml: a scenario uses at most 100 preludes"), "{many}");
+    assert_eq!(cases(&file(&uses(100))).map(|cases| cases.len()), Ok(1));
     let missing = errors("use = \"keys.toml\"");
     assert!(missing.contains("`steps` is missing, also in the preludes"), "{missing}");
     let unused =

@@ -1,5 +1,6 @@
 //! Preludes: `use = "common.toml"` takes the keys that a file leaves out from another file, and steps before its own.
 
+use core::cell::Cell;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
@@ -17,6 +18,10 @@ use crate::ready::{Draft, Files};
 /// Maximum number of preludes that use each other in a row.
 const DEPTH_MAX: usize = 16;
 
+/// Maximum number of preludes that a scenario reads, one that is used twice counted twice: preludes that use several
+/// others branch.
+const PRELUDES_MAX: usize = 100;
+
 /// The keys that a prelude can set.
 const KEYS: &[&str] =
     &["title", "seed", "limit", "cycle", "cycle_phase", "calendar", "capture", "master", "units", "steps"];
@@ -33,11 +38,15 @@ pub(super) struct Whole {
 pub(super) struct Here<'h> {
     /// The preludes that use it, the outermost first, and the file itself; empty for the scenario.
     stack: &'h [String],
+    /// Number of preludes that the scenario has read.
+    read: &'h Cell<usize>,
 }
 
-impl Here<'_> {
-    /// The scenario itself.
-    pub(super) const SCENARIO: Self = Self { stack: &[] };
+impl<'h> Here<'h> {
+    /// The scenario itself, which counts its preludes in `read`.
+    pub(super) const fn scenario(read: &'h Cell<usize>) -> Self {
+        Self { stack: &[], read }
+    }
 
     fn folder(&self) -> &Path {
         self.stack.last().and_then(|path| Path::new(path).parent()).unwrap_or(Path::new(""))
@@ -102,11 +111,14 @@ fn read_prelude<'i>(
     if here.stack.len() == DEPTH_MAX {
         return Err(vec![format!("{path}: more than {DEPTH_MAX} preludes use each other in a row")]);
     }
+    if here.read.replace(here.read.get() + 1) >= PRELUDES_MAX {
+        return Err(vec![format!("{path}: a scenario uses at most {PRELUDES_MAX} preludes, and theirs")]);
+    }
     let text = files.text(&path, Wanted::Scenario);
     let text = text.map_err(|reason| vec![format!("the prelude {path} cannot be read: {reason}")])?;
     let stack: Vec<String> = here.stack.iter().cloned().chain([path.clone()]).collect();
     let whole = read_toml(&text, Wanted::Scenario, |reader, file| {
-        Some(read_whole((&text, reader), file, names, files, &Here { stack: &stack }))
+        Some(read_whole((&text, reader), file, names, files, &Here { stack: &stack, read: here.read }))
     });
     let mut whole = whole.map_err(|errors| {
         let words = errors.iter().map(|error| format!("{path}:{error}"));
