@@ -265,3 +265,28 @@ fn the_variables_of_a_ci_system_choose_the_part_only_if_they_are_asked() {
     let ended = bench.ectwin_with(&variables, &["replay", "s"]);
     assert!(ended.stdout.contains("3 cases: "), "{}", ended.stdout);
 }
+
+#[test]
+fn an_array_of_slurm_that_may_be_a_part_of_a_larger_one_is_warned_about_unless_the_number_of_parts_is_set() {
+    let bench = campaign("slurm");
+    let repeated = [
+        ("SLURM_ARRAY_TASK_ID", "7"),
+        ("SLURM_ARRAY_TASK_MIN", "3"),
+        ("SLURM_ARRAY_TASK_MAX", "7"),
+        ("SLURM_ARRAY_TASK_COUNT", "2"),
+        ("SLURM_ARRAY_TASK_STEP", "4"),
+    ];
+    let replay = ["replay", "s/1-right.toml", "--seeds", "64", "--partition", "auto"];
+    let warned = bench.ectwin_with(&repeated, &replay);
+    assert!(warned.stdout.starts_with("32 cases (part 2/2 of 64 cases): 32 ok"), "{}", warned.stdout);
+    assert!(
+        warned
+            .stderr
+            .starts_with("warning: --partition auto: the array of Slurm has the tasks 3 to 7, 2 of them"),
+        "{}",
+        warned.stderr
+    );
+    let known = bench.ectwin_with(&[&repeated[..], &[("ECTWIN_SHARDS", "64")]].concat(), &replay);
+    assert!(known.stdout.starts_with("1 case (part 7/64 of 64 cases): 1 ok"), "{}", known.stdout);
+    assert!(!known.stderr.contains("warning"), "{}", known.stderr);
+}
