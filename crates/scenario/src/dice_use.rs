@@ -3,7 +3,7 @@
 //! The seed is used for random steps, for the jitter of repetitions, for random faults of frames, and for the phases that
 //! the files leave out. Where it is not sure that a random number has no effect, the scenario counts as one with dice.
 
-use crate::model::{Delay, FrameFault, LineOrder, Members, Order, Step};
+use crate::model::{Delay, LineOrder, Members, Order, Step};
 use crate::run::{PlayedStep, Scenario, UnitSource, WrittenStep};
 
 impl Scenario {
@@ -53,7 +53,7 @@ impl WrittenStep {
 fn has_random_fault(order: &Order) -> bool {
     match order {
         Order::Line(LineOrder::Disturb(disturbance)) => {
-            disturbance.frames.choice.is_random() || is_random(disturbance.fault)
+            disturbance.frames.choice.is_random() || disturbance.fault.delay().is_some_and(Delay::is_random)
         }
         Order::Line(
             LineOrder::Unplug { .. } | LineOrder::Plug { .. } | LineOrder::End { .. } | LineOrder::BeQuiet,
@@ -62,21 +62,6 @@ fn has_random_fault(order: &Order) -> bool {
         | Order::Unit(_)
         | Order::Cpu(_)
         | Order::Expect(_) => false,
-    }
-}
-
-fn is_random(fault: FrameFault) -> bool {
-    match fault {
-        FrameFault::Delay { by: Delay::Always(_) } => false,
-        FrameFault::Delay { by: Delay::Between(..) | Delay::Around(..) | Delay::Normal(..) } => true,
-        FrameFault::Lose
-        | FrameFault::LoseAnswer
-        | FrameFault::Duplicate
-        | FrameFault::Swap
-        | FrameFault::Cut { .. }
-        | FrameFault::Corrupt { .. }
-        | FrameFault::LowerWorkingCounter
-        | FrameFault::LowerWorkingCounterBy { .. } => false,
     }
 }
 

@@ -40,6 +40,15 @@ impl Delay {
         }
     }
 
+    /// Whether the random generator decides its times.
+    #[must_use]
+    pub const fn is_random(self) -> bool {
+        match self {
+            Self::Always(_) => false,
+            Self::Between(..) | Self::Around(..) | Self::Normal(..) => true,
+        }
+    }
+
     /// The delay of the next frame.
     pub(super) fn draw(self, dice: &mut Dice) -> Duration {
         let between = |dice: &mut Dice, least: u64, most: u64| {

@@ -217,17 +217,7 @@ impl<T: Copy> LineFaults<T> {
             active.seen += 1;
             if frames.choice.selects(active.seen, dice) && !has_no_effect(*fault, frame) {
                 active.met += 1;
-                let delay = match fault {
-                    FrameFault::Delay { by } => Some(by.draw(dice)),
-                    FrameFault::Lose
-                    | FrameFault::LoseAnswer
-                    | FrameFault::Duplicate
-                    | FrameFault::Swap
-                    | FrameFault::Cut { .. }
-                    | FrameFault::Corrupt { .. }
-                    | FrameFault::LowerWorkingCounter
-                    | FrameFault::LowerWorkingCounterBy { .. } => None,
-                };
+                let delay = fault.delay().map(|delay| delay.draw(dice));
                 met.push(Met::of(&active.disturbance, delay, frames.addressing(frame, units)));
             }
         }

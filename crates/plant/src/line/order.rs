@@ -96,17 +96,8 @@ impl Disturbance {
     /// Whether frames can meet it: it selects some, its numbers are possible, and the fault has the place that is named.
     #[must_use]
     pub fn is_possible(&self) -> bool {
-        let values = match self.fault {
-            FrameFault::Delay { by } => by.is_possible(),
-            FrameFault::LowerWorkingCounterBy { by } => by > 0,
-            FrameFault::Lose
-            | FrameFault::LoseAnswer
-            | FrameFault::Duplicate
-            | FrameFault::Swap
-            | FrameFault::Cut { .. }
-            | FrameFault::Corrupt { .. }
-            | FrameFault::LowerWorkingCounter => true,
-        };
+        let is_lowered = self.fault != FrameFault::LowerWorkingCounterBy { by: 0 };
+        let values = is_lowered && self.fault.delay().is_none_or(Delay::is_possible);
         let has_way = (self.way.cable.is_none() || self.fault.has_cable())
             && (self.way.direction == Direction::Outward || self.fault.has_direction());
         values && has_way && self.frames.choice.is_possible() && !self.lasts.is_some_and(Duration::is_zero)
@@ -170,6 +161,22 @@ impl FrameFault {
     #[must_use]
     pub const fn has_cable(self) -> bool {
         matches!(self, Self::Lose | Self::Delay { .. })
+    }
+
+    /// How late it makes a frame; none: it is no delay.
+    #[must_use]
+    pub const fn delay(self) -> Option<Delay> {
+        match self {
+            Self::Delay { by } => Some(by),
+            Self::Lose
+            | Self::LoseAnswer
+            | Self::Duplicate
+            | Self::Swap
+            | Self::Cut { .. }
+            | Self::Corrupt { .. }
+            | Self::LowerWorkingCounter
+            | Self::LowerWorkingCounterBy { .. } => None,
+        }
     }
 
     /// Whether the `way` of a disturbance can name a direction.
