@@ -16,6 +16,7 @@ use crate::device_variables::DeviceVariables;
 use crate::io::Io;
 use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
 use crate::program::{Program, Slot};
+use crate::reports::Reports;
 use crate::scan_watch::ScanWatch;
 
 pub use operating_mode::OperatingMode;
@@ -38,6 +39,10 @@ pub struct CpuUnit {
     powered_on: Instant,
     system_time_ns: Option<u64>,
     io_refreshing: bool,
+    /// Its task does not run without power, and not while it is stopped.
+    has_power: bool,
+    is_task_stopped: bool,
+    reports: Reports,
     /// Number of task periods started. It wraps.
     task_periods: u32,
     deadline: Instant,
@@ -73,6 +78,9 @@ impl CpuUnit {
             powered_on: now,
             system_time_ns: settings.system_time_ns,
             io_refreshing: true,
+            has_power: true,
+            is_task_stopped: false,
+            reports: Reports::default(),
             task_periods: 0,
             deadline: now + settings.task_phase,
         };
@@ -92,10 +100,10 @@ impl CpuUnit {
         self.io.scan = watch;
     }
 
-    /// When the next task period begins.
+    /// When the next task period begins; [`Instant::NEVER`] without power, and while the task is stopped.
     #[must_use]
     pub const fn deadline(&self) -> Instant {
-        self.deadline
+        if self.has_power && !self.is_task_stopped { self.deadline } else { Instant::NEVER }
     }
 
     /// One task period: first the I/O refresh, which sends the data C to M of the last scan and receives the
@@ -121,6 +129,22 @@ impl CpuUnit {
             self.reset_errors();
         }
         self.deadline += self.task_period * (missed_periods + 1);
+        self.note_reports();
+    }
+
+    /// Notes what the programs have reported in this task period.
+    fn note_reports(&mut self) {
+        let events = self.io.program_reports.take().filter_map(|record| {
+            let CpuEvent::Program(event) = record.event else { return None };
+            Some(event)
+        });
+        self.reports.period(events);
+    }
+
+    /// What its programs have reported since it was powered on first.
+    #[must_use]
+    pub const fn reports(&self) -> &Reports {
+        &self.reports
     }
 
     /// The operating mode.
@@ -208,12 +232,35 @@ impl CpuUnit {
     pub fn cycle_power(&mut self, now: Instant) {
         self.system_time_ns = self.system_time_ns_at(now);
         (self.powered_on, self.deadline) = (now, now + self.task_phase);
+        (self.has_power, self.is_task_stopped) = (true, false);
         self.mode = self.mode_at_power_on;
         self.io_refreshing = true;
         self.nx_bus_function.power_on();
         self.io.power_on();
         self.user_program.start_anew();
         self.announce();
+    }
+
+    /// Switches its power off until [`Self::cycle_power`]. Its variables are initialized.
+    pub fn power_off(&mut self, now: Instant) {
+        self.cycle_power(now);
+        self.has_power = false;
+    }
+
+    /// Whether it has power.
+    #[must_use]
+    pub const fn has_power(&self) -> bool {
+        self.has_power
+    }
+
+    /// Its primary periodic task stops, with its I/O refresh.
+    pub const fn stop_task(&mut self) {
+        self.is_task_stopped = true;
+    }
+
+    /// The task continues, if it was stopped.
+    pub const fn start_task(&mut self) {
+        self.is_task_stopped = false;
     }
 
     /// Whether the NX Bus Function Module has stopped I/O refreshing because of an error of the unit.

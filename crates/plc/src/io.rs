@@ -28,6 +28,8 @@ pub struct Io {
     /// The positions of the entries that exist in both directions.
     twins: Vec<(Place, Place)>,
     pub(crate) events: CpuEventLog,
+    /// The reports of programs since the end of the last task period.
+    pub(crate) program_reports: CpuEventLog,
     /// Start of the task period, counted from power-on.
     now: Instant,
     system_time_ns: Option<u64>,
@@ -48,6 +50,7 @@ impl Io {
             twins: twins(&variables),
             variables,
             events: CpuEventLog::new(),
+            program_reports: CpuEventLog::without_room(),
             now: Instant::ZERO,
             system_time_ns: None,
             nx_bus_reset: NxBusReset::None,
@@ -158,7 +161,9 @@ impl Io {
     /// that reports [`ProgramEvent::Stopped`] does not run until it is started again.
     pub fn report(&mut self, event: ProgramEvent) {
         self.has_stopped |= matches!(event, ProgramEvent::Stopped(_));
-        self.log(CpuEvent::Program(event));
+        let event = CpuEvent::Program(event);
+        self.program_reports.add(self.now, event.clone());
+        self.log(event);
     }
 
     /// Resets the errors of the NX Bus Function Module and, with its next refresh, those of the unit, as

@@ -18,6 +18,7 @@ pub mod outside;
 mod program;
 mod program_event;
 mod pulse;
+mod reports;
 mod scan_watch;
 mod structured_text;
 
@@ -40,6 +41,7 @@ pub use nx_object_client::{NxCall, NxCallRefused, NxObjectClient};
 pub use program::Program;
 pub use program_event::{ProgramEvent, ProgramTrouble};
 pub use pulse::Pulse;
+pub use reports::Reports;
 pub use scan_watch::ScanWatch;
 pub use st::Elementary;
 pub use structured_text::StructuredText;

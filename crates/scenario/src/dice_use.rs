@@ -10,7 +10,8 @@ impl Scenario {
     /// Whether its replay may depend on the seed.
     #[must_use]
     pub fn has_dice(&self) -> bool {
-        let units = self.units.iter().chain(self.replacements.iter().map(|replacement| &replacement.source));
+        let units =
+            self.units.iter().chain(self.brought.replacements.iter().map(|replacement| &replacement.source));
         !self.random.is_empty()
             || self.cycle_phase.is_none()
             || units.into_iter().any(UnitSource::has_dice)

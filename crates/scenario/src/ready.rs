@@ -25,7 +25,7 @@ mod values;
 mod written;
 
 use crate::model::{Script, in_order};
-use crate::run::{RecordedFrames, Scenario};
+use crate::run::{Brought, RecordedFrames, Scenario};
 pub use error::{ErrorPlace, ScenarioError, ScenarioErrors};
 pub use files::Files;
 pub(crate) use files::{Remembered, Texts};
@@ -108,9 +108,7 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
         cycle_phase: script.cycle_phase,
         calendar: script.calendar,
         master,
-        programs,
-        images,
-        replacements,
+        brought: Brought { programs, images, replacements },
         steps,
         capture: script.capture,
         recorded: RecordedFrames::default(),

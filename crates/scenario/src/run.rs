@@ -1,5 +1,6 @@
 //! Running a scenario: units, CPU Units, line and masters in virtual time, and checking its expectations.
 
+mod bench;
 mod caught;
 mod check;
 mod dice;
@@ -12,10 +13,10 @@ mod player;
 mod programs;
 mod recorded;
 mod recording;
+mod records;
 mod report;
 mod scenario;
 mod stage;
-mod story;
 mod virtual_stage;
 mod world;
 
@@ -30,5 +31,5 @@ pub(crate) use programs::{LoadedProgram, SiiImage};
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
 pub use report::{Failure, FailureKind, Report};
+pub(crate) use scenario::{Brought, Replacement, each_step};
 pub use scenario::{PlayedStep, RandomPart, Scenario, UnitSource, UserProgram, WrittenGroup, WrittenStep};
-pub(crate) use scenario::{Replacement, each_step};

@@ -15,15 +15,19 @@ mod seen;
 mod unit;
 mod value;
 
+use super::bench::Bench;
 use super::observed::Observed;
-use super::world::World;
 use crate::model::{Condition, UnitSet};
 
 pub(super) use seen::Seen;
 pub(crate) use value::{is_signed, register_bytes};
 
 /// Whether a condition is true now; otherwise the actual state. `observed` has the values at the beginning of its step.
-pub(super) fn check(condition: &Condition, observed: &mut Observed, world: &mut World) -> Result<(), Seen> {
+pub(super) fn check(
+    condition: &Condition,
+    observed: &mut Observed,
+    world: &mut Bench<'_>,
+) -> Result<(), Seen> {
     match condition {
         Condition::State { units, state, al_status_code } => {
             each(*units, world, |world, at| unit::state(world, at, *state, *al_status_code))
@@ -132,8 +136,8 @@ pub(super) fn check(condition: &Condition, observed: &mut Observed, world: &mut 
 /// Whether it is true for each of these units; false for a unit that does not exist.
 fn each(
     units: UnitSet,
-    world: &mut World,
-    mut check: impl FnMut(&mut World, usize) -> Result<(), Seen>,
+    world: &mut Bench<'_>,
+    mut check: impl FnMut(&mut Bench<'_>, usize) -> Result<(), Seen>,
 ) -> Result<(), Seen> {
     let mut positions = units.positions(world.count());
     if positions.is_empty() {

@@ -21,10 +21,10 @@ use std::sync::Arc;
 
 use ::master::{Answer, LostRead, MailboxConduct, Progress};
 use esi::KnownDevice;
+use plc::{ProgramEvent, Reports};
 use time::{Duration, Instant};
 use wire::{DatagramView, datagrams};
 
-use super::story::Story;
 use crate::model::UnitNumber;
 
 use answer::{Outcome, Step};
@@ -71,7 +71,7 @@ pub(crate) struct Master {
     /// The states of the slaves for the user program; without a program they are not read.
     states: States,
     /// The reports of the user program.
-    told: Story,
+    told: Reports,
     /// The next read of the mailboxes, if there are no other operations.
     next_listen: Instant,
     /// Units whose mailboxes it reads.
@@ -111,7 +111,7 @@ impl Master {
             process_data: ProcessData::new(units, cycle, phase),
             task: None,
             states: States::new(units),
-            told: Story::default(),
+            told: Reports::default(),
             next_listen: Instant::NEVER,
             listens: vec![false; units],
             ticket: 0,
@@ -184,7 +184,9 @@ impl Master {
     pub(crate) fn scan(&mut self, now: Instant) {
         let scan = |task: &mut Task| task.scan(now, &mut self.process_data, &self.states);
         if let Some(events) = self.task.as_mut().and_then(scan) {
-            self.story.extend(self.told.period(events.into_iter()));
+            self.told.period(events.iter().cloned());
+            let new = events.iter().filter(|event| self.told.is_new(event));
+            self.story.extend(new.map(ProgramEvent::to_string));
         }
     }
 
@@ -390,7 +392,7 @@ impl Master {
     }
 
     /// The reports of its user program.
-    pub(crate) const fn told(&self) -> &Story {
+    pub(crate) const fn told(&self) -> &Reports {
         &self.told
     }
 

@@ -34,12 +34,8 @@ pub struct Scenario {
     pub calendar: Calendar,
     /// The master's own user program; none: it only executes the orders of steps.
     pub master: Option<MasterProgram>,
-    /// Programs that steps load into CPU Units.
-    pub(crate) programs: Vec<LoadedProgram>,
-    /// Images that steps load into EEPROMs.
-    pub(crate) images: Vec<SiiImage>,
-    /// Units that take the places of others.
-    pub(crate) replacements: Vec<Replacement>,
+    /// What steps bring to the places of the line.
+    pub(crate) brought: Brought,
     /// The steps, in this order.
     pub steps: Vec<PlayedStep>,
     /// The capture whose frames a recorded master sends, as named in the file.
@@ -100,6 +96,17 @@ impl UnitSource {
     pub(crate) fn known_device(&self) -> Arc<KnownDevice> {
         Arc::new(self.file.section().known_device())
     }
+}
+
+/// What orders bring to the places of the line, as their files were read.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Brought {
+    /// Programs for CPU Units.
+    pub(crate) programs: Vec<LoadedProgram>,
+    /// Images for EEPROMs.
+    pub(crate) images: Vec<SiiImage>,
+    /// Units that take the places of others.
+    pub(crate) replacements: Vec<Replacement>,
 }
 
 /// A unit that takes the place of another one.

@@ -19,7 +19,7 @@ impl Stage for World {
     }
 
     fn check(&mut self, condition: &Condition, observed: &mut Observed) -> Result<(), Seen> {
-        check(condition, observed, self)
+        check(condition, observed, &mut self.bench())
     }
 
     fn master_order(&mut self, order: &MasterOrder) {

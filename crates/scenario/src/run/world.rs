@@ -1,47 +1,40 @@
 //! The world of a scenario: units, CPU Units, line and master in virtual time, and their observer.
 
-mod cpus;
 mod frames;
 mod indicators;
-mod looks;
-mod orders;
-mod plugged;
-mod variables;
+mod supply;
 
 use coe_kit::indicators::Pattern;
 use device::Network;
-use plant::line::LineFaults;
-use plant::{PowerConditions, Powered};
+use plant::Powered;
+use plant::line::{LineFaults, LineRefusal};
+use plc::{CpuEvent, CpuUnit, CpuUnits};
 use time::{Duration, Instant};
-use unit_model::{EventCode, ModelUnit, PowerOn};
+use unit_model::ModelUnit;
 use wire::{AlStatus, AlStatusCode};
 
-use super::dice::{Dice, dice_of_phases};
-use super::ledger::{Ledger, emergency_code};
+use super::bench::{Bench, Masters, state_words};
+use super::dice::dice_of_phases;
 use super::master::{Master, Sent, Ticket};
-use super::programs::{LoadedProgram, SiiImage};
 use super::recorded::Recorded;
 use super::recording::Recording;
-use super::scenario::{Replacement, Scenario, UnitSource};
-use crate::model::StateName;
-
-use cpus::{Cpu, Cpus};
+use super::records::Records;
+use super::scenario::{Brought, Scenario, UnitSource};
+use crate::model::{CpuOrder, LineOrder, UnitOrder};
+use supply::{SeededSupply, powered};
 
 /// The complete state of a running scenario.
 pub(crate) struct World {
     network: Network<Box<dyn ModelUnit>>,
-    cpus: Cpus,
+    cpus: CpuUnits,
     line: LineFaults<Ticket>,
     master: Master,
     recorded: Recorded,
     now: Instant,
     watched: Vec<Watched>,
-    /// The programs that steps load into CPU Units.
-    programs: Vec<LoadedProgram>,
-    images: Vec<SiiImage>,
-    replacements: Vec<Replacement>,
-    seed: u64,
-    calendar_ns: u64,
+    records: Vec<Records>,
+    brought: Brought,
+    supply: SeededSupply,
     recording: Recording,
 }
 
@@ -50,11 +43,8 @@ pub(crate) struct World {
 struct Watched {
     status: AlStatus,
     code: AlStatusCode,
-    recorded: Vec<EventCode>,
     /// The pattern of each indicator, in the order of the unit's model.
     patterns: Vec<Pattern>,
-    /// Its diagnosis history, as these events say.
-    ledger: Ledger,
 }
 
 impl World {
@@ -67,7 +57,7 @@ impl World {
         let units = (1..).zip(&scenario.units).map(|(participant, source)| {
             let Powered { config, unit, cpu } =
                 powered(source, dice_of_phases(seed, participant), now, calendar_ns);
-            cpus.push(Cpu::running(cpu));
+            cpus.push(cpu);
             (config, unit)
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
@@ -84,17 +74,15 @@ impl World {
         };
         let mut world = Self {
             network,
-            cpus: Cpus::new(cpus),
+            cpus: CpuUnits::new(cpus),
             line: LineFaults::new(seed),
             master,
             recorded,
             now,
             watched,
-            programs: scenario.programs.clone(),
-            images: scenario.images.clone(),
-            replacements: scenario.replacements.clone(),
-            seed,
-            calendar_ns,
+            records: (0..count).map(|_| Records::default()).collect(),
+            brought: scenario.brought.clone(),
+            supply: SeededSupply { seed, calendar_ns },
             recording,
         };
         world.happen();
@@ -105,12 +93,27 @@ impl World {
         self.now
     }
 
-    pub(crate) fn count(&self) -> usize {
-        self.network.len()
+    /// The units, CPU Units and the line, for orders and conditions.
+    pub(crate) fn bench(&mut self) -> Bench<'_> {
+        Bench {
+            network: &mut self.network,
+            cpus: &mut self.cpus,
+            line: &mut self.line,
+            records: &mut self.records,
+            brought: &self.brought,
+            supply: &self.supply,
+            notes: &mut self.recording,
+            masters: Some(Masters { scripted: &self.master, recorded: &self.recorded }),
+            now: self.now,
+        }
     }
 
     pub(crate) const fn master(&self) -> &Master {
         &self.master
+    }
+
+    pub(crate) const fn master_mut(&mut self) -> &mut Master {
+        &mut self.master
     }
 
     pub(crate) const fn recorded_master(&self) -> &Recorded {
@@ -141,7 +144,10 @@ impl World {
     fn happen(&mut self) {
         let now = self.now;
         let recording = &mut self.recording;
-        self.cpus.cycle(now, |at, cpu| cpu.period(now, |words| tell_of_cpu(recording, now, at, words)));
+        self.cpus.cycle(now, |at, cpu| {
+            cpu.cycle(now);
+            tell_of_cpu(recording, now, at, cpu);
+        });
         self.network.poll(now);
         self.pass_late_frames();
         for sent in self.master.send(now) {
@@ -152,6 +158,30 @@ impl World {
             self.transmit(Sent { ticket: Ticket::Recorded(number), frame });
         }
         self.watch();
+    }
+
+    /// Carries out an action on units.
+    pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
+        self.bench().unit_order(order);
+        if let UnitOrder::Replace { unit, .. } = order
+            && let Some(watched) = self.watched.get_mut(unit.position())
+        {
+            *watched = Watched::default();
+        }
+        self.happen();
+    }
+
+    /// Carries out an action on CPU Units.
+    pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
+        self.bench().cpu_order(order);
+        let (recording, now) = (&mut self.recording, self.now);
+        self.cpus.each(|at, cpu| tell_of_cpu(recording, now, at, cpu));
+        self.happen();
+    }
+
+    /// Carries out an action on the line, if that is possible.
+    pub(crate) fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal> {
+        self.bench().line_order(order)
     }
 
     /// Records the changes.
@@ -167,11 +197,8 @@ impl World {
                     &format!("unit {}", at + 1),
                     &format!("records {event} {name}"),
                 );
-                watched.recorded.push(event);
                 self.recording.meets(|met| met.event(unit.model(), event));
-                if let Some(code) = emergency_code(unit.model(), event) {
-                    watched.ledger.record(code);
-                }
+                self.records[at].record(unit.model(), event);
             }
             if (status, code) != (watched.status, watched.code) {
                 self.recording.meets(|met| met.status(watched.status, status, code));
@@ -190,29 +217,20 @@ impl World {
     }
 }
 
-/// A unit with its CPU Unit, according to its file. Phases that are left out are random.
-fn powered(source: &UnitSource, mut dice: Dice, now: Instant, calendar_ns: u64) -> Powered {
-    let file = &source.file;
-    let refresh_phase = dice.phase(file.section().refresh_period().unwrap_or(Duration::ZERO));
-    let program = source.program.start();
-    // A CONFIGURATION sets the period, whatever the unit file says.
-    let own_period = program.task_period().filter(|period| !period.is_zero());
-    let task_period = own_period.unwrap_or(file.cpu().task_period.value);
-    let conditions = PowerConditions {
-        unit: PowerOn { refresh_phase, ..PowerOn::default() },
-        task_phase: dice.phase(task_period),
-        system_time_ns: Some(calendar_ns.saturating_add(now.as_nanos())),
+/// The events of a CPU Unit that were not there a task period ago.
+fn tell_of_cpu(recording: &mut Recording, now: Instant, at: usize, cpu: &mut CpuUnit) {
+    let events: Vec<_> = cpu.take_events().map(|record| record.event).collect();
+    let is_new = |event: &&CpuEvent| match event {
+        CpuEvent::Program(report) => cpu.reports().is_new(report),
+        CpuEvent::ModeChanged(_)
+        | CpuEvent::ProgramLoaded
+        | CpuEvent::TaskPeriodExceeded { .. }
+        | CpuEvent::IoRefreshingStopped
+        | CpuEvent::IoRefreshingResumed => true,
     };
-    file.power_on(now, &conditions, program)
-}
-
-fn tell_of_cpu(recording: &mut Recording, now: Instant, at: usize, words: &str) {
-    recording.tell(now, &format!("cpu {}", at + 1), words);
-}
-
-pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {
-    let state = StateName(status.state);
-    if status.error { format!("{state} with AL status code {:#06X}", code.0) } else { state.to_string() }
+    for event in events.iter().filter(is_new) {
+        recording.tell(now, &format!("cpu {}", at + 1), &event.to_string());
+    }
 }
 
 /// Maximum pause without any event.

@@ -4,14 +4,14 @@ use unit_model::EventLevel;
 use wire::{ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds};
+use crate::run::bench::Bench;
 use crate::run::ledger::{FIRST, History, MESSAGES};
-use crate::run::world::World;
 
 /// The diagnosis history of ETG.1020.
 const HISTORY: ObjectIndex = ObjectIndex(0x10F3);
 
 /// Whether nothing of it contradicts something else. A unit without power shows nothing.
-pub(super) fn is_consistent(world: &mut World, at: usize, wanted: bool) -> Result<(), Seen> {
+pub(super) fn is_consistent(world: &mut Bench<'_>, at: usize, wanted: bool) -> Result<(), Seen> {
     let contradiction = if world.is_off(at) { None } else { contradiction(world, at) };
     holds(contradiction.is_none() == wanted, || {
         let unit = format!("unit {}", at + 1);
@@ -20,7 +20,7 @@ pub(super) fn is_consistent(world: &mut World, at: usize, wanted: bool) -> Resul
     })
 }
 
-fn contradiction(world: &mut World, at: usize) -> Option<String> {
+fn contradiction(world: &mut Bench<'_>, at: usize) -> Option<String> {
     let history = history(world, at)?;
     let flag = byte(world, at, 4)?;
     let has_new = world.unit(at).has_new_messages();
@@ -35,19 +35,19 @@ fn contradiction(world: &mut World, at: usize) -> Option<String> {
         .or_else(|| emergencies(world, at))
 }
 
-fn history(world: &mut World, at: usize) -> Option<History> {
+fn history(world: &mut Bench<'_>, at: usize) -> Option<History> {
     let (stored, newest) = (byte(world, at, 1)?, byte(world, at, 2)?);
     let subs = (FIRST..).take(MESSAGES);
     let messages = subs.map(|sub| world.object(at, HISTORY, SubIndex(sub)).unwrap_or_default()).collect();
     Some(History { stored, newest, messages })
 }
 
-fn byte(world: &mut World, at: usize, sub: u8) -> Option<u8> {
+fn byte(world: &mut Bench<'_>, at: usize, sub: u8) -> Option<u8> {
     world.object(at, HISTORY, SubIndex(sub)).ok()?.first().copied()
 }
 
 /// An error status without an error, or an error without it.
-fn errors(world: &World, at: usize) -> Option<String> {
+fn errors(world: &Bench<'_>, at: usize) -> Option<String> {
     let unit = world.unit(at);
     let (status, errors) = (unit.error_status(), world.current_errors(at).len());
     let minor_faults = unit.current_errors(EventLevel::MinorFault).len();
@@ -56,7 +56,7 @@ fn errors(world: &World, at: usize) -> Option<String> {
 }
 
 /// More emergencies of a code than events that have it.
-fn emergencies(world: &World, at: usize) -> Option<String> {
+fn emergencies(world: &Bench<'_>, at: usize) -> Option<String> {
     world.received_codes(at).into_iter().find_map(|(code, received)| {
         let recorded = world.recorded_with(at, code);
         (received > recorded).then(|| {

@@ -2,10 +2,11 @@
 
 use wire::Emergency;
 
+use super::master::scripted;
 use super::seen::{Seen, holds, is_often_enough};
 use crate::model::{Bytes, Hex, UnitNumber, hex};
+use crate::run::bench::Bench;
 use crate::run::master::Received;
-use crate::run::world::World;
 
 /// What an emergency has to be; what is left out is not compared.
 pub(super) struct Wanted<'a> {
@@ -30,8 +31,8 @@ impl Wanted<'_> {
     }
 }
 
-pub(super) fn received(world: &World, wanted: &Wanted<'_>, times: Option<u64>) -> Result<(), Seen> {
-    let received = world.master().emergencies();
+pub(super) fn received(world: &Bench<'_>, wanted: &Wanted<'_>, times: Option<u64>) -> Result<(), Seen> {
+    let received = scripted(world)?.emergencies();
     let seen = received.iter().filter(|received| wanted.is_met_by(received)).count() as u64;
     holds(is_often_enough(seen, times), || {
         let all: Vec<String> = received.iter().map(|one| words(one, wanted.is_of_a_unit())).collect();
@@ -49,7 +50,7 @@ fn words(Received { unit, emergency }: &Received, is_long: bool) -> String {
     }
 }
 
-pub(super) fn lost(world: &mut World, at: usize, times: u64) -> Result<(), Seen> {
+pub(super) fn lost(world: &mut Bench<'_>, at: usize, times: u64) -> Result<(), Seen> {
     let seen = world.emergencies_lost(at);
     holds(seen == times, || format!("unit {} has lost {seen}", at + 1))
 }

@@ -6,7 +6,7 @@ use wire::{ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds, is_often_enough};
 use crate::model::{Bytes, EventCode, EventLog, hex};
-use crate::run::world::World;
+use crate::run::bench::Bench;
 
 /// The diagnosis history.
 const HISTORY: ObjectIndex = ObjectIndex(0x10F3);
@@ -18,7 +18,7 @@ const TIME_STAMP: Range<usize> = 8..16;
 type Check = Result<(), Seen>;
 
 pub(super) fn has(
-    world: &mut World,
+    world: &mut Bench<'_>,
     at: usize,
     log: EventLog,
     event: EventCode,
@@ -29,12 +29,12 @@ pub(super) fn has(
     holds(is_often_enough(seen, times), || format!("unit {}: {}", at + 1, words(&logged)))
 }
 
-pub(super) fn is_empty(world: &mut World, at: usize, log: EventLog) -> Check {
+pub(super) fn is_empty(world: &mut Bench<'_>, at: usize, log: EventLog) -> Check {
     let logged = logged(world, at, log);
     holds(logged.is_empty(), || format!("unit {}: {}", at + 1, words(&logged)))
 }
 
-pub(super) fn message(world: &mut World, at: usize, number: Option<u8>, event: EventCode) -> Check {
+pub(super) fn message(world: &mut Bench<'_>, at: usize, number: Option<u8>, event: EventCode) -> Check {
     let unit = world.unit(at);
     let message =
         number.or(unit.newest_diagnosis_message()).and_then(|number| unit.diagnosis_message(number));
@@ -45,7 +45,7 @@ pub(super) fn message(world: &mut World, at: usize, number: Option<u8>, event: E
     })
 }
 
-pub(super) fn message_bytes(world: &mut World, at: usize, number: u8, wanted: &Bytes) -> Check {
+pub(super) fn message_bytes(world: &mut Bench<'_>, at: usize, number: u8, wanted: &Bytes) -> Check {
     let sub = number.saturating_add(BEFORE_MESSAGES);
     let message = world.object(at, HISTORY, SubIndex(sub)).unwrap_or_default();
     let is_there = world.unit(at).diagnosis_message(number).is_some();
@@ -56,7 +56,7 @@ pub(super) fn message_bytes(world: &mut World, at: usize, number: u8, wanted: &B
     })
 }
 
-pub(super) fn message_count(world: &mut World, at: usize, count: u64) -> Check {
+pub(super) fn message_count(world: &mut Bench<'_>, at: usize, count: u64) -> Check {
     let logged = logged(world, at, EventLog::System);
     holds(logged.len() as u64 == count, || {
         format!("unit {} has {}: {}", at + 1, logged.len(), words(&logged))
@@ -64,7 +64,7 @@ pub(super) fn message_count(world: &mut World, at: usize, count: u64) -> Check {
 }
 
 /// The events in a log, the oldest first.
-fn logged(world: &World, at: usize, log: EventLog) -> Vec<EventCode> {
+fn logged(world: &Bench<'_>, at: usize, log: EventLog) -> Vec<EventCode> {
     let log = match log {
         EventLog::System => unit_model::EventLog::System,
         EventLog::Access => unit_model::EventLog::Access,

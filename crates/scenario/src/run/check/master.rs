@@ -2,47 +2,58 @@
 
 use super::seen::{Seen, holds};
 use crate::model::{Bytes, UnitNumber};
-use crate::run::world::World;
+use crate::run::bench::Bench;
+use crate::run::master::Master;
+use crate::run::recorded::Recorded;
 
 type Check = Result<(), Seen>;
 
-pub(super) fn cycles(world: &World, at_least: u64) -> Check {
-    let cycles = world.master().cycles();
+/// The scripted master.
+pub(super) fn scripted<'b>(world: &'b Bench<'_>) -> Result<&'b Master, Seen> {
+    world.master().ok_or_else(|| Seen::not_there("there is no scripted master"))
+}
+
+fn recorded<'b>(world: &'b Bench<'_>) -> Result<&'b Recorded, Seen> {
+    world.recorded_master().ok_or_else(|| Seen::not_there("there is no recorded master"))
+}
+
+pub(super) fn cycles(world: &Bench<'_>, at_least: u64) -> Check {
+    let cycles = scripted(world)?.cycles();
     holds(cycles >= at_least, || format!("{cycles} cycles are done"))
 }
 
-pub(super) fn is_idle(world: &World) -> Check {
-    let master = world.master();
+pub(super) fn is_idle(world: &Bench<'_>) -> Check {
+    let master = scripted(world)?;
     holds(master.is_idle(), || format!("the master is at: {}", master.activity()))
 }
 
-pub(super) fn gave_up(world: &World) -> Check {
-    holds(world.master().gave_up().is_some(), || "the master has not given up".to_owned())
+pub(super) fn gave_up(world: &Bench<'_>) -> Check {
+    holds(scripted(world)?.gave_up().is_some(), || "the master has not given up".to_owned())
 }
 
-pub(super) fn sdo_refused(world: &World, unit: Option<UnitNumber>, abort_code: u32) -> Check {
-    let sdo = world.master().last_sdo(unit);
+pub(super) fn sdo_refused(world: &Bench<'_>, unit: Option<UnitNumber>, abort_code: u32) -> Check {
+    let sdo = scripted(world)?.last_sdo(unit);
     holds(sdo.result() == Some(&Err(abort_code)), || sdo.words())
 }
 
-pub(super) fn sdo_gave(world: &World, unit: Option<UnitNumber>, value: &Bytes) -> Check {
-    let sdo = world.master().last_sdo(unit);
+pub(super) fn sdo_gave(world: &Bench<'_>, unit: Option<UnitNumber>, value: &Bytes) -> Check {
+    let sdo = scripted(world)?.last_sdo(unit);
     let is_it = matches!(sdo.result(), Some(Ok(seen)) if *seen == value.0);
     holds(is_it, || sdo.words())
 }
 
-pub(super) fn sdo_taken(world: &World, unit: Option<UnitNumber>) -> Check {
-    let sdo = world.master().last_sdo(unit);
+pub(super) fn sdo_taken(world: &Bench<'_>, unit: Option<UnitNumber>) -> Check {
+    let sdo = scripted(world)?.last_sdo(unit);
     holds(matches!(sdo.result(), Some(Ok(_))), || sdo.words())
 }
 
-pub(super) fn capture_replayed(world: &World) -> Check {
-    let recorded = world.recorded_master();
+pub(super) fn capture_replayed(world: &Bench<'_>) -> Check {
+    let recorded = recorded(world)?;
     holds(recorded.is_done(), || recorded.progress())
 }
 
-pub(super) fn answers_differ(world: &World, at_most: u64) -> Check {
-    let recorded = world.recorded_master();
+pub(super) fn answers_differ(world: &Bench<'_>, at_most: u64) -> Check {
+    let recorded = recorded(world)?;
     let count = recorded.difference_count();
     holds(count <= at_most, || format!("{count} answers differ; {}", recorded.differences().join("; ")))
 }

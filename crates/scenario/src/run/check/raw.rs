@@ -1,39 +1,40 @@
 //! Conditions of what the master has read without any service: registers, mailbox messages, frames, working counters.
 
+use super::master::scripted;
 use super::seen::{Seen, holds};
 use crate::model::Bytes;
+use crate::run::bench::Bench;
 use crate::run::master::Kind;
-use crate::run::world::World;
 
 type Check = Result<(), Seen>;
 
-pub(super) fn register(world: &World, value: &Bytes) -> Check {
-    let last = world.master().raw().register();
+pub(super) fn register(world: &Bench<'_>, value: &Bytes) -> Check {
+    let last = scripted(world)?.raw().register();
     holds(last.bytes() == Some(&value.0), || last.words(Kind::Register))
 }
 
-pub(super) fn mailbox(world: &World, message: &Bytes) -> Check {
-    let last = world.master().raw().mailbox();
+pub(super) fn mailbox(world: &Bench<'_>, message: &Bytes) -> Check {
+    let last = scripted(world)?.raw().mailbox();
     holds(last.bytes() == Some(&message.0), || last.words(Kind::Mailbox))
 }
 
-pub(super) fn mailbox_is_silent(world: &World) -> Check {
-    let last = world.master().raw().mailbox();
+pub(super) fn mailbox_is_silent(world: &Bench<'_>) -> Check {
+    let last = scripted(world)?.raw().mailbox();
     holds(last.is_missing(), || last.words(Kind::Mailbox))
 }
 
-pub(super) fn frame(world: &World, frame: &Bytes) -> Check {
-    let last = world.master().raw().frame();
+pub(super) fn frame(world: &Bench<'_>, frame: &Bytes) -> Check {
+    let last = scripted(world)?.raw().frame();
     holds(last.bytes().is_some_and(|bytes| bytes.starts_with(&frame.0)), || last.words(Kind::Frame))
 }
 
-pub(super) fn frame_is_lost(world: &World) -> Check {
-    let last = world.master().raw().frame();
+pub(super) fn frame_is_lost(world: &Bench<'_>) -> Check {
+    let last = scripted(world)?.raw().frame();
     holds(last.is_missing(), || last.words(Kind::Frame))
 }
 
-pub(super) fn working_counters(world: &World) -> Check {
-    let counters = world.master().working_counters();
+pub(super) fn working_counters(world: &Bench<'_>) -> Check {
+    let counters = scripted(world)?.working_counters();
     if counters.is_empty() {
         return Err(Seen::not_there("no process data are exchanged"));
     }

@@ -5,7 +5,7 @@ use wire::{AlState, ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds, is_often_enough, lie_at, truth};
 use crate::model::{Bytes, DataDirection, Entry, EventCode, Hex, IndicatorName, hex};
-use crate::run::world::World;
+use crate::run::bench::Bench;
 
 type Check = Result<(), Seen>;
 
@@ -14,11 +14,11 @@ fn name(at: usize) -> String {
 }
 
 /// A unit without power is in no state, and shows nothing that is inside it.
-pub(super) fn has_power(world: &World, at: usize) -> Check {
+pub(super) fn has_power(world: &Bench<'_>, at: usize) -> Check {
     holds(!world.is_off(at), || format!("{} has no power", name(at)))
 }
 
-pub(super) fn state(world: &mut World, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
+pub(super) fn state(world: &mut Bench<'_>, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
     has_power(world, at)?;
     let (status, shown) = world.al_status(at);
     let shown_code = status.error.then_some(Hex(shown.0));
@@ -26,24 +26,24 @@ pub(super) fn state(world: &mut World, at: usize, state: AlState, code: Option<H
     holds(is_there, || format!("{} is in {}", name(at), world.state_words(at)))
 }
 
-pub(super) fn recorded(world: &mut World, at: usize, event: EventCode, times: Option<u64>) -> Check {
+pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times: Option<u64>) -> Check {
     let seen = world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64;
     holds(is_often_enough(seen, times), || {
         format!("{} has recorded it {seen} times; {}", name(at), world.recorded_words(at))
     })
 }
 
-pub(super) fn recorded_nothing(world: &mut World, at: usize) -> Check {
+pub(super) fn recorded_nothing(world: &mut Bench<'_>, at: usize) -> Check {
     holds(world.recorded(at).is_empty(), || format!("{}: {}", name(at), world.recorded_words(at)))
 }
 
-pub(super) fn has_error(world: &mut World, at: usize, event: EventCode) -> Check {
+pub(super) fn has_error(world: &mut Bench<'_>, at: usize, event: EventCode) -> Check {
     has_power(world, at)?;
     let is_there = world.current_errors(at).iter().any(|code| code.0 == event.0);
     holds(is_there, || format!("{} has {}", name(at), world.current_error_words(at)))
 }
 
-pub(super) fn has_no_error(world: &mut World, at: usize) -> Check {
+pub(super) fn has_no_error(world: &mut Bench<'_>, at: usize) -> Check {
     has_power(world, at)?;
     let status = world.unit(at).error_status();
     holds(status == 0, || {
@@ -51,13 +51,13 @@ pub(super) fn has_no_error(world: &mut World, at: usize) -> Check {
     })
 }
 
-pub(super) fn new_messages(world: &mut World, at: usize, available: bool) -> Check {
+pub(super) fn new_messages(world: &mut Bench<'_>, at: usize, available: bool) -> Check {
     has_power(world, at)?;
     let seen = world.unit(at).has_new_messages();
     holds(seen == available, || format!("{}: New Messages Available is {}", name(at), truth(seen)))
 }
 
-pub(super) fn object(world: &mut World, at: usize, entry: Entry, value: &Bytes) -> Check {
+pub(super) fn object(world: &mut Bench<'_>, at: usize, entry: Entry, value: &Bytes) -> Check {
     has_power(world, at)?;
     let seen = world.object(at, ObjectIndex(entry.index), SubIndex(entry.sub));
     holds(seen.as_ref() == Ok(&value.0), || match &seen {
@@ -66,21 +66,21 @@ pub(super) fn object(world: &mut World, at: usize, entry: Entry, value: &Bytes) 
     })
 }
 
-pub(super) fn register(world: &mut World, at: usize, register: u16, value: &Bytes) -> Check {
+pub(super) fn register(world: &mut Bench<'_>, at: usize, register: u16, value: &Bytes) -> Check {
     has_power(world, at)?;
     let seen = world.registers(at, register, value.0.len());
     holds(seen == value.0, || format!("it is {}", hex(&seen)))
 }
 
-pub(super) fn outputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) -> Check {
+pub(super) fn outputs(world: &mut Bench<'_>, at: usize, first: u16, bytes: &Bytes) -> Check {
     lie_at(world.io(at).m_to_c(), first.into(), bytes)
 }
 
-pub(super) fn inputs(world: &mut World, at: usize, first: u16, bytes: &Bytes) -> Check {
+pub(super) fn inputs(world: &mut Bench<'_>, at: usize, first: u16, bytes: &Bytes) -> Check {
     lie_at(world.inputs(at), first.into(), bytes)
 }
 
-pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
+pub(super) fn data_valid(world: &mut Bench<'_>, at: usize, valid: bool) -> Check {
     has_power(world, at)?;
     let status = world.unit(at).data_valid();
     let seen = [status.outputs, status.inputs];
@@ -90,7 +90,12 @@ pub(super) fn data_valid(world: &mut World, at: usize, valid: bool) -> Check {
     })
 }
 
-pub(super) fn direction_valid(world: &mut World, at: usize, direction: DataDirection, valid: bool) -> Check {
+pub(super) fn direction_valid(
+    world: &mut Bench<'_>,
+    at: usize,
+    direction: DataDirection,
+    valid: bool,
+) -> Check {
     has_power(world, at)?;
     let status = world.unit(at).data_valid();
     let seen = match direction {
@@ -100,17 +105,17 @@ pub(super) fn direction_valid(world: &mut World, at: usize, direction: DataDirec
     holds(seen == valid, || format!("{}: it is {}", name(at), truth(seen)))
 }
 
-pub(super) fn io_data_active(world: &mut World, at: usize, active: bool) -> Check {
+pub(super) fn io_data_active(world: &mut Bench<'_>, at: usize, active: bool) -> Check {
     let seen = world.io(at).io_data_active();
     holds(seen == active, || format!("{}: NX Unit I/O Data Active Status is {}", name(at), truth(seen)))
 }
 
-pub(super) fn error(world: &mut World, at: usize, error: bool) -> Check {
+pub(super) fn error(world: &mut Bench<'_>, at: usize, error: bool) -> Check {
     let seen = world.io(at).unit_error();
     holds(seen == error, || format!("{}: NX Unit Error Status is {}", name(at), truth(seen)))
 }
 
-pub(super) fn indicator(world: &mut World, at: usize, indicator: IndicatorName, pattern: &str) -> Check {
+pub(super) fn indicator(world: &mut Bench<'_>, at: usize, indicator: IndicatorName, pattern: &str) -> Check {
     let seen = world.indicator(at, indicator).map(Pattern::id);
     holds(seen == Some(pattern), || match seen {
         Some(seen) => format!("{}: it is {seen}", name(at)),
@@ -118,7 +123,7 @@ pub(super) fn indicator(world: &mut World, at: usize, indicator: IndicatorName, 
     })
 }
 
-pub(super) fn working_counter(world: &mut World, at: usize, value: u16) -> Check {
+pub(super) fn working_counter(world: &mut Bench<'_>, at: usize, value: u16) -> Check {
     let seen = world.working_counter(at);
     holds(seen == Some(value), || match seen {
         Some(seen) => format!("it is {seen}"),

@@ -4,16 +4,18 @@ use core::cmp::Ordering;
 
 use wire::{DataType, ObjectIndex, SubIndex};
 
+use super::master::scripted;
 use super::seen::{Seen, holds, lie_at};
 use super::unit;
 use crate::model::{Amount, Condition, Hex, Number, Quantity, Same, Test, UnitNumber, hex};
+use crate::run::bench::Bench;
+use crate::run::master::Received;
 use crate::run::observed::{Observed, Reading};
-use crate::run::world::World;
 
 type Check = Result<(), Seen>;
 
 /// Whether a condition holds.
-type CheckFn = fn(&Condition, &mut Observed, &mut World) -> Check;
+type CheckFn = fn(&Condition, &mut Observed, &mut Bench<'_>) -> Check;
 
 /// Whether the present value passes a test. Without a value it does not.
 ///
@@ -22,7 +24,7 @@ pub(super) fn value(
     of: &Quantity,
     test: &Test,
     observed: &mut Observed,
-    world: &mut World,
+    world: &mut Bench<'_>,
     holds_now: CheckFn,
 ) -> Check {
     let reading = read(of, world)?;
@@ -73,7 +75,7 @@ fn compares(reading: &Reading, amount: &Amount, wanted: &[Ordering]) -> Check {
 }
 
 /// The present value; otherwise why there is none.
-fn read(of: &Quantity, world: &mut World) -> Result<Reading, Seen> {
+fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
     match of {
         Quantity::Object { unit, entry } => {
             let at = there(*unit, world)?;
@@ -126,17 +128,18 @@ fn read(of: &Quantity, world: &mut World) -> Result<Reading, Seen> {
             let at = there(*unit, world)?;
             Ok(Reading::count(world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64))
         }
-        Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code))),
-        Quantity::Cycles => Ok(Reading::count(world.master().cycles())),
+        Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
+        Quantity::Cycles => Ok(Reading::count(scripted(world)?.cycles())),
     }
 }
 
-fn emergencies(world: &World, wanted: Option<Hex<u16>>) -> u64 {
-    let received = world.master().emergencies().iter();
-    received.filter(|received| wanted.is_none_or(|wanted| received.emergency.code == wanted.0)).count() as u64
+fn emergencies(world: &Bench<'_>, wanted: Option<Hex<u16>>) -> Result<u64, Seen> {
+    let received = scripted(world)?.emergencies().iter();
+    let is_wanted = |received: &&Received| wanted.is_none_or(|wanted| received.emergency.code == wanted.0);
+    Ok(received.filter(is_wanted).count() as u64)
 }
 
-fn there(unit: UnitNumber, world: &World) -> Result<usize, Seen> {
+fn there(unit: UnitNumber, world: &Bench<'_>) -> Result<usize, Seen> {
     let at = unit.position();
     if at < world.count() { Ok(at) } else { Err(Seen::not_there(format!("{unit}: not there"))) }
 }

@@ -4,7 +4,7 @@ use core::task::Poll;
 
 use ::master::Direction;
 use coe_kit::pdo::PdoSettings;
-use plc::{CpuEvent, ProgramEvent, STATEMENT_BUDGET_DEFAULT};
+use plc::{ProgramEvent, STATEMENT_BUDGET_DEFAULT};
 use st::{Alarm, External, Host, Instance, NX_OBJECT_BYTES_MAX, NxCallNumber, NxFault, Problems};
 use time::{Duration, Instant};
 use wire::AlState;
@@ -137,7 +137,7 @@ impl Task {
         now: Instant,
         data: &mut ProcessData,
         states: &States,
-    ) -> Option<Vec<CpuEvent>> {
+    ) -> Option<Vec<ProgramEvent>> {
         if !core::mem::take(&mut self.is_due) {
             return None;
         }
@@ -150,7 +150,7 @@ impl Task {
         let failed = result
             .err()
             .and_then(|stopped| ProgramEvent::of_stopped(&stopped, program, STATEMENT_BUDGET_DEFAULT));
-        Some(host.told.into_iter().chain(failed).map(CpuEvent::Program).collect())
+        Some(host.told.into_iter().chain(failed).collect())
     }
 
     fn take_in(&mut self, data: &ProcessData, states: &States) {

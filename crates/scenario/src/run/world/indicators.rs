@@ -10,9 +10,10 @@ impl World {
         if !self.recording.has_trace() {
             return;
         }
-        for at in 0..self.count() {
-            let names = self.unit(at).model().indicators();
-            let patterns = names.iter().map(|name| self.pattern(at, name).unwrap_or_default());
+        for at in 0..self.network.len() {
+            let bench = self.bench();
+            let names = bench.unit(at).model().indicators();
+            let patterns = names.iter().map(|name| bench.pattern(at, name).unwrap_or_default());
             let patterns: Vec<Pattern> = patterns.collect();
             let before = self.watched.get(at).map_or(&[][..], |watched| &watched.patterns);
             if patterns == before {

@@ -9,14 +9,31 @@ use plc::Io;
 use unit_model::{EventCode, EventLevel, ModelUnit, SlaveView};
 use wire::{AlStatus, AlStatusCode, DataType, ObjectIndex, SdoAbort, SubIndex};
 
-use super::{World, state_words};
-use crate::model::IndicatorName;
+use super::Bench;
+use crate::model::{IndicatorName, StateName};
 use crate::run::ledger::{Ledger, emergency_code};
+use crate::run::master::Master;
+use crate::run::recorded::Recorded;
 
 /// The two levels of current errors, the more severe first.
 const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observation];
 
-impl World {
+impl Bench<'_> {
+    /// Number of units.
+    pub(crate) fn count(&self) -> usize {
+        self.network.len()
+    }
+
+    /// The scripted master; none if other masters use the line.
+    pub(crate) fn master(&self) -> Option<&Master> {
+        self.masters.map(|masters| masters.scripted)
+    }
+
+    /// The recorded master; none if other masters use the line.
+    pub(crate) fn recorded_master(&self) -> Option<&Recorded> {
+        self.masters.map(|masters| masters.recorded)
+    }
+
     /// The unit at a position that was checked when the scenario was read.
     pub(crate) fn unit(&self, at: usize) -> &dyn ModelUnit {
         &**self.device(at).unit()
@@ -35,7 +52,7 @@ impl World {
 
     pub(crate) fn io(&self, at: usize) -> &Io {
         match self.cpus.get(at) {
-            Some(cpu) => cpu.unit.io(),
+            Some(cpu) => cpu.io(),
             None => panic!("the scenario names unit {}, and was checked", at + 1),
         }
     }
@@ -50,18 +67,19 @@ impl World {
     }
 
     pub(crate) fn recorded(&self, at: usize) -> &[EventCode] {
-        &self.watched[at].recorded
+        self.records[at].events()
     }
 
     /// The diagnosis history as the recorded events say.
     pub(crate) fn ledger_mut(&mut self, at: usize) -> &mut Ledger {
-        &mut self.watched[at].ledger
+        self.records[at].ledger_mut()
     }
 
     /// The emergency error codes that the master has received from a unit, each with its number.
     pub(crate) fn received_codes(&self, at: usize) -> BTreeMap<u16, usize> {
         let mut codes = BTreeMap::new();
-        for received in self.master.emergencies().iter().filter(|received| received.unit == at) {
+        let received = self.master().map(Master::emergencies).unwrap_or_default();
+        for received in received.iter().filter(|received| received.unit == at) {
             *codes.entry(received.emergency.code).or_default() += 1;
         }
         codes
@@ -126,11 +144,11 @@ impl World {
     }
 
     pub(crate) fn inputs(&self, at: usize) -> &[u8] {
-        self.master.inputs(at)
+        self.master().map(|master| master.inputs(at)).unwrap_or_default()
     }
 
     pub(crate) fn working_counter(&self, at: usize) -> Option<u16> {
-        self.master.working_counter(at)
+        self.master()?.working_counter(at)
     }
 
     /// The pattern of an indicator; none if the unit has no indicator with this name.
@@ -139,7 +157,7 @@ impl World {
     }
 
     /// The same by the name in the model.
-    pub(super) fn pattern(&self, at: usize, name: &str) -> Option<Pattern> {
+    pub(crate) fn pattern(&self, at: usize, name: &str) -> Option<Pattern> {
         if self.is_off(at) {
             return self.unit(at).model().indicators().contains(&name).then_some(Pattern::NotLit);
         }
@@ -154,6 +172,11 @@ impl World {
             PortCondition::new(activity.link, activity.is_active(self.now))
         })
     }
+}
+
+pub(crate) fn state_words(status: AlStatus, code: AlStatusCode) -> String {
+    let state = StateName(status.state);
+    if status.error { format!("{state} with AL status code {:#06X}", code.0) } else { state.to_string() }
 }
 
 fn codes(codes: &[EventCode]) -> String {

@@ -1,12 +1,11 @@
 //! Device variables of the CPU Units, by their names in the manual (A-3-2), and variables of programs.
 
-use plc::{Io, Target, VariableError};
+use plc::{CpuUnit, Io, Reports, Target, VariableError};
 
-use super::World;
+use super::Bench;
 use crate::model::Controller;
-use crate::run::story::Story;
 
-impl World {
+impl Bench<'_> {
     /// The bytes of a variable or of an element such as `N1_UINTs_01_M_to_C[3]`, little endian; none if no CPU
     /// Unit has it.
     pub(crate) fn variable(&self, name: &str) -> Option<Vec<u8>> {
@@ -24,16 +23,16 @@ impl World {
     /// The value of a variable of a user program as text; none if there is none.
     pub(crate) fn program_variable(&self, of: Controller, name: &str) -> Option<String> {
         match of {
-            Controller::Master => self.master.program_variable(name),
-            Controller::Unit(unit) => self.cpus.get(unit.position())?.unit.program_variable(name),
+            Controller::Master => self.masters?.scripted.program_variable(name),
+            Controller::Unit(unit) => self.cpus.get(unit.position())?.program_variable(name),
         }
     }
 
     /// The reports of a controller; none if it does not exist.
-    pub(crate) fn told(&self, by: Controller) -> Option<&Story> {
+    pub(crate) fn told(&self, by: Controller) -> Option<&Reports> {
         match by {
-            Controller::Master => Some(self.master.told()),
-            Controller::Unit(unit) => self.cpus.get(unit.position()).map(|cpu| &cpu.told),
+            Controller::Master => Some(self.masters?.scripted.told()),
+            Controller::Unit(unit) => self.cpus.get(unit.position()).map(CpuUnit::reports),
         }
     }
 
@@ -72,7 +71,7 @@ impl World {
     }
 
     fn has_variable(&self, at: usize, name: &str) -> bool {
-        self.cpus.get(at).is_some_and(|cpu| cpu.unit.io().variables().find_target(name).is_ok())
+        self.cpus.get(at).is_some_and(|cpu| cpu.io().variables().find_target(name).is_ok())
     }
 
     /// None for a CPU Unit without power, which the trace reports.
@@ -80,12 +79,12 @@ impl World {
         if !self.cpu_has_power(at) {
             return None;
         }
-        Some(self.cpus.get_mut(at)?.unit.io_mut())
+        Some(self.cpus.get_mut(at)?.io_mut())
     }
 
     fn find(&self, name: &str) -> Option<(&Io, Target)> {
         self.cpus.iter().find_map(|cpu| {
-            let io = cpu.unit.io();
+            let io = cpu.io();
             io.variables().find_target(name).ok().map(|target| (io, target))
         })
     }

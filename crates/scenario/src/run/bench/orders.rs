@@ -5,24 +5,18 @@
 use device::{Device, SiiTiming, Start, TransitionTimes};
 use esc::Esc;
 use plant::line::LineRefusal;
-use plc::{Io, OperatingMode};
+use plc::{CpuUnit, Io, OperatingMode};
 use time::Instant;
 use unit_model::{ModelUnit, NotThere};
 use wire::AlStatusCode;
 
-use super::cpus::Cpu;
+use super::Bench;
 use super::plugged::ERASED;
-use super::{World, tell_of_cpu};
 use crate::model::{
     ConductOrder, CpuMode, CpuOrder, EventLog, ID_SWITCH, LineOrder, Needs, UnitOrder, UnitSet,
 };
-use crate::run::master::Master;
 
-impl World {
-    pub(crate) fn master_mut(&mut self) -> &mut Master {
-        &mut self.master
-    }
-
+impl Bench<'_> {
     /// An order to each of its units. One without power does nothing, unless a hand carries out the order; a switch
     /// that is on cannot be switched on.
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
@@ -30,12 +24,11 @@ impl World {
             match self.why_without_effect(order, at) {
                 Some(reason) => {
                     let words = format!("{reason}: the order has no effect");
-                    self.recording.tell(self.now, &format!("unit {}", at + 1), &words);
+                    self.notes.tell(self.now, &format!("unit {}", at + 1), &words);
                 }
                 None => self.act_on_unit(order, at),
             }
         }
-        self.happen();
     }
 
     fn why_without_effect(&self, order: &UnitOrder, at: usize) -> Option<&'static str> {
@@ -78,68 +71,59 @@ impl World {
     }
 
     pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
-        let now = self.now;
         match order {
             CpuOrder::SetMode { units, mode } => {
-                self.each_cpu(*units, |cpu| cpu.unit.set_mode(operating_mode(*mode)));
-                self.tell_of_cpus();
+                self.each_cpu(*units, |cpu| cpu.set_mode(operating_mode(*mode)));
             }
             CpuOrder::StopIoRefreshing { units } => {
-                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(false));
+                self.each_cpu(*units, |cpu| cpu.set_io_refreshing(false));
             }
             CpuOrder::StartIoRefreshing { units } => {
-                self.each_cpu(*units, |cpu| cpu.unit.set_io_refreshing(true));
+                self.each_cpu(*units, |cpu| cpu.set_io_refreshing(true));
             }
-            CpuOrder::StopTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = false),
-            CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.is_running = true),
-            CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.unit.reset_errors()),
+            CpuOrder::StopTask { units } => self.each_cpu(*units, |cpu| cpu.stop_task()),
+            CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.start_task()),
+            CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.reset_errors()),
             CpuOrder::CycleRackPower { units } => self.each(*units, Self::cycle_rack_power),
             CpuOrder::SendNxMessages { units, count } => {
-                self.each_cpu(*units, |cpu| cpu.unit.load_nx_bus(*count));
+                self.each_cpu(*units, |cpu| cpu.load_nx_bus(*count));
             }
             CpuOrder::PowerOffRack { units } => self.each(*units, Self::power_off_rack),
             CpuOrder::PowerOnRack { units } => self.each(*units, Self::power_on_rack),
             CpuOrder::JumpSystemTime { units, by } => {
-                self.each_cpu(*units, |cpu| cpu.unit.jump_system_time(*by));
+                self.each_cpu(*units, |cpu| cpu.jump_system_time(*by));
             }
             CpuOrder::SetInputs { unit, bytes } => self.each_cpu(UnitSet::One(*unit), |cpu| {
-                for (input, byte) in cpu.unit.io_mut().c_to_m_mut().iter_mut().zip(&bytes.0) {
+                for (input, byte) in cpu.io_mut().c_to_m_mut().iter_mut().zip(&bytes.0) {
                     *input = *byte;
                 }
             }),
             CpuOrder::Force { variable, value } => self.set_variable(variable, value, Io::force),
             CpuOrder::Write { variable, value } => self.set_variable(variable, value, Io::write),
             CpuOrder::Release { variable } => self.release(variable),
-            CpuOrder::ReleaseAll { units } => self.each_cpu(*units, |cpu| cpu.unit.io_mut().release_all()),
+            CpuOrder::ReleaseAll { units } => self.each_cpu(*units, |cpu| cpu.io_mut().release_all()),
             CpuOrder::Load { unit, program } => self.load(unit.position(), program),
         }
-        self.advance(now);
     }
 
     /// Loads a program, as `run` does with a changed file.
     fn load(&mut self, at: usize, file: &str) {
-        let program = self.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
+        let program =
+            self.brought.programs.iter().find(|loaded| loaded.unit == at && loaded.file.name == file);
         let Some(program) = program.cloned() else { return };
         if !self.cpu_has_power(at) {
             return;
         }
         if let Some(cpu) = self.cpus.get_mut(at) {
-            cpu.unit.change_program(Box::new(program.file.program));
+            cpu.change_program(Box::new(program.file.program));
         }
-        self.tell_of_cpus();
-    }
-
-    /// The reports of CPU Units since their last task periods.
-    fn tell_of_cpus(&mut self) {
-        let (recording, now) = (&mut self.recording, self.now);
-        self.cpus.each(|at, cpu| cpu.between(|words| tell_of_cpu(recording, now, at, words)));
     }
 
     /// A fault that has ended by itself can be ended too.
     pub(crate) fn line_order(&mut self, order: &LineOrder) -> Result<(), LineRefusal> {
-        match self.line.order(self.now, order, &mut self.network) {
+        match self.line.order(self.now, order, self.network) {
             Err(LineRefusal::NoFault(name)) => {
-                self.recording.note(self.now, &format!("{name} has ended already"));
+                self.notes.tell(self.now, "line", &format!("{name} has ended already"));
                 Ok(())
             }
             ordered => ordered,
@@ -169,7 +153,7 @@ impl World {
         }
     }
 
-    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut Cpu)) {
+    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut CpuUnit)) {
         for at in units.positions(self.count()) {
             if self.cpu_has_power(at) {
                 self.cpus.get_mut(at).into_iter().for_each(&mut order);
@@ -179,10 +163,10 @@ impl World {
 
     /// Whether a CPU Unit has power, so that an order has an effect on it; otherwise the trace says so.
     pub(super) fn cpu_has_power(&mut self, at: usize) -> bool {
-        let has_power = self.cpus.get(at).is_some_and(|cpu| cpu.has_power);
+        let has_power = self.cpus.get(at).is_some_and(CpuUnit::has_power);
         if !has_power {
             let words = "has no power: the order has no effect";
-            self.recording.tell(self.now, &format!("cpu {}", at + 1), words);
+            self.notes.tell(self.now, &format!("cpu {}", at + 1), words);
         }
         has_power
     }
@@ -198,16 +182,14 @@ impl World {
 
     fn power_off(&mut self, at: usize) {
         self.network.power_off(at, self.now);
-        self.recording.tell(self.now, &format!("unit {}", at + 1), "is switched off");
+        self.notes.tell(self.now, &format!("unit {}", at + 1), "is switched off");
     }
 
     fn cycle_rack_power(&mut self, at: usize) {
         self.start(at, Start::PowerOn);
         let now = self.now;
         if let Some(cpu) = self.cpus.get_mut(at) {
-            cpu.unit.cycle_power(now);
-            cpu.is_running = true;
-            cpu.has_power = true;
+            cpu.cycle_power(now);
         }
     }
 
@@ -215,24 +197,23 @@ impl World {
         self.power_off(at);
         let now = self.now;
         if let Some(cpu) = self.cpus.get_mut(at) {
-            cpu.unit.cycle_power(now);
-            cpu.has_power = false;
+            cpu.power_off(now);
         }
-        self.recording.tell(now, &format!("cpu {}", at + 1), "is switched off");
+        self.notes.tell(now, &format!("cpu {}", at + 1), "is switched off");
     }
 
     fn power_on_rack(&mut self, at: usize) {
-        let has_power = self.cpus.get(at).is_some_and(|cpu| cpu.has_power);
+        let has_power = self.cpus.get(at).is_some_and(CpuUnit::has_power);
         if has_power && !self.is_off(at) {
             let words = "has power: the order has no effect";
-            return self.recording.tell(self.now, &format!("cpu {}", at + 1), words);
+            return self.notes.tell(self.now, &format!("cpu {}", at + 1), words);
         }
         self.cycle_rack_power(at);
     }
 
     fn start(&mut self, at: usize, start: Start) {
         self.network.restart(at, self.now, start);
-        self.watched[at].ledger.start();
+        self.records[at].ledger_mut().start();
     }
 }
 

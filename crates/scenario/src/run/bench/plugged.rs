@@ -3,19 +3,16 @@
 use device::Start;
 use plant::Powered;
 
-use super::cpus::Cpu;
-use super::{Watched, World, powered};
-use crate::run::dice::dice_of_phases;
+use super::Bench;
+use crate::run::records::Records;
 
 /// A byte of an EEPROM that has never been written.
 pub(super) const ERASED: u8 = 0xFF;
-/// The participants of the units that take the places of others begin here, so that their phases are their own.
-const FIRST_REPLACEMENT: u64 = 1 << 32;
 
-impl World {
+impl Bench<'_> {
     /// Replaces the EEPROM of a unit; the rest of it is as never written.
     pub(super) fn load_sii(&mut self, at: usize, file: &str) {
-        let loaded = self.images.iter().find(|image| image.unit == at && image.file == file);
+        let loaded = self.brought.images.iter().find(|image| image.unit == at && image.file == file);
         let Some(image) = loaded.map(|loaded| loaded.image.clone()) else { return };
         if let Some((_, esc)) = self.network.slave_mut(at) {
             let room = esc.sii_image_mut();
@@ -28,19 +25,19 @@ impl World {
 
     /// Another unit takes the place of one, with its own CPU Unit, and starts.
     pub(super) fn replace(&mut self, at: usize, file: &str) {
-        let mut numbered = (FIRST_REPLACEMENT..).zip(&self.replacements);
-        let found = numbered.find(|(_, new)| new.unit == at && new.file == file);
-        let Some((participant, new)) = found else { return };
-        let dice = dice_of_phases(self.seed, participant);
-        let Powered { config, unit, cpu } = powered(&new.source, dice, self.now, self.calendar_ns);
+        let mut numbered = self.brought.replacements.iter().enumerate();
+        let Some((number, new)) = numbered.find(|(_, new)| new.unit == at && new.file == file) else {
+            return;
+        };
+        let Powered { config, unit, cpu } = self.supply.power(number, &new.source, self.now);
         self.network.replace(at, config, unit, self.now);
         self.network.restart(at, self.now, Start::PowerOn);
         if let Some(place) = self.cpus.get_mut(at) {
-            *place = Cpu::running(cpu);
+            *place = cpu;
         }
-        if let Some(watched) = self.watched.get_mut(at) {
-            *watched = Watched::default();
+        if let Some(records) = self.records.get_mut(at) {
+            *records = Records::default();
         }
-        self.recording.tell(self.now, &format!("unit {}", at + 1), &format!("is replaced by {file}"));
+        self.notes.tell(self.now, &format!("unit {}", at + 1), &format!("is replaced by {file}"));
     }
 }
