@@ -60,7 +60,7 @@ steps = [
 ```
 
 These are six cases, named `FILE (loss = 1, state = SAFE-OP)` and so on; `ectwin replay --case "loss = 1, state = OP"` replays one of them.
-A value is a number, a text, `true` or `false`. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
+A value is a number, a text, `true`, `false`, or a range of numbers such as `{ from = 3, to = 5 }`, which is a text for each of them. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
 are not replaced. `{{loss}}` is the text `{loss}`. A parameter that no text uses, and a name in braces that is no parameter, are mistakes.
 
 ## The master's user program
@@ -136,7 +136,7 @@ A group is a step with steps of its own. `at`, `after` and `when` say when it be
 | `{ steps = [a, b] }` | the steps one after the other |
 | `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the begin of the one before; one that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
 | `{ together = [a, [b, c], d] }` | three sequences that begin at the same time; a list is a sequence. The next step waits for the last of them |
-| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. At most 10,000 steps |
+| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers and the name of a unit: `for.unit = [2, { from = 4, to = 6 }, "Conveyor"]`. At most 10,000 steps |
 
 ```toml groups.toml
 title = "contacts of two cables are loose at the same time, ten times"
@@ -150,6 +150,27 @@ steps = [
     ] },
     { expect = "all units are in OP", for = "30ms" },
   ] },
+]
+```
+
+### Units
+Sentences name units by their numbers, 1 for the one next to the master, or by the `name` in their unit files: `unit 3`, `unit Conveyor`,
+`units 3 to 5`, `units 2, 4 and Conveyor`, `all units`. Upper and lower case are the same. A name means the place of that unit in the line, also
+after another unit was put there. What has one value, such as an object or a register, is of one unit: `for.unit` repeats the step for several.
+
+```toml units.toml
+title = "only the units behind the infeed are taken to OP"
+units = [
+  { model = "nx-ect101", name = "Infeed" },
+  { model = "nx-ect101", name = "Conveyor", serial = 2 },
+  { model = "digital", name = "Lamps", outputs = 8 },
+  { model = "digital", name = "Doors", inputs = 8 },
+]
+steps = [
+  { master = "take units Conveyor, 3 to 4 to OP" },
+  { expect = "units 2 to 4 are in OP", within = "1s" },
+  { for.unit = ["Lamps", "Doors"], steps = [{ expect = "unit {unit} has recorded nothing" }] },
+  { expect = "unit Infeed is in INIT" },
 ]
 ```
 

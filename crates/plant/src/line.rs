@@ -20,7 +20,7 @@ pub use faults::{ActiveFault, LineFaults, LineRefusal};
 pub use frames::{Choice, FrameKind, Frames};
 pub use kept::{KEPT_BYTES_MAX, KEPT_FRAMES_MAX};
 pub use met::Met;
-pub use numbers::{CableNumber, UnitNumber};
+pub use numbers::{CableNumber, NoUnitName, UnitName, UnitNumber, WhichUnit};
 pub use order::{Direction, Disturbance, FaultName, FrameFault, LineOrder, NoFaultName, Way};
 
 #[cfg(test)]

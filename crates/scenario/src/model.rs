@@ -1,7 +1,7 @@
 //! Scenarios as plain values: steps, orders and conditions, with their form in JSON and TOML.
 //!
 //! No sentences are read here, and the model is independent of the world that its values describe. Units and
-//! cables are identified by their numbers, from 1; faults, patterns, variables and programs by their names.
+//! cables are identified by their numbers, from 1, units also by their names; faults, patterns, variables and programs by their names.
 
 mod amount;
 mod bytes;
@@ -19,6 +19,7 @@ mod spelling;
 mod step;
 mod step_form;
 mod unit;
+mod unit_words;
 mod units;
 mod value;
 
@@ -49,5 +50,8 @@ pub use step::{Expectation, Group, Members, Mode, Order, Repetition, ScriptStep,
 pub(crate) use step_form::StepForm;
 pub use unit::{ConductOrder, EventLog, UnitOrder};
 pub(crate) use unit::{ID_SWITCH, Needs};
-pub use units::{CableNumber, Controller, UnitNumber, UnitSet};
+pub(crate) use unit_words::UnitWords;
+pub use units::{
+    CableNumber, Controller, NoUnitName, UnitName, UnitNumber, UnitRange, UnitSet, UnitSpan, WhichUnit,
+};
 pub use value::{Quantity, Test};

@@ -6,6 +6,7 @@ use time::Duration;
 
 use crate::model::{Order, Step, Trigger};
 use crate::pool::EVERYDAY;
+use crate::ready::UnitNames;
 use crate::run::{DICE_OF_STEPS, Dice, PlayedStep, RandomPart, Scenario, WrittenStep};
 use crate::words::{NoSentence, Spoken};
 
@@ -35,9 +36,12 @@ impl RandomStep {
         format!("{{ after = \"{after}\", {key} = \"{text}\" }}")
     }
 
-    fn step(&self, line: usize) -> PlayedStep {
+    fn step(&self, line: usize, names: &UnitNames<'_>) -> PlayedStep {
         match order(self.key, &self.text) {
-            Ok(order) => {
+            Ok(mut order) => {
+                if let Err((problem, _)) = names.number(order.unit_words()) {
+                    panic!("`{}` of the pool: {problem}", self.text);
+                }
                 let step = Step { trigger: Trigger::After(self.after), order, repetition: None };
                 PlayedStep::Step(WrittenStep { step, line, text: self.text.clone() })
             }
@@ -97,10 +101,11 @@ impl Scenario {
     /// All steps, with these instead of the random ones.
     pub(crate) fn steps_with(&self, random: &[RandomStep]) -> Vec<PlayedStep> {
         let mut steps = self.steps.clone();
+        let names = UnitNames::of(&self.units);
         // From the last one on, so that the places of the others stay right.
         for (number, part) in self.random.iter().enumerate().rev() {
             let own = random.iter().filter(|step| step.part == number);
-            steps.splice(part.place..part.place, own.map(|step| step.step(part.line)));
+            steps.splice(part.place..part.place, own.map(|step| step.step(part.line, &names)));
         }
         steps
     }

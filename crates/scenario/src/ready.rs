@@ -20,6 +20,7 @@ mod reports;
 mod resolve;
 mod steps;
 mod unit_files;
+mod unit_names;
 mod units;
 mod values;
 mod written;
@@ -33,6 +34,7 @@ pub(crate) use groups::DEPTH_MAX;
 use maker::Maker;
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
+pub(crate) use unit_names::UnitNames;
 pub(crate) use units::is_unit;
 pub(crate) use written::{Written, group_words};
 
@@ -73,9 +75,12 @@ impl Scenario {
 
 /// A scenario, and its mistakes: it is executable if there are none.
 pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Problem>) {
-    let Draft { script, written, is_whole } = draft;
+    let Draft { mut script, written, is_whole } = draft;
     let mut maker = Maker::new(files, script.capture.is_some());
     maker.units(&script.units);
+    if is_whole && maker.problems.is_empty() {
+        maker.number_units(&mut script.steps);
+    }
     // Without the units it is unknown which names and addresses the master's program may use.
     if is_whole && maker.problems.is_empty() {
         maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));

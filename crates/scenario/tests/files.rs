@@ -45,10 +45,10 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ),
         (
             "{ line = \"unplug cable 2\" }",
-            "refers to a unit or a cable that does not exist",
+            "refers to a cable that does not exist",
             "the line has 1 unit, counted from 1; each cable has the number of the unit behind it",
         ),
-        ("{ line = \"plug cable 2\" }", "refers to a unit or a cable that does not exist", "1 unit"),
+        ("{ line = \"plug cable 2\" }", "refers to a cable that does not exist", "1 unit"),
         (
             "{ master = \"set output byte 65535 of unit 1 to 01\" }",
             "unit 1 has no output byte 65535",
@@ -126,10 +126,10 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
             "cannot be written",
             "`force N1_UINTs_01_M_to_C[0]",
         ),
-        ("{ cpu = \"load a.st into unit 2\" }", "refers to a unit", "1 unit"),
+        ("{ cpu = \"load a.st into unit 2\" }", "unit 2 does not exist", "1 unit"),
         ("{ cpu = \"load a.st into unit 1\" }", "the program a.st cannot be read", ""),
         ("{ expect = \"program variable x of unit 1 is 1\" }", "unit 1 has no user program", "program = "),
-        ("{ expect = \"program variable x of unit 2 is 1\" }", "refers to a unit", "1 unit"),
+        ("{ expect = \"program variable x of unit 2 is 1\" }", "unit 2 does not exist", "1 unit"),
         ("{ expect = \"program variable x of the master is 1\" }", "no user program", "master = {"),
         ("{ never = \"user-defined error 0 at the master\" }", "from 1 to 40000", ""),
         ("{ never = \"program error of unit 1 at 5:0\" }", "line and column, both from 1", ""),
@@ -414,7 +414,7 @@ line 9, column 14: unknown key `unit.restrat`
 line 9, column 41: unknown key `whn`
   did you mean `when`?
 line 10, column 34: `expect.object.unit` is integer `0`
-  expected the number of a unit, from 1
+  expected the number of a unit, from 1, or its name
 line 10, column 45: `1018`: expected an entry of an object such as 10F3:05
 line 10, column 53: unknown key `expect.object.valu`
   expected `unit`, `entry` or `value`; did you mean `value`?

@@ -222,7 +222,7 @@ fn mistakes_in_groups_are_told_with_their_place() {
         (
             r#"{ repeat = 3, every = "1ms", steps = [{ line = "unplug cable 2" }] }"#.to_owned(),
             "line 3, column 48",
-            "a unit or a cable that does not exist",
+            "a cable that does not exist",
         ),
         (
             r#"{ repeat = 3, steps = [{ line = "be quiet" }] }"#.to_owned(),
@@ -290,7 +290,7 @@ fn mistakes_in_groups_are_told_with_their_place() {
         (
             r#"{ for.unit = [1, 2, 3], steps = [{ expect = "unit {unit} is in INIT" }] }"#.to_owned(),
             "line 3, column 45",
-            "a unit that does not exist",
+            "unit 2 does not exist",
         ),
         (
             r#"{ for.a = [1], steps = [{ for.a = [1], steps = [{ line = "plug cable {a}" }] }] }"#.to_owned(),

@@ -96,5 +96,5 @@ steps = [
     assert_eq!((failure.line, failure.seen.as_str()), (14, "the last SDO is not answered yet"));
     let third = text.replace("of unit 2 gave", "of unit 3 gave");
     let refused = Scenario::parse(&third, |_| Err(String::new())).expect_err("two units").to_string();
-    assert!(refused.contains("refers to a unit that does not exist"), "{refused}");
+    assert!(refused.contains("unit 3 does not exist"), "{refused}");
 }

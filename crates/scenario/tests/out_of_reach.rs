@@ -78,11 +78,7 @@ fn what_cannot_be_sent_or_loaded_is_refused() {
             "`load lint.bin as it is into the SII of unit 1` loads it nevertheless",
         ),
         ("unit = \"replace unit 1 by no.toml\"", "the unit file no.toml cannot be read: no no.toml", ""),
-        (
-            "unit = \"replace unit 2 by other.toml\"",
-            "it refers to a unit or a cable that does not exist",
-            "1 unit",
-        ),
+        ("unit = \"replace unit 2 by other.toml\"", "unit 2 does not exist", "1 unit"),
     ] {
         let found = mistake(step);
         let (found_message, found_help) = found.split_once(" / ").unwrap_or_default();

@@ -118,7 +118,7 @@ fn mistakes_of_parameters_are_told_with_their_place() {
         (with("with = {}"), "line 2, column 8", "`with` has no parameter"),
         (with("with = 5"), "line 2, column 8", "`with` is an integer"),
         (with("with = { a = 5 }"), "line 2, column 14", "a list of values, such as [0, 1, 5]"),
-        (with("with = { a = [[1]] }"), "line 2, column 15", "a number, a text, true or false"),
+        (with("with = { a = [[1]] }"), "line 2, column 15", "a number, a text, true, false, or a range"),
         (with("with = { a = [1, 1] }"), "line 2, column 18", "the value 1 twice"),
         (with("with = { \"a b\" = [1] }"), "line 2, column 10", "`a b` cannot be in braces"),
         (with("with = { a = [1], b = [2] }"), "line 2, column 19", "`{b}` is not in any text"),

@@ -78,7 +78,7 @@ fn every_scenario_file_is_a_script_whose_json_and_typed_toml_replay_as_the_file_
 }
 
 fn unit_1_is_in(state: AlState) -> Condition {
-    Condition::State { units: UnitSet::One(UnitNumber::at(0)), state, al_status_code: None }
+    Condition::State { units: UnitNumber::at(0).into(), state, al_status_code: None }
 }
 
 /// A script that is built in code.
@@ -125,8 +125,11 @@ fn what_is_wrong_with_a_script_is_told_with_the_number_of_the_step() {
             order(MasterOrder::UseMailboxCounter { counter: 8 }),
             "step 3: expected a mailbox counter from 0 to 7",
         ),
-        (order(MasterOrder::SetOutputs { unit: unit_2, at: 0, bytes: [1].into() }), "does not exist"),
-        (order(MasterOrder::SetOutputs { unit: UnitNumber::at(0), at: 0, bytes: nothing }), "expected bytes"),
+        (order(MasterOrder::SetOutputs { unit: unit_2.into(), at: 0, bytes: [1].into() }), "does not exist"),
+        (
+            order(MasterOrder::SetOutputs { unit: UnitNumber::at(0).into(), at: 0, bytes: nothing }),
+            "expected bytes",
+        ),
         (
             Step {
                 trigger: Trigger::At(Duration::from_secs(61)),

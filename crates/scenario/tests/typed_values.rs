@@ -244,8 +244,11 @@ fn a_value_is_written_with_the_verb_of_its_units() {
 #[test]
 fn what_is_no_value_is_refused_with_what_was_expected() {
     for (json, expected) in [
-        (r#"{ "take": { "units": 0, "state": "OP" } }"#, "\"all\" or the number of a unit, from 1"),
-        (r#"{ "take": { "units": "unit 1", "state": "OP" } }"#, "\"all\" or the number of a unit, from 1"),
+        (r#"{ "take": { "units": 0, "state": "OP" } }"#, "\"all\", the number of a unit, from 1, its name"),
+        (
+            r#"{ "take": { "units": "unit 1", "state": "OP" } }"#,
+            "\"all\", the number of a unit, from 1, its name",
+        ),
         (r#"{ "take": { "units": 1, "state": "OPS" } }"#, "INIT, PRE-OP, SAFE-OP, OP, BOOT"),
         (r#"{ "take": { "units": 1, "state": "OP", "when": 5 } }"#, "unknown field `when`"),
         (r#"{ "write_sdo": { "unit": 1, "entry": "2002", "value": "01" } }"#, "such as 10F3:05"),

@@ -79,9 +79,10 @@ const VALUES: &str = r##"
 ## Values
 | value | written as |
 |---|---|
-| `units` | `"all"`, or the number of a unit, 1 for the one next to the master |
-| `unit`, `cable` | a number from 1 |
-| `controller` | `"master"`, or `{ "unit": 1 }` |
+| `units` | `"all"`, a `unit`, a range such as `{ "from": 3, "to": 5 }`, or a list of units and ranges: `[2, "Conveyor", { "from": 4, "to": 6 }]` |
+| `unit` | the number of a unit, 1 for the one next to the master, or its name: `3`, `"Conveyor"` |
+| `cable` | a number from 1 |
+| `controller` | `"master"`, or a `unit`: `{ "unit": 1 }` |
 | a state | `"INIT"`, `"PRE-OP"`, `"SAFE-OP"`, `"OP"`, `"BOOT"`; in `request` also a number as a text: `"0x05"` |
 | a code, a register, a PDO | a text in hexadecimal such as `"0x001B"`, or a number |
 | bytes | a text in hexadecimal: `"01 FF"` |
@@ -90,7 +91,7 @@ const VALUES: &str = r##"
 | a time | a text with a unit: `"1.5ms"` |
 | `choice` of frames | `"all"`, `{ "next": 3 }`, `{ "percent": 5 }`, `{ "per_mille": 5 }`, `{ "every": 10 }`, `{ "behind": { "skip": 2, "count": 7 } }` |
 | `kind` of frames | `"any"` (the default), `"process_data"`, `"mailbox"`, `"sii"`, or a command: `"brd"` |
-| `unit` of frames | the number of the unit that they address; left out: all |
+| `unit` of frames | the unit that they address; left out: all |
 | `way` of a fault | `{ "cable": 3, "direction": "back" }`; `"outward"` and the place between master and line are the default |
 | `for` and `name` of a fault | `"3s"`, `"storm"`; both can be left out |
 | `by` of a delay | `"1ms"`, `"1ms to 3ms"`, `"2ms ± 1ms"` or `"2ms ± 1ms normal"` |

@@ -88,7 +88,9 @@ pub fn identifier(place: &str, value: &DeValue<'_>) -> Result<String, Problem> {
     parsed(place, value, expected, |name| is_identifier(name).then(|| name.to_owned()))
 }
 
-fn is_identifier(name: &str) -> bool {
+/// Whether a text is an identifier of IEC 61131-3.
+#[must_use]
+pub fn is_identifier(name: &str) -> bool {
     let letters = name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
     let first = name.starts_with(|c: char| !c.is_ascii_digit());
     let underscores = !name.contains("__") && !name.ends_with('_');

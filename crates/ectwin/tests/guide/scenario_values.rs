@@ -13,7 +13,7 @@ fn each_cable_is_unplugged() -> Result<(), ScenarioErrors> {
             .expect("all units are in OP")
             .line(LineOrder::Unplug { cable: CableNumber::new(number).unwrap() });
         for position in usize::from(number) - 1..2 {
-            let units = UnitSet::One(UnitNumber::at(position));
+            let units = UnitSet::from(UnitNumber::at(position));
             let al_status_code = Some(Hex(0x001B));
             scenario = scenario.within(Duration::from_millis(110)).expect(Condition::State {
                 units,

@@ -27,13 +27,13 @@ impl Frames {
     }
 
     fn include_datagram<U: Unit>(&self, header: &DatagramHeader, units: &Network<U>) -> bool {
-        let addresses_unit = self.unit.is_none_or(|unit| addresses(header, units, unit.position()));
+        let addresses_unit = self.unit.as_ref().is_none_or(|unit| addresses(header, units, unit.position()));
         addresses_unit && self.kind.includes(header, units)
     }
 
     /// Which datagrams of a frame address the unit, by bits; without a unit all of them.
     pub(super) fn addressing<U: Unit>(&self, frame: &[u8], units: &Network<U>) -> u128 {
-        let Some(unit) = self.unit else { return u128::MAX };
+        let Some(unit) = &self.unit else { return u128::MAX };
         let numbered = datagrams(frame).enumerate().take(128);
         let meant = numbered.filter(|(_, datagram)| addresses(&datagram.header, units, unit.position()));
         meant.fold(0, |bits, (number, _)| bits | 1 << number)

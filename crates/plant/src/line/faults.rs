@@ -8,6 +8,7 @@ use time::Instant;
 use super::ends::LineEnds;
 use super::kept::{Flight, Kept, Stage};
 use super::met::Met;
+use super::numbers::WhichUnit;
 use super::order::{Disturbance, FaultName, FrameFault, LineOrder};
 use super::passing::Passing;
 use crate::dice::Dice;
@@ -107,7 +108,7 @@ impl<T: Copy> LineFaults<T> {
                 exists(cable.position()).map(|()| units.set_cable(cable.position(), true))
             }
             LineOrder::Disturb(disturbance) => {
-                let unit = disturbance.frames.unit.map(|unit| unit.position());
+                let unit = disturbance.frames.unit.as_ref().map(WhichUnit::position);
                 let cable = disturbance.cable().map(|cable| cable.position());
                 unit.into_iter().chain(cable).try_for_each(exists)?;
                 self.disturb(now, disturbance.clone())

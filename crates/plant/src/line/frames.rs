@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 use wire::Command;
 
-use super::numbers::UnitNumber;
+use super::numbers::WhichUnit;
 use crate::dice::Dice;
 
 /// Frames by their kind, and a selection of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Frames {
     /// The kind.
@@ -15,7 +15,7 @@ pub struct Frames {
     pub kind: FrameKind,
     /// Only those with a datagram that addresses this unit; none: all of the kind.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub unit: Option<UnitNumber>,
+    pub unit: Option<WhichUnit>,
     /// The selection.
     pub choice: Choice,
 }
@@ -29,14 +29,14 @@ impl Frames {
 
     /// The same of this kind.
     #[must_use]
-    pub const fn with_kind(self, kind: FrameKind) -> Self {
+    pub fn with_kind(self, kind: FrameKind) -> Self {
         Self { kind, ..self }
     }
 
     /// The same of those that address this unit.
     #[must_use]
-    pub const fn of_unit(self, unit: UnitNumber) -> Self {
-        Self { unit: Some(unit), ..self }
+    pub fn of_unit(self, unit: impl Into<WhichUnit>) -> Self {
+        Self { unit: Some(unit.into()), ..self }
     }
 }
 

@@ -1,6 +1,8 @@
 //! Parameters: `with = { loss = [0, 1, 5], state = ["OP", "SAFE-OP"] }` makes a case of each combination of values.
 
-use user_file::{Located, Problem, Reader, Section, Value, wrong_type};
+use serde::Deserialize;
+use toml::de::DeString;
+use user_file::{DeValue, Located, Problem, Reader, Section, Value, wrong_type};
 
 use super::names::{Named, is_name, written};
 use super::places::Span;
@@ -24,7 +26,7 @@ pub(super) struct Parameters<'d, 'i> {
 /// Values for one name, at least one.
 pub(super) struct Parameter<'d, 'i> {
     pub(super) name: Located<&'d str>,
-    values: &'d [Value<'i>],
+    values: Vec<DeValue<'i>>,
 }
 
 impl<'d, 'i> Parameters<'d, 'i> {
@@ -76,13 +78,15 @@ pub(super) fn parameters<'d, 'i>(
     (reader.refused() == refused).then_some(list)
 }
 
-/// The values of a parameter: a list of numbers, texts and truth values, none of them twice.
-fn values<'d, 'i>(reader: &mut Reader<'_>, place: &str, value: &'d Value<'i>) -> Option<&'d [Value<'i>]> {
-    let Some(values) = value.get_ref().as_array().map(|array| &array[..]) else {
-        reader.refuse_by(value.span(), || {
-            wrong_type(place, value.get_ref(), "a list of values, such as [0, 1, 5]")
-        });
-        return None;
+/// The values of a parameter: a list of numbers, ranges of numbers, texts and truth values, none of them twice; or one range.
+fn values<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Option<Vec<DeValue<'i>>> {
+    let values = match value.get_ref() {
+        DeValue::Array(array) => &array[..],
+        DeValue::Table(_) => core::slice::from_ref(value),
+        other => {
+            reader.refuse_by(value.span(), || wrong_type(place, other, EXPECTED_VALUES));
+            return None;
+        }
     };
     if values.is_empty() {
         let problem = Problem::new(format!("`{place}` is an empty list"), "").with_help("one value at least");
@@ -90,21 +94,55 @@ fn values<'d, 'i>(reader: &mut Reader<'_>, place: &str, value: &'d Value<'i>) ->
         return None;
     }
     let mut seen = std::collections::BTreeSet::new();
+    let mut all = Vec::new();
     for value in values {
-        let text = written(value.get_ref());
-        if value.get_ref().is_array() || value.get_ref().is_table() {
-            reader.refuse_by(value.span(), || {
-                wrong_type(place, value.get_ref(), "a number, a text, true or false")
-            });
-            return None;
-        }
-        if !seen.insert(text.clone()) {
-            let message = format!("`{place}` has the value {text} twice");
-            reader.refuse(value.span(), Problem::new(message, ""));
-            return None;
+        for one in elements(reader, place, value)? {
+            let text = written(&one);
+            if !seen.insert(text.clone()) {
+                let message = format!("`{place}` has the value {text} twice");
+                reader.refuse(value.span(), Problem::new(message, ""));
+                return None;
+            }
+            all.push(one);
         }
     }
-    Some(values)
+    Some(all)
+}
+
+const EXPECTED_VALUES: &str = "a list of values, such as [0, 1, 5], or a range such as { from = 3, to = 5 }";
+
+/// A range of numbers among the values of a parameter.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Numbers {
+    from: u64,
+    to: u64,
+}
+
+/// One value, or the numbers of a range.
+fn elements<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Option<Vec<DeValue<'i>>> {
+    match value.get_ref() {
+        DeValue::Array(_) => {
+            let expected = "a number, a text, true, false, or a range such as { from = 3, to = 5 }";
+            reader.refuse_by(value.span(), || wrong_type(place, value.get_ref(), expected));
+            None
+        }
+        DeValue::Table(_) => {
+            let Numbers { from, to } = reader.typed(place, value)?;
+            if from < to && to - from < CASES_MAX as u64 {
+                return Some((from..=to).map(|number| DeValue::String(text(number))).collect());
+            }
+            let problem = Problem::new(format!("`{place}` is no range from {from} to {to}"), "");
+            let help = format!("`from` is less than `to`, and a range has at most {CASES_MAX} numbers");
+            reader.refuse(value.span(), problem.with_help(help));
+            None
+        }
+        one => Some(vec![one.clone()]),
+    }
+}
+
+fn text<'i>(number: u64) -> DeString<'i> {
+    DeString::Owned(number.to_string())
 }
 
 /// Number of combinations of all values.
@@ -116,7 +154,7 @@ pub(super) fn product(list: &[Parameter<'_, '_>]) -> usize {
 pub(super) fn combination<'i>(list: &[Parameter<'_, 'i>], number: usize) -> Vec<Named<'i>> {
     let mut rest = number;
     let last_first = list.iter().rev().map(|Parameter { name, values }| {
-        let value = values[rest % values.len()].get_ref().clone();
+        let value = values[rest % values.len()].clone();
         rest /= values.len();
         Named::new(name, value)
     });

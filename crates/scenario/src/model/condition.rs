@@ -8,7 +8,7 @@ use super::names::{IndicatorName, Position, state};
 use super::numbers::{EventCode, Hex, UserErrorCode};
 use super::spelling::nothing;
 use super::unit::EventLog;
-use super::units::{Controller, UnitNumber, UnitSet};
+use super::units::{Controller, UnitSet, WhichUnit};
 use super::value::{Quantity, Test};
 
 /// What can be true.
@@ -51,25 +51,25 @@ pub enum Condition {
         available: bool,
     },
     Object {
-        unit: UnitNumber,
+        unit: WhichUnit,
         entry: Entry,
         value: Bytes,
     },
     Register {
-        unit: UnitNumber,
+        unit: WhichUnit,
         register: Hex<u16>,
         value: Bytes,
     },
     /// From byte `at` on, as in the CPU Unit.
     Outputs {
-        unit: UnitNumber,
+        unit: WhichUnit,
         #[serde(default)]
         at: u16,
         bytes: Bytes,
     },
     /// From byte `at` on, as in the master.
     Inputs {
-        unit: UnitNumber,
+        unit: WhichUnit,
         #[serde(default)]
         at: u16,
         bytes: Bytes,
@@ -136,7 +136,7 @@ pub enum Condition {
         pattern: String,
     },
     WorkingCounter {
-        unit: UnitNumber,
+        unit: WhichUnit,
         value: u16,
     },
     Cycles {
@@ -149,17 +149,17 @@ pub enum Condition {
     /// Without a unit: of all units, as in the next two.
     SdoRefused {
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        unit: Option<UnitNumber>,
+        unit: Option<WhichUnit>,
         abort_code: Hex<u32>,
     },
     SdoGave {
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        unit: Option<UnitNumber>,
+        unit: Option<WhichUnit>,
         value: Bytes,
     },
     SdoTaken {
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        unit: Option<UnitNumber>,
+        unit: Option<WhichUnit>,
     },
     /// The value of the register that was ordered last.
     RegisterGave {
@@ -183,7 +183,7 @@ pub enum Condition {
     Emergency {
         code: Hex<u16>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        unit: Option<UnitNumber>,
+        unit: Option<WhichUnit>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         register: Option<Hex<u8>>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -210,14 +210,14 @@ pub enum Condition {
     },
     /// By its number from 1, which is 10F3:06; without a number the newest one.
     DiagnosisMessage {
-        unit: UnitNumber,
+        unit: WhichUnit,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         number: Option<u8>,
         event: EventCode,
     },
     /// The bytes before and after its time stamp, from the first one on.
     DiagnosisMessageBytes {
-        unit: UnitNumber,
+        unit: WhichUnit,
         number: u8,
         bytes: Bytes,
     },

@@ -5,7 +5,7 @@ use time::Duration;
 
 use super::bytes::Bytes;
 use super::spelling::text;
-use super::units::{UnitNumber, UnitSet};
+use super::units::{UnitSet, WhichUnit};
 
 /// An action on a CPU Unit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -33,7 +33,7 @@ pub enum CpuOrder {
     /// Sends NX messages at once, in addition to those of the program.
     SendNxMessages { units: UnitSet, count: u64 },
     /// Bytes C to M, from the first one on.
-    SetInputs { unit: UnitNumber, bytes: Bytes },
+    SetInputs { unit: WhichUnit, bytes: Bytes },
     /// The system time jumps ahead.
     JumpSystemTime {
         units: UnitSet,
@@ -49,7 +49,7 @@ pub enum CpuOrder {
     /// Releases everything.
     ReleaseAll { units: UnitSet },
     /// Replaces the user program by the one in this file, relative to the scenario.
-    Load { unit: UnitNumber, program: String },
+    Load { unit: WhichUnit, program: String },
 }
 
 /// Operating mode of a CPU Unit.

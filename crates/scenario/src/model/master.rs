@@ -8,7 +8,7 @@ use super::bytes::{Bytes, Entry};
 use super::names::state;
 use super::numbers::Hex;
 use super::spelling::{nothing, text};
-use super::units::{UnitNumber, UnitSet};
+use super::units::{UnitSet, WhichUnit};
 
 /// An action of the scripted master. It executes its orders one after the other, in virtual time.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,48 +39,48 @@ pub enum MasterOrder {
     StopProcessData,
     /// Output bytes of a unit from byte `at` on.
     SetOutputs {
-        unit: UnitNumber,
+        unit: WhichUnit,
         #[serde(default)]
         at: u16,
         bytes: Bytes,
     },
     /// Entries of a PDO, effective at the next transition to PRE-OP.
-    MapPdo { unit: UnitNumber, pdo: Hex<u16>, entries: Vec<Entry> },
+    MapPdo { unit: WhichUnit, pdo: Hex<u16>, entries: Vec<Entry> },
     /// PDOs of an assignment object, effective at the next transition to PRE-OP.
-    AssignPdos { unit: UnitNumber, object: Hex<u16>, pdos: Vec<Hex<u16>> },
+    AssignPdos { unit: WhichUnit, object: Hex<u16>, pdos: Vec<Hex<u16>> },
     /// Sets a wrong length of a SyncManager from the next time on.
-    SetSyncManagerLength { unit: UnitNumber, number: u8, length_bytes: u16 },
+    SetSyncManagerLength { unit: WhichUnit, number: u8, length_bytes: u16 },
     /// Sets a wrong control byte of a SyncManager from the next time on.
-    SetSyncManagerControl { unit: UnitNumber, number: u8, control: Hex<u8> },
+    SetSyncManagerControl { unit: WhichUnit, number: u8, control: Hex<u8> },
     /// An SDO download.
-    WriteSdo { unit: UnitNumber, entry: Entry, value: Bytes },
+    WriteSdo { unit: WhichUnit, entry: Entry, value: Bytes },
     /// An SDO upload.
-    ReadSdo { unit: UnitNumber, entry: Entry },
+    ReadSdo { unit: WhichUnit, entry: Entry },
     /// A write to the ESC.
-    WriteRegister { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
+    WriteRegister { unit: WhichUnit, register: Hex<u16>, bytes: Bytes },
     /// A write to the ESC in two frames, one for each half.
-    WriteRegisterInHalves { unit: UnitNumber, register: Hex<u16>, bytes: Bytes },
+    WriteRegisterInHalves { unit: WhichUnit, register: Hex<u16>, bytes: Bytes },
     /// An SDO upload of a whole object, from subindex 0 or 1 on.
-    ReadCompleteSdo { unit: UnitNumber, entry: Entry },
+    ReadCompleteSdo { unit: WhichUnit, entry: Entry },
     /// An SDO download of a whole object, from subindex 0 or 1 on.
-    WriteCompleteSdo { unit: UnitNumber, entry: Entry, value: Bytes },
+    WriteCompleteSdo { unit: WhichUnit, entry: Entry, value: Bytes },
     /// An SDO download in segments of seven bytes, however short the value is.
-    WriteSdoInSegments { unit: UnitNumber, entry: Entry, value: Bytes },
+    WriteSdoInSegments { unit: WhichUnit, entry: Entry, value: Bytes },
     /// SDO information: the objects of a list, or the lengths of the lists.
-    ReadObjectList { unit: UnitNumber, list: u16 },
+    ReadObjectList { unit: WhichUnit, list: u16 },
     /// SDO information: the description of an object.
-    DescribeObject { unit: UnitNumber, object: Hex<u16> },
+    DescribeObject { unit: WhichUnit, object: Hex<u16> },
     /// SDO information: the description of an entry.
-    DescribeEntry { unit: UnitNumber, entry: Entry },
+    DescribeEntry { unit: WhichUnit, entry: Entry },
     /// A read of the ESC; without a length as long as the register.
     ReadRegister {
-        unit: UnitNumber,
+        unit: WhichUnit,
         register: Hex<u16>,
         #[serde(default, skip_serializing_if = "Option::is_none")]
         length_bytes: Option<u16>,
     },
     /// A whole mailbox message, header first.
-    SendMailboxMessage { unit: UnitNumber, message: Bytes },
+    SendMailboxMessage { unit: WhichUnit, message: Bytes },
     /// A whole Ethernet frame, without frame check sequence.
     SendFrame { frame: Bytes },
     /// Uses this mailbox counter from now on, instead of counting.

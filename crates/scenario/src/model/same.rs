@@ -19,19 +19,25 @@ impl Quantity {
     pub(crate) fn is(&self, text: &str) -> Result<Same, NotAValue> {
         let bytes = || text.parse::<Bytes>();
         Ok(Same::Condition(match self {
-            Self::Object { unit, entry } => Condition::Object { unit: *unit, entry: *entry, value: bytes()? },
-            Self::Register { unit, register } => {
-                Condition::Register { unit: *unit, register: *register, value: bytes()? }
+            Self::Object { unit, entry } => {
+                Condition::Object { unit: unit.clone(), entry: *entry, value: bytes()? }
             }
-            Self::OutputByte { unit, at } => Condition::Outputs { unit: *unit, at: *at, bytes: bytes()? },
-            Self::InputByte { unit, at } => Condition::Inputs { unit: *unit, at: *at, bytes: bytes()? },
-            Self::Outputs { unit } => Condition::Outputs { unit: *unit, at: 0, bytes: bytes()? },
-            Self::Inputs { unit } => Condition::Inputs { unit: *unit, at: 0, bytes: bytes()? },
+            Self::Register { unit, register } => {
+                Condition::Register { unit: unit.clone(), register: *register, value: bytes()? }
+            }
+            Self::OutputByte { unit, at } => {
+                Condition::Outputs { unit: unit.clone(), at: *at, bytes: bytes()? }
+            }
+            Self::InputByte { unit, at } => {
+                Condition::Inputs { unit: unit.clone(), at: *at, bytes: bytes()? }
+            }
+            Self::Outputs { unit } => Condition::Outputs { unit: unit.clone(), at: 0, bytes: bytes()? },
+            Self::Inputs { unit } => Condition::Inputs { unit: unit.clone(), at: 0, bytes: bytes()? },
             Self::Variable { variable } => {
                 Condition::VariableBytes { variable: variable.clone(), bytes: bytes()? }
             }
             Self::ProgramVariable { controller, name } => Condition::ProgramVariable {
-                controller: *controller,
+                controller: controller.clone(),
                 name: name.clone(),
                 value: text.to_owned(),
             },

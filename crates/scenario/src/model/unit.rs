@@ -7,7 +7,7 @@ use wire::AlState;
 use super::names::state;
 use super::numbers::Hex;
 use super::spelling::text;
-use super::units::{UnitNumber, UnitSet};
+use super::units::{UnitSet, WhichUnit};
 
 /// The name of the switch that gives a unit its ID.
 pub(crate) const ID_SWITCH: &str = "ID";
@@ -30,21 +30,21 @@ pub enum UnitOrder {
     /// Clears a log.
     ClearEventLog { units: UnitSet, log: EventLog },
     /// Turns the ID switch.
-    SetIdSwitch { unit: UnitNumber, id: Hex<u8> },
+    SetIdSwitch { unit: WhichUnit, id: Hex<u8> },
     /// Flips every bit of a word of the EEPROM.
-    InvertSiiWord { unit: UnitNumber, word: u16 },
+    InvertSiiWord { unit: WhichUnit, word: u16 },
     /// Erases the EEPROM.
     EraseSii { units: UnitSet },
     /// Replaces the EEPROM by the image in this file, relative to the scenario.
     LoadSii {
-        unit: UnitNumber,
+        unit: WhichUnit,
         file: String,
         /// Also with defects.
         #[serde(default, skip_serializing_if = "core::ops::Not::not")]
         as_it_is: bool,
     },
     /// Another unit takes its place: that of this unit file, relative to the scenario.
-    Replace { unit: UnitNumber, file: String },
+    Replace { unit: WhichUnit, file: String },
     /// Changes its conduct as a slave.
     Conduct { units: UnitSet, conduct: ConductOrder },
     /// The cause of a fault appears, with its name in the unit model.
@@ -79,11 +79,11 @@ impl UnitOrder {
             | Self::EraseSii { units }
             | Self::Conduct { units, .. }
             | Self::InjectFault { units, .. }
-            | Self::RemoveFault { units, .. } => *units,
+            | Self::RemoveFault { units, .. } => units.clone(),
             Self::SetIdSwitch { unit, .. }
             | Self::InvertSiiWord { unit, .. }
             | Self::LoadSii { unit, .. }
-            | Self::Replace { unit, .. } => UnitSet::One(*unit),
+            | Self::Replace { unit, .. } => UnitSet::One(unit.clone()),
         }
     }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::amount::Amount;
 use super::bytes::{Bytes, Entry};
 use super::numbers::{EventCode, Hex};
-use super::units::{Controller, UnitNumber, UnitSet};
+use super::units::{Controller, UnitSet, WhichUnit};
 
 /// What has a value.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -13,30 +13,30 @@ use super::units::{Controller, UnitNumber, UnitSet};
 #[expect(missing_docs, reason = "the tables of sentences say what each one means")]
 pub enum Quantity {
     Object {
-        unit: UnitNumber,
+        unit: WhichUnit,
         entry: Entry,
     },
     Register {
-        unit: UnitNumber,
+        unit: WhichUnit,
         register: Hex<u16>,
     },
     /// One byte, as in the CPU Unit.
     OutputByte {
-        unit: UnitNumber,
+        unit: WhichUnit,
         at: u16,
     },
     /// One byte, as in the master.
     InputByte {
-        unit: UnitNumber,
+        unit: WhichUnit,
         at: u16,
     },
     /// All bytes, as in the CPU Unit.
     Outputs {
-        unit: UnitNumber,
+        unit: WhichUnit,
     },
     /// All bytes, as in the master.
     Inputs {
-        unit: UnitNumber,
+        unit: WhichUnit,
     },
     Variable {
         variable: String,
@@ -46,11 +46,11 @@ pub enum Quantity {
         name: String,
     },
     WorkingCounter {
-        unit: UnitNumber,
+        unit: WhichUnit,
     },
     /// How often the unit has recorded the event since it was switched on.
     Records {
-        unit: UnitNumber,
+        unit: WhichUnit,
         event: EventCode,
     },
     /// How many emergencies the master has received; without a code all of them.
@@ -75,7 +75,7 @@ impl Quantity {
             | Self::Outputs { unit }
             | Self::Inputs { unit }
             | Self::WorkingCounter { unit }
-            | Self::Records { unit, .. } => Some(UnitSet::from(*unit)),
+            | Self::Records { unit, .. } => Some(UnitSet::One(unit.clone())),
             Self::Variable { .. }
             | Self::ProgramVariable { .. }
             | Self::Emergencies { .. }

@@ -6,7 +6,7 @@ use time::Duration;
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, UnitNumber, in_order};
+use crate::model::{MasterOrder, Order, ScriptMaster, ScriptStep, WhichUnit, in_order};
 use crate::run::{MasterProgram, MasterVariables, Node, UnitSource, changed_settings};
 
 /// Maximum number of characters of a device name.
@@ -102,13 +102,13 @@ fn variables(nodes: &[Node], steps: &[ScriptStep]) -> MasterVariables {
 }
 
 /// An order that changes the PDO settings of a unit.
-fn pdo_order(step: &ScriptStep) -> Option<(UnitNumber, &MasterOrder)> {
+fn pdo_order(step: &ScriptStep) -> Option<(&WhichUnit, &MasterOrder)> {
     let ScriptStep::Step(step) = step else { return None };
     let Order::Master(order) = &step.order else { return None };
     let (MasterOrder::MapPdo { unit, .. } | MasterOrder::AssignPdos { unit, .. }) = order else {
         return None;
     };
-    Some((*unit, order))
+    Some((unit, order))
 }
 
 fn is_identifier(name: &str) -> bool {

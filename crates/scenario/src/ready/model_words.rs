@@ -25,18 +25,18 @@ impl Maker<'_> {
             UnitOrder::InjectFault { units, fault } | UnitOrder::RemoveFault { units, fault } => {
                 let name = fault.clone();
                 Needed {
-                    units: *units,
+                    units: units.clone(),
                     words: format!("fault {fault}"),
                     is_known: Box::new(move |unit| unit.model().faults().contains(&name.as_str())),
                 }
             }
             UnitOrder::SetIdSwitch { unit, .. } => Needed {
-                units: UnitSet::One(*unit),
+                units: UnitSet::One(unit.clone()),
                 words: format!("{ID_SWITCH} switch"),
                 is_known: Box::new(|unit| unit.model().switches().contains(&ID_SWITCH)),
             },
             UnitOrder::Conduct { units, conduct } => match needed_by(conduct) {
-                Some((words, is_known)) => Needed { units: *units, words: words.to_owned(), is_known },
+                Some((words, is_known)) => Needed { units: units.clone(), words: words.to_owned(), is_known },
                 None => return Some(()),
             },
             UnitOrder::Restart { .. }
@@ -65,7 +65,7 @@ impl Maker<'_> {
             return None;
         }
         let is_known = Box::new(|unit: &dyn UnitSection| !unit.model().tables().nx_objects.is_empty());
-        self.check_words(&Needed { units: *units, words: "NX objects".to_owned(), is_known }, part)
+        self.check_words(&Needed { units: units.clone(), words: "NX objects".to_owned(), is_known }, part)
     }
 
     /// Whether the units of a condition know its words.
@@ -73,14 +73,16 @@ impl Maker<'_> {
         if let Condition::Indicator { indicator, units, .. } = condition {
             let name = indicator.as_str();
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().indicators().contains(&name));
-            return self
-                .check_words(&Needed { units: *units, words: format!("indicator {name}"), is_known }, part);
+            return self.check_words(
+                &Needed { units: units.clone(), words: format!("indicator {name}"), is_known },
+                part,
+            );
         }
         if let Condition::DiagnosisConsistent { units, .. } = condition {
             let is_known: IsKnown =
                 Box::new(|unit: &dyn UnitSection| unit.objects().object(ObjectIndex(0x10F3)).is_some());
             let words = "diagnosis history 10F3".to_owned();
-            return self.check_words(&Needed { units: *units, words, is_known }, part);
+            return self.check_words(&Needed { units: units.clone(), words, is_known }, part);
         }
         if let Condition::Recorded { units, event, .. }
         | Condition::HasError { units, event }
@@ -88,13 +90,16 @@ impl Maker<'_> {
         {
             let code = EventCode(event.0);
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
-            return self
-                .check_words(&Needed { units: *units, words: format!("event {event}"), is_known }, part);
+            return self.check_words(
+                &Needed { units: units.clone(), words: format!("event {event}"), is_known },
+                part,
+            );
         }
         if let Condition::Value { of: Quantity::Records { unit, event }, .. } = condition {
             let code = EventCode(event.0);
             let is_known = Box::new(move |unit: &dyn UnitSection| unit.model().event(code).is_some());
-            let needed = Needed { units: UnitSet::One(*unit), words: format!("event {event}"), is_known };
+            let needed =
+                Needed { units: UnitSet::One(unit.clone()), words: format!("event {event}"), is_known };
             return self.check_words(&needed, part);
         }
         Some(())
@@ -102,8 +107,8 @@ impl Maker<'_> {
 
     pub(super) fn check_words(&mut self, needed: &Needed, part: Part) -> Option<()> {
         let positions = needed.units.positions(self.units.len());
-        let units = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section())));
-        let missing = units.into_iter().find(|(_, unit)| !(needed.is_known)(*unit));
+        let mut units = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section())));
+        let missing = units.find(|(_, unit)| !(needed.is_known)(*unit));
         let Some((at, unit)) = missing else { return Some(()) };
         let message = format!("unit {} is a {}, which has no {}", at + 1, unit.model().name(), needed.words);
         self.refuse(part, message, self.who_knows(needed));

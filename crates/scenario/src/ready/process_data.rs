@@ -2,11 +2,11 @@
 
 use super::maker::Maker;
 use super::problem::Part;
-use crate::model::{Bytes, Condition, CpuOrder, DataDirection, MasterOrder, UnitNumber, UnitSet};
+use crate::model::{Bytes, Condition, CpuOrder, DataDirection, MasterOrder, UnitSet, WhichUnit};
 
 /// Bytes that a step names.
 struct Named<'a> {
-    unit: UnitNumber,
+    unit: &'a WhichUnit,
     /// Such as `output`.
     kind: &'static str,
     first: u16,
@@ -20,14 +20,14 @@ impl Maker<'_> {
     pub(super) fn check_outputs(&mut self, order: &MasterOrder, part: Part) -> Option<()> {
         let MasterOrder::SetOutputs { unit, at, bytes } = order else { return Some(()) };
         let exist = self.units[unit.position()].file.section().process_data_bytes().outputs.into();
-        self.check_bytes(&Named { unit: *unit, kind: "output", first: *at, bytes, exist }, part)
+        self.check_bytes(&Named { unit, kind: "output", first: *at, bytes, exist }, part)
     }
 
     /// Whether the CPU Unit has the inputs of an order.
     pub(super) fn check_inputs(&mut self, order: &CpuOrder, part: Part) -> Option<()> {
         let CpuOrder::SetInputs { unit, bytes } = order else { return Some(()) };
         let exist = self.units[unit.position()].file.variables().unit().c_to_m_bytes;
-        self.check_bytes(&Named { unit: *unit, kind: "input", first: 0, bytes, exist }, part)
+        self.check_bytes(&Named { unit, kind: "input", first: 0, bytes, exist }, part)
     }
 
     /// Whether the process data of a condition can be as it says.
@@ -36,15 +36,15 @@ impl Maker<'_> {
             Condition::Outputs { unit, at, bytes } => {
                 // As in the CPU Unit.
                 let exist = self.units[unit.position()].file.variables().unit().m_to_c_bytes;
-                self.check_bytes(&Named { unit: *unit, kind: "output", first: *at, bytes, exist }, part)
+                self.check_bytes(&Named { unit, kind: "output", first: *at, bytes, exist }, part)
             }
             Condition::Inputs { unit, at, bytes } => {
                 let exist = self.units[unit.position()].file.section().process_data_bytes().inputs.into();
-                self.check_bytes(&Named { unit: *unit, kind: "input", first: *at, bytes, exist }, part)
+                self.check_bytes(&Named { unit, kind: "input", first: *at, bytes, exist }, part)
             }
-            Condition::DataValid { units, .. } => self.check_can_be_valid(*units, &BOTH, part),
+            Condition::DataValid { units, .. } => self.check_can_be_valid(units, &BOTH, part),
             Condition::DirectionValid { units, direction, .. } => {
-                self.check_can_be_valid(*units, &[*direction], part)
+                self.check_can_be_valid(units, &[*direction], part)
             }
             _ => Some(()),
         }
@@ -64,7 +64,7 @@ impl Maker<'_> {
         None
     }
 
-    fn check_can_be_valid(&mut self, units: UnitSet, wanted: &[DataDirection], part: Part) -> Option<()> {
+    fn check_can_be_valid(&mut self, units: &UnitSet, wanted: &[DataDirection], part: Part) -> Option<()> {
         let lacks = units.positions(self.units.len()).find_map(|at| {
             let lacking = wanted.iter().find(|direction| !self.has_data(at, **direction))?;
             Some((at, words(*lacking)))

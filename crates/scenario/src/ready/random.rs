@@ -3,8 +3,9 @@
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
 use super::steps::{Ground, ReadySteps, STEPS_MAX};
+use super::unit_names::UnitNames;
 use super::written::Written;
-use crate::model::{Draws, RandomSteps};
+use crate::model::{Draws, Order, RandomSteps};
 use crate::pool::{Drawing, GROUPS, Group, KnownUnit};
 use crate::random::{Draw, DrawnRow, ReadyDraws, order};
 use crate::run::{Dice, RandomPart};
@@ -102,7 +103,13 @@ impl Maker<'_> {
             );
         }
         match key_of(from) {
-            Some(key) => Some(vec![row(key, from, 1)]),
+            Some((key, mut order)) => {
+                if let Err((message, help)) = UnitNames::of(&self.units).number(order.unit_words()) {
+                    self.refuse(part, message, help);
+                    return None;
+                }
+                Some(vec![row(key, from, 1)])
+            }
             None => {
                 self.refuse(
                     part,
@@ -126,9 +133,12 @@ impl Maker<'_> {
         let mut dice = Dice::new(position as u64);
         (0..TRIALS).all(|_| {
             let text = Drawing::new(&mut dice, units, position).and_then(|mut it| it.sentence(&row.sentence));
-            let Some(Ok(order)) = text.map(|text| order(row.key, &text)) else { return false };
+            let Some(Ok(mut order)) = text.map(|text| order(row.key, &text)) else { return false };
+            if UnitNames::of(&self.units).number(order.unit_words()).is_err() {
+                return false;
+            }
             let problems = self.problems.len();
-            let _ = self.order(&order, part, Ground::Firm);
+            let _ = self.order(&mut order, part, Ground::Firm);
             let is_right = self.problems.len() == problems;
             self.problems.truncate(problems);
             is_right
@@ -136,12 +146,12 @@ impl Maker<'_> {
     }
 }
 
-/// The key whose sentence this is, with values that every unit has.
-fn key_of(sentence: &str) -> Option<&'static str> {
+/// The key whose sentence this is, and its order with values that every unit has.
+fn key_of(sentence: &str) -> Option<(&'static str, Order)> {
     let unit = KnownUnit::example();
     let mut dice = Dice::new(0);
     let text = Drawing::new(&mut dice, core::slice::from_ref(&unit), 0)?.any_sentence(sentence)?;
-    KEYS.into_iter().find(|key| order(key, &text).is_ok())
+    KEYS.into_iter().find_map(|key| Some((key, order(key, &text).ok()?)))
 }
 
 fn way_out(from: &str) -> String {

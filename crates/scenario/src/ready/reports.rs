@@ -52,13 +52,13 @@ fn needed(condition: &Condition) -> Option<Needed> {
     let (units, words, is_known): (UnitSet, &str, fn(&dyn UnitSection) -> bool) = match condition {
         Condition::EventLogHas { units, .. }
         | Condition::EventLogEmpty { units, .. }
-        | Condition::DiagnosisMessages { units, .. } => (*units, "event log", has_log),
+        | Condition::DiagnosisMessages { units, .. } => (units.clone(), "event log", has_log),
         Condition::DiagnosisMessage { unit, .. } | Condition::DiagnosisMessageBytes { unit, .. } => {
-            (UnitSet::One(*unit), "diagnosis history", has_log)
+            (UnitSet::One(unit.clone()), "diagnosis history", has_log)
         }
-        Condition::EmergenciesLost { units, .. } => (*units, "mailbox", |unit| unit.shape().mailbox),
+        Condition::EmergenciesLost { units, .. } => (units.clone(), "mailbox", |unit| unit.shape().mailbox),
         Condition::Emergency { unit: Some(unit), .. } => {
-            (UnitSet::One(*unit), "mailbox", |unit| unit.shape().mailbox)
+            (UnitSet::One(unit.clone()), "mailbox", |unit| unit.shape().mailbox)
         }
         _ => return None,
     };

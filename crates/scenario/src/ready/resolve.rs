@@ -7,8 +7,7 @@ use super::maker::Maker;
 use super::problem::Part;
 use super::program_values::{VariableProblem, canonical_value};
 use super::programs::{Lasting, Present};
-use super::reach::line_of;
-use crate::model::{Bytes, Condition, Controller, CpuOrder, Entry, UnitNumber};
+use crate::model::{Bytes, Condition, Controller, CpuOrder, Entry, WhichUnit};
 
 impl Maker<'_> {
     /// Whether the variables of an order exist and accept its values. Reads the program that it loads.
@@ -49,17 +48,17 @@ impl Maker<'_> {
                 return None;
             }
         } else if let Condition::Object { unit, entry, value } = condition {
-            self.check_object(*unit, *entry, value, part)?;
+            self.check_object(unit, *entry, value, part)?;
         } else if let Condition::VariableValue { variable, value } = condition {
             *value = self.typed_value(variable, value, part)?;
         } else if let Condition::ProgramVariable { controller, name, value } = condition {
-            *value = self.program_value(*controller, name, value, part)?;
+            *value = self.program_value(controller, name, value, part)?;
         }
         Some(())
     }
 
     /// Whether a unit has an object, and the object this length.
-    fn check_object(&mut self, unit: UnitNumber, entry: Entry, value: &Bytes, part: Part) -> Option<()> {
+    fn check_object(&mut self, unit: &WhichUnit, entry: Entry, value: &Bytes, part: Part) -> Option<()> {
         let size_bytes = self.check_object_exists(unit, entry, part)?;
         if value.0.len() != size_bytes {
             let message = format!("{} bytes for object {entry}, which has {size_bytes}", value.0.len());
@@ -72,7 +71,7 @@ impl Maker<'_> {
     /// The number of bytes of an object.
     pub(super) fn check_object_exists(
         &mut self,
-        unit: UnitNumber,
+        unit: &WhichUnit,
         entry: Entry,
         part: Part,
     ) -> Option<usize> {
@@ -162,7 +161,7 @@ impl Maker<'_> {
         }
     }
 
-    fn program_value(&mut self, of: Controller, name: &str, text: &str, part: Part) -> Option<String> {
+    fn program_value(&mut self, of: &Controller, name: &str, text: &str, part: Part) -> Option<String> {
         let canonical = match of {
             Controller::Master => canonical_value(self.master.as_ref()?.instance(), name, text),
             Controller::Unit(unit) => match self.present_program(unit.position()) {
@@ -186,7 +185,7 @@ impl Maker<'_> {
         }
     }
 
-    pub(super) fn refuse_missing_variable(&mut self, of: Controller, name: &str, part: Part) {
+    pub(super) fn refuse_missing_variable(&mut self, of: &Controller, name: &str, part: Part) {
         let message = format!("the program of {of} has no variable {name}");
         self.refuse(part, message, "such as counter, Main.counter, timer.Q or table[3]");
     }
@@ -194,7 +193,7 @@ impl Maker<'_> {
     /// Whether a controller has a program that a condition can be about.
     pub(super) fn check_controller(
         &mut self,
-        controller: Controller,
+        controller: &Controller,
         condition: &Condition,
         part: Part,
         lasting: Lasting,
@@ -203,10 +202,6 @@ impl Maker<'_> {
             Controller::Master if self.master.is_none() => {
                 let help = "give it one: `master = { program = \"….st\" }`";
                 self.refuse(part, "the master has no user program", help);
-                None
-            }
-            Controller::Unit(unit) if unit.position() >= self.units.len() => {
-                self.refuse(part, "it refers to a unit that does not exist", line_of(self.units.len()));
                 None
             }
             Controller::Master => Some(()),

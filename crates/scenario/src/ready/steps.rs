@@ -5,10 +5,10 @@ use time::Duration;
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
-use super::reach::{Subject, is_cable_there, line_of, subject, unit_of_cpu, unit_of_master};
+use super::reach::{Subject, is_cable_there, line_of, subject};
 use super::written::Written;
 use crate::model::{
-    Condition, Expectation, LOGIC_DEPTH_MAX, Mode, Order, Repetition, ScriptStep, Step, Trigger,
+    Condition, Expectation, LOGIC_DEPTH_MAX, LineOrder, Mode, Order, Repetition, ScriptStep, Step, Trigger,
 };
 use crate::run::{PlayedStep, RandomPart, WrittenStep};
 use crate::words::Spoken;
@@ -187,37 +187,21 @@ impl Maker<'_> {
         }
     }
 
-    pub(super) fn order(&mut self, order: &Order, part: Part, ground: Ground) -> Option<()> {
-        let units = self.units.len();
-        let mut way_out = line_of(units);
-        let is_there = match order {
-            Order::Master(order) => {
-                self.said(order, part)?;
-                unit_of_master(order).is_none_or(|set| set.exists(units))
-            }
-            Order::Unit(order) => {
-                self.said(order, part)?;
-                order.units().exists(units)
-            }
-            Order::Cpu(order) => {
-                self.said(order, part)?;
-                unit_of_cpu(order).is_none_or(|set| set.exists(units))
-            }
+    pub(super) fn order(&mut self, order: &mut Order, part: Part, ground: Ground) -> Option<()> {
+        match order {
+            Order::Master(order) => self.said(order, part)?,
+            Order::Unit(order) => self.said(order, part)?,
+            Order::Cpu(order) => self.said(order, part)?,
             Order::Line(order) => {
                 self.check_line(order, part)?;
                 self.said(order, part)?;
-                way_out = format!("{way_out}; each cable has the number of the unit behind it");
-                is_cable_there(order, units)
             }
-            Order::Expect(_) => true,
-        };
+            Order::Expect(_) => {}
+        }
         if ground == Ground::Missing {
             return None;
         }
-        if !is_there {
-            self.refuse(part, "it refers to a unit or a cable that does not exist", way_out);
-            return None;
-        }
+        self.check_units(order.unit_words(), part)?;
         match order {
             Order::Cpu(order) => {
                 self.check_words_of_cpu(order, part)?;
@@ -232,8 +216,19 @@ impl Maker<'_> {
                 self.check_raw(order, part)?;
                 self.check_outputs(order, part)
             }
-            Order::Line(_) | Order::Expect(_) => Some(()),
+            Order::Line(order) => self.check_cable(order, part),
+            Order::Expect(_) => Some(()),
         }
+    }
+
+    fn check_cable(&mut self, order: &LineOrder, part: Part) -> Option<()> {
+        let units = self.units.len();
+        if is_cable_there(order, units) {
+            return Some(());
+        }
+        let help = format!("{}; each cable has the number of the unit behind it", line_of(units));
+        self.refuse(part, "it refers to a cable that does not exist", help);
+        None
     }
 
     fn condition(
@@ -268,12 +263,8 @@ impl Maker<'_> {
             }
             _ => {}
         }
-        let units = self.units.len();
+        self.check_units(condition.unit_words(), part)?;
         match subject(condition) {
-            Subject::Units(set) if !set.exists(units) => {
-                self.refuse(part, "it refers to a unit that does not exist", line_of(units));
-                return None;
-            }
             Subject::Controller(controller) => self.check_controller(controller, condition, part, lasting)?,
             // Without frames all of them are sent, and no answer differs.
             Subject::Capture if !self.has_capture => {
@@ -281,7 +272,7 @@ impl Maker<'_> {
                 self.refuse(part, "the scenario has no capture", help);
                 return None;
             }
-            Subject::Units(_) | Subject::Variable | Subject::Master | Subject::Capture | Subject::Parts => {}
+            Subject::Units | Subject::Variable | Subject::Master | Subject::Capture | Subject::Parts => {}
         }
         if matches!(condition, Condition::Cycles { at_least: 0 }) {
             let message = "0 cycles are done at the beginning too, so it always holds";

@@ -7,7 +7,7 @@ use wire::{ObjectIndex, SubIndex};
 use super::maker::Maker;
 use super::problem::Part;
 use super::programs::{Lasting, Present};
-use crate::model::{Amount, Bytes, Condition, Controller, Hex, Number, Quantity, Same, Test, UnitNumber};
+use crate::model::{Amount, Bytes, Condition, Controller, Hex, Number, Quantity, Same, Test, WhichUnit};
 use crate::run::{is_signed, register_bytes};
 
 /// The values that a quantity can have.
@@ -81,7 +81,7 @@ impl Maker<'_> {
     fn values(&mut self, of: &Quantity, part: Part, lasting: Lasting) -> Option<Values> {
         match of {
             Quantity::Object { unit, entry } => {
-                self.check_object_exists(*unit, *entry, part)?;
+                self.check_object_exists(unit, *entry, part)?;
                 let device = self.units.get(unit.position())?.known_device();
                 let found = device.objects.entry(ObjectIndex(entry.index), SubIndex(entry.sub))?;
                 let bits = usize::from(found.bit_length);
@@ -95,10 +95,10 @@ impl Maker<'_> {
                 Some(Values { words, numbers, size_bytes: Some(found.size_bytes()) })
             }
             Quantity::Register { register, .. } => Some(Values::unsigned(register_bytes(register.0))),
-            Quantity::OutputByte { unit, at } => self.byte(*unit, "output", *at, part),
-            Quantity::InputByte { unit, at } => self.byte(*unit, "input", *at, part),
-            Quantity::Outputs { unit } => self.byte(*unit, "output", 0, part),
-            Quantity::Inputs { unit } => self.byte(*unit, "input", 0, part),
+            Quantity::OutputByte { unit, at } => self.byte(unit, "output", *at, part),
+            Quantity::InputByte { unit, at } => self.byte(unit, "input", *at, part),
+            Quantity::Outputs { unit } => self.byte(unit, "output", 0, part),
+            Quantity::Inputs { unit } => self.byte(unit, "input", 0, part),
             Quantity::Variable { variable } => {
                 let kind = self.type_of_variable(variable, part)?;
                 Some(Values {
@@ -108,7 +108,7 @@ impl Maker<'_> {
                 })
             }
             Quantity::ProgramVariable { controller, name } => {
-                self.program_variable(*controller, name, part, lasting)
+                self.program_variable(controller, name, part, lasting)
             }
             Quantity::WorkingCounter { .. } => Some(Values::count(u16::MAX.into())),
             Quantity::Records { .. } | Quantity::Emergencies { .. } | Quantity::Cycles => {
@@ -117,11 +117,11 @@ impl Maker<'_> {
         }
     }
 
-    fn byte(&mut self, unit: UnitNumber, kind: &'static str, at: u16, part: Part) -> Option<Values> {
+    fn byte(&mut self, unit: &WhichUnit, kind: &'static str, at: u16, part: Part) -> Option<Values> {
         let byte = Bytes::from([0]);
         let condition = match kind {
-            "output" => Condition::Outputs { unit, at, bytes: byte },
-            _ => Condition::Inputs { unit, at, bytes: byte },
+            "output" => Condition::Outputs { unit: unit.clone(), at, bytes: byte },
+            _ => Condition::Inputs { unit: unit.clone(), at, bytes: byte },
         };
         self.check_process_data(&condition, part)?;
         Some(Values::unsigned(1))
@@ -129,13 +129,14 @@ impl Maker<'_> {
 
     fn program_variable(
         &mut self,
-        controller: Controller,
+        controller: &Controller,
         name: &str,
         part: Part,
         lasting: Lasting,
     ) -> Option<Values> {
         let value = String::new();
-        let condition = Condition::ProgramVariable { controller, name: name.to_owned(), value };
+        let condition =
+            Condition::ProgramVariable { controller: controller.clone(), name: name.to_owned(), value };
         self.check_controller(controller, &condition, part, lasting)?;
         let initial = match controller {
             Controller::Master => self.master.as_ref()?.instance().value(name),

@@ -25,7 +25,7 @@ use plc::{ProgramEvent, Reports};
 use time::{Duration, Instant};
 use wire::{DatagramView, datagrams};
 
-use crate::model::UnitNumber;
+use crate::model::WhichUnit;
 
 use answer::{Outcome, Step};
 use last_sdo::{LastSdo, LastSdos};
@@ -363,7 +363,7 @@ impl Master {
     }
 
     /// The SDO that was ordered last of a unit, or of all units.
-    pub(crate) fn last_sdo(&self, unit: Option<UnitNumber>) -> &LastSdo {
+    pub(crate) fn last_sdo(&self, unit: Option<&WhichUnit>) -> &LastSdo {
         self.last_sdos.get(unit)
     }
 

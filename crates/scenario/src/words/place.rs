@@ -3,6 +3,7 @@
 mod frames;
 mod group;
 mod read;
+mod units;
 
 use unit_model::keys::{AL_STATUS_CODES, AL_STATUS_CODES_WORDS, TIMES, TIMES_WORDS};
 
@@ -15,8 +16,9 @@ use group::group;
 use read::{
     bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
     fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
-    requested, state, transition, unit, units, user_error,
+    requested, state, transition, user_error,
 };
+use units::{fitting_unit, fitting_units, unit, units};
 
 /// The place that is a sentence of the table of quantities.
 pub(super) const QUANTITY: &str = "quantity";
@@ -71,10 +73,19 @@ const fn place(
 }
 
 const PLACES: &[Place] = &[
-    place("units", "`all units`, or `unit` and its number", units),
-    place("unit", "`unit` and its number, 1 for the one next to the master", |words| {
-        unit(words).map(|unit| (Value::Unit(unit), 2))
-    }),
+    Place {
+        name: "units",
+        meaning: "`all units`, `unit` and its number or name such as `unit Conveyor`, or several units such as `units 3 to 5` or \
+                  `units 2, 4 and Conveyor`",
+        read: units,
+        fitting: fitting_units,
+    },
+    Place {
+        name: "unit",
+        meaning: "`unit` and its number, 1 for the one next to the master, or its name such as `unit Conveyor`",
+        read: |words| unit(words).map(|unit| (Value::Unit(unit), 2)),
+        fitting: fitting_unit,
+    },
     place("state", "INIT, PRE-OP, SAFE-OP, OP or BOOT", |words| one(words, state)),
     place("request", "INIT, PRE-OP, SAFE-OP, OP, BOOT, or a number such as 0x05", |words| {
         one(words, requested)
@@ -166,7 +177,7 @@ const PLACES: &[Place] = &[
     }),
     place(
         "controller",
-        "`the master`, or `unit` and the number of the unit whose CPU Unit is meant",
+        "`the master`, or `unit` and the number or the name of the unit whose CPU Unit is meant",
         controller,
     ),
     place("name", "the name of a variable of a program, such as counter, Main.counter or timer.Q", |words| {

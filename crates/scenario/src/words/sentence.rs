@@ -151,7 +151,7 @@ fn agrees(pattern: &str, values: &[Value]) -> bool {
     let subject = pattern.split_whitespace().next().filter(|first| *first == "{units}");
     let (Some(_), Some(Value::Units(units))) = (subject, values.first()) else { return true };
     let is_plural = pattern.split_whitespace().nth(1).is_some_and(|verb| ["are", "have"].contains(&verb));
-    is_plural == (*units == UnitSet::All)
+    is_plural != matches!(units, UnitSet::One(_))
 }
 
 /// The sentence of a row with these values; none if what has a value has no sentence in this row.

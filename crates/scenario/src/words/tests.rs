@@ -40,8 +40,8 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
          the sentence is `{units} is in {state}`, such as `unit 1 is in OP`"
     );
     assert!(problem("unit 1 has recorded 8500").contains("an event code of eight hexadecimal digits"));
-    assert!(problem("unit one is in OP").contains("is not a valid sentence here / did you mean"));
-    assert!(problem("unit 0 is in OP").contains("is not a valid sentence"), "units count from 1");
+    assert!(problem("unit is in OP").contains("its number or name such as `unit Conveyor`"));
+    assert!(problem("unit 0 is in OP").contains("found `0` / "), "units count from 1");
     assert!(problem("").contains("is not a valid sentence"));
     let help = "the sentence is `{units} has the error {event}`, such as `unit 1 has the error 39170000`";
     assert!(problem("unit 1 wobbles").starts_with("expected `is` or `has`, found `wobbles` / "));
@@ -102,7 +102,10 @@ fn places_read_what_they_name() {
 fn places_of_programs_read_what_they_name() {
     let one = |name, words: &[&str]| Place::named(name).read(words).map(|(value, _)| value);
     assert_eq!(one("controller", &["the", "master", "is"]), Ok(Value::Controller(Controller::Master)));
-    assert_eq!(one("controller", &["unit", "2"]), Ok(Value::Controller(Controller::Unit(UnitNumber::at(1)))));
+    assert_eq!(
+        one("controller", &["unit", "2"]),
+        Ok(Value::Controller(Controller::Unit(UnitNumber::at(1).into())))
+    );
     assert!(one("controller", &["all", "units"]).is_err(), "one of them");
     assert_eq!(one("position", &["5:9"]), Ok(Value::Position(Position { line: 5, column: 9 })));
     assert!(one("position", &["0:9"]).is_err() && one("position", &["5"]).is_err());

@@ -7,16 +7,16 @@ use wire::AlState;
 
 use crate::model::{
     Amount, Bytes, CableNumber, Choice, Controller, Delay, Direction, Entry, EventCode, FaultName, FrameKind,
-    Frames, Hex, IndicatorName, Position, Quantity, StateName, UnitNumber, UnitSet, UserErrorCode, Way,
+    Frames, Hex, IndicatorName, Position, Quantity, StateName, UnitSet, UserErrorCode, Way, WhichUnit,
 };
 
 /// The value of a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Value {
-    /// `unit 2`, `all units`.
+    /// `unit 2`, `unit Conveyor`, `units 3 to 5`, `units 2, 4 and 5`, `all units`.
     Units(UnitSet),
-    /// `unit 2`.
-    Unit(UnitNumber),
+    /// `unit 2`, `unit Conveyor`.
+    Unit(WhichUnit),
     /// `SAFE-OP`.
     State(AlState),
     /// `12`, `0x0C`.
@@ -91,7 +91,7 @@ impl fmt::Display for Value {
             Self::Indicator(indicator) => indicator.fmt(formatter),
             Self::Percent(percent) => write!(formatter, "{percent} %"),
             Self::PerMille(per_mille) => write!(formatter, "{per_mille} ‰"),
-            Self::Frames(frames) => write_frames(*frames, formatter),
+            Self::Frames(frames) => write_frames(frames, formatter),
             Self::Way(Way { cable: Some(cable), direction }) => {
                 write!(formatter, "on {cable}")?;
                 match direction_words(*direction) {
@@ -130,7 +130,7 @@ fn ranges(entries: &[Entry]) -> String {
     words.collect::<Vec<_>>().join(" ")
 }
 
-fn write_frames(frames: Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+fn write_frames(frames: &Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     match frames.choice {
         Choice::All => formatter.write_str("all"),
         Choice::Next(count) => write!(formatter, "the next {count}"),
@@ -150,7 +150,7 @@ fn write_frames(frames: Frames, formatter: &mut fmt::Formatter<'_>) -> fmt::Resu
         (FrameKind::Sii, _) => formatter.write_str(" SII frames"),
         (_, None) => formatter.write_str(" frames"),
     }?;
-    match frames.unit {
+    match &frames.unit {
         Some(unit) => write!(formatter, " of {unit}"),
         None => Ok(()),
     }
@@ -201,7 +201,7 @@ macro_rules! fields {
 
 fields! {
     UnitSet: Units;
-    UnitNumber: Unit;
+    WhichUnit: Unit;
     AlState: State;
     Duration: Duration;
     Bytes: Bytes;

@@ -20,7 +20,8 @@ impl Bench<'_> {
     /// An order to each of its units. One without power does nothing, unless a hand carries out the order; a switch
     /// that is on cannot be switched on.
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
-        for at in order.units().positions(self.count()) {
+        let units = order.units();
+        for at in units.positions(self.count()) {
             match self.why_without_effect(order, at) {
                 Some(reason) => {
                     let words = format!("{reason}: the order has no effect");
@@ -73,27 +74,27 @@ impl Bench<'_> {
     pub(crate) fn cpu_order(&mut self, order: &CpuOrder) {
         match order {
             CpuOrder::SetMode { units, mode } => {
-                self.each_cpu(*units, |cpu| cpu.set_mode(operating_mode(*mode)));
+                self.each_cpu(units, |cpu| cpu.set_mode(operating_mode(*mode)));
             }
             CpuOrder::StopIoRefreshing { units } => {
-                self.each_cpu(*units, |cpu| cpu.set_io_refreshing(false));
+                self.each_cpu(units, |cpu| cpu.set_io_refreshing(false));
             }
             CpuOrder::StartIoRefreshing { units } => {
-                self.each_cpu(*units, |cpu| cpu.set_io_refreshing(true));
+                self.each_cpu(units, |cpu| cpu.set_io_refreshing(true));
             }
-            CpuOrder::StopTask { units } => self.each_cpu(*units, |cpu| cpu.stop_task()),
-            CpuOrder::StartTask { units } => self.each_cpu(*units, |cpu| cpu.start_task()),
-            CpuOrder::ResetNxBusErrors { units } => self.each_cpu(*units, |cpu| cpu.reset_errors()),
-            CpuOrder::CycleRackPower { units } => self.each(*units, Self::cycle_rack_power),
+            CpuOrder::StopTask { units } => self.each_cpu(units, |cpu| cpu.stop_task()),
+            CpuOrder::StartTask { units } => self.each_cpu(units, |cpu| cpu.start_task()),
+            CpuOrder::ResetNxBusErrors { units } => self.each_cpu(units, |cpu| cpu.reset_errors()),
+            CpuOrder::CycleRackPower { units } => self.each(units, Self::cycle_rack_power),
             CpuOrder::SendNxMessages { units, count } => {
-                self.each_cpu(*units, |cpu| cpu.load_nx_bus(*count));
+                self.each_cpu(units, |cpu| cpu.load_nx_bus(*count));
             }
-            CpuOrder::PowerOffRack { units } => self.each(*units, Self::power_off_rack),
-            CpuOrder::PowerOnRack { units } => self.each(*units, Self::power_on_rack),
+            CpuOrder::PowerOffRack { units } => self.each(units, Self::power_off_rack),
+            CpuOrder::PowerOnRack { units } => self.each(units, Self::power_on_rack),
             CpuOrder::JumpSystemTime { units, by } => {
-                self.each_cpu(*units, |cpu| cpu.jump_system_time(*by));
+                self.each_cpu(units, |cpu| cpu.jump_system_time(*by));
             }
-            CpuOrder::SetInputs { unit, bytes } => self.each_cpu(UnitSet::One(*unit), |cpu| {
+            CpuOrder::SetInputs { unit, bytes } => self.each_cpu(&UnitSet::One(unit.clone()), |cpu| {
                 for (input, byte) in cpu.io_mut().c_to_m_mut().iter_mut().zip(&bytes.0) {
                     *input = *byte;
                 }
@@ -101,7 +102,7 @@ impl Bench<'_> {
             CpuOrder::Force { variable, value } => self.set_variable(variable, value, Io::force),
             CpuOrder::Write { variable, value } => self.set_variable(variable, value, Io::write),
             CpuOrder::Release { variable } => self.release(variable),
-            CpuOrder::ReleaseAll { units } => self.each_cpu(*units, |cpu| cpu.io_mut().release_all()),
+            CpuOrder::ReleaseAll { units } => self.each_cpu(units, |cpu| cpu.io_mut().release_all()),
             CpuOrder::Load { unit, program } => self.load(unit.position(), program),
         }
     }
@@ -130,7 +131,7 @@ impl Bench<'_> {
         }
     }
 
-    fn each(&mut self, units: UnitSet, order: impl Fn(&mut Self, usize)) {
+    fn each(&mut self, units: &UnitSet, order: impl Fn(&mut Self, usize)) {
         units.positions(self.count()).for_each(|at| order(self, at));
     }
 
@@ -153,7 +154,7 @@ impl Bench<'_> {
         }
     }
 
-    fn each_cpu(&mut self, units: UnitSet, mut order: impl FnMut(&mut CpuUnit)) {
+    fn each_cpu(&mut self, units: &UnitSet, mut order: impl FnMut(&mut CpuUnit)) {
         for at in units.positions(self.count()) {
             if self.cpu_has_power(at) {
                 self.cpus.get_mut(at).into_iter().for_each(&mut order);

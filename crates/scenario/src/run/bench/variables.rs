@@ -21,7 +21,7 @@ impl Bench<'_> {
     }
 
     /// The value of a variable of a user program as text; none if there is none.
-    pub(crate) fn program_variable(&self, of: Controller, name: &str) -> Option<String> {
+    pub(crate) fn program_variable(&self, of: &Controller, name: &str) -> Option<String> {
         match of {
             Controller::Master => self.masters?.scripted.program_variable(name),
             Controller::Unit(unit) => self.cpus.get(unit.position())?.program_variable(name),
@@ -29,7 +29,7 @@ impl Bench<'_> {
     }
 
     /// The reports of a controller; none if it does not exist.
-    pub(crate) fn told(&self, by: Controller) -> Option<&Reports> {
+    pub(crate) fn told(&self, by: &Controller) -> Option<&Reports> {
         match by {
             Controller::Master => Some(self.masters?.scripted.told()),
             Controller::Unit(unit) => self.cpus.get(unit.position()).map(CpuUnit::reports),

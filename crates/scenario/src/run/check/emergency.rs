@@ -4,14 +4,14 @@ use wire::Emergency;
 
 use super::master::scripted;
 use super::seen::{Seen, holds, is_often_enough};
-use crate::model::{Bytes, Hex, UnitNumber, hex};
+use crate::model::{Bytes, Hex, WhichUnit, hex};
 use crate::run::bench::Bench;
 use crate::run::master::Received;
 
 /// What an emergency has to be; what is left out is not compared.
 pub(super) struct Wanted<'a> {
     pub(super) code: u16,
-    pub(super) unit: Option<UnitNumber>,
+    pub(super) unit: Option<&'a WhichUnit>,
     pub(super) register: Option<Hex<u8>>,
     pub(super) data: Option<&'a Bytes>,
 }

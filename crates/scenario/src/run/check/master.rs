@@ -1,7 +1,7 @@
 //! Conditions of the scripted master and of the recorded one.
 
 use super::seen::{Seen, holds};
-use crate::model::{Bytes, UnitNumber};
+use crate::model::{Bytes, WhichUnit};
 use crate::run::bench::Bench;
 use crate::run::master::Master;
 use crate::run::recorded::Recorded;
@@ -31,18 +31,18 @@ pub(super) fn gave_up(world: &Bench<'_>) -> Check {
     holds(scripted(world)?.gave_up().is_some(), || "the master has not given up".to_owned())
 }
 
-pub(super) fn sdo_refused(world: &Bench<'_>, unit: Option<UnitNumber>, abort_code: u32) -> Check {
+pub(super) fn sdo_refused(world: &Bench<'_>, unit: Option<&WhichUnit>, abort_code: u32) -> Check {
     let sdo = scripted(world)?.last_sdo(unit);
     holds(sdo.result() == Some(&Err(abort_code)), || sdo.words())
 }
 
-pub(super) fn sdo_gave(world: &Bench<'_>, unit: Option<UnitNumber>, value: &Bytes) -> Check {
+pub(super) fn sdo_gave(world: &Bench<'_>, unit: Option<&WhichUnit>, value: &Bytes) -> Check {
     let sdo = scripted(world)?.last_sdo(unit);
     let is_it = matches!(sdo.result(), Some(Ok(seen)) if *seen == value.0);
     holds(is_it, || sdo.words())
 }
 
-pub(super) fn sdo_taken(world: &Bench<'_>, unit: Option<UnitNumber>) -> Check {
+pub(super) fn sdo_taken(world: &Bench<'_>, unit: Option<&WhichUnit>) -> Check {
     let sdo = scripted(world)?.last_sdo(unit);
     holds(matches!(sdo.result(), Some(Ok(_))), || sdo.words())
 }

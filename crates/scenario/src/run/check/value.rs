@@ -7,7 +7,7 @@ use wire::{DataType, ObjectIndex, SubIndex};
 use super::master::scripted;
 use super::seen::{Seen, holds, lie_at};
 use super::unit;
-use crate::model::{Amount, Condition, Hex, Number, Quantity, Same, Test, UnitNumber, hex};
+use crate::model::{Amount, Condition, Hex, Number, Quantity, Same, Test, WhichUnit, hex};
 use crate::run::bench::Bench;
 use crate::run::master::Received;
 use crate::run::observed::{Observed, Reading};
@@ -78,7 +78,7 @@ fn compares(reading: &Reading, amount: &Amount, wanted: &[Ordering]) -> Check {
 fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
     match of {
         Quantity::Object { unit, entry } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             unit::has_power(world, at)?;
             let (index, sub) = (ObjectIndex(entry.index), SubIndex(entry.sub));
             let value = world.object(at, index, sub);
@@ -87,24 +87,24 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
             Ok(Reading::bytes(bytes, number))
         }
         Quantity::Register { unit, register } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             unit::has_power(world, at)?;
             Ok(Reading::unsigned(world.registers(at, register.0, register_bytes(register.0))))
         }
         Quantity::OutputByte { unit, at: first } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             byte(world.io(at).m_to_c(), *first)
         }
         Quantity::InputByte { unit, at: first } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             byte(world.inputs(at), *first)
         }
         Quantity::Outputs { unit } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             Ok(Reading::bytes(world.io(at).m_to_c().to_vec(), None))
         }
         Quantity::Inputs { unit } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             some_bytes(world.inputs(at)).map(|bytes| Reading::bytes(bytes.to_vec(), None))
         }
         Quantity::Variable { variable } => {
@@ -114,18 +114,18 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
             Ok(Reading { bytes, number: Number::of(&words), words })
         }
         Quantity::ProgramVariable { controller, name } => {
-            let words = world.program_variable(*controller, name);
+            let words = world.program_variable(controller, name);
             let words = words.ok_or_else(|| Seen::not_there("it is not there"))?;
             Ok(Reading { bytes: Vec::new(), number: Number::of(&words), words })
         }
         Quantity::WorkingCounter { unit } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             let seen = world.working_counter(at);
             let seen = seen.ok_or_else(|| Seen::from("no process data came back".to_owned()))?;
             Ok(Reading::count(seen.into()))
         }
         Quantity::Records { unit, event } => {
-            let at = there(*unit, world)?;
+            let at = there(unit, world)?;
             Ok(Reading::count(world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64))
         }
         Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
@@ -139,7 +139,7 @@ fn emergencies(world: &Bench<'_>, wanted: Option<Hex<u16>>) -> Result<u64, Seen>
     Ok(received.filter(is_wanted).count() as u64)
 }
 
-fn there(unit: UnitNumber, world: &Bench<'_>) -> Result<usize, Seen> {
+fn there(unit: &WhichUnit, world: &Bench<'_>) -> Result<usize, Seen> {
     let at = unit.position();
     if at < world.count() { Ok(at) } else { Err(Seen::not_there(format!("{unit}: not there"))) }
 }

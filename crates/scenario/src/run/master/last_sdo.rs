@@ -1,6 +1,6 @@
 //! The SDO that was ordered last, and its answer: "the last SDO" in sentences.
 
-use crate::model::{UnitNumber, hex};
+use crate::model::{WhichUnit, hex};
 
 /// The value that was read, empty after a write, or the abort code.
 pub(super) type SdoResult = Result<Vec<u8>, u32>;
@@ -47,7 +47,7 @@ impl LastSdos {
     }
 
     /// That of a unit, which is there; without a unit that of all.
-    pub(crate) fn get(&self, unit: Option<UnitNumber>) -> &LastSdo {
+    pub(crate) fn get(&self, unit: Option<&WhichUnit>) -> &LastSdo {
         unit.and_then(|unit| self.of_each.get(unit.position())).unwrap_or(&self.of_all)
     }
 }

@@ -10,7 +10,7 @@ use super::operation::{MailboxChannels, Operation};
 use super::raw::Kind;
 use super::sdo_service::SdoService;
 use super::slave::Slave;
-use crate::model::{MasterOrder, UnitNumber, UnitSet};
+use crate::model::{MasterOrder, UnitSet, WhichUnit};
 
 impl Master {
     /// Accepts an order.
@@ -18,35 +18,33 @@ impl Master {
         match order {
             MasterOrder::Take { units, state } => {
                 self.process_data.allow();
-                self.queue_for(units, now, |unit| Operation::take(unit, state))
+                self.queue_for(&units, now, |unit| Operation::take(unit, state))
             }
             MasterOrder::Request { units, state, acknowledge } => {
                 let bits = state.bits() | if acknowledge { 0x10 } else { 0 };
-                self.queue_for(units, now, |unit| {
+                self.queue_for(&units, now, |unit| {
                     Operation::write(unit, 0x0120, bits.to_le_bytes().to_vec())
                 });
             }
             MasterOrder::WriteRegister { unit, register, bytes } => {
                 let write = |unit| Operation::write(unit, register.0, bytes.0.clone());
-                self.queue_for(UnitSet::One(unit), now, write);
+                self.queue_of(&unit, now, write);
             }
             MasterOrder::WriteRegisterInHalves { unit, register, bytes } => {
                 let (first, second) = bytes.0.split_at(bytes.0.len().div_ceil(2));
                 let behind = register.0.wrapping_add(first.len() as u16);
                 for (offset, half) in [(register.0, first), (behind, second)] {
                     let half = half.to_vec();
-                    self.queue_for(UnitSet::One(unit), now, |unit| {
-                        Operation::write(unit, offset, half.clone())
-                    });
+                    self.queue_of(&unit, now, |unit| Operation::write(unit, offset, half.clone()));
                 }
             }
             MasterOrder::WriteSdo { unit, entry, value } => {
-                self.queue_sdo(unit, now, |unit, channels| {
+                self.queue_sdo(&unit, now, |unit, channels| {
                     Operation::download(unit, channels, entry, &value.0)
                 });
             }
             MasterOrder::ReadSdo { unit, entry } => {
-                self.queue_sdo(unit, now, |unit, channels| Operation::upload(unit, channels, entry));
+                self.queue_sdo(&unit, now, |unit, channels| Operation::upload(unit, channels, entry));
             }
             order @ (MasterOrder::ReadCompleteSdo { .. }
             | MasterOrder::WriteCompleteSdo { .. }
@@ -55,17 +53,17 @@ impl Master {
             | MasterOrder::DescribeObject { .. }
             | MasterOrder::DescribeEntry { .. }) => {
                 if let Some(request) = SdoService::of(&order) {
-                    self.queue_sdo(request.unit, now, |unit, channels| request.operation(unit, channels));
+                    self.queue_sdo(&request.unit, now, |unit, channels| request.operation(unit, channels));
                 }
             }
             MasterOrder::ReadRegister { unit, register, length_bytes } => {
                 let length_bytes = length_bytes.unwrap_or_else(|| width_bytes(register.0));
                 let number = self.raw.order(Kind::Register);
-                self.queue_for(UnitSet::One(unit), now, |unit| {
+                self.queue_of(&unit, now, |unit| {
                     Operation::read_register(unit, register.0, length_bytes, number)
                 });
             }
-            MasterOrder::SendMailboxMessage { unit, message } => self.queue_message(unit, &message.0, now),
+            MasterOrder::SendMailboxMessage { unit, message } => self.queue_message(&unit, &message.0, now),
             MasterOrder::SendFrame { frame } => self.raw.order_frame(frame.0),
             MasterOrder::ExchangeProcessData { every } => self.process_data.exchange(every, now),
             MasterOrder::StopProcessData => self.process_data.stop(),
@@ -73,16 +71,16 @@ impl Master {
                 self.process_data.set_outputs(unit.position(), at.into(), &bytes.0);
             }
             MasterOrder::MapPdo { unit, pdo, entries } => {
-                self.with_slave(unit, |slave| slave.map(pdo.0, &entries));
+                self.with_slave(&unit, |slave| slave.map(pdo.0, &entries));
             }
             MasterOrder::AssignPdos { unit, object, pdos } => {
-                self.with_slave(unit, |slave| slave.assign(object.0, &pdos));
+                self.with_slave(&unit, |slave| slave.assign(object.0, &pdos));
             }
             MasterOrder::SetSyncManagerLength { unit, number, length_bytes } => {
-                self.with_slave(unit, |slave| slave.wrong_length(number, length_bytes));
+                self.with_slave(&unit, |slave| slave.wrong_length(number, length_bytes));
             }
             MasterOrder::SetSyncManagerControl { unit, number, control } => {
-                self.with_slave(unit, |slave| slave.wrong_control(number, control.0));
+                self.with_slave(&unit, |slave| slave.wrong_control(number, control.0));
             }
             MasterOrder::UseMailboxCounter { counter } => {
                 self.change_mailbox(|conduct| conduct.counter.fixed = Some(counter));
@@ -110,14 +108,14 @@ impl Master {
     /// An SDO by the mailbox of a unit; without one the order fails.
     fn queue_sdo(
         &mut self,
-        unit: UnitNumber,
+        unit: &WhichUnit,
         now: Instant,
         order: impl Fn(usize, MailboxChannels) -> Operation,
     ) {
         let number = self.last_sdos.order(unit.position());
         match self.slaves.get(unit.position()).and_then(Slave::mailbox) {
             Some(channels) => {
-                self.queue_for(UnitSet::One(unit), now, |unit| order(unit, channels).ordered_as(number));
+                self.queue_of(unit, now, |unit| order(unit, channels).ordered_as(number));
             }
             None => {
                 let reason = format!("unit {} has no mailbox", unit.position() + 1);
@@ -128,12 +126,12 @@ impl Master {
     }
 
     /// A mailbox message as it is; without a mailbox the order fails.
-    fn queue_message(&mut self, unit: UnitNumber, message: &[u8], now: Instant) {
+    fn queue_message(&mut self, unit: &WhichUnit, message: &[u8], now: Instant) {
         let number = self.raw.order(Kind::Mailbox);
         match self.slaves.get(unit.position()).and_then(Slave::mailbox) {
-            Some(channels) => self.queue_for(UnitSet::One(unit), now, |unit| {
-                Operation::message(unit, channels, message.to_vec(), number)
-            }),
+            Some(channels) => {
+                self.queue_of(unit, now, |unit| Operation::message(unit, channels, message.to_vec(), number))
+            }
             None => {
                 let reason = format!("unit {} has no mailbox", unit.position() + 1);
                 self.fail(reason);
@@ -142,13 +140,17 @@ impl Master {
         }
     }
 
-    fn with_slave(&mut self, unit: UnitNumber, change: impl FnOnce(&mut Slave)) {
+    fn with_slave(&mut self, unit: &WhichUnit, change: impl FnOnce(&mut Slave)) {
         if let Some(slave) = self.slaves.get_mut(unit.position()) {
             change(slave);
         }
     }
 
-    fn queue_for(&mut self, units: UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
+    fn queue_of(&mut self, unit: &WhichUnit, now: Instant, operation: impl Fn(usize) -> Operation) {
+        self.queue_for(&UnitSet::One(unit.clone()), now, operation);
+    }
+
+    fn queue_for(&mut self, units: &UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
         let was_idle = self.operations.is_empty();
         self.operations.extend(units.positions(self.slaves.len()).map(operation));
         if was_idle {

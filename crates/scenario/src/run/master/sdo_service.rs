@@ -5,14 +5,14 @@ use wire::{ObjectIndex, SdoInfoList, SdoInfoRequest, SdoTarget, SubIndex, ValueI
 
 use super::asked_sdo::AskedSdo;
 use super::operation::{MailboxChannels, Operation};
-use crate::model::{Entry, MasterOrder, UnitNumber};
+use crate::model::{Entry, MasterOrder, WhichUnit};
 
 /// Number of bytes of a segment: those of an SDO over CAN.
 const SEGMENT_BYTES: usize = 7;
 
 /// One such service.
 pub(super) struct SdoService {
-    pub(super) unit: UnitNumber,
+    pub(super) unit: WhichUnit,
     asked: AskedSdo,
     service: Service,
 }
@@ -58,7 +58,7 @@ impl SdoService {
             }
             _ => return None,
         };
-        Some(Self { unit: *unit, asked, service })
+        Some(Self { unit: unit.clone(), asked, service })
     }
 
     pub(super) fn operation(&self, unit: usize, channels: MailboxChannels) -> Operation {

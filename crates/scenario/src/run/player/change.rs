@@ -1,10 +1,7 @@
 //! Conditions that an order is about to end: if one is true before the order, the present state must not fulfil the
 //! expectation that follows.
 
-use crate::model::{Bytes, Condition, CpuOrder, MasterOrder, Order, UnitOrder, UnitSet};
-
-/// More units than any line has.
-const POSITIONS: usize = 1 << 16;
+use crate::model::{Bytes, Condition, CpuOrder, MasterOrder, Order, UnitOrder};
 
 /// Whether an order changes what a condition is about to something else than the condition.
 pub(crate) fn ends(order: &Order, condition: &Condition) -> bool {
@@ -21,7 +18,7 @@ fn master_ends(order: &MasterOrder, condition: &Condition) -> bool {
         (
             MasterOrder::Take { units, state } | MasterOrder::Request { units, state, .. },
             Condition::State { units: of, state: expected, .. },
-        ) => overlap(*units, *of) && state != expected,
+        ) => units.overlaps(of) && state != expected,
         (
             MasterOrder::SetOutputs { unit, at, bytes },
             Condition::Outputs { unit: of, at: first, bytes: expected },
@@ -43,7 +40,7 @@ fn unit_ends(order: &UnitOrder, condition: &Condition) -> bool {
         (
             UnitOrder::InjectFault { units, .. },
             Condition::HasNoError { units: of } | Condition::RecordedNothing { units: of },
-        ) => overlap(*units, *of),
+        ) => units.overlaps(of),
         _ => false,
     }
 }
@@ -51,18 +48,13 @@ fn unit_ends(order: &UnitOrder, condition: &Condition) -> bool {
 fn cpu_ends(order: &CpuOrder, condition: &Condition) -> bool {
     match (order, condition) {
         (CpuOrder::StopIoRefreshing { units }, Condition::IoDataActive { units: of, active }) => {
-            *active && overlap(*units, *of)
+            *active && units.overlaps(of)
         }
         (CpuOrder::StartIoRefreshing { units }, Condition::IoDataActive { units: of, active }) => {
-            !*active && overlap(*units, *of)
+            !*active && units.overlaps(of)
         }
         _ => false,
     }
-}
-
-fn overlap(one: UnitSet, other: UnitSet) -> bool {
-    let (one, other) = (one.positions(POSITIONS), other.positions(POSITIONS));
-    one.start < other.end && other.start < one.end
 }
 
 /// Whether bytes at two places have a byte in common that differs.

@@ -5,7 +5,8 @@ use crate::model::{
 };
 use crate::words::value::{Value, ordinal_ending};
 
-use super::read::{duration, one, unit};
+use super::read::{duration, one};
+use super::units::unit;
 
 pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
     let (digits, length) = before_sign(words, &["%"])?;

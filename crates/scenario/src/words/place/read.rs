@@ -3,9 +3,10 @@
 use time::Duration;
 use wire::AlState;
 
+use super::units::unit;
 use crate::model::{
-    Bytes, Controller, Entry, EventCode, Hex, IndicatorName, Position, StateName, UnitNumber, UnitSet,
-    UserErrorCode, hexadecimal, number as number_of,
+    Bytes, Controller, Entry, EventCode, Hex, IndicatorName, Position, StateName, UserErrorCode, hexadecimal,
+    number as number_of,
 };
 use crate::words::value::Value;
 
@@ -14,19 +15,6 @@ const ELEMENTS_MAX: usize = 254;
 
 pub(super) fn one(words: &[&str], read: impl Fn(&str) -> Option<Value>) -> Option<(Value, usize)> {
     read(words.first()?).map(|value| (value, 1))
-}
-
-pub(super) fn unit(words: &[&str]) -> Option<UnitNumber> {
-    let [name, number, ..] = words else { return None };
-    (*name == "unit").then_some(())?;
-    UnitNumber::new(number.parse().ok()?)
-}
-
-pub(super) fn units(words: &[&str]) -> Option<(Value, usize)> {
-    match words {
-        ["all", "units", ..] => Some((Value::Units(UnitSet::All), 2)),
-        _ => unit(words).map(|unit| (Value::Units(UnitSet::One(unit)), 2)),
-    }
 }
 
 pub(super) fn controller(words: &[&str]) -> Option<(Value, usize)> {
