@@ -123,7 +123,7 @@ fn conditions_are_nested_sixteen_deep_at_most() {
 #[test]
 fn what_a_part_is_about_must_exist() {
     for (condition, message) in [
-        ("not (unit 2 is in OP)", "a unit that does not exist"),
+        ("not (unit 2 is in OP)", "unit 2 does not exist"),
         ("all of (unit 1 is in OP; object 9999:00 of unit 1 is 00)", "unit 1 has no object 9999:00"),
         ("any of (0 cycles are done; unit 1 is in OP)", "0 cycles are done at the beginning"),
         ("not (no program error of the master)", "the master has no user program"),

@@ -18,7 +18,7 @@ const CASES: &[(&str, &str, &[&str])] = &[
     (
         "unknown-unit",
         r#"{ expect = "unit 2 is in OP" }"#,
-        &["a unit that does not exist", "the line has 1 unit, counted from 1"],
+        &["unit 2 does not exist", "the line has 1 unit, counted from 1"],
     ),
     ("time-without-unit", r#"{ after = "10", line = "be quiet" }"#, &["`10`: not a duration", "1.5ms"]),
     (
