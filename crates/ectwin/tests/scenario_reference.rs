@@ -51,7 +51,7 @@ the parameter `loss`:
 
 ```toml parameters.toml
 title = "{state} is reached with {loss} % loss"
-with = { loss = [1, 2, 5], state = ["SAFE-OP", "OP"] }
+with = { loss = [0, 1, 5], state = ["SAFE-OP", "OP"] }
 steps = [
   { line = "lose {loss} % of the frames" },
   { master = "take unit 1 to {state}" },
@@ -59,7 +59,7 @@ steps = [
 ]
 ```
 
-These are six cases, named `FILE (loss = 1, state = SAFE-OP)` and so on; `ectwin replay --case "loss = 1, state = OP"` replays one of them.
+These are six cases, named `FILE (loss = 0, state = SAFE-OP)` and so on; `ectwin replay --case "loss = 1, state = OP"` replays one of them.
 A value is a number, a text, `true`, `false`, or a range of numbers such as `{ from = 3, to = 5 }`, which is a text for each of them. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
 are not replaced. `{{loss}}` is the text `{loss}`. A parameter that no text uses, and a name in braces that is no parameter, are mistakes.
 

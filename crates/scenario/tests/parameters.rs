@@ -169,3 +169,23 @@ proptest! {
         prop_assert_eq!(names(&text), expected);
     }
 }
+
+/// The first case is the line without loss.
+#[test]
+fn a_list_of_losses_begins_with_none() {
+    let text = r#"title = "t"
+with = { loss = [0, 1, 100] }
+steps = [
+  { line = "lose {loss} % of the frames called rain" },
+  { master = "take unit 1 to OP" },
+  { expect = "unit 1 is in OP", within = "5s" },
+  { line = "end rain" },
+]
+"#;
+    let cases = cases(text).expect("three cases");
+    let reports: Vec<_> = cases.iter().map(|case| case.replay(1, Recording::new(true, false))).collect();
+    let passes: Vec<bool> = reports.iter().map(scenario::Report::passes).collect();
+    assert_eq!(passes, [true, true, false]);
+    let trace = reports[0].recording.trace().expect("a trace");
+    assert!(trace.contains("lose 0 % of the frames called rain") && !trace.contains("is lost"), "{trace}");
+}

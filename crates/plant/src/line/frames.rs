@@ -134,23 +134,21 @@ pub enum Choice {
     },
     /// All from now on.
     All,
-    /// Each with this probability, in per cent, 1 to 100.
+    /// Each with this probability, in per cent, 0 to 100; with 0 it is there and no frame meets it.
     Percent(u8),
-    /// Each with this probability, in per mille, 1 to 1,000.
+    /// Each with this probability, in per mille, 0 to 1,000.
     PerMille(u16),
     /// One of this number, which is at least 1: with 10 the frames 10, 20, 30 and so on.
     Every(u64),
 }
 
 impl Choice {
-    /// Whether it selects no frame at all.
+    /// Whether its number of frames is 0. A probability of 0 is a probability like the others, for comparison with them.
     #[must_use]
     pub const fn is_none(self) -> bool {
         match self {
             Self::Next(count) | Self::Behind { count, .. } | Self::Every(count) => count == 0,
-            Self::Percent(percent) => percent == 0,
-            Self::PerMille(per_mille) => per_mille == 0,
-            Self::All => false,
+            Self::Percent(_) | Self::PerMille(_) | Self::All => false,
         }
     }
 
@@ -158,12 +156,13 @@ impl Choice {
     #[must_use]
     pub const fn is_random(self) -> bool {
         match self {
-            Self::Percent(_) | Self::PerMille(_) => true,
+            Self::Percent(percent) => percent > 0,
+            Self::PerMille(per_mille) => per_mille > 0,
             Self::Next(_) | Self::Behind { .. } | Self::Every(_) | Self::All => false,
         }
     }
 
-    /// Whether it selects some frames, and its numbers are within their limits.
+    /// Whether its numbers are within their limits.
     #[must_use]
     pub const fn is_possible(self) -> bool {
         let within = match self {

@@ -143,10 +143,10 @@ const PLACES: &[Place] = &[
         read: indicator,
         fitting: fitting_indicator,
     },
-    place("percent", "a number from 1 to 100 and %", percent),
+    place("percent", "a number from 0 to 100 and %", percent),
     Place {
         name: "frames",
-        meaning: "`the next 3`, `all`, `5 % of the` (1 to 100 %), `5 ‰ of the` (1 to 1000 ‰, also `per mille`), `every 10th of the`, \
+        meaning: "`the next 3`, `all`, `5 % of the` (0 to 100 %), `5 ‰ of the` (0 to 1000 ‰, also `per mille`; with 0 no frame meets the fault), `every 10th of the`, \
                   `number 7 of the` or `numbers 3 to 9 of the`; then `frames`, `process data frames`, `mailbox frames`, `SII frames` or \
                   those with a command such as `BRD frames`; then, if only those that address one unit are meant, `of unit 2`",
         read: frames,

@@ -10,7 +10,7 @@ use super::units::unit;
 
 pub(super) fn percent(words: &[&str]) -> Option<(Value, usize)> {
     let (digits, length) = before_sign(words, &["%"])?;
-    let percent = digits.parse::<u8>().ok().filter(|percent| (1..=100).contains(percent))?;
+    let percent = digits.parse::<u8>().ok().filter(|percent| (0..=100).contains(percent))?;
     Some((Value::Percent(percent), length))
 }
 
@@ -19,7 +19,7 @@ fn per_mille(words: &[&str]) -> Option<(u16, usize)> {
         [number, "per", "mille", ..] => (*number, 3),
         _ => before_sign(words, &["‰"])?,
     };
-    let per_mille = digits.parse::<u16>().ok().filter(|per_mille| (1..=1_000).contains(per_mille))?;
+    let per_mille = digits.parse::<u16>().ok().filter(|per_mille| (0..=1_000).contains(per_mille))?;
     Some((per_mille, length))
 }
 
