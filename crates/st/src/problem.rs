@@ -1,5 +1,6 @@
 //! A problem of a program, with its position.
 
+use core::fmt;
 use core::ops::Range;
 
 /// Maximum number of problems of a program that are reported at once.
@@ -75,6 +76,16 @@ impl Problem {
         self.help = Some(shortened(help.into()));
         self
     }
+
+    /// The same with the name that is most likely meant.
+    pub(crate) fn did_you_mean(self, name: impl fmt::Display) -> Self {
+        self.help(did_you_mean(name))
+    }
+}
+
+/// The remedy if a name is near the one that is written.
+pub(crate) fn did_you_mean(name: impl fmt::Display) -> String {
+    format!("did you mean `{name}`?")
 }
 
 /// A message without its middle part if it is long: the text quoted from a source may have any length.

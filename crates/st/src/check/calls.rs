@@ -107,7 +107,7 @@ impl<'t> Body<'_, 't> {
         let names = names.chain(library::functions().map(|function| function.name.to_owned()));
         let problem = Problem::new(span, format!("there is no function `{name}`"));
         let problem = match nearest(name, names) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.did_you_mean(near),
             None => problem,
         };
         self.checker.refuse(problem)
@@ -448,7 +448,7 @@ impl<'t> Body<'_, 't> {
         let enables = ["EN", "ENO"].iter().any(|enable| enable.eq_ignore_ascii_case(&name.text));
         let problem = match nearest(&name.text, pins.iter().cloned()) {
             _ if enables => problem.help("EN and ENO are not supported: put the call into an IF"),
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.did_you_mean(near),
             None => problem.help(format!("its pins are {}", pins.join(", "))),
         };
         self.checker.refuse(problem)

@@ -192,7 +192,7 @@ impl<'t> Checker<'t> {
     fn unknown<'n>(&mut self, what: &str, name: &Name, known: impl Iterator<Item = &'n Name>) -> Option<()> {
         let problem = Problem::new(name.span, format!("there is no {what} `{}`", name.text));
         self.refuse(match nearest(&name.text, known.map(|known| known.text.clone())) {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.did_you_mean(near),
             None => problem,
         })
     }

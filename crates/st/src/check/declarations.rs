@@ -378,7 +378,7 @@ impl<'t> Checker<'t> {
         let near = nearest_port(&at.text, &ports);
         let problem = Problem::new(at.span, format!("there is no I/O port `{}`", at.text));
         self.refuse(match near {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.did_you_mean(near),
             None => problem.help("the I/O ports are those of the unit's I/O allocation"),
         })
     }

@@ -109,7 +109,7 @@ impl Checker<'_> {
                 );
                 let problem = Problem::new(name.span, format!("there is no member `{}`", name.text));
                 return self.refuse(match near {
-                    Some(near) => problem.help(format!("did you mean `{near}`?")),
+                    Some(near) => problem.did_you_mean(near),
                     None => problem,
                 });
             };

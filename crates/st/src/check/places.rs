@@ -118,7 +118,7 @@ impl Body<'_, '_> {
                 members.iter().filter(|member| visible(member.role)).map(|member| member.name.clone());
             let problem = Problem::new(name.span, format!("{} has no member `{}`", located.type_, name.text));
             let problem = match nearest(&name.text, names) {
-                Some(near) => problem.help(format!("did you mean `{near}`?")),
+                Some(near) => problem.did_you_mean(near),
                 None => problem,
             };
             return self.checker.refuse(problem);

@@ -257,7 +257,7 @@ impl<'t> Checker<'t> {
         let near = super::unknown_names::nearest(name, names.chain(elementary));
         let problem = Problem::new(span, format!("there is no type `{name}`"));
         self.refuse(match near {
-            Some(near) => problem.help(format!("did you mean `{near}`?")),
+            Some(near) => problem.did_you_mean(near),
             None => problem,
         })
     }

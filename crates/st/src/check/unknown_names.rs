@@ -1,6 +1,7 @@
 //! Remedies for a name that is not declared: the nearest one, or why a device variable is not there.
 
 use super::scope::key;
+use crate::problem::did_you_mean;
 use crate::variable::Global;
 
 /// The minimum similarity of two names for a suggestion.
@@ -34,7 +35,7 @@ pub(super) fn remedy(
     match of_a_unit(name, &devices).filter(|_| !is_meant) {
         Some(missing) => missing.remedy(),
         None => match near.or_else(|| without_device_name(name, &devices)) {
-            Some(near) => did_you_mean(&near),
+            Some(near) => did_you_mean(near),
             None => match of_another_model(name, &devices) {
                 Some(missing) => format!("{declare}, or: {}", missing.remedy()),
                 None => declare.to_owned(),
@@ -78,10 +79,6 @@ pub(super) fn nearest_port(at: &str, ports: &[String]) -> Option<String> {
     let port = |path: &str| path.rsplit('/').next().map(key);
     let same = ports.iter().find(|own| port(own) == port(at));
     same.cloned().or_else(|| nearest(at, ports.iter().cloned()))
-}
-
-fn did_you_mean(near: &str) -> String {
-    format!("did you mean `{near}`?")
 }
 
 /// Whether one letter is wrong, missing or too much; numbers distinguish names.

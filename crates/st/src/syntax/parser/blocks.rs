@@ -101,7 +101,7 @@ impl Parser<'_> {
         let operators = [Keyword::And, Keyword::Or, Keyword::Xor, Keyword::Mod];
         let is_name = self.token() == Token::Name;
         if let Some(operator) = spelling::nearest(self.text(here), &operators).filter(|_| is_name) {
-            problem = problem.help(format!("did you mean `{}`?", operator.word()));
+            problem = problem.did_you_mean(operator.word());
         }
         self.fail(problem)
     }
@@ -126,7 +126,7 @@ impl Parser<'_> {
         let parted = self.parted_end(text);
         let Some(meant) = parted.or_else(|| spelling::nearest(text, candidates)) else { return false };
         let message = format!("`{text}` is not a word of the language");
-        self.tell(Problem::new(span, message).help(format!("did you mean `{}`?", meant.word())));
+        self.tell(Problem::new(span, message).did_you_mean(meant.word()));
         if parted.is_some() && matches!(self.peek(1), Token::Keyword(word) if word.closer().is_some()) {
             self.advance();
         }
