@@ -12,7 +12,7 @@ use ectwin::st;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use serde::Serialize;
 use user_file::FileError;
-use user_file::{MISTAKES_MAX, and_more, escaped};
+use user_file::{MISTAKES_MAX, and_more, did_you_mean, escaped};
 
 use crate::colour::colour_on_stderr;
 use excerpt::Excerpt;
@@ -178,9 +178,10 @@ impl FileProblem {
     /// For a unit file.
     pub(crate) fn of_unit_file(path: &Path, text: &str, error: &FileError) -> Self {
         let expected = (!error.expected.is_empty()).then(|| format!("expected {}", error.expected));
-        let nearest = error.nearest.as_ref().map(|name| format!("did you mean `{name}`?"));
+        let nearest = error.nearest.as_ref().map(did_you_mean);
         let label = nearest.clone().or_else(|| expected.clone()).unwrap_or_else(|| "here".to_owned());
-        let help = nearest.and(expected).unwrap_or_default();
+        let remedy = Some(error.help.clone()).filter(|help| !help.is_empty());
+        let help = nearest.and(expected).into_iter().chain(remedy).collect::<Vec<_>>().join("; ");
         Self::at(path, text, error.span.clone(), &error.message, &label).with_help(&help)
     }
 

@@ -24,7 +24,7 @@ fn quiet(builder: ScenarioBuilder) -> ScenarioBuilder {
 /// A call that sets a part of the second step of a scenario.
 type Said = fn(ScenarioBuilder) -> ScenarioBuilder;
 
-const ONE_MOMENT: &str = "a step has one of at, after and when";
+const ONE_MOMENT: &str = "a step has at most one of `at`, `after` and `when`";
 const BELONG: &str = "`within`, `for` and `while` belong to `expect`, `until` to `expect` and `never`";
 
 #[test]

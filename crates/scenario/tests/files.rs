@@ -63,7 +63,11 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"output byte 180 of unit 1 is 01\" }", "no output byte 180", "the last one is 179"),
         ("{ line = \"lose the next 3\" }", "found the end", "lose {frames}"),
         ("{ at = \"20\", line = \"be quiet\" }", "not a duration", "units s, ms, us, ns"),
-        ("{ at = \"5ms\", after = \"5ms\", line = \"be quiet\" }", "one of at, after and when", ""),
+        (
+            "{ at = \"5ms\", after = \"5ms\", line = \"be quiet\" }",
+            "at most one of `at`, `after` and `when`",
+            "",
+        ),
         (
             "{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }",
             "this one has 2",
@@ -74,7 +78,11 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ after = \"1ms\" }", "this one has 0", ""),
         ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
         ("{ expect = \"unit 1 is in OP\", within = \"1ms\", for = \"1ms\" }", "contradict", ""),
-        ("{ line = \"be quiet\", repeat = 3 }", "`repeat` and `every` belong together", ""),
+        (
+            "{ line = \"be quiet\", repeat = 3 }",
+            "`repeat` needs `every`",
+            "such as `repeat = 3, every = \"100ms\"`",
+        ),
         ("{ line = \"be quiet\", repeat = 0, every = \"1ms\" }", "1 to 10000 times", ""),
         (
             "{ line = \"be quiet\", repeat = 2, every = \"1ms\", jitter = \"2ms\" }",
@@ -418,10 +426,11 @@ line 10, column 34: `expect.object.unit` is integer `0`
 line 10, column 45: `1018`: expected an entry of an object such as 10F3:05
 line 10, column 53: unknown key `expect.object.valu`
   expected `unit`, `entry` or `value`; did you mean `value`?
-line 10, column 79: `5`: not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"
+line 10, column 79: `5`: not a duration: a number and one of the units s, ms, us, ns, such as \"5ms\"
 line 11, column 3: `steps[4]` is an integer
   expected a table
-line 12, column 3: `repeat` and `every` belong together, and `jitter` to both
+line 12, column 3: `repeat` needs `every`, the time from one to the next
+  such as `repeat = 2, every = \"100ms\"`
 line 14, column 1: `master.program` is missing
   expected the user program of the master
 line 15, column 1: unknown key `master.programm`

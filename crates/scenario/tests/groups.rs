@@ -85,7 +85,8 @@ fn a_round_that_is_longer_than_the_period_is_a_failure_that_says_so() {
     let failure = replay(&text).failure.expect("too long");
     assert_eq!((failure.line, failure.at), (3, Duration::from_millis(10)));
     assert_eq!(failure.text, "repeat = 3, every = \"10ms\"");
-    let seen = "round 1 of 3 takes longer than 10ms: the next one is due, and line 5 `be quiet` still waits";
+    let seen =
+        "round 1 of 3 has not ended after 10ms, when the next one is due: line 5 `be quiet` still waits";
     assert_eq!(failure.seen, seen);
     assert_eq!(replay(&text.replace("11ms", "10ms")).failure, None, "it ends when the next one begins");
     assert_eq!(replay(&text.replace("repeat = 3", "repeat = 1")).failure, None, "nothing is due");
@@ -227,7 +228,7 @@ fn mistakes_in_groups_are_told_with_their_place() {
         (
             r#"{ repeat = 3, steps = [{ line = "be quiet" }] }"#.to_owned(),
             "line 3, column 1",
-            "`repeat` and `every` belong together",
+            "`repeat` needs `every`",
         ),
         (
             r#"{ repeat = 3, every = "1ms", together = [{ line = "be quiet" }] }"#.to_owned(),

@@ -171,11 +171,17 @@ fn steps_are_tables_of_the_same_keys_in_json_and_toml() {
         assert_eq!(serde_json::to_string(&read).expect("JSON"), step);
     }
     for (step, words) in [
-        (r#"{ "at": "1ms", "after": "1ms", "line": { "be_quiet": {} } }"#, "one of at, after and when"),
+        (
+            r#"{ "at": "1ms", "after": "1ms", "line": { "be_quiet": {} } }"#,
+            "at most one of `at`, `after` and `when`",
+        ),
         (r#"{ "line": { "be_quiet": {} }, "within": "1ms" }"#, "belong to `expect`"),
-        (r#"{ "never": { "master_idle": {} }, "for": "1ms" }"#, "belong to `expect`"),
+        (
+            r#"{ "never": { "master_idle": {} }, "for": "1ms" }"#,
+            "`never` has no `for`; `never` is checked to the end",
+        ),
         (r#"{ "expect": { "master_idle": {} }, "within": "1ms", "for": "1ms" }"#, "contradict"),
-        (r#"{ "repeat": 3, "line": { "be_quiet": {} } }"#, "`repeat` and `every` belong together"),
+        (r#"{ "repeat": 3, "line": { "be_quiet": {} } }"#, "`repeat` needs `every`"),
         (r#"{ "random": 3 }"#, "needs the time"),
         (r#"{ "after": "1ms" }"#, "this one has 0"),
         (r#"{ "line": { "be_quiet": {} }, "never": { "master_idle": {} } }"#, "this one has 2"),

@@ -142,11 +142,23 @@ impl fmt::Display for Duration {
 
 /// A text that is not a duration: a number is missing, a unit is missing or unknown, or it is too long.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NotADuration;
+pub struct NotADuration {
+    /// The text is this whole number, without a unit.
+    number: Option<u32>,
+}
+
+impl NotADuration {
+    const OTHER: Self = Self { number: None };
+}
 
 impl fmt::Display for NotADuration {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("not a duration: a number and one of the units s, ms, us, ns, such as \"1.5ms\"")
+        formatter.write_str("not a duration: a number and one of the units s, ms, us, ns, such as ")?;
+        match self.number {
+            // Most often meant in milliseconds.
+            Some(number) => write!(formatter, "\"{number}ms\""),
+            None => formatter.write_str("\"1.5ms\""),
+        }
     }
 }
 
@@ -157,20 +169,21 @@ impl FromStr for Duration {
 
     /// Reads a number, with or without a fraction, and a unit: `1ms`, `1.5ms`, `100us`.
     fn from_str(text: &str) -> Result<Self, NotADuration> {
-        let number_length = text.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or(NotADuration)?;
+        let without_unit = || NotADuration { number: text.parse().ok() };
+        let number_length = text.find(|c: char| !c.is_ascii_digit() && c != '.').ok_or_else(without_unit)?;
         let (number, unit) = text.split_at(number_length);
         let (_, nanos) =
-            UNITS.into_iter().find(|(name, _)| *name == unit.trim_start()).ok_or(NotADuration)?;
+            UNITS.into_iter().find(|(name, _)| *name == unit.trim_start()).ok_or(NotADuration::OTHER)?;
         let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
         if (whole.is_empty() && fraction.is_empty()) || fraction.len() > nanos.ilog10() as usize {
-            return Err(NotADuration);
+            return Err(NotADuration::OTHER);
         }
         let digits = |text: &str| if text.is_empty() { Ok(0) } else { text.parse::<u64>() };
-        let whole = digits(whole).map_err(|_| NotADuration)?;
-        let scale = 10u64.pow(u32::try_from(fraction.len()).map_err(|_| NotADuration)?);
-        let fraction = digits(fraction).map_err(|_| NotADuration)? * (nanos / scale);
+        let whole = digits(whole).map_err(|_| NotADuration::OTHER)?;
+        let scale = 10u64.pow(u32::try_from(fraction.len()).map_err(|_| NotADuration::OTHER)?);
+        let fraction = digits(fraction).map_err(|_| NotADuration::OTHER)? * (nanos / scale);
         let total = whole.checked_mul(nanos).and_then(|total| total.checked_add(fraction));
-        total.map(Self).ok_or(NotADuration)
+        total.map(Self).ok_or(NotADuration::OTHER)
     }
 }
 
@@ -191,7 +204,15 @@ mod tests {
     #[test]
     fn what_is_no_duration_is_refused() {
         for text in ["", "1", "ms", ".ms", "1.0000001ms", "1,5ms", "-1ms", "1h", "99999999999999999999s"] {
-            assert_eq!(text.parse::<Duration>(), Err(NotADuration), "{text}");
+            assert!(text.parse::<Duration>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_without_a_unit_is_suggested_in_milliseconds() {
+        for (text, suggested) in [("50", "\"50ms\""), ("5h", "\"1.5ms\""), ("99999999999", "\"1.5ms\"")] {
+            let message = text.parse::<Duration>().err().map(|error| error.to_string()).unwrap_or_default();
+            assert!(message.ends_with(suggested), "{text}: {message}");
         }
     }
 

@@ -63,7 +63,7 @@ impl FileError {
     #[must_use]
     pub fn words(&self) -> String {
         let expected = if self.expected.is_empty() { "" } else { ", expected " };
-        let nearest = self.nearest.as_ref().map(|name| format!("; did you mean `{name}`?"));
+        let nearest = self.nearest.as_ref().map(|name| format!("; {}", did_you_mean(name)));
         let help = if self.help.is_empty() { "" } else { "; " };
         format!(
             "{}{expected}{}{}{help}{}",
@@ -180,8 +180,15 @@ fn one_of(names: &[&str]) -> String {
     }
 }
 
+/// The help of a mistake for which there is a near name.
+#[must_use]
+pub fn did_you_mean(name: impl fmt::Display) -> String {
+    format!("did you mean `{name}`?")
+}
+
 /// The valid name most likely meant by `word`, if one is near.
-fn nearest(word: &str, names: &[&str]) -> Option<String> {
+#[must_use]
+pub fn nearest(word: &str, names: &[&str]) -> Option<String> {
     let word: String = word.chars().take(40).flat_map(char::to_lowercase).collect();
     let distance = |name: &str| strsim::osa_distance(&word, &name.to_lowercase());
     let near = names.iter().copied().filter(|name| is_near(&word, &name.to_lowercase()));

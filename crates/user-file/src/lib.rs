@@ -21,7 +21,7 @@ mod typed;
 pub mod values;
 mod words;
 
-pub use error::{FileError, FileErrors, Problem};
+pub use error::{FileError, FileErrors, Problem, did_you_mean, nearest};
 pub use field_names::field_names;
 pub use kind::{Refusal, Wanted, of_another_kind};
 pub use located::Located;
@@ -29,4 +29,4 @@ pub use mistakes::{MISTAKES_MAX, Mistakes, and_more};
 pub use reader::{Reader, Section, Value, read_toml, wrong_type};
 pub use text::{exact_text, text};
 pub use toml::de::DeValue;
-pub use words::{LineNumbers, escaped, line_and_column, on_one_line, shortened, shown};
+pub use words::{LineNumbers, escaped, hides_text, line_and_column, on_one_line, shortened, shown};

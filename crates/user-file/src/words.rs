@@ -26,17 +26,33 @@ pub fn shortened(message: String) -> String {
     start + "…" + &end.into_iter().rev().collect::<String>()
 }
 
-/// The text with its control characters escaped, so that a terminal does not interpret them. Line ends are kept.
+/// The text with its control characters escaped, so that a terminal does not interpret them, and with those that hide
+/// text or change its order. Line ends are kept.
 #[must_use]
 pub fn escaped(text: &str) -> String {
-    let obeyed = |character: char| character.is_control() && character != '\n';
+    let obeyed = |character: char| (character.is_control() && character != '\n') || hides_text(character);
     if !text.contains(obeyed) {
         return text.to_owned();
     }
     let write = |character: char| -> String {
-        if obeyed(character) { character.escape_debug().collect() } else { character.into() }
+        if hides_text(character) {
+            character.escape_unicode().collect()
+        } else if obeyed(character) {
+            character.escape_debug().collect()
+        } else {
+            character.into()
+        }
     };
     text.chars().map(write).collect()
+}
+
+/// Whether a character is invisible and changes how others are shown: it reverses their order, such as U+202E, separates
+/// lines, or has no width. Joiners inside words of some languages are none of them.
+#[must_use]
+pub const fn hides_text(character: char) -> bool {
+    matches!(character, '\u{AD}' | '\u{61C}' | '\u{180E}' | '\u{200B}' | '\u{200E}' | '\u{200F}')
+        || matches!(character, '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
+        || matches!(character, '\u{FFF9}'..='\u{FFFB}' | '\u{E0000}'..='\u{E007F}')
 }
 
 /// The text with all its control characters escaped, line ends too: it cannot begin a line of an output.
@@ -86,6 +102,8 @@ mod tests {
         assert_eq!(shown(&"x".repeat(41)), format!("{}...", "x".repeat(40)));
         assert_eq!(escaped("a\u{1b}[2J\r\nb\u{9b}"), "a\\u{1b}[2J\\r\nb\\u{9b}");
         assert_eq!(escaped("plain ü"), "plain ü");
+        assert_eq!(escaped("a\u{202E}b\u{200B}c\u{2066}"), "a\\u{202e}b\\u{200b}c\\u{2066}");
+        assert_eq!(escaped("\u{645}\u{6CC}\u{200C}\u{62E}"), "\u{645}\u{6CC}\u{200C}\u{62E}");
         assert_eq!(on_one_line("a\nok  b\r\n\u{7}"), r"a\nok  b\r\n\u{7}");
         assert_eq!(on_one_line("plain ü"), "plain ü");
     }

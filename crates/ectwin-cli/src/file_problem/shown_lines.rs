@@ -101,7 +101,7 @@ fn visible(character: char) -> char {
     match character {
         '\t' => '\t',
         '\0'..='\x1F' => char::from_u32(0x2400 + u32::from(character)).unwrap_or(char::REPLACEMENT_CHARACTER),
-        _ if character.is_control() => char::REPLACEMENT_CHARACTER,
+        _ if character.is_control() || user_file::hides_text(character) => char::REPLACEMENT_CHARACTER,
         _ => character,
     }
 }

@@ -20,19 +20,27 @@ const CASES: &[(&str, &str, &[&str])] = &[
         r#"{ expect = "unit 2 is in OP" }"#,
         &["unit 2 does not exist", "the line has 1 unit, counted from 1"],
     ),
-    ("time-without-unit", r#"{ after = "10", line = "be quiet" }"#, &["`10`: not a duration", "1.5ms"]),
+    (
+        "time-without-unit",
+        r#"{ after = "10", line = "be quiet" }"#,
+        &["`10`: not a duration", "such as \"10ms\""],
+    ),
     (
         "contradictory-times",
         r#"{ at = "20ms", line = "be quiet" }, { at = "10ms", line = "be quiet" }"#,
         &["10ms is before the previous step", "steps happen in the order of the file"],
     ),
-    ("two-triggers", r#"{ at = "20ms", after = "1ms", line = "be quiet" }"#, &["one of at, after and when"]),
+    (
+        "two-triggers",
+        r#"{ at = "20ms", after = "1ms", line = "be quiet" }"#,
+        &["at most one of `at`, `after` and `when`"],
+    ),
     (
         "within-and-for",
         r#"{ expect = "unit 1 is in OP", within = "1ms", for = "1ms" }"#,
         &["`within`, `for`, `until` and `while` contradict each other"],
     ),
-    ("no-teller", r#"{ at = "1ms" }"#, &["a step has exactly one of master, unit"]),
+    ("no-teller", r#"{ at = "1ms" }"#, &["a step has exactly one of `master`, `unit`", "this one has none"]),
     ("unknown-key", r#"{ mastre = "restart" }"#, &["mastre"]),
     ("no-toml", "{ master = ", &[":2:"]),
 ];

@@ -9,7 +9,7 @@ use time::Duration;
 use crate::dice::Dice;
 use crate::notation::text;
 
-/// A delay. Its text is `1ms`, `1ms to 3ms`, `2ms ± 1ms` or `2ms ± 1ms normal`.
+/// A delay. Its text is `1ms`, `1ms to 3ms`, `2ms ± 1ms` or `2ms ± 1ms normal`; `+-` and `+/-` are read as `±`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delay {
     /// Always this one, above 0.
@@ -26,7 +26,7 @@ pub enum Delay {
 impl Delay {
     /// Its limits.
     pub const WORDS: &'static str = "a time above 0 such as 1ms, `1ms to 3ms`, `2ms ± 1ms` (each with the same probability) or \
-                                     `2ms ± 1ms normal` (mean and standard deviation); the time after ± is at most the one before it";
+                                     `2ms ± 1ms normal` (mean and standard deviation); the time after ±, also written +-, is at most the one before it";
 
     /// Whether its times are possible.
     #[must_use]
@@ -72,8 +72,8 @@ impl Delay {
         let first: Duration = first.parse().ok()?;
         let (delay, length) = match rest {
             ["to", most, ..] => (Self::Between(first, most.parse().ok()?), 3),
-            ["±", spread, "normal", ..] => (Self::Normal(first, spread.parse().ok()?), 4),
-            ["±", spread, ..] => (Self::Around(first, spread.parse().ok()?), 3),
+            ["±" | "+-" | "+/-", spread, "normal", ..] => (Self::Normal(first, spread.parse().ok()?), 4),
+            ["±" | "+-" | "+/-", spread, ..] => (Self::Around(first, spread.parse().ok()?), 3),
             _ => (Self::Always(first), 1),
         };
         delay.is_possible().then_some((delay, length))

@@ -3,10 +3,10 @@
 use time::Duration;
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
-use user_file::{Problem, Section, Value, field_names, wrong_type};
+use user_file::{Located, Problem, Reader, Section, Value, field_names, wrong_type};
 
 use super::groups::{Scope, read_steps};
-use super::names::Names;
+use super::names::{Names, written};
 use super::parameters::{USE, WITH};
 use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
@@ -14,11 +14,14 @@ use super::values;
 use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
 use crate::ready::{Draft, STEPS_WAY_OUT, empty_list, is_unit};
 
+/// The key of the title, a text.
+const TITLE: &str = "title";
+
 impl FileReader<'_, '_> {
     /// The script with the words of its steps; wrong parts are left out. `names` are replaced in all texts.
     pub(super) fn draft<'d, 'i>(&mut self, file: &Section<'d, 'i>, names: &Names<'_, 'i>) -> Draft {
         self.keys(file);
-        let whole = if names.are_none() { None } else { Some(names.replaced(self.reader, &head(file))) };
+        let whole = (!names.are_none()).then(|| head(file, self.reader, names));
         let replaced = whole.as_ref().and_then(|whole| Section::of("", whole));
         let mut draft = self.head(replaced.as_ref().unwrap_or(file));
         self.steps(file, names, &mut draft.script);
@@ -44,7 +47,7 @@ impl FileReader<'_, '_> {
 
     /// The general part of the file.
     fn whole(&mut self, file: &Section<'_, '_>) -> Script {
-        let mut script = Script::new(&self.value(file, "title", values::text).unwrap_or_default());
+        let mut script = Script::new(&self.value(file, TITLE, values::text).unwrap_or_default());
         script.seed = self.value(file, "seed", values::number).unwrap_or(script.seed);
         self.places.limit = span_of(file, "limit");
         script.limit = self.limit(file, script.limit);
@@ -132,13 +135,20 @@ impl FileReader<'_, '_> {
     }
 }
 
-/// A copy of a file without its steps and its parameters.
-fn head<'i>(file: &Section<'_, 'i>) -> Value<'i> {
+/// A copy of a file without its steps and its parameters, with the values of the names; without entries that have an
+/// unknown name.
+fn head<'i>(file: &Section<'_, 'i>, reader: &mut Reader<'_>, names: &Names<'_, 'i>) -> Value<'i> {
     let entries = file.entries().into_iter().filter(|(key, _)| ![WITH, USE, "steps"].contains(&key.value));
-    let entry = |(key, value): (user_file::Located<&str>, &Value<'i>)| {
+    let entry = |(key, value): (Located<&str>, &Value<'i>)| {
+        let mut replaced = names.replaced(reader, value)?;
+        if key.value == TITLE && value.get_ref().is_str() {
+            // `title = "{loss}"` is a text, whatever the value is.
+            let text = written(replaced.get_ref());
+            *replaced.get_mut() = DeValue::String(text.into());
+        }
         let name = DeString::Owned(key.value.to_owned());
-        (Spanned::new(key.span.unwrap_or_default(), name), value.clone())
+        Some((Spanned::new(key.span.unwrap_or_default(), name), replaced))
     };
-    let table: DeTable<'i> = entries.map(entry).collect();
+    let table: DeTable<'i> = entries.filter_map(entry).collect();
     Spanned::new(file.locate(()).span.unwrap_or_default(), DeValue::Table(table))
 }

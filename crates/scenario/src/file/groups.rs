@@ -51,7 +51,7 @@ fn read_entry<'i>(
         return GroupReader { place, section: &group, value, scope }.read(file);
     }
     let names = scope.names;
-    let replaced = (!names.are_none()).then(|| names.replaced(file.reader, value));
+    let replaced = if names.are_none() { None } else { Some(names.replaced(file.reader, value)?) };
     let StepReading { step, places, written } = read_step(file, place, replaced.as_ref().unwrap_or(value))?;
     file.places.steps.push(places);
     file.written.push(written);
@@ -100,8 +100,10 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
         });
         let line = file.lines.line(span.start);
         file.written.push(Written { line, bytes: span.clone(), text: String::new() });
+        let refused = file.reader.refused();
         let form = self.head(file);
-        let form = self.members(file, form)?;
+        let is_head_right = file.reader.refused() == refused;
+        let form = self.members(file, form).filter(|_| is_head_right)?;
         match form.read() {
             Ok(step) => {
                 if let (ScriptStep::Group(group), Some(written)) = (&step, file.written.get_mut(at)) {
@@ -120,7 +122,9 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
     fn head(&self, file: &mut FileReader<'_, '_>) -> StepForm {
         file.reader.only(self.section, KEYS);
         let own = self.scope.names.replaced(file.reader, &without_members(self.section, self.value));
-        let Some(section) = Section::of("", &own) else { return StepForm::default() };
+        let Some(section) = own.as_ref().and_then(|own| Section::of("", own)) else {
+            return StepForm::default();
+        };
         let mut part = PartReader::of(file, &section);
         StepForm {
             at: part.duration("at"),

@@ -78,11 +78,13 @@ impl<'n, 'i> Names<'n, 'i> {
     }
 
     /// A copy of a value whose texts have the values of the names. A text that is only a name becomes the value itself, so
-    /// that a number stays a number. Keys are not changed.
-    pub(super) fn replaced(&self, reader: &mut Reader<'_>, value: &Value<'i>) -> Value<'i> {
+    /// that a number stays a number. Keys are not changed. None if a text has an unknown name, which is refused: what else
+    /// is wrong in the value would be its effect.
+    pub(super) fn replaced(&self, reader: &mut Reader<'_>, value: &Value<'i>) -> Option<Value<'i>> {
+        let refused = reader.refused();
         let mut copy = value.clone();
         self.replace(reader, &mut copy);
-        copy
+        (reader.refused() == refused).then_some(copy)
     }
 
     fn replace(&self, reader: &mut Reader<'_>, value: &mut Value<'i>) {

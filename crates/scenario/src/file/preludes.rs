@@ -225,5 +225,5 @@ fn normal(path: &Path) -> String {
             }
         }
     }
-    normal.display().to_string()
+    if normal.as_os_str().is_empty() { ".".to_owned() } else { normal.display().to_string() }
 }

@@ -1,5 +1,7 @@
 //! A step as in a file: a table of keys, one notation of times, orders and expectations.
 
+use core::fmt;
+
 use plant::line::LineOrder;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use time::Duration;
@@ -63,16 +65,23 @@ pub(crate) struct Contradiction {
     /// The contradiction.
     pub(crate) message: String,
     /// The remedy; empty if the message contains it.
-    pub(crate) help: &'static str,
+    pub(crate) help: String,
 }
 
 impl Contradiction {
     fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), help: "" }
+        Self { message: message.into(), help: String::new() }
     }
 
-    fn with_help(message: impl Into<String>, help: &'static str) -> Self {
-        Self { message: message.into(), help }
+    fn with_help(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self { message: message.into(), help: help.into() }
+    }
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { message, help } = self;
+        if help.is_empty() { formatter.write_str(message) } else { write!(formatter, "{message}; {help}") }
     }
 }
 
@@ -95,17 +104,17 @@ impl StepForm {
     fn random_steps(&self, RandomForm { steps, draws }: &RandomForm) -> Result<RandomSteps, Contradiction> {
         let alone = Self { random: self.random.clone(), within: self.within, ..Self::default() };
         if *self != alone {
-            return Err(Contradiction {
-                message: "`random` has only `within` beside it".to_owned(),
-                help: "let a step before it wait, such as `{ after = \"1s\", line = \"be quiet\" }`",
-            });
+            return Err(Contradiction::with_help(
+                "`random` has only `within` beside it",
+                "let a step before it wait, such as `{ after = \"1s\", line = \"be quiet\" }`",
+            ));
         }
         match self.within {
             Some(within) => Ok(RandomSteps { count: *steps, within, draws: draws.clone() }),
-            None => Err(Contradiction {
-                message: "`random` needs the time that its steps take together".to_owned(),
-                help: "such as `within = \"1s\"`",
-            }),
+            None => Err(Contradiction::with_help(
+                "`random` needs the time that its steps take together",
+                "such as `within = \"1s\"`",
+            )),
         }
     }
 
@@ -184,7 +193,7 @@ impl StepForm {
             (Some(at), None, None) => Ok(Trigger::At(at)),
             (None, Some(after), None) => Ok(Trigger::After(after)),
             (None, None, Some(when)) => Ok(Trigger::When(when.clone())),
-            _ => Err(Contradiction::new("a step has one of at, after and when")),
+            _ => Err(Contradiction::new("a step has at most one of `at`, `after` and `when`")),
         }
     }
 
@@ -206,7 +215,18 @@ impl StepForm {
             (Some(times), Some(every), jitter) => {
                 Ok(Some(Repetition { times, every, jitter: jitter.unwrap_or(Duration::ZERO) }))
             }
-            _ => Err(Contradiction::new("`repeat` and `every` belong together, and `jitter` to both")),
+            (Some(times), None, _) => Err(Contradiction::with_help(
+                "`repeat` needs `every`, the time from one to the next",
+                format!("such as `repeat = {times}, every = \"100ms\"`"),
+            )),
+            (None, Some(every), _) => Err(Contradiction::with_help(
+                "`every` needs `repeat`, the total number of times",
+                format!("such as `repeat = 3, every = \"{every}\"`"),
+            )),
+            (None, None, Some(jitter)) => Err(Contradiction::with_help(
+                "`jitter` belongs to `repeat` and `every`",
+                format!("such as `repeat = 3, every = \"100ms\", jitter = \"{jitter}\"`"),
+            )),
         }
     }
 
@@ -223,6 +243,11 @@ impl StepForm {
                 "`within`, `for` and `while` belong to `expect`, `until` to `expect` and `never`",
             )
         };
+        let never = |key: &str| {
+            let help = "`never` is checked to the end of the run, or `until` a condition is true; `for` a time: \
+                        `expect = \"not (…)\", for = \"…\"`";
+            Contradiction::with_help(format!("`never` has no `{key}`"), help)
+        };
         match (orders.as_slice(), self.expect, self.never) {
             ([order], None, None) => mode.map_or_else(|| Ok(order.clone()), |_| Err(misplaced())),
             ([], Some(condition), None) => {
@@ -232,14 +257,19 @@ impl StepForm {
                 let mode = match mode {
                     None => Mode::Never,
                     Some(Mode::Until(until)) => Mode::NeverUntil(until),
-                    Some(_) => return Err(misplaced()),
+                    Some(Mode::Within(_)) => return Err(never("within")),
+                    Some(Mode::For(_)) => return Err(never("for")),
+                    Some(Mode::While(_)) => return Err(never("while")),
+                    Some(Mode::Now | Mode::Never | Mode::NeverUntil(_)) => return Err(misplaced()),
                 };
                 Ok(Order::Expect(Expectation { condition, mode }))
             }
             (orders, expect, never) => {
                 let count = orders.len() + usize::from(expect.is_some()) + usize::from(never.is_some());
                 Err(Contradiction::new(format!(
-                    "a step has exactly one of master, unit, cpu, line, expect, never and random; this one has {count}"
+                    "a step has exactly one of `master`, `unit`, `cpu`, `line`, `expect`, `never`, `random`, `steps` \
+                     and `together`; this one has {}",
+                    if count == 0 { "none".to_owned() } else { count.to_string() }
                 )))
             }
         }
@@ -307,6 +337,6 @@ impl Serialize for ScriptStep {
 
 impl<'de> Deserialize<'de> for ScriptStep {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        StepForm::deserialize(deserializer)?.read().map_err(|wrong| de::Error::custom(wrong.message))
+        StepForm::deserialize(deserializer)?.read().map_err(de::Error::custom)
     }
 }

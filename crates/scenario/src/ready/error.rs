@@ -3,7 +3,7 @@
 use core::fmt;
 use core::ops::Range;
 
-use user_file::{FileError, FileErrors, Mistakes};
+use user_file::{FileError, FileErrors, Mistakes, did_you_mean};
 
 use super::problem::{Part, Problem};
 
@@ -42,7 +42,7 @@ impl ScenarioError {
     fn in_file(error: FileError) -> Self {
         let FileError { span, line, column, message, expected, nearest, help, .. } = error;
         let expected = (!expected.is_empty()).then(|| format!("expected {expected}"));
-        let nearest = nearest.map(|name| format!("did you mean `{name}`?"));
+        let nearest = nearest.map(did_you_mean);
         let help = Some(help).filter(|help| !help.is_empty());
         let help = [expected, nearest, help].into_iter().flatten().collect::<Vec<_>>().join("; ");
         Self { place: ErrorPlace::Text { line, column, span }, message, help }

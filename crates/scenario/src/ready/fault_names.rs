@@ -1,9 +1,11 @@
 //! The names of faults of frames.
 
+use user_file::nearest;
+
 use crate::model::FaultName;
 
 /// The names of the faults in the steps so far, and whether the fault is at work for certain.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct FaultNames {
     names: Vec<(FaultName, AtWork)>,
 }
@@ -32,11 +34,16 @@ impl FaultNames {
         self.names.iter_mut().for_each(|(_, at_work)| *at_work = AtWork::No);
     }
 
-    /// The known name that is most like this one, if one is.
-    pub(super) fn nearest(&self, name: &FaultName) -> Option<&FaultName> {
-        let likeness = |known: &FaultName| strsim::jaro_winkler(known.as_str(), name.as_str());
-        let known = self.names.iter().map(|(known, _)| (likeness(known), known));
-        let nearest = known.max_by(|(a, _), (b, _)| a.total_cmp(b));
-        nearest.filter(|(likeness, _)| *likeness >= 0.8).map(|(_, known)| known)
+    /// From here on any of them may have been ended.
+    pub(super) fn may_have_ended(&mut self) {
+        let at_work = self.names.iter_mut().filter(|(_, at_work)| *at_work == AtWork::Yes);
+        at_work.for_each(|(_, at_work)| *at_work = AtWork::Maybe);
+    }
+
+    /// Another known name that is near this one.
+    pub(super) fn nearest(&self, name: &FaultName) -> Option<String> {
+        let others =
+            self.names.iter().map(|(known, _)| known.as_str()).filter(|known| *known != name.as_str());
+        nearest(name.as_str(), &others.collect::<Vec<_>>())
     }
 }

@@ -1,5 +1,7 @@
 //! Faults of frames: whether frames can meet them, and their names.
 
+use user_file::did_you_mean;
+
 use super::fault_names::AtWork;
 use super::maker::Maker;
 use super::problem::Part;
@@ -67,14 +69,25 @@ impl Maker<'_> {
                 return Some(());
             }
             Some(AtWork::No) => format!("the fault called {name} has ended before this step"),
-            None => format!("no step before this one makes a fault called {name}"),
+            None => {
+                self.refuse_end(name, part);
+                return None;
+            }
         };
-        let nearest = self.fault_names.nearest(name).filter(|nearest| *nearest != name);
-        let help = match nearest {
-            Some(nearest) => format!("did you mean `end {nearest}`?"),
-            None => format!("a fault gets its name so: `lose all frames called {name}`"),
-        };
-        self.refuse(part, message, help);
+        self.refuse(part, message, self.help_for_end(name));
         None
+    }
+
+    /// No step before this one gives a fault this name.
+    pub(super) fn refuse_end(&mut self, name: &FaultName, part: Part) {
+        let message = format!("no step before this one makes a fault called {name}");
+        self.refuse(part, message, self.help_for_end(name));
+    }
+
+    fn help_for_end(&self, name: &FaultName) -> String {
+        match self.fault_names.nearest(name) {
+            Some(nearest) => did_you_mean(format_args!("end {nearest}")),
+            None => format!("a fault gets its name as in `lose all frames called {name}`"),
+        }
     }
 }

@@ -1,11 +1,13 @@
 //! Random steps: their number, and what they are drawn from, tried with each unit.
 
+use user_file::{did_you_mean, nearest};
+
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
 use super::steps::{Ground, ReadySteps, STEPS_MAX};
 use super::unit_names::UnitNames;
 use super::written::Written;
-use crate::model::{Draws, Order, RandomSteps};
+use crate::model::{Disturbance, Draws, LineOrder, Order, RandomSteps};
 use crate::pool::{Drawing, GROUPS, Group, KnownUnit};
 use crate::random::{Draw, DrawnRow, ReadyDraws, order};
 use crate::run::{Dice, RandomPart};
@@ -56,8 +58,9 @@ impl Maker<'_> {
             return None;
         }
         if !weights.is_empty() && weights.len() != from.len() {
-            let message = format!("{} weights for the {} of `from`", weights.len(), from.len());
-            self.refuse(part, message, "`weights` has one for each of `from`, in the same order");
+            let (weights, from) = (counted(weights.len(), "weight"), counted(from.len(), "entry"));
+            let message = format!("`weights` has {weights}, and `from` has {from}");
+            self.refuse(part, message, "`weights` has one for each entry of `from`, in the same order");
             return None;
         }
         if let Some(weight) = weights.iter().find(|weight| !(1..=WEIGHT_MAX).contains(*weight)) {
@@ -77,6 +80,7 @@ impl Maker<'_> {
             let rows = rows.into_iter().filter_map(|row| self.with_units(row, &units, part)).collect();
             ready.push(self.drawn(from, rows, weight, part)?);
         }
+        self.fault_names.may_have_ended();
         Some(ReadyDraws { units, draws: ready })
     }
 
@@ -102,7 +106,17 @@ impl Maker<'_> {
                 group.rows().map(|pooled| row(pooled.key, pooled.sentence, pooled.weight)).collect(),
             );
         }
-        match key_of(from) {
+        match order_of(from) {
+            Some((_, Order::Line(LineOrder::Disturb(Disturbance { name: Some(name), .. })))) => {
+                let message =
+                    format!("`{from}`: a fault that is drawn has no name, because it can be drawn again");
+                self.refuse(part, message, format!("leave `called {name}` out; `be quiet` ends all faults"));
+                None
+            }
+            Some((_, Order::Line(LineOrder::End { name }))) if self.fault_names.of(&name).is_none() => {
+                self.refuse_end(&name, part);
+                None
+            }
             Some((key, mut order)) => {
                 if let Err((message, help)) = UnitNames::of(&self.units).number(order.unit_words()) {
                     self.refuse(part, message, help);
@@ -137,31 +151,46 @@ impl Maker<'_> {
             if UnitNames::of(&self.units).number(order.unit_words()).is_err() {
                 return false;
             }
-            let problems = self.problems.len();
+            let (problems, fault_names) = (self.problems.len(), self.fault_names.clone());
+            // A fault that has ended before a step may be at work before another seed's step.
+            self.fault_names.may_have_ended();
             let _ = self.order(&mut order, part, Ground::Firm);
             let is_right = self.problems.len() == problems;
             self.problems.truncate(problems);
+            self.fault_names = fault_names;
             is_right
         })
     }
 }
 
-/// The key whose sentence this is, and its order with values that every unit has.
-fn key_of(sentence: &str) -> Option<(&'static str, Order)> {
+/// The order of a sentence, with values that every unit has, and its key.
+fn order_of(sentence: &str) -> Option<(&'static str, Order)> {
     let unit = KnownUnit::example();
     let mut dice = Dice::new(0);
     let text = Drawing::new(&mut dice, core::slice::from_ref(&unit), 0)?.any_sentence(sentence)?;
     KEYS.into_iter().find_map(|key| Some((key, order(key, &text).ok()?)))
 }
 
+/// The nearest group of one word, or the nearest sentence of the pool of several.
 fn way_out(from: &str) -> String {
-    let likeness = |group: &Group| strsim::jaro_winkler(from, group.name);
-    let nearest = GROUPS.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    match nearest.filter(|group| likeness(group) > 0.8) {
-        Some(group) => format!("did you mean `{}`?", group.name),
-        None => {
-            let names: Vec<&str> = GROUPS.iter().map(|group| group.name).collect();
-            format!("the groups are {}; a sentence has `#` for a unit, `@` for a cable", names.join(", "))
-        }
+    let groups: Vec<&str> = GROUPS.iter().map(|group| group.name).collect();
+    let near = if from.contains(' ') {
+        let sentences = GROUPS.iter().flat_map(|group| group.rows().map(|row| row.sentence));
+        nearest(from, &sentences.collect::<Vec<_>>())
+    } else {
+        nearest(from, &groups)
+    };
+    near.map_or_else(
+        || format!("the groups are {}; a sentence has `#` for a unit, `@` for a cable", groups.join(", ")),
+        did_you_mean,
+    )
+}
+
+/// `1 weight`, `2 weights`, `2 entries`.
+fn counted(count: usize, noun: &str) -> String {
+    match (count, noun.strip_suffix('y')) {
+        (1, _) => format!("1 {noun}"),
+        (_, Some(stem)) => format!("{count} {stem}ies"),
+        (_, None) => format!("{count} {noun}s"),
     }
 }

@@ -258,7 +258,7 @@ impl<T> Misfit<'_, T> {
         let near = nearest.filter(|(likeness, _)| *likeness >= NEAR);
         let help = near.map_or_else(
             || "docs/user/scenario-reference.md has the sentences of every key".to_owned(),
-            |(_, sentence)| format!("did you mean `{}`?", sentence.example),
+            |(_, sentence)| user_file::did_you_mean(sentence.example),
         );
         NoSentence { message: format!("`{}` is not a valid sentence here", self.text), help }
     }

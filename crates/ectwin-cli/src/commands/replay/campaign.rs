@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Met, Scenario};
-use user_file::Problem;
 
 use super::case::{CASES_MAX, Case};
 use super::files::Files;
@@ -186,7 +185,7 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
         [] => "only a file with parameters (`with`) has cases".to_owned(),
         [first, ..] => {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            let nearest = Problem::unknown("", wanted, &names).nearest;
+            let nearest = user_file::nearest(wanted, &names);
             format!("such as --case {}", quoted(nearest.as_ref().unwrap_or(first)))
         }
     };

@@ -161,6 +161,8 @@ struct Rounds<'a> {
     begun: Instant,
     /// The number of the present round, from 1.
     number: u64,
+    /// The time at which it began.
+    round_begun: Instant,
     /// The present round; none: it is over.
     round: Option<Sequence<'a>>,
     /// The time of the next round.
@@ -176,13 +178,15 @@ impl<'a> Rounds<'a> {
         shared: &mut Shared<'a>,
     ) -> Self {
         let begun = stage.now();
-        let mut rounds = Self { group, repetition, steps, begun, number: 0, round: None, next: begun };
+        let mut rounds =
+            Self { group, repetition, steps, begun, number: 0, round_begun: begun, round: None, next: begun };
         rounds.next_round(stage, shared);
         rounds
     }
 
     fn next_round(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
         self.number += 1;
+        self.round_begun = stage.now();
         stage.note_step(&format!("round {} of {}", self.number, self.repetition.times));
         self.round = Some(Sequence::of(self.steps));
         self.next = self.begun + shared.begin_of_round(self.repetition, self.number);
@@ -216,10 +220,16 @@ impl<'a> Rounds<'a> {
     }
 
     fn too_long(&self, waits: &Waits<'a>, stage: &impl Stage) -> crate::run::report::Failure {
-        let Self { number, repetition: Repetition { times, every, .. }, .. } = self;
+        let Self { number, repetition: Repetition { times, every, jitter }, .. } = self;
         let Origin { line, text } = waits.origin;
+        let time = self.next.saturating_since(self.round_begun);
+        let cause = if jitter.is_zero() {
+            String::new()
+        } else {
+            format!(" (every {every}, earlier or later by at most {jitter})")
+        };
         let words = format!(
-            "round {number} of {times} takes longer than {every}: the next one is due, and line {line} `{text}` still waits"
+            "round {number} of {times} has not ended after {time}, when the next one is due{cause}: line {line} `{text}` still waits"
         );
         failure(Origin::from(self.group), stage.now(), words.into())
     }
