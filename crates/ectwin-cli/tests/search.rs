@@ -55,7 +55,7 @@ fn a_failure_is_cut_down_to_a_file_that_replay_repeats() {
     for fragment in [
         "FAILED  never.toml: no error at all",
         "found.toml:7: `unit 1 has recorded 40200000 0 times`",
-        "seen    unit 1 has recorded it 1 times",
+        "seen    unit 1 has recorded it once",
         "steps   1 of 20 are left",
         "repeat  ectwin replay found.toml\n",
     ] {

@@ -37,10 +37,10 @@ programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files 
 [one program](structured-text.md#several-files).
 
 ## Preludes
-`use = "common.toml"` names a prelude: a file with the keys of a scenario, none of which is required. They hold where the scenario itself does
-not set them (`units` as a whole), of several preludes the first that sets them. The steps of preludes come first, in the order of the list.
+`use = "common.toml"` names a prelude: a file with the keys of a scenario, none of which is required. They apply where the scenario itself does
+not set them (`units` as a whole); if several preludes set a key, the first of them counts. The steps of preludes come first, in the order of the list.
 Paths in a prelude are relative to it, and preludes can use preludes, up to 16 in a row and 100 in all. The texts of a prelude can use the
-[parameters](#parameters) of the scenario; a prelude has no parameters and no random steps of its own. A failed step of a prelude is shown with the
+[parameters](#parameters) of the scenario. A prelude has no parameters and no random steps of its own. A failed step of a prelude is shown with the
 line of `use` and its place in the prelude, such as `common.toml:5: all units are in OP`.
 
 A folder is replayed with all files that end with `.toml`: give a prelude there another ending, such as `common.prelude`.
@@ -92,14 +92,14 @@ It has no NX bus: NX_ReadObj, NX_WriteObj and ResetNXBError end with an error (1
 ## Steps
 A step is a table. It happens after the step before it, and has one of these keys:
 
-| key | addressee or check |
+| key | what it is for |
 |---|---|
 | `master` | the [scripted master](scenario-reference.md#master), which carries out its orders one after the other |
 | `unit` | a manual operation at a [unit](scenario-reference.md#unit) |
 | `cpu` | a [CPU Unit](scenario-reference.md#cpu) |
 | `line` | the [line](scenario-reference.md#line): cables and frames |
 | `expect` | the [condition](scenario-reference.md#conditions) has to hold now |
-| `never` | the condition must not hold at any moment from now to the end |
+| `never` | the condition must not hold at any moment from now to the end; the next step does not wait |
 | `steps`, `together` | a [group](#groups) of steps |
 | `random` | [random steps](random-steps.md), within the time of `within` |
 
@@ -117,8 +117,8 @@ These keys give the time of an `expect`, and the repetition of a step:
 |---|---|
 | `within` | the condition has to hold at some moment before this time has passed; the next step comes at that moment |
 | `for` | it has to hold at every moment until this time has passed |
-| `until` | it has to hold at every moment until this condition holds, which must not hold at once; `never` takes this key too |
-| `while` | it has to hold at every moment at which this condition holds, to the end of the run; this condition has to hold at some moment |
+| `until` | it has to hold at every moment until this condition holds, which must not hold at once. `never` takes this key too: the condition must not hold until then. The next step waits for the end |
+| `while` | it has to hold at every moment at which this condition holds, to the end of the run; this condition has to hold at some moment. The next step does not wait |
 | `repeat`, `every` | total number of times that the step happens, and the time from one to the next |
 | `jitter` | each repetition is earlier or later by at most this time, chosen at random |
 
@@ -134,7 +134,7 @@ A group is a step with steps of its own. `at`, `after` and `when` say when it be
 | group | what happens |
 |---|---|
 | `{ steps = [a, b] }` | the steps one after the other |
-| `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the begin of the one before; one that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
+| `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the beginning of the one before; a round that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
 | `{ together = [a, [b, c], d] }` | three sequences that begin at the same time; a list is a sequence. The next step waits for the last of them |
 | `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers and the name of a unit: `for.unit = [2, { from = 4, to = 6 }, "Conveyor"]`. At most 10,000 steps |
 
@@ -177,8 +177,11 @@ steps = [
 ### Times
 Times have a unit: `20us`, `1.5ms`, `2s`. A sentence has at most 65,536 bytes.
 
-A unit without power does nothing: an order that its software would carry out has no effect, which the trace says. What a hand does
-has an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
+The scripted master waits 10 s for each state of a `take`, 5 s for an SDO, a register or a mailbox message, and 2 ms for a frame. Then it
+gives up the order and goes on to the next one.
+
+A unit without power does nothing: an order that its software would carry out has no effect, and the trace says so. Actions by hand
+have an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
 errors, objects, registers, the validity of its data) fails while it has no power.
 
 Values compare as numbers by their type: those of a variable and of an object with a signed or real type as such, bytes otherwise as unsigned
@@ -189,7 +192,7 @@ Conditions combine: `not (…)`, `all of (…; …)`, `any of (…; …)`, at mo
 the process data, is neither true nor false: `not` leaves it so, `all of` is false if another part is, `any of` true if another part is. `never`
 checks that its condition is false, which is what `not` checks at one moment.
 
-An expectation that cannot fail, or that can never hold, is a mistake of the file: a condition of the program of a unit that has none at that
+An expectation that cannot fail, or that can never hold, is a mistake in the file: a condition on the program of a unit that has none at that
 time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data. Orders on such bytes, and on
 what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
 that later steps load. If the variable is not there when the condition is checked, the step fails.
@@ -269,7 +272,8 @@ have several of them. With a table the steps are drawn from groups of the pool, 
 | `from` | list of groups, and of own sentences of `master`, `unit`, `cpu` and `line` | `["everyday"]` |
 | `weights` | one for each of `from`, 1 to 1,000,000: how often a step is drawn from it | 1 for each |
 
-A sentence is drawn only for units that have what it names; one for which no unit is left is left out. A sentence has marks for values that are drawn:
+A sentence is drawn only for units that have what it names; a sentence that no unit can carry out is left out. A sentence has marks for the
+values that are drawn. `end NAME` can be drawn if a step before gives a fault this name; a drawn fault has no name of its own:
 
 | group | sentences about |
 |---|---|

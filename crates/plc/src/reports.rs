@@ -93,7 +93,7 @@ impl Reports {
     pub fn alarm_words(&self) -> String {
         let words = self.alarms.iter().map(|Alarm { code, times, stands }| {
             let reset = if *stands { "" } else { ", reset" };
-            format!("16#{code:X} {times} times{reset}")
+            format!("16#{code:X} {}{reset}", user_file::times(*times))
         });
         listed("user-defined errors", words)
     }
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!((reports.alarm(1), reports.alarm(2)), ((1, true), (1, false)));
         reports.period([reset(0)].into_iter());
         assert!(!reports.has_alarms());
-        assert_eq!(reports.alarm_words(), "user-defined errors: 16#1 1 times, reset, 16#2 1 times, reset");
+        assert_eq!(reports.alarm_words(), "user-defined errors: 16#1 once, reset, 16#2 once, reset");
         reports.period([reset(0)].into_iter());
         assert!(reports.is_new(&reset(0)), "a reset is new each time");
     }

@@ -42,7 +42,7 @@ fn a_step_that_contradicts_itself_is_refused_with_its_number() {
         ),
         ("within line", |it| quiet(it.within(SHORT)), BELONG),
         ("until line", |it| quiet(it.until(Condition::MasterIdle)), BELONG),
-        ("within never", |it| it.within(SHORT).never(Condition::MasterGaveUp), BELONG),
+        ("within never", |it| it.within(SHORT).never(Condition::MasterGaveUp), "`never` has no `within`"),
         (
             "within until expect",
             |it| it.within(SHORT).until(Condition::MasterIdle).expect(Condition::SdoTaken { unit: None }),

@@ -71,11 +71,11 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         (
             "{ line = \"be quiet\", cpu = \"set unit 1 to RUN mode\" }",
             "this one has 2",
-            "one of master, unit",
+            "one of `master`, `unit`",
         ),
         ("{ expect = \"unit 1 is in OP\", until = \"x\" }", "not a valid sentence", "scenario-reference.md"),
         ("{ master = \"behave\", until = \"unit 1 is in OP\" }", "`until` to `expect` and `never`", ""),
-        ("{ after = \"1ms\" }", "this one has 0", ""),
+        ("{ after = \"1ms\" }", "this one has none", ""),
         ("{ line = \"be quiet\", within = \"1ms\" }", "belong to `expect`", ""),
         ("{ expect = \"unit 1 is in OP\", within = \"1ms\", for = \"1ms\" }", "contradict", ""),
         (
@@ -176,7 +176,7 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ("{ expect = \"take unit 1 to OP\" }", "of another key", "this sentence belongs to `master`"),
         (
             "{ expect = \"unit 1 has error 85000000\" }",
-            "expected `recorded`, `the`, `no` or `new`, found `error`",
+            "expected `recorded`, `the`, `no`, `new` or `one`, found `error`",
             "`{units} has the error {event}`",
         ),
         ("{ expect = \"unit 1 records 85000000\" }", "found `records`", "`{units} has recorded {event}`"),
@@ -296,7 +296,7 @@ fn a_program_that_a_unit_does_not_have_is_told() {
         "task overrun of unit 1",
         "no user-defined error at unit 1",
         "user-defined error 16#101 at unit 1",
-        "user-defined error 16#101 at unit 1 0 times",
+        "user-defined error 16#101 0 times at unit 1",
         "program variable x of unit 1 is 1",
     ] {
         for key in ["expect", "never", "line = \"be quiet\", when"] {

@@ -76,11 +76,11 @@ fn a_name_in_braces_with_a_typing_error_is_one_mistake() {
     };
     let used = "{ line = \"lose {half} % of the frames\" }, { line = \"lose {loss} % of the frames\" }";
     for (rest, line, column) in [
-        (format!("steps = [{{ line = \"lose {{los}} % of the frames\" }}, {used}]"), 3, 20),
-        (format!("steps = [{{ after = \"{{los}}\", line = \"be quiet\" }}, {used}]"), 3, 21),
-        (format!("steps = [{{ after = \"{{los}}ms\", steps = [{used}] }}]"), 3, 21),
+        (format!("steps = [{{ line = \"lose {{los}} % of the frames\" }}, {used}]"), 3, 19),
+        (format!("steps = [{{ after = \"{{los}}\", line = \"be quiet\" }}, {used}]"), 3, 20),
+        (format!("steps = [{{ after = \"{{los}}ms\", steps = [{used}] }}]"), 3, 20),
         (format!("seed = \"{{los}}\"\nsteps = [{used}]"), 3, 8),
-        (format!("units = [{{ model = \"{{los}}\" }}]\nsteps = [{used}]"), 3, 21),
+        (format!("units = [{{ model = \"{{los}}\" }}]\nsteps = [{used}]"), 3, 20),
     ] {
         assert_eq!(messages(&format!("{with}{rest}\n")), expected(line, column), "{rest}");
     }

@@ -93,14 +93,17 @@ fn what_cannot_be_sent_or_loaded_is_refused() {
 fn reports_that_a_unit_cannot_make_are_refused() {
     let terminal = "units = [{ model = \"digital\", inputs = 8 }]";
     for (condition, message) in [
-        ("the access event log of unit 1 is empty", "unit 1 is a digital, which has no event log"),
-        ("unit 1 has 1 diagnosis messages", "unit 1 is a digital, which has no event log"),
+        ("the access event log of unit 1 is empty", "unit 1 is of the model digital, which has no event log"),
+        ("unit 1 has 1 diagnosis messages", "unit 1 is of the model digital, which has no event log"),
         (
             "diagnosis message 1 of unit 1 without its time begins with 00",
-            "unit 1 is a digital, which has no diagnosis history",
+            "unit 1 is of the model digital, which has no diagnosis history",
         ),
-        ("no emergency of all units is lost", "unit 1 is a digital, which has no mailbox"),
-        ("the master has received emergency 0xFF20 from unit 1", "unit 1 is a digital, which has no mailbox"),
+        ("no emergency of all units is lost", "unit 1 is of the model digital, which has no mailbox"),
+        (
+            "the master has received emergency 0xFF20 from unit 1",
+            "unit 1 is of the model digital, which has no mailbox",
+        ),
         (
             "the master has received emergency 0xFF20",
             "no unit of this scenario has an event with the emergency error code 0xFF20",
@@ -153,7 +156,10 @@ fn a_unit_that_takes_the_place_of_another_is_the_one_of_later_steps() {
     let no_event = "expect = \"unit 2 has recorded 85000000\"";
     assert!(parse(units, &[no_event, swap, log]).is_ok());
     let refused = parse(units, &[swap, no_event]).err().unwrap_or_default();
-    assert!(refused[0].starts_with("unit 2 is a digital, which has no event 85000000"), "{refused:?}");
+    assert!(
+        refused[0].starts_with("unit 2 is of the model digital, which has no event 85000000"),
+        "{refused:?}"
+    );
 
     let trace = trace(
         units,
@@ -191,7 +197,7 @@ fn the_load_of_nx_messages_causes_an_error_that_ends_with_a_reset() {
     let refused =
         parse("units = [{ model = \"digital\", inputs = 8 }]", &["cpu = \"send 9 NX messages to unit 1\""]);
     let refused = refused.err().unwrap_or_default();
-    assert!(refused[0].starts_with("unit 1 is a digital, which has no NX objects"), "{refused:?}");
+    assert!(refused[0].starts_with("unit 1 is of the model digital, which has no NX objects"), "{refused:?}");
 }
 
 /// Manual, 8-2-2: what fails without an event shows only at the indicators.

@@ -19,11 +19,11 @@ fn told(step: &str) -> Vec<String> {
 
 #[test]
 fn data_that_a_unit_does_not_have_are_never_valid() {
-    let outputs = "unit 2 is a digital without data C to M, which are never valid / name the data that it has: \
+    let outputs = "unit 2 is of the model digital and has no data C to M, which are never valid / name the data that it has: \
                    `the data M to C of unit 2 is valid`";
-    let inputs = "unit 3 is a digital without data M to C, which are never valid / name the data that it has: \
+    let inputs = "unit 3 is of the model digital and has no data M to C, which are never valid / name the data that it has: \
                   `the data C to M of unit 3 is valid`";
-    let none = "unit 1 is a digital without data M to C, which are never valid / it has no process data";
+    let none = "unit 1 is of the model digital and has no data M to C, which are never valid / it has no process data";
     for (condition, message) in [
         ("the data of unit 2 is valid", outputs),
         ("the data of unit 2 is not valid", outputs),

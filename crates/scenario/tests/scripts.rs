@@ -183,7 +183,7 @@ fn steps_are_tables_of_the_same_keys_in_json_and_toml() {
         (r#"{ "expect": { "master_idle": {} }, "within": "1ms", "for": "1ms" }"#, "contradict"),
         (r#"{ "repeat": 3, "line": { "be_quiet": {} } }"#, "`repeat` needs `every`"),
         (r#"{ "random": 3 }"#, "needs the time"),
-        (r#"{ "after": "1ms" }"#, "this one has 0"),
+        (r#"{ "after": "1ms" }"#, "this one has none"),
         (r#"{ "line": { "be_quiet": {} }, "never": { "master_idle": {} } }"#, "this one has 2"),
         (r#"{ "lines": {} }"#, "unknown field `lines`"),
         (r#"{ "at": "5", "line": { "be_quiet": {} } }"#, "not a duration"),

@@ -135,6 +135,10 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "request" => one_of(&["INIT", "PRE-OP", "SAFE-OP", "OP", "BOOT", "0x05", "15", "4", "0x00"]).boxed(),
         "transition" => one_of(&["IP", "PS", "SO", "OI"]).boxed(),
         "number" => number(u64::MAX).boxed(),
+        "times" => {
+            prop_oneof![Just("once".to_owned()), (0..=u64::MAX).prop_map(|count| format!("{count} times")),]
+                .boxed()
+        }
         "byte" => number(0xFF).boxed(),
         "word" => number(0xFFFF).boxed(),
         "dword" => number(0xFFFF_FFFF).boxed(),

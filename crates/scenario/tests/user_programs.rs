@@ -447,7 +447,7 @@ fn user_defined_errors_of_a_cpu_unit_stand_until_they_are_reset() {
         .within(Duration::from_millis(6))
         .expect("no user-defined error at unit 1")
         .within(Duration::from_millis(11))
-        .expect("user-defined error 42 at unit 1 2 times")
+        .expect("user-defined error 42 2 times at unit 1")
         .finish()
         .expect("a right scenario")
         .replay(1, Recording::new(true, false));

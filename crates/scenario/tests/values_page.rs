@@ -67,6 +67,39 @@ The keys are the same. `Script` is a whole scenario, `Step` one step:
 }
 ```
 
+## In other languages
+`ectwin replay` reads TOML. A program in any language writes typed values as JSON values of the tables below, with `=` in place of the `:`
+behind a key. In Python:
+
+```python cables.py
+import json
+
+
+def toml(value):
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{key} = {toml(each)}" for key, each in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(toml, value)) + "]"
+    return json.dumps(value, ensure_ascii=False)
+
+
+steps = [
+    {"master": {"take": {"units": "all", "state": "OP"}}},
+    {"expect": {"state": {"units": "all", "state": "OP"}}, "within": "200ms"},
+    {"when": {"master_idle": {}}, "line": {"unplug": {"cable": 2}}},
+    {"expect": {"state": {"units": 2, "state": "SAFE-OP", "al_status_code": 0x1B}}, "within": "110ms"},
+]
+units = [{"model": "nx-ect101", "name": name, "serial": at + 1} for at, name in enumerate(["N1", "N2"])]
+print('title = "cable 2 is unplugged"', f"units = {toml(units)}", f"steps = {toml(steps)}", sep="\n")
+```
+
+```console
+$ python3 cables.py > cables.toml
+$ ectwin replay cables.toml
+ok      cables.toml: cable 2 is unplugged (…ms)
+1 case: 1 ok, 0 failed
+```
+
 ## In Rust
 `ScenarioBuilder` takes sentences and typed values. `Scenario::of` takes a `Script`, whose types implement serde:
 
@@ -94,7 +127,7 @@ const VALUES: &str = r##"
 | `unit` of frames | the unit that they address; left out: all |
 | `way` of a fault | `{ "cable": 3, "direction": "back" }`; `"outward"` and the place between master and line are the default |
 | `for` and `name` of a fault | `"3s"`, `"storm"`; both can be left out |
-| `by` of a delay | `"1ms"`, `"1ms to 3ms"`, `"2ms ± 1ms"` or `"2ms ± 1ms normal"` |
+| `by` of a delay | `"1ms"`, `"1ms to 3ms"`, `"2ms ± 1ms"` or `"2ms ± 1ms normal"`; `+-` is read as `±` |
 
 A value without fields has an empty table, such as `{ "behave": {} }`: a text is always a sentence.
 "##;

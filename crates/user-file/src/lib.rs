@@ -29,4 +29,6 @@ pub use mistakes::{MISTAKES_MAX, Mistakes, and_more};
 pub use reader::{Reader, Section, Value, read_toml, wrong_type};
 pub use text::{exact_text, text};
 pub use toml::de::DeValue;
-pub use words::{LineNumbers, escaped, hides_text, line_and_column, on_one_line, shortened, shown};
+pub use words::{
+    LineNumbers, counted, escaped, hides_text, line_and_column, on_one_line, shortened, shown, times,
+};

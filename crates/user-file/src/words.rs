@@ -3,6 +3,22 @@
 /// Maximum number of characters of a text in a message.
 const SHOWN_CHARACTERS: usize = 40;
 
+/// A number of things: `1 weight`, `2 weights`, `2 entries`.
+#[must_use]
+pub fn counted(count: usize, noun: &str) -> String {
+    match (count, noun.strip_suffix('y')) {
+        (1, _) => format!("1 {noun}"),
+        (_, Some(stem)) => format!("{count} {stem}ies"),
+        (_, None) => format!("{count} {noun}s"),
+    }
+}
+
+/// How often something is: `once`, `2 times`.
+#[must_use]
+pub fn times(count: u64) -> String {
+    if count == 1 { "once".to_owned() } else { format!("{count} times") }
+}
+
 /// The start of a text, on one line.
 #[must_use]
 pub fn shown(text: &str) -> String {
@@ -127,6 +143,13 @@ mod tests {
                 assert_eq!(lines.line(byte), line_and_column(text, byte).0, "{byte} of {text:?}");
             }
         }
+    }
+
+    #[test]
+    fn one_thing_is_singular() {
+        let all = [(0, "weight"), (1, "weight"), (2, "weight"), (1, "entry"), (2, "entry")];
+        let words = all.map(|(count, noun)| counted(count, noun));
+        assert_eq!(words, ["0 weights", "1 weight", "2 weights", "1 entry", "2 entries"]);
     }
 
     #[test]

@@ -48,7 +48,7 @@ fn a_json_line_says_everything_of_its_case() {
     let failure = line["failure"].as_object().unwrap();
     assert_eq!((&failure["line"], &failure["at_ns"]), (&6.into(), &line["virtual_ns"]));
     assert_eq!(failure["step"], "unit 1 has recorded 85000000 2 times");
-    assert_eq!(failure["seen"], "unit 1 has recorded it 1 times; recorded: 85000000");
+    assert_eq!(failure["seen"], "unit 1 has recorded it once; recorded: 85000000");
 }
 
 #[test]

@@ -59,7 +59,7 @@ fn one_that_fails_says_where_what_was_seen_when_and_how_to_repeat_it() {
     for fragment in [
         "FAILED  it's wrong.toml: outputs stop in OP",
         "it's wrong.toml:6: `unit 1 has recorded 85000000 2 times`",
-        "seen    unit 1 has recorded it 1 times; recorded: 85000000",
+        "seen    unit 1 has recorded it once; recorded: 85000000",
         "at      1",
         "seed    5",
         r"repeat  ectwin replay 'it'\''s wrong.toml' --seed 5",

@@ -20,7 +20,7 @@ fn an_expectation_that_tests_nothing_is_named_with_its_line_and_sentence() {
     bench.put("stale.toml", STALE);
     let ended = bench.ectwin(&["replay", ".", "--vacuous", "--json", "out.jsonl"]);
     let expected = "./stale.toml:6: `unit 1 is in OP` tests nothing: its contrary passes too\n\
-                    2 cases, 4 expectations: 1 test nothing\n";
+                    2 cases, 4 expectations: 1 tests nothing\n";
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(1), expected), "{}", ended.stderr);
     let lines = bench.json_lines("out.jsonl");
     assert_eq!((&lines[0]["expectations"], &lines[0]["vacuous"]), (&2.into(), &serde_json::json!([])));

@@ -110,7 +110,8 @@ impl Maker<'_> {
         let mut units = positions.filter_map(|at| Some((at, self.units.get(at)?.file.section())));
         let missing = units.find(|(_, unit)| !(needed.is_known)(*unit));
         let Some((at, unit)) = missing else { return Some(()) };
-        let message = format!("unit {} is a {}, which has no {}", at + 1, unit.model().name(), needed.words);
+        let model = unit.model().name();
+        let message = format!("unit {} is of the model {model}, which has no {}", at + 1, needed.words);
         self.refuse(part, message, self.who_knows(needed));
         None
     }
@@ -171,13 +172,13 @@ mod tests {
                 "unit = \"let unit 1 refuse BOOT with AL status code 0x0013\"",
             ]),
             [
-                "unit 2 is a digital, which has no fault Processing",
-                "unit 2 is a digital, which has no fault Processing",
-                "unit 2 is a digital, which has no ID switch",
-                "unit 2 is a digital, which has no indicator TS green",
-                "unit 2 is a digital, which has no event 85000000",
-                "unit 2 is a digital, which has no mailbox",
-                "unit 1 is a nx-ect101, which has no state BOOT",
+                "unit 2 is of the model digital, which has no fault Processing",
+                "unit 2 is of the model digital, which has no fault Processing",
+                "unit 2 is of the model digital, which has no ID switch",
+                "unit 2 is of the model digital, which has no indicator TS green",
+                "unit 2 is of the model digital, which has no event 85000000",
+                "unit 2 is of the model digital, which has no mailbox",
+                "unit 1 is of the model nx-ect101, which has no state BOOT",
             ]
         );
     }

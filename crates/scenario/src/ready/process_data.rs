@@ -71,7 +71,10 @@ impl Maker<'_> {
         });
         let Some((at, lacking)) = lacks else { return Some(()) };
         let model = self.units[at].file.section().model().name();
-        let message = format!("unit {} is a {model} without data {lacking}, which are never valid", at + 1);
+        let message = format!(
+            "unit {} is of the model {model} and has no data {lacking}, which are never valid",
+            at + 1
+        );
         let has = BOTH.into_iter().find(|direction| self.has_data(at, *direction));
         let help = match has.map(words) {
             Some(has) => format!("name the data that it has: `the data {has} of unit {} is valid`", at + 1),

@@ -1,6 +1,6 @@
 //! Random steps: their number, and what they are drawn from, tried with each unit.
 
-use user_file::{did_you_mean, nearest};
+use user_file::{counted, did_you_mean, nearest};
 
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
@@ -184,13 +184,4 @@ fn way_out(from: &str) -> String {
         || format!("the groups are {}; a sentence has `#` for a unit, `@` for a cable", groups.join(", ")),
         did_you_mean,
     )
-}
-
-/// `1 weight`, `2 weights`, `2 entries`.
-fn counted(count: usize, noun: &str) -> String {
-    match (count, noun.strip_suffix('y')) {
-        (1, _) => format!("1 {noun}"),
-        (_, Some(stem)) => format!("{count} {stem}ies"),
-        (_, None) => format!("{count} {noun}s"),
-    }
 }

@@ -1,6 +1,7 @@
 //! The diagnosis history of a unit as its recorded events say, in plain lists and independent of the unit.
 
 use unit_model::{EventCode, Model};
+use user_file::counted;
 
 use crate::model::hex;
 
@@ -73,7 +74,7 @@ impl Ledger {
         let History { stored, newest, messages } = shown;
         let there = messages.iter().filter(|message| !History::is_empty(message)).count();
         if there != usize::from(*stored) {
-            return Err(format!("10F3:01 is {stored}, and there are {there} messages"));
+            return Err(format!("10F3:01 is {stored}, and the history has {}", counted(there, "message")));
         }
         let fresh = core::mem::take(&mut self.fresh);
         let number = self.records.len();
@@ -85,7 +86,8 @@ impl Ledger {
         }
         let number = self.records.len();
         if there != number.min(MESSAGES) {
-            return Err(format!("there are {there} messages, and {number} events since the last clear"));
+            let (messages, events) = (counted(there, "message"), counted(number, "event"));
+            return Err(format!("the history has {messages}, and there were {events} since the last clear"));
         }
         let expected = if number == 0 { 0 } else { sub_of(number) };
         if *newest != expected {
@@ -162,11 +164,11 @@ mod tests {
             ledger.compare(&history).err().unwrap_or_default()
         };
         assert_eq!(with(|_| ()), "");
-        assert_eq!(with(|history| history.stored = 3), "10F3:01 is 3, and there are 2 messages");
+        assert_eq!(with(|history| history.stored = 3), "10F3:01 is 3, and the history has 2 messages");
         assert_eq!(with(|history| history.newest = 0x26), "10F3:02 is 26, and the newest message is 07");
         assert_eq!(
             with(|history| *history = shown(&[1])),
-            "there are 1 messages, and 2 events since the last clear"
+            "the history has 1 message, and there were 2 events since the last clear"
         );
         assert!(with(|history| *history = shown(&[2, 1])).starts_with("10F3:06 is 00 E8 02"));
     }

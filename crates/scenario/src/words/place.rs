@@ -16,12 +16,15 @@ use group::group;
 use read::{
     bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
     fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
-    requested, state, transition, user_error,
+    requested, state, times, transition, user_error,
 };
 use units::{fitting_unit, fitting_units, unit, units};
 
 /// The place that is a sentence of the table of quantities.
 pub(super) const QUANTITY: &str = "quantity";
+
+/// The place of a number of times.
+pub(super) const TIMES_PLACE: &str = "times";
 
 /// A kind of place.
 #[derive(Clone, Copy, Debug)]
@@ -92,6 +95,12 @@ const PLACES: &[Place] = &[
     }),
     place("transition", "a transition by its letters, such as IP, PS or SO", |words| one(words, transition)),
     place("number", "a number such as 12 or 0x0C", |words| one(words, number)),
+    Place {
+        name: TIMES_PLACE,
+        meaning: "`once`, or a number and `times` such as `2 times`",
+        read: times,
+        fitting: |words| usize::from(words.first().is_some_and(|first| number(first).is_some())),
+    },
     place("code", AL_STATUS_CODES_WORDS, |words| {
         limited(words, (*AL_STATUS_CODES.start()).into(), (*AL_STATUS_CODES.end()).into())
     }),

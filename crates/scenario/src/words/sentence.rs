@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use super::place::{Place, QUANTITY};
+use super::place::{Place, QUANTITY, TIMES_PLACE};
 use super::value::Value;
 use crate::model::{Quantity, UnitSet};
 
@@ -157,11 +157,17 @@ fn agrees(pattern: &str, values: &[Value]) -> bool {
 /// The sentence of a row with these values; none if what has a value has no sentence in this row.
 fn fill<T>(row: &Sentence<T>, values: &[Value]) -> Option<String> {
     let mut values = values.iter();
-    let words = row.pattern.split_whitespace().map(|part| match place(part).and_then(|_| values.next()) {
-        Some(Value::Quantity(quantity)) => say(row.quantities, quantity),
-        Some(value) => Some(value.to_string()),
-        None => Some(part.to_owned()),
-    });
+    let mut written = |part: &str| {
+        let Some((name, value)) = place(part).and_then(|name| Some((name, values.next()?))) else {
+            return Some(part.to_owned());
+        };
+        match (name, value) {
+            (_, Value::Quantity(quantity)) => say(row.quantities, quantity),
+            (TIMES_PLACE, Value::Number(count)) => Some(user_file::times(*count)),
+            (_, value) => Some(value.to_string()),
+        }
+    };
+    let words = row.pattern.split_whitespace().map(&mut written);
     // Some places may be empty.
     let words: Vec<String> = words.collect::<Option<_>>()?;
     Some(words.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(" "))

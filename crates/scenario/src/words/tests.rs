@@ -47,7 +47,7 @@ fn what_is_wrong_is_told_with_the_sentence_that_was_meant() {
     assert!(problem("unit 1 wobbles").starts_with("expected `is` or `has`, found `wobbles` / "));
     assert_eq!(
         problem("unit 1 has error"),
-        format!("expected `recorded`, `the`, `no` or `new`, found `error` / {help}")
+        format!("expected `recorded`, `the`, `no`, `new` or `one`, found `error` / {help}")
     );
     assert!(problem("all units is in OP2").starts_with("expected `are` or `have`, found `is` / "));
     assert!(problem("unit 1 are in SAVE-OP").contains("expected `is` or `has`, found `are`"));

@@ -138,7 +138,7 @@ fn programs() -> Vec<ConditionRow> {
     let rows = [
         condition("program variable n of unit 1 is 5", &[FORCE_5], &[], "5ms"),
         condition("user-defined error 16#101 at unit 1", &[FORCE_5], &[], "5ms"),
-        condition("user-defined error 16#101 at unit 1 2 times", AGAIN, &[FORCE_5], "5ms"),
+        condition("user-defined error 16#101 2 times at unit 1", AGAIN, &[FORCE_5], "5ms"),
         condition("no user-defined error at unit 1", &[], &[FORCE_5, LATER], "0s"),
         condition("task overrun of unit 1", &[FORCE_6], &[], "5ms"),
         condition("no task overrun of unit 1", &[], &[FORCE_6, LATER], "0s"),

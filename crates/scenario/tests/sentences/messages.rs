@@ -19,6 +19,8 @@ const SENT_TWICE: Steps = &[PRE_OP, EMERGENCIES, ALLOWED, BROKEN, LATER, AGAIN];
 /// In INIT there is no mailbox.
 const LOST: Steps = &[PRE_OP, EMERGENCIES, ALLOWED, INIT, IN_INIT, BROKEN, LATER];
 
+const TWO_LOST: Steps = &[PRE_OP, EMERGENCIES, ALLOWED, INIT, IN_INIT, BROKEN, LATER, AGAIN, LATER];
+
 pub(crate) fn orders() -> Vec<OrderRow> {
     vec![order(
         "read no emergencies",
@@ -37,7 +39,7 @@ pub(crate) fn conditions() -> Vec<ConditionRow> {
 fn emergencies() -> Vec<ConditionRow> {
     vec![
         condition("the master has received emergency 0xFF20 from unit 1", SENT, ENABLED, "50ms"),
-        condition("the master has received emergency 0xFF20 from unit 1 2 times", SENT_TWICE, SENT, "50ms"),
+        condition("the master has received emergency 0xFF20 2 times from unit 1", SENT_TWICE, SENT, "50ms"),
         condition(
             "the master has received emergency 0xFF20 from unit 1 with register 0x00",
             SENT,
@@ -57,7 +59,8 @@ fn emergencies() -> Vec<ConditionRow> {
             "50ms",
         ),
         condition("no emergency of unit 1 is lost", SENT, LOST, "0s"),
-        condition("1 emergencies of unit 1 are lost", LOST, SENT, "10ms"),
+        condition("one emergency of unit 1 is lost", LOST, SENT, "10ms"),
+        condition("2 emergencies of unit 1 are lost", TWO_LOST, LOST, "10ms"),
     ]
 }
 
@@ -95,6 +98,8 @@ fn messages() -> Vec<ConditionRow> {
             &[OTHER, LATER],
             "10ms",
         ),
+        condition("unit 1 has one diagnosis message", &[BROKEN, LATER], &[BROKEN, OTHER, LATER], "10ms"),
+        condition("all units have one diagnosis message", &[BROKEN, LATER], &[BROKEN, OTHER, LATER], "10ms"),
         condition("unit 1 has 2 diagnosis messages", &[BROKEN, OTHER, LATER], &[BROKEN, LATER], "10ms"),
         condition("all units have 2 diagnosis messages", &[BROKEN, OTHER, LATER], &[BROKEN, LATER], "10ms"),
     ]

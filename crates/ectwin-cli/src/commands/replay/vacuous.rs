@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use scenario::{Recording, Vacuity, VacuousStep};
 use serde::Serialize;
-use user_file::on_one_line;
+use user_file::{counted, on_one_line};
 
 use super::campaign::Campaign;
 use super::case::Case;
@@ -90,8 +90,8 @@ pub(super) fn run(campaign: &Campaign, partition: Partition, args: &ReplayArgs) 
     }
     let of_cases = story::cases(cases.len() as u64);
     let failed_words = if failed == 0 { String::new() } else { format!(", {failed} failed") };
-    people.print_line(format_args!(
-        "{of_cases}{failed_words}, {expectations} expectations: {vacuous} test nothing"
-    ))?;
+    let expectations = counted(expectations, "expectation");
+    let verb = if vacuous == 1 { "tests" } else { "test" };
+    people.print_line(format_args!("{of_cases}{failed_words}, {expectations}: {vacuous} {verb} nothing"))?;
     if vacuous == 0 && failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }

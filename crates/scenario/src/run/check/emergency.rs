@@ -1,5 +1,6 @@
 //! Conditions of emergencies: those that the master has received, and those that a unit has lost.
 
+use user_file::times as times_words;
 use wire::Emergency;
 
 use super::master::scripted;
@@ -36,7 +37,7 @@ pub(super) fn received(world: &Bench<'_>, wanted: &Wanted<'_>, times: Option<u64
     let seen = received.iter().filter(|received| wanted.is_met_by(received)).count() as u64;
     holds(is_often_enough(seen, times), || {
         let all: Vec<String> = received.iter().map(|one| words(one, wanted.is_of_a_unit())).collect();
-        format!("it came {seen} times; all that came: [{}]", all.join(", "))
+        format!("it came {}; all that came: [{}]", times_words(seen), all.join(", "))
     })
 }
 

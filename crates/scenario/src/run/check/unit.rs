@@ -1,6 +1,7 @@
 //! Conditions of one unit, at a position of the line.
 
 use coe_kit::indicators::Pattern;
+use user_file::times as times_words;
 use wire::{AlState, ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds, is_often_enough, lie_at, truth};
@@ -29,7 +30,7 @@ pub(super) fn state(world: &mut Bench<'_>, at: usize, state: AlState, code: Opti
 pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times: Option<u64>) -> Check {
     let seen = world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64;
     holds(is_often_enough(seen, times), || {
-        format!("{} has recorded it {seen} times; {}", name(at), world.recorded_words(at))
+        format!("{} has recorded it {}; {}", name(at), times_words(seen), world.recorded_words(at))
     })
 }
 

@@ -52,6 +52,15 @@ pub(super) fn number(word: &str) -> Option<Value> {
     number_of(word).map(Value::Number)
 }
 
+/// `once`, `2 times`.
+pub(super) fn times(words: &[&str]) -> Option<(Value, usize)> {
+    match words {
+        ["once", ..] => Some((Value::Number(1), 1)),
+        [count, "times", ..] => number(count).map(|count| (count, 2)),
+        _ => None,
+    }
+}
+
 /// From 40001 on they are information, not errors.
 pub(super) fn user_error(word: &str) -> Option<Value> {
     let code = number_of(word).filter(|code| (1..=40_000).contains(code))?;
