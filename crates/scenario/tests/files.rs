@@ -45,10 +45,10 @@ fn a_wrong_step_is_told_with_its_place_and_the_way_out() {
         ),
         (
             "{ line = \"unplug cable 2\" }",
-            "refers to a cable that does not exist",
+            "cable 2 does not exist",
             "the line has 1 unit, counted from 1; each cable has the number of the unit behind it",
         ),
-        ("{ line = \"plug cable 2\" }", "refers to a cable that does not exist", "1 unit"),
+        ("{ line = \"plug cable 2\" }", "cable 2 does not exist", "1 unit"),
         (
             "{ master = \"set output byte 65535 of unit 1 to 01\" }",
             "unit 1 has no output byte 65535",

@@ -223,7 +223,7 @@ fn mistakes_in_groups_are_told_with_their_place() {
         (
             r#"{ repeat = 3, every = "1ms", steps = [{ line = "unplug cable 2" }] }"#.to_owned(),
             "line 3, column 48",
-            "a cable that does not exist",
+            "cable 2 does not exist",
         ),
         (
             r#"{ repeat = 3, steps = [{ line = "be quiet" }] }"#.to_owned(),

@@ -100,7 +100,7 @@ fn mistakes_of_preludes_are_told_with_their_place() {
         ("\"circle-a.toml\"", "line 2, column 7", "in a circle: circle-a.toml, circle-b.toml, circle-a.toml"),
         ("\"wrong.toml\"", "line 2, column 7", "wrong.toml:1:1: unknown key `limt`"),
         ("\"wrong.toml\"", "line 2, column 7", "wrong.toml:3:12: `unplg cable 1` is not a valid sentence"),
-        ("\"far.toml\"", "line 2, column 7", "far.toml:3:12: it refers to a cable that does not exist"),
+        ("\"far.toml\"", "line 2, column 7", "far.toml:3:12: cable 9 does not exist"),
         ("\"dice.toml\"", "line 2, column 7", "a prelude has no random steps"),
         ("\"with.toml\"", "line 2, column 7", "with.toml:1:8: a prelude has no parameters"),
         ("5", "line 2, column 7", "`use` is an integer"),

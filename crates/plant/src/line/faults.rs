@@ -69,7 +69,8 @@ impl fmt::Display for LineRefusal {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotThere(units) => {
-                write!(formatter, "it refers to a unit or a cable that does not exist: the line has {units}")
+                let ending = if *units == 1 { "" } else { "s" };
+                write!(formatter, "this unit or cable does not exist: the line has {units} unit{ending}")
             }
             Self::NameInUse(name) => write!(formatter, "a fault called {name} is at work already"),
             Self::NoFault(name) => write!(formatter, "no fault called {name} is at work"),

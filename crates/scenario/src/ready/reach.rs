@@ -6,16 +6,15 @@ pub(super) fn line_of(units: usize) -> String {
     format!("the line has {units} unit{}, counted from 1", if units == 1 { "" } else { "s" })
 }
 
-/// Whether the cable of an order exists.
-pub(super) fn is_cable_there(order: &LineOrder, units: usize) -> bool {
-    match order {
+/// The cable of an order if the line has no such cable.
+pub(super) fn missing_cable(order: &LineOrder, units: usize) -> Option<CableNumber> {
+    let cable = match order {
         // The master of a scenario has one port: no cable leads back from the last unit.
-        LineOrder::Unplug { cable } | LineOrder::Plug { cable } => cable.position() < units,
-        LineOrder::Disturb(disturbance) => {
-            disturbance.cable().map(CableNumber::position).is_none_or(|position| position < units)
-        }
-        LineOrder::End { .. } | LineOrder::BeQuiet => true,
-    }
+        LineOrder::Unplug { cable } | LineOrder::Plug { cable } => Some(*cable),
+        LineOrder::Disturb(disturbance) => disturbance.cable(),
+        LineOrder::End { .. } | LineOrder::BeQuiet => None,
+    };
+    cable.filter(|cable| cable.position() >= units)
 }
 
 /// What a condition is about.

@@ -5,7 +5,7 @@ use time::Duration;
 use super::maker::Maker;
 use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
-use super::reach::{Subject, is_cable_there, line_of, subject};
+use super::reach::{Subject, line_of, missing_cable, subject};
 use super::written::Written;
 use crate::model::{
     Condition, Expectation, LOGIC_DEPTH_MAX, LineOrder, Mode, Order, Repetition, ScriptStep, Step, Trigger,
@@ -223,11 +223,9 @@ impl Maker<'_> {
 
     fn check_cable(&mut self, order: &LineOrder, part: Part) -> Option<()> {
         let units = self.units.len();
-        if is_cable_there(order, units) {
-            return Some(());
-        }
+        let Some(cable) = missing_cable(order, units) else { return Some(()) };
         let help = format!("{}; each cable has the number of the unit behind it", line_of(units));
-        self.refuse(part, "it refers to a cable that does not exist", help);
+        self.refuse(part, format!("{cable} does not exist"), help);
         None
     }
 
