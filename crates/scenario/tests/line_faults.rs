@@ -37,7 +37,7 @@ fn mistakes_are_reported_with_a_way_out() {
         (
             &[r#"line = "lose all frames called storm""#, r#"line = "be quiet""#, r#"line = "end storm""#],
             "the fault called storm has ended before this step",
-            "a fault gets its name so",
+            "a fault gets its name as in",
         ),
         (&[r#"line = "lose all frames on cable 2""#], "cable 2 does not exist", "the line has 1 unit"),
         (&[r#"line = "lose all frames of unit 2""#], "unit 2 does not exist", "the line has 1 unit"),
