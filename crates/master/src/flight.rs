@@ -1,65 +1,27 @@
-//! Frames on their way: tickets, the purpose of each datagram, and which frames count as lost.
+//! Frames on their way: tickets, the sender of each datagram, and which frames count as lost.
 
 use time::Instant;
-use wire::{Command, DatagramView, datagrams};
+use wire::{FrameBuilder, datagrams};
 
-use crate::event::RequestId;
+use crate::habits::{Habits, Indexes};
+use crate::load::Load;
+use crate::part::Part;
 
 /// A frame that was sent. The caller returns the ticket with the answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Ticket(u64);
 
-/// The purpose of a datagram.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Sender {
-    /// A dialogue with all slaves; the number of the datagram in its queue.
-    Everybody(u32),
-    /// A dialogue with the slave at this position; the number of the datagram in its queue.
-    Slave(usize, u32),
-    /// A datagram that the caller has ordered.
-    Owner(RequestId),
-    /// The datagram with this number in the cycle.
-    Cycle(usize),
-}
-
-/// A datagram on its way.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Part {
-    pub(crate) sender: Sender,
-    pub(crate) command: Command,
-    /// The address field of a broadcast as it was sent; of other commands it is not used.
-    pub(crate) broadcast_address: u16,
-    pub(crate) length_bytes: usize,
-}
-
-impl Part {
-    /// Whether this is its answer. Some commands change address and offset on the way.
-    fn is_answered_by(&self, datagram: &DatagramView<'_>, index: u8) -> bool {
-        datagram.header.command == self.command
-            && datagram.header.index == index
-            && datagram.data.len() == self.length_bytes
-            && self.can_have_counted(datagram)
-    }
-
-    /// Each slave on the way of a broadcast adds 1 to its address field (reference 1.4), so no more of them can have
-    /// counted.
-    fn can_have_counted(&self, datagram: &DatagramView<'_>) -> bool {
-        let passed = datagram.header.address.wrapping_sub(self.broadcast_address);
-        !matches!(self.command, Command::Brd | Command::Bwr) || datagram.working_counter <= passed
-    }
-}
-
 /// A frame on its way.
 #[derive(Debug)]
-pub(crate) struct Flight {
+struct Flight<S> {
     ticket: Ticket,
     first_index: u8,
     /// After this time it counts as lost.
     due: Instant,
-    parts: Vec<Part>,
+    parts: Vec<Part<S>>,
 }
 
-impl Flight {
+impl<S> Flight<S> {
     /// Whether a frame is the answer to this one, datagram by datagram.
     fn is_answered_by(&self, frame: &[u8]) -> bool {
         let mut answers = datagrams(frame);
@@ -71,79 +33,115 @@ impl Flight {
         });
         all && answers.next().is_none()
     }
+
+    /// Whether its datagrams have such a sender, which the first one shows.
+    fn is_of(&self, is_meant: impl Fn(&S) -> bool) -> bool {
+        self.parts.first().is_some_and(|part| is_meant(&part.sender))
+    }
 }
 
-/// All frames on their way.
-#[derive(Debug, Default)]
-pub(crate) struct Flights {
+/// All frames of a master on their way, with the sender of each datagram: `S` says to which part of the master an
+/// answer belongs.
+///
+/// ```
+/// use master::{Access, Address, Flights, Habits};
+/// use time::{Duration, Instant};
+///
+/// let (mut flights, habits) = (Flights::default(), Habits::default());
+/// let mut load = flights.load(Vec::new(), &habits);
+/// load.access("the reader", Address::Position(0), &Access::Read { offset: 0x0130, length_bytes: 2 });
+/// let (frame, ticket) = flights.depart(load, Instant::ZERO + Duration::from_millis(1));
+/// let ticket = ticket.expect("the frame has a datagram");
+/// // The frame passes a slave and returns.
+/// let parts = flights.arrive(ticket, &frame).expect("the frame as it was sent is a possible answer");
+/// assert_eq!(parts[0].sender, "the reader");
+/// flights.recycle(parts);
+/// assert!(flights.arrive(ticket, &frame).is_none(), "a second answer is ignored");
+/// ```
+#[derive(Debug)]
+pub struct Flights<S> {
     last: u64,
     next_index: u8,
-    flying: Vec<Flight>,
+    flying: Vec<Flight<S>>,
     /// The lists of completed flights, for reuse.
-    spare: Vec<Vec<Part>>,
+    spare: Vec<Vec<Part<S>>>,
 }
 
-impl Flights {
-    /// The index of the first datagram of the next frame, if indexes count on.
-    pub(crate) const fn next_index(&self) -> u8 {
-        self.next_index
+impl<S> Flights<S> {
+    /// An empty frame, which is written into `memory`. Allocates nothing if that has room for 1,518 bytes.
+    #[must_use]
+    pub fn load(&mut self, memory: Vec<u8>, habits: &Habits) -> Load<S> {
+        let first_index = match habits.indexes {
+            Indexes::Running => self.next_index,
+            Indexes::FromZero => 0,
+        };
+        let parts = self.spare.pop().unwrap_or_default();
+        Load::new(FrameBuilder::reusing(memory), first_index, parts, habits.datagrams_max.max(1))
     }
 
-    /// An empty list of parts.
-    pub(crate) fn parts(&mut self) -> Vec<Part> {
-        self.spare.pop().unwrap_or_default()
-    }
-
-    /// A frame with these datagrams is sent.
-    pub(crate) fn depart(&mut self, first_index: u8, parts: Vec<Part>, due: Instant) -> Ticket {
+    /// A loaded frame is sent, and counts as lost at `due`. Returns its bytes and its ticket; without a ticket nothing was
+    /// loaded, and nothing is to be sent.
+    pub fn depart(&mut self, load: Load<S>, due: Instant) -> (Vec<u8>, Option<Ticket>) {
+        let (frame, first_index, parts) = load.finish();
+        if parts.is_empty() {
+            self.recycle(parts);
+            return (frame, None);
+        }
         self.last += 1;
         let ticket = Ticket(self.last);
         self.next_index = self.next_index.wrapping_add(parts.len() as u8);
         self.flying.push(Flight { ticket, first_index, due, parts });
-        ticket
+        (frame, Some(ticket))
     }
 
     /// The datagrams of the frame to which this one is the answer; none if it is late, a duplicate or damaged.
-    pub(crate) fn arrive(&mut self, ticket: Ticket, frame: &[u8]) -> Option<Vec<Part>> {
+    pub fn arrive(&mut self, ticket: Ticket, frame: &[u8]) -> Option<Vec<Part<S>>> {
         let at = self.flying.iter().position(|flight| flight.ticket == ticket)?;
         self.flying[at].is_answered_by(frame).then(|| self.flying.remove(at).parts)
     }
 
     /// The ticket of a frame, for a caller that does not keep tickets.
-    pub(crate) fn recognize(&self, frame: &[u8]) -> Option<Ticket> {
+    #[must_use]
+    pub fn recognize(&self, frame: &[u8]) -> Option<Ticket> {
         self.flying.iter().find(|flight| flight.is_answered_by(frame)).map(|flight| flight.ticket)
     }
 
     /// The datagrams of the next frame that is lost by now.
-    pub(crate) fn lose(&mut self, now: Instant) -> Option<Vec<Part>> {
+    pub fn lose(&mut self, now: Instant) -> Option<Vec<Part<S>>> {
         let at = self.flying.iter().position(|flight| flight.due <= now)?;
         Some(self.flying.remove(at).parts)
     }
 
-    /// Answers to the last cycle that are still missing are ignored from now on.
-    pub(crate) fn forget_cycle(&mut self) {
-        let is_cyclic = |flight: &Flight| {
-            flight.parts.first().is_some_and(|part| matches!(part.sender, Sender::Cycle(_)))
-        };
-        while let Some(at) = self.flying.iter().position(is_cyclic) {
+    /// Answers to the frames of these senders are ignored from now on, and their loss is not reported.
+    pub fn forget(&mut self, is_meant: impl Fn(&S) -> bool) {
+        while let Some(at) = self.flying.iter().position(|flight| flight.is_of(&is_meant)) {
             let parts = self.flying.remove(at).parts;
             self.recycle(parts);
         }
     }
 
     /// The memory of a list is reused for the next frame.
-    pub(crate) fn recycle(&mut self, mut parts: Vec<Part>) {
+    pub fn recycle(&mut self, mut parts: Vec<Part<S>>) {
         parts.clear();
         self.spare.push(parts);
     }
 
-    /// Whether a datagram of this sender is on its way.
-    pub(crate) fn carries(&self, sender: Sender) -> bool {
-        self.flying.iter().any(|flight| flight.parts.iter().any(|part| part.sender == sender))
-    }
-
     /// The time at which the next frame counts as lost.
-    pub(crate) fn deadline(&self) -> Instant {
+    #[must_use]
+    pub fn deadline(&self) -> Instant {
         self.flying.iter().map(|flight| flight.due).min().unwrap_or(Instant::NEVER)
+    }
+}
+
+impl<S: PartialEq> Flights<S> {
+    /// Whether a datagram of this sender is on its way.
+    pub(crate) fn carries(&self, sender: &S) -> bool {
+        self.flying.iter().any(|flight| flight.parts.iter().any(|part| part.sender == *sender))
+    }
+}
+
+impl<S> Default for Flights<S> {
+    fn default() -> Self {
+        Self { last: 0, next_index: 0, flying: Vec::new(), spare: Vec::new() }
     }
 }

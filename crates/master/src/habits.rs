@@ -20,10 +20,8 @@ pub struct Habits {
     pub answer_patience: Duration,
     /// Time between two reads of a status. At least [`Habits::PERIOD_MIN`].
     pub poll_period: Duration,
-    /// Time-out for an access that no slave accepts or answers.
-    pub access_patience: Duration,
-    /// Time-out for one command of the SII.
-    pub sii_patience: Duration,
+    /// Time-outs of dialogues.
+    pub time_outs: TimeOuts,
     /// Time between two reads of a mailbox for emergencies, at least [`Habits::PERIOD_MIN`]; none: it reads the
     /// mailbox only after a request.
     pub listen_period: Option<Duration>,
@@ -56,6 +54,31 @@ impl Addressing {
     }
 }
 
+/// The time-outs of dialogues, and what restarts them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TimeOuts {
+    /// Restarted at each stage of a dialogue, by what it waits for then. Those of states and mailbox are the slave's.
+    EachStage {
+        /// For an access that no slave accepts or answers.
+        access: Duration,
+        /// For one command of the SII.
+        sii: Duration,
+    },
+    /// Fixed for the whole dialogue.
+    WholeDialogue {
+        /// For a dialogue that requests a state.
+        state: Duration,
+        /// For every other one.
+        other: Duration,
+    },
+}
+
+impl Default for TimeOuts {
+    fn default() -> Self {
+        Self::EachStage { access: Duration::from_secs(1), sii: Duration::from_millis(500) }
+    }
+}
+
 /// The contents of the index field of datagrams.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Indexes {
@@ -73,8 +96,7 @@ impl Default for Habits {
             indexes: Indexes::Running,
             answer_patience: Duration::from_millis(20),
             poll_period: Duration::from_micros(500),
-            access_patience: Duration::from_secs(1),
-            sii_patience: Duration::from_millis(500),
+            time_outs: TimeOuts::default(),
             listen_period: Some(Duration::from_millis(10)),
             mailbox: MailboxConduct::default(),
             exchange: Exchange::default(),
@@ -98,19 +120,26 @@ impl Habits {
         }
     }
 
-    /// Time-out of a dialogue that waits for this; for a state and a mailbox it is the device's time-out.
-    pub(crate) const fn patience(&self, patience: Patience, timeouts: &Timeouts) -> Duration {
-        match patience {
-            Patience::Access => self.access_patience,
-            Patience::Sii => self.sii_patience,
-            Patience::State(wait) => Duration::from_millis(match wait {
+    /// Time-out of a dialogue that waits for this, for a slave with these time-outs.
+    #[must_use]
+    pub const fn patience(&self, patience: Patience, timeouts: &Timeouts) -> Duration {
+        match (self.time_outs, patience) {
+            (TimeOuts::WholeDialogue { state, .. }, Patience::State(_)) => state,
+            (TimeOuts::WholeDialogue { other, .. }, _) => other,
+            (TimeOuts::EachStage { access, .. }, Patience::Access) => access,
+            (TimeOuts::EachStage { sii, .. }, Patience::Sii) => sii,
+            (TimeOuts::EachStage { .. }, Patience::State(wait)) => Duration::from_millis(match wait {
                 Wait::PreOp => timeouts.pre_op_ms as u64,
                 Wait::SafeOpOp => timeouts.safe_op_op_ms as u64,
                 Wait::BackToInit => timeouts.back_to_init_ms as u64,
                 Wait::BackToSafeOp => timeouts.back_to_safe_op_ms as u64,
             }),
-            Patience::MailboxRequest => Duration::from_millis(timeouts.mailbox_request_ms as u64),
-            Patience::MailboxResponse => Duration::from_millis(timeouts.mailbox_response_ms as u64),
+            (TimeOuts::EachStage { .. }, Patience::MailboxRequest) => {
+                Duration::from_millis(timeouts.mailbox_request_ms as u64)
+            }
+            (TimeOuts::EachStage { .. }, Patience::MailboxResponse) => {
+                Duration::from_millis(timeouts.mailbox_response_ms as u64)
+            }
         }
     }
 }

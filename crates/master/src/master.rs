@@ -8,16 +8,17 @@ use std::collections::VecDeque;
 
 use esi::Timeouts;
 use time::Instant;
-use wire::{Command, FrameBuilder, datagrams};
+use wire::{Command, datagrams};
 
 use crate::access::Address;
 use crate::event::{Event, RequestId};
-use crate::flight::{Flights, Sender, Ticket};
-use crate::habits::{Habits, Indexes};
+use crate::flight::{Flights, Ticket};
+use crate::habits::Habits;
 use crate::load::Load;
 use crate::mailbox::MailboxConduct;
 use crate::process_data::ProcessData;
 use crate::queue::Queue;
+use crate::sender::Sender;
 use crate::slave::Slave;
 
 /// A master of one line. It has no clock and no socket: the caller gets frames from it, passes it the answers,
@@ -44,7 +45,7 @@ pub struct Master {
     slaves: Vec<Slave>,
     datagrams: VecDeque<OwnDatagram>,
     process_data: ProcessData,
-    flights: Flights,
+    flights: Flights<Sender>,
     events: VecDeque<Event>,
     emergencies_lost: u64,
     requests: u64,
@@ -99,7 +100,7 @@ impl Master {
         self.everybody.holds(request)
             || self.slaves.iter().any(|slave| slave.queue.holds(request))
             || self.datagrams.iter().any(|datagram| datagram.request == request)
-            || self.flights.carries(Sender::Owner(request))
+            || self.flights.carries(&Sender::Owner(request))
     }
 
     /// Takes the oldest event.
@@ -135,30 +136,20 @@ impl Master {
         self.lose_frames(now);
         self.give_up(now);
         self.listen(now);
-        let first_index = match self.habits.indexes {
-            Indexes::Running => self.flights.next_index(),
-            Indexes::FromZero => 0,
-        };
-        let builder = FrameBuilder::reusing(core::mem::take(frame)).indexed_from(first_index);
-        let mut load = Load::new(builder, self.flights.parts(), self.habits.datagrams_max.max(1));
+        let mut load = self.flights.load(core::mem::take(frame), &self.habits);
         self.load(now, &mut load);
-        let is_empty = load.is_empty();
-        let (bytes, parts) = load.finish();
+        let (bytes, ticket) = self.flights.depart(load, now + self.habits.answer_patience);
         *frame = bytes;
-        if is_empty {
-            self.flights.recycle(parts);
-            return None;
-        }
-        Some(self.flights.depart(first_index, parts, now + self.habits.answer_patience))
+        ticket
     }
 
     /// Process data first; when those of this cycle have been sent, accesses that are due, as many as fit. A
     /// dialogue with all slaves has a frame of its own.
-    fn load(&mut self, now: Instant, load: &mut Load) {
+    fn load(&mut self, now: Instant, load: &mut Load<Sender>) {
         if self.process_data.next_cycle(now) {
-            self.flights.forget_cycle();
+            self.flights.forget(|sender| matches!(sender, Sender::Cycle(_)));
         }
-        load.process_data(&mut self.process_data);
+        load.process_data(&mut self.process_data, Sender::Cycle);
         if !load.is_empty() {
             return;
         }
@@ -171,7 +162,7 @@ impl Master {
         }
     }
 
-    fn load_datagrams(&mut self, load: &mut Load) {
+    fn load_datagrams(&mut self, load: &mut Load<Sender>) {
         while let Some(datagram) =
             self.datagrams.front().filter(|datagram| load.has_room(datagram.data.len()))
         {
@@ -181,7 +172,7 @@ impl Master {
         }
     }
 
-    fn load_slaves(&mut self, now: Instant, load: &mut Load) {
+    fn load_slaves(&mut self, now: Instant, load: &mut Load<Sender>) {
         let count = self.slaves.len();
         let turn = self.turn.min(count);
         for position in (turn..count).chain(0..turn) {

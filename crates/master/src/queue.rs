@@ -2,17 +2,16 @@
 
 use std::collections::VecDeque;
 
-use esi::Timeouts;
 use time::Instant;
 use wire::{AlState, Emergency};
 
 use crate::access::{Address, Answer, Progress};
 use crate::event::{Failure, Outcome, RequestId};
-use crate::flight::Sender;
-use crate::habits::Habits;
 use crate::job::Job;
 use crate::load::Load;
 use crate::mailbox::MailboxConduct;
+use crate::runner::{Pace, Runner};
+use crate::sender::Sender;
 
 /// A job and the consequence of its end.
 #[derive(Clone, Debug)]
@@ -64,14 +63,8 @@ pub(crate) struct Over {
 #[derive(Debug)]
 pub(crate) struct Queue {
     tasks: VecDeque<Task>,
-    /// The first job sends at this time.
-    at: Instant,
-    /// It gives up at this time.
-    until: Instant,
-    /// The number of its datagram that is in flight.
-    on_its_way: Option<u32>,
-    /// Number of datagrams sent so far.
-    departed: u32,
+    /// Runs the first job.
+    runner: Runner,
     /// How the mailbox is handled, and its counters.
     pub(crate) conduct: MailboxConduct,
     /// Emergencies that have not been taken yet.
@@ -80,15 +73,7 @@ pub(crate) struct Queue {
 
 impl Queue {
     pub(crate) const fn new(conduct: MailboxConduct) -> Self {
-        Self {
-            tasks: VecDeque::new(),
-            at: Instant::NEVER,
-            until: Instant::NEVER,
-            on_its_way: None,
-            departed: 0,
-            conduct,
-            emergencies: VecDeque::new(),
-        }
+        Self { tasks: VecDeque::new(), runner: Runner::new(), conduct, emergencies: VecDeque::new() }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -122,28 +107,21 @@ impl Queue {
 
     /// The first job begins.
     fn begin(&mut self, pace: &Pace<'_>) {
-        self.on_its_way = None;
-        self.at = if self.tasks.is_empty() { Instant::NEVER } else { pace.now };
-        if let Some(Task { job: Job::Mailbox(mailbox), .. }) = self.tasks.front_mut() {
+        let Some(task) = self.tasks.front_mut() else { return self.runner.rest() };
+        if let Job::Mailbox(mailbox) = &mut task.job {
             mailbox.begin(self.conduct);
         }
-        self.be_patient(pace);
-    }
-
-    fn be_patient(&mut self, pace: &Pace<'_>) {
-        if let Some(task) = self.tasks.front() {
-            self.until = pace.now + pace.habits.patience(task.job.dialogue().patience(), pace.timeouts);
-        }
+        self.runner.begin(task.job.dialogue(), pace);
     }
 
     /// The time at which it sends next; never while it waits for an answer.
     pub(crate) const fn deadline(&self) -> Instant {
-        if self.on_its_way.is_some() { Instant::NEVER } else { self.at }
+        self.runner.deadline()
     }
 
     /// Whether the access of the first job is due.
     pub(crate) fn due(&self, now: Instant) -> bool {
-        !self.tasks.is_empty() && self.deadline() <= now
+        !self.tasks.is_empty() && self.runner.is_due(now)
     }
 
     /// Number of data bytes of the first job's access.
@@ -152,7 +130,7 @@ impl Queue {
     }
 
     /// Puts the access of the first job into a frame.
-    pub(crate) fn load(&self, sender: Sender, address: Address, load: &mut Load) {
+    pub(crate) fn load(&self, sender: Sender, address: Address, load: &mut Load<Sender>) {
         if let Some(task) = self.tasks.front() {
             load.access(sender, address, &task.job.dialogue().access());
         }
@@ -160,9 +138,7 @@ impl Queue {
 
     /// The access of the first job is sent; returns the number of its datagram.
     pub(crate) const fn depart(&mut self) -> u32 {
-        self.departed = self.departed.wrapping_add(1);
-        self.on_its_way = Some(self.departed);
-        self.departed
+        self.runner.depart()
     }
 
     /// Ends the first job, if it is due and has waited for too long, or does not fit into any frame.
@@ -170,7 +146,8 @@ impl Queue {
         if !self.due(pace.now) {
             return None;
         }
-        let is_sendable = self.until > pace.now && self.tasks.front().is_none_or(|task| task.job.fits());
+        let fits = self.tasks.front().is_none_or(|task| task.job.fits());
+        let is_sendable = fits && !self.runner.is_too_late(pace.now);
         if is_sendable {
             return None;
         }
@@ -186,36 +163,16 @@ impl Queue {
         answer: Option<Answer<'_>>,
         pace: &Pace<'_>,
     ) -> Option<Over> {
-        if self.on_its_way != Some(number) {
-            return None;
-        }
-        self.on_its_way = None;
-        self.at = pace.now;
-        match self.take(answer)? {
-            Progress::Next => None,
-            Progress::Later => {
-                self.at = pace.now + pace.habits.poll_period;
-                None
-            }
-            Progress::NextStage => {
-                self.be_patient(pace);
-                None
-            }
-            Progress::Done => {
-                let Task { request, job, then } = self.pop(pace)?;
-                Some(Over { request, then, result: job.result() })
-            }
-        }
-    }
-
-    /// The first job processes an answer.
-    fn take(&mut self, answer: Option<Answer<'_>>) -> Option<Progress> {
         let task = self.tasks.front_mut()?;
-        let progress = task.job.dialogue_mut().answer(answer);
+        let progress = self.runner.answer(number, task.job.dialogue_mut(), answer, pace)?;
         if let Job::Mailbox(mailbox) = &mut task.job {
             self.emergencies.extend(core::iter::from_fn(|| mailbox.take_emergency()));
         }
-        Some(progress)
+        if progress != Progress::Done {
+            return None;
+        }
+        let Task { request, job, then } = self.pop(pace)?;
+        Some(Over { request, then, result: job.result() })
     }
 
     /// Removes the first job; the next one begins.
@@ -248,11 +205,4 @@ impl Queue {
     pub(crate) fn take_emergency(&mut self) -> Option<Emergency> {
         self.emergencies.pop_front()
     }
-}
-
-/// The present time and the settings that determine time-outs.
-pub(crate) struct Pace<'a> {
-    pub(crate) now: Instant,
-    pub(crate) habits: &'a Habits,
-    pub(crate) timeouts: &'a Timeouts,
 }

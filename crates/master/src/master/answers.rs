@@ -6,8 +6,9 @@ use wire::{AlState, DatagramView};
 use super::{EVERYBODYS, Master, NOBODYS};
 use crate::access::{Address, Answer, word};
 use crate::event::{Event, Failure, Outcome, RequestId};
-use crate::flight::Sender;
-use crate::queue::{Over, Pace, Task, Then};
+use crate::queue::{Over, Task, Then};
+use crate::runner::Pace;
+use crate::sender::Sender;
 use crate::state::AlReport;
 use crate::walk::{has_mailbox, has_process_data, sets_process_data, way};
 
