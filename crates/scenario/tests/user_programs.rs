@@ -425,6 +425,16 @@ fn the_tables_follow_the_states_that_the_master_sees() {
 }
 
 #[test]
+fn a_slave_whose_answers_arrive_damaged_is_missing_in_the_tables() {
+    two_units(
+        "{ master = \"take all units to PRE-OP\" },\n\
+         { expect = \"program variable mailbox of the master is TRUE\", within = \"300ms\" },\n\
+         { line = \"cut all frames on the way back to 20 bytes\" },\n\
+         { expect = \"program variable mailbox of the master is FALSE\", within = \"12ms\" }",
+    );
+}
+
+#[test]
 fn a_master_that_restarts_begins_its_program_anew_and_keeps_what_is_retained() {
     two_units(
         "{ at = \"99ms\", expect = \"program variable runs of the master is 1\" },\n\

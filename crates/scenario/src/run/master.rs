@@ -4,12 +4,14 @@
 mod answer;
 mod asked_sdo;
 mod emergencies;
+mod habits;
 mod last_sdo;
 mod operation;
 mod orders;
 mod process_data;
 mod program;
 mod raw;
+mod reach;
 mod sdo_service;
 mod sent;
 mod slave;
@@ -19,52 +21,46 @@ mod variables;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use ::master::{Answer, LostRead, MailboxConduct, Progress};
+use ::master::{Address, Answer, Flights, Habits, Load, MailboxConduct, Pace, Progress, Runner};
 use esi::KnownDevice;
 use plc::{ProgramEvent, Reports};
 use time::{Duration, Instant};
-use wire::{DatagramView, datagrams};
+use wire::{FRAME_BYTES_MAX, datagrams};
 
 use crate::model::WhichUnit;
 
 use answer::{Outcome, Step};
+use habits::{LISTEN_PERIOD, habits};
 use last_sdo::{LastSdo, LastSdos};
 use operation::Operation;
 use process_data::ProcessData;
 use program::Task;
+use sent::Sender;
 use slave::Slave;
 use states::States;
 
 pub(crate) use emergencies::Received;
 pub use program::MasterProgram;
 pub(crate) use raw::Kind;
-use raw::Raw;
+use raw::{Raw, RawNumber};
 pub(crate) use sent::{Sent, Ticket};
 pub(crate) use slave::changed_settings;
 pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
 
-/// Time-out for an answer; then the frame counts as lost.
-const ANSWER_PATIENCE: Duration = Duration::from_millis(2);
-/// Time between two reads of a status.
-const POLL_PERIOD: Duration = Duration::from_micros(500);
-/// Time between two reads of the mailboxes.
-const LISTEN_PERIOD: Duration = Duration::from_millis(10);
-/// Time-out for one operation as a whole.
-const OPERATION_PATIENCE: Duration = Duration::from_secs(5);
-/// Time-out for a state. The ESI gives a unit at most 9 s, in which it reports why it does not reach the state.
-const STATE_PATIENCE: Duration = Duration::from_secs(10);
-
-/// If a read of the mailbox is lost, it reads again, and requests the message again if there is none.
-const RIGHT_CONDUCT: MailboxConduct =
-    MailboxConduct { lost_read: LostRead::ReadAgain, ..MailboxConduct::NEW };
+/// Maximum number of frames whose memory is kept for the next ones.
+const SPARES_MAX: usize = 16;
 
 /// The scripted master.
 #[derive(Debug)]
 pub(crate) struct Master {
+    habits: Habits,
     slaves: Vec<Slave>,
     operations: VecDeque<Operation>,
-    /// What the first operation is waiting for.
-    waiting: Waiting,
+    /// Runs the first operation.
+    runner: Runner,
+    flights: Flights<Sender>,
+    /// Memory of frames that are no longer needed.
+    spares: Vec<Vec<u8>>,
     process_data: ProcessData,
     /// Its own user program, if it has one.
     task: Option<Task>,
@@ -76,7 +72,6 @@ pub(crate) struct Master {
     next_listen: Instant,
     /// Units whose mailboxes it reads.
     listens: Vec<bool>,
-    ticket: u64,
     /// How it handles mailboxes, correctly or not. All units share the counters of its messages.
     mailbox: MailboxConduct,
     gave_up: Option<String>,
@@ -90,32 +85,24 @@ pub(crate) struct Master {
     story: Vec<String>,
 }
 
-#[derive(Debug)]
-struct Waiting {
-    /// Time of its next frame.
-    at: Instant,
-    /// The frame in flight.
-    ticket: Option<u64>,
-    /// It gives up at this time.
-    until: Instant,
-}
-
 impl Master {
     pub(crate) fn new(devices: Vec<Arc<KnownDevice>>, cycle: Duration, phase: Duration) -> Self {
         let units = devices.len();
         let slaves = devices.into_iter().enumerate();
+        let habits = habits(cycle, phase);
         Self {
             slaves: slaves.map(|(unit, device)| Slave::new(unit, device)).collect(),
             operations: VecDeque::new(),
-            waiting: Waiting { at: Instant::NEVER, ticket: None, until: Instant::NEVER },
-            process_data: ProcessData::new(units, cycle, phase),
+            runner: Runner::new(),
+            flights: Flights::default(),
+            spares: Vec::new(),
+            process_data: ProcessData::new(units, habits.exchange),
             task: None,
             states: States::new(units),
             told: Reports::default(),
             next_listen: Instant::NEVER,
             listens: vec![false; units],
-            ticket: 0,
-            mailbox: RIGHT_CONDUCT,
+            mailbox: habits.mailbox,
             gave_up: None,
             last_sdos: LastSdos::of(units),
             raw: Raw::default(),
@@ -123,6 +110,7 @@ impl Master {
             refusals: Vec::new(),
             looks_for_emergencies: true,
             story: Vec::new(),
+            habits,
         }
     }
 
@@ -134,50 +122,86 @@ impl Master {
 
     /// The first operation starts.
     fn begin(&mut self, now: Instant) {
-        let at = if self.operations.is_empty() { Instant::NEVER } else { now };
-        self.waiting = Waiting { at, ticket: None, until: now + self.patience() };
-    }
-
-    fn patience(&self) -> Duration {
-        let waits_for_state = self.operations.front().is_some_and(Operation::waits_for_state);
-        if waits_for_state { STATE_PATIENCE } else { OPERATION_PATIENCE }
+        match self.operations.front() {
+            Some(operation) => self.runner.begin(operation.dialogue(), &Pace::new(now, &self.habits)),
+            None => self.runner.rest(),
+        }
     }
 
     /// The time of its next frame or time-out.
     pub(crate) fn deadline(&self) -> Instant {
         let listen = if self.operations.is_empty() { self.next_listen } else { Instant::NEVER };
         let task = self.task.as_ref().map_or(Instant::NEVER, Task::deadline);
-        self.waiting.at.min(self.process_data.deadline()).min(self.raw.deadline()).min(listen).min(task)
+        let operation = self.runner.deadline().min(self.flights.deadline());
+        operation.min(self.process_data.deadline()).min(self.raw.deadline()).min(listen).min(task)
     }
 
     /// The frames that it sends now.
     pub(crate) fn send(&mut self, now: Instant) -> Vec<Sent> {
         let mut frames = Vec::new();
-        let is_cycle = self.process_data.deadline() <= now;
+        let is_cycle = self.process_data.begin_cycle(now);
         if is_cycle {
-            frames.extend(self.process_data.send(now, &mut self.ticket));
+            self.flights.forget(|sender| matches!(sender, Sender::Cycle(_)));
+            self.load_all(&mut frames, |master, load| master.process_data.load(load));
         }
-        frames.extend(self.begin_task(now, is_cycle));
+        self.begin_task(now, is_cycle, &mut frames);
         if self.raw.deadline() <= now {
-            frames.extend(self.raw.send(now, &mut self.ticket, &mut self.story));
+            let raw = self.raw.send(now, now + self.habits.answer_patience, &mut self.story);
+            frames.extend(raw.into_iter().map(|(number, frame)| Sent { ticket: Ticket::Raw(number), frame }));
         }
+        self.lose_frames(now);
         if self.operations.is_empty() && self.next_listen <= now {
             self.listen(now);
         }
-        if self.waiting.at <= now {
+        if self.runner.is_due(now) {
             frames.extend(self.send_operation(now));
         }
         frames
     }
 
+    /// Frames that are loaded by `fill` one after the other, until it loads nothing. They are not repeated: they are
+    /// awaited until the next ones of their sender.
+    fn load_all(&mut self, frames: &mut Vec<Sent>, fill: impl Fn(&mut Self, &mut Load<Sender>)) {
+        loop {
+            let mut load = self.load();
+            fill(self, &mut load);
+            let Some(sent) = self.depart(load, Instant::NEVER) else { return };
+            frames.push(sent);
+        }
+    }
+
+    fn load(&mut self) -> Load<Sender> {
+        let memory = self.spares.pop().unwrap_or_else(|| Vec::with_capacity(FRAME_BYTES_MAX));
+        self.flights.load(memory, &self.habits)
+    }
+
+    fn depart(&mut self, load: Load<Sender>, due: Instant) -> Option<Sent> {
+        let (frame, ticket) = self.flights.depart(load, due);
+        let Some(ticket) = ticket else {
+            self.reuse(frame);
+            return None;
+        };
+        Some(Sent { ticket: Ticket::Scripted(ticket), frame })
+    }
+
+    /// Takes the memory of a frame that is no longer needed.
+    fn reuse(&mut self, frame: Vec<u8>) {
+        if self.spares.len() < SPARES_MAX {
+            self.spares.push(frame);
+        }
+    }
+
     /// A period of the user program begins: the states of the slaves are read.
-    fn begin_task(&mut self, now: Instant, is_cycle: bool) -> Vec<Sent> {
-        let Some(task) = &mut self.task else { return Vec::new() };
+    fn begin_task(&mut self, now: Instant, is_cycle: bool, frames: &mut Vec<Sent>) {
+        let Some(task) = &mut self.task else { return };
         if is_cycle {
             task.in_step(now);
         }
-        let begins = task.begin(now, self.process_data.cycle());
-        if begins { self.states.send(&mut self.ticket) } else { Vec::new() }
+        if task.begin(now, self.process_data.cycle()) {
+            self.flights.forget(|sender| matches!(sender, Sender::State(_)));
+            self.states.begin();
+            self.load_all(frames, |master, load| master.states.load(load));
+        }
     }
 
     /// Runs the user program, if its period has begun and the frames of this time have returned.
@@ -205,57 +229,68 @@ impl Master {
 
     fn send_operation(&mut self, now: Instant) -> Option<Sent> {
         let operation = self.operations.front_mut()?;
-        if now >= self.waiting.until {
-            let words = operation.words();
-            let reason = format!("{words}: no success within {}", self.patience());
+        if self.runner.is_too_late(now) {
+            let Pace { habits, timeouts, .. } = Pace::new(now, &self.habits);
+            let patience = habits.patience(operation.dialogue().patience(), timeouts);
+            let reason = format!("{}: no success within {patience}", operation.words());
             self.give_up(reason, now);
             return None;
         }
-        if self.waiting.ticket.take().is_some() {
-            let _ = operation.answered(None);
-        }
-        let received = self.slaves.get(operation.unit).map_or(0, Slave::received);
+        let unit = operation.unit;
+        let received = self.slaves.get(unit).map_or(0, Slave::received);
         operation.begin(MailboxConduct { received, ..self.mailbox });
-        let frame = operation.frame();
-        self.ticket += 1;
-        self.waiting.ticket = Some(self.ticket);
-        // Without an answer by then the frame is sent again.
-        self.waiting.at = now + ANSWER_PATIENCE;
-        Some(Sent { ticket: Ticket::Scripted(self.ticket), frame })
+        let mut load = self.load();
+        let operation = self.operations.front()?;
+        let sender = Sender::Operation(self.runner.depart());
+        load.access(sender, Address::Position(unit as u16), &operation.dialogue().access());
+        self.depart(load, now + self.habits.answer_patience)
+    }
+
+    /// Frames without an answer in time are lost.
+    fn lose_frames(&mut self, now: Instant) {
+        while let Some(parts) = self.flights.lose(now) {
+            for part in &parts {
+                if let Sender::Operation(number) = part.sender {
+                    self.answer(number, None, now);
+                }
+            }
+            self.flights.recycle(parts);
+        }
     }
 
     /// A frame returns. Frames that are no longer expected are ignored, as by a real master.
-    pub(crate) fn receive(&mut self, ticket: u64, frame: Vec<u8>, now: Instant) {
-        if let Some(words) = self.raw.receive(ticket, &frame) {
-            return self.story.push(words);
-        }
-        let is_cyclic = self.process_data.receive(ticket, &frame) || self.states.receive(ticket, &frame);
-        if !is_cyclic && self.waiting.ticket == Some(ticket) {
-            self.waiting.ticket = None;
-            if let Some(answer) = datagrams(&frame).next() {
-                self.answer(&answer, now);
+    pub(crate) fn receive(&mut self, ticket: ::master::Ticket, frame: Vec<u8>, now: Instant) {
+        if let Some(parts) = self.flights.arrive(ticket, &frame) {
+            for (part, datagram) in parts.iter().zip(datagrams(&frame)) {
+                let answer = Answer { working_counter: datagram.working_counter, data: datagram.data };
+                match part.sender {
+                    Sender::Operation(number) => self.answer(number, Some(answer), now),
+                    Sender::Cycle(number) => self.process_data.answer(number, answer),
+                    Sender::State(unit) => self.states.answer(unit, answer),
+                }
             }
+            self.flights.recycle(parts);
         }
-        self.process_data.reuse(frame);
+        self.reuse(frame);
     }
 
-    fn answer(&mut self, DatagramView { working_counter, data, .. }: &DatagramView<'_>, now: Instant) {
+    /// A frame of a step returns.
+    pub(crate) fn receive_raw(&mut self, number: RawNumber, frame: Vec<u8>) {
+        self.story.extend(self.raw.receive(number, frame));
+    }
+
+    /// The answer to an access of the first operation; none: it is lost.
+    fn answer(&mut self, number: u32, answer: Option<Answer<'_>>, now: Instant) {
         let Some(operation) = self.operations.front_mut() else { return };
-        let answer = Answer { working_counter: *working_counter, data };
-        let unit = operation.unit;
-        let (progress, emergencies) = operation.answered(Some(answer));
-        for emergency in emergencies {
-            let received = Received { unit, emergency };
+        let pace = Pace::new(now, &self.habits);
+        let progress = self.runner.answer(number, operation.dialogue_mut(), answer, &pace);
+        while let Some(emergency) = operation.take_emergency() {
+            let received = Received { unit: operation.unit, emergency };
             self.story.push(received.words());
             self.emergencies.push(received);
         }
-        match progress {
-            Progress::Next | Progress::NextStage => self.waiting.at = now,
-            Progress::Later => match operation.refusal() {
-                Some(reason) => self.give_up(reason, now),
-                None => self.waiting.at = now + POLL_PERIOD,
-            },
-            Progress::Done => self.end_operation(now),
+        if progress == Some(Progress::Done) {
+            self.end_operation(now);
         }
     }
 

@@ -8,6 +8,7 @@ use super::last_sdo::{SdoNumber, SdoResult};
 use super::operation::{Operation, What};
 use super::process_data::ProcessData;
 use super::raw::RawNumber;
+use super::reach::{WAY_UP, floor};
 use super::slave::Slave;
 use crate::model::StateName;
 
@@ -38,19 +39,10 @@ pub(crate) enum Step {
 }
 
 impl Operation {
-    /// Why it cannot succeed any more: while it waits for a state, an error indication is a refusal, and a
-    /// state below the lowest one shows that the unit has fallen back, for example after a power cycle.
-    pub(super) fn refusal(&self) -> Option<String> {
-        let What::Reach { request, lowest } = &self.what else { return None };
-        let AlReport { status, code } = request.report();
-        let fell_back = is_below(status.state, *lowest);
-        if !status.error && !fell_back {
-            return None;
-        }
-        let (shown, wanted) = (StateName(status.state), StateName(request.state()));
-        let verb = if fell_back { "fell back to" } else { "stays in" };
-        let code = if status.error { format!(" with {:#06X}", code.0) } else { String::new() };
-        Some(format!("unit {} {verb} {shown}{code}, asked for {wanted}", self.unit + 1))
+    /// Why it has failed although it is complete.
+    fn refusal(&self) -> Option<String> {
+        let What::Reach(reach) = &self.what else { return None };
+        Some(format!("unit {} {}", self.unit + 1, reach.refusal()?))
     }
 
     /// It is complete.
@@ -60,7 +52,7 @@ impl Operation {
         }
         let (unit, number) = (self.unit, self.ordered_sdo());
         match self.what {
-            What::Write { .. } | What::Reach { .. } | What::Listen { .. } => Outcome::Done(Vec::new()),
+            What::Write { .. } | What::Reach(_) | What::Listen { .. } => Outcome::Done(Vec::new()),
             What::Take { target, look } => {
                 let slave = slaves.get_mut(unit);
                 let report = AlReport::parse(look.data());
@@ -91,15 +83,6 @@ impl Operation {
 fn sdo_result(unit: usize, number: Option<SdoNumber>, asked: &AskedSdo, result: SdoResult) -> Step {
     let words = format!("{asked} of unit {} {}", unit + 1, asked.outcome_words(&result));
     Step::SdoResult { unit, number, words, result }
-}
-
-/// The level of a state; none for BOOT and for a value that is not a state.
-fn floor(state: AlState) -> Option<usize> {
-    WAY_UP.iter().position(|&step| step == state)
-}
-
-fn is_below(state: AlState, other: AlState) -> bool {
-    floor(state).zip(floor(other)).is_some_and(|(state, other)| state < other)
 }
 
 /// The way from the present state of a unit to its target, like that of a real master.
@@ -157,6 +140,3 @@ fn way(
     steps.push(Step::Tell(format!("takes unit {} to {name}", unit + 1)));
     steps
 }
-
-/// States on the way up, the nearest first.
-const WAY_UP: [AlState; 4] = [AlState::Init, AlState::PreOp, AlState::SafeOp, AlState::Op];

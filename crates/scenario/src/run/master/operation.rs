@@ -1,14 +1,15 @@
-//! Operations: the parts of a master's order, one frame at a time.
+//! Operations: the parts of a master's order, one dialogue each.
 
 use ::master::{
-    Access, Address, AlReport, Answer, Dialogue, MailboxConduct, MailboxDialogue, Progress, RawMessage,
-    Reading, RegisterRead, RegisterWrite, SdoTransfer, Service, StateRequest, SyncManagerSettings, registers,
+    AlReport, Dialogue, MailboxConduct, MailboxDialogue, RawMessage, Reading, RegisterRead, RegisterWrite,
+    SdoTransfer, Service, StateRequest, SyncManagerSettings, registers,
 };
-use wire::{AlState, Emergency, FrameBuilder, SdoTarget};
+use wire::{AlState, Emergency, SdoTarget};
 
 use super::asked_sdo::AskedSdo;
 use super::last_sdo::SdoNumber;
 use super::raw::RawNumber;
+use super::reach::Reach;
 use crate::model::{Entry, StateName};
 
 /// SyncManagers of the mailbox: from master to unit, and back.
@@ -31,8 +32,8 @@ pub(super) enum What {
     Write { offset: u16, write: RegisterWrite },
     /// Reads the state of the unit, and continues from there.
     Take { target: AlState, look: RegisterRead },
-    /// Requests a state and waits for it; meanwhile the unit must not be in a state below `lowest`.
-    Reach { request: StateRequest, lowest: AlState },
+    /// Requests a state and waits for it.
+    Reach(Reach),
     /// Everything is set for the process data: they start.
     Open(RegisterRead),
     /// An SDO.
@@ -64,7 +65,7 @@ impl Operation {
     }
 
     pub(super) const fn reach(unit: usize, request: StateRequest, lowest: AlState) -> Self {
-        Self::new(unit, What::Reach { request, lowest })
+        Self::new(unit, What::Reach(Reach::new(request, lowest)))
     }
 
     pub(super) const fn open(unit: usize) -> Self {
@@ -141,7 +142,7 @@ impl Operation {
             What::ReadRegister { number, .. } | What::Message { number, .. } => Some(number),
             What::Write { .. }
             | What::Take { .. }
-            | What::Reach { .. }
+            | What::Reach(_)
             | What::Open(_)
             | What::Sdo { .. }
             | What::Listen { .. } => None,
@@ -156,16 +157,12 @@ impl Operation {
         matches!(self.what, What::Listen { .. })
     }
 
-    pub(crate) const fn waits_for_state(&self) -> bool {
-        matches!(self.what, What::Reach { .. })
-    }
-
     pub(crate) fn words(&self) -> String {
         let unit = format!("unit {}", self.unit + 1);
         match &self.what {
             What::Write { offset, .. } => format!("write to register {offset:#06X} of {unit}"),
             What::Take { target, .. } => format!("take {unit} to {}", StateName(*target)),
-            What::Reach { request, .. } => format!("request {} of {unit}", StateName(request.state())),
+            What::Reach(reach) => format!("request {} of {unit}", StateName(reach.state())),
             What::Open(_) => format!("process data of {unit}"),
             What::Sdo { asked, .. } => format!("{asked} of {unit}"),
             What::ReadRegister { read, .. } => {
@@ -176,11 +173,11 @@ impl Operation {
         }
     }
 
-    fn dialogue(&self) -> &dyn Dialogue {
+    pub(super) fn dialogue(&self) -> &dyn Dialogue {
         match &self.what {
             What::Write { write, .. } => write,
             What::Take { look, .. } | What::Open(look) => look,
-            What::Reach { request, .. } => request,
+            What::Reach(reach) => reach,
             What::ReadRegister { read, .. } => read,
             What::Sdo { mailbox, .. } | What::Message { mailbox, .. } | What::Listen { mailbox, .. } => {
                 &**mailbox
@@ -188,11 +185,11 @@ impl Operation {
         }
     }
 
-    fn dialogue_mut(&mut self) -> &mut dyn Dialogue {
+    pub(super) fn dialogue_mut(&mut self) -> &mut dyn Dialogue {
         match &mut self.what {
             What::Write { write, .. } => write,
             What::Take { look, .. } | What::Open(look) => look,
-            What::Reach { request, .. } => request,
+            What::Reach(reach) => reach,
             What::ReadRegister { read, .. } => read,
             What::Sdo { mailbox, .. } | What::Message { mailbox, .. } | What::Listen { mailbox, .. } => {
                 &mut **mailbox
@@ -208,7 +205,7 @@ impl Operation {
             }
             What::Write { .. }
             | What::Take { .. }
-            | What::Reach { .. }
+            | What::Reach(_)
             | What::Open(_)
             | What::ReadRegister { .. } => None,
         }
@@ -225,7 +222,7 @@ impl Operation {
             }
             What::Write { .. }
             | What::Take { .. }
-            | What::Reach { .. }
+            | What::Reach(_)
             | What::Open(_)
             | What::ReadRegister { .. } => return,
         };
@@ -241,21 +238,8 @@ impl Operation {
         }
     }
 
-    /// Its next frame.
-    pub(crate) fn frame(&self) -> Vec<u8> {
-        let mut frame = FrameBuilder::new();
-        let access: Access<'_> = self.dialogue().access();
-        access.add_to(&mut frame, Address::Position(self.unit as u16));
-        frame.finish()
-    }
-
-    /// The answer to its frame; none: the frame is lost. Returns the emergencies that were read.
-    pub(super) fn answered(&mut self, answer: Option<Answer<'_>>) -> (Progress, Vec<Emergency>) {
-        let progress = self.dialogue_mut().answer(answer);
-        let mailbox = self.mailbox();
-        let emergencies = mailbox
-            .into_iter()
-            .flat_map(|mailbox| core::iter::from_fn(|| mailbox.take_emergency()).collect::<Vec<_>>());
-        (progress, emergencies.collect())
+    /// Takes the oldest emergency that it has read.
+    pub(super) fn take_emergency(&mut self) -> Option<Emergency> {
+        self.mailbox()?.take_emergency()
     }
 }

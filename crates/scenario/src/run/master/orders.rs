@@ -98,9 +98,11 @@ impl Master {
             MasterOrder::Restart => {
                 let devices = self.slaves.iter().map(Slave::device).collect();
                 let (cycle, phase) = (self.process_data.cycle(), self.process_data.phase());
-                let ticket = self.ticket + 1;
                 let task = self.task.take().map(|task| task.restart(now));
-                *self = Self { ticket, task, ..Self::new(devices, cycle, phase) };
+                let mut flights = core::mem::take(&mut self.flights);
+                flights.forget(|_| true);
+                let raw = self.raw.restarted();
+                *self = Self { flights, raw, task, ..Self::new(devices, cycle, phase) };
             }
         }
     }

@@ -1,17 +1,12 @@
 //! The cyclic exchange: a datagram for each unit with process data, in shared frames.
 
-use core::ops::Range;
-
-use ::master::{Address, Answer, Commands, Exchange, FmmuSettings, Grouping, SlaveSettings};
+use ::master::{Address, Answer, Exchange, FmmuSettings, Load, SlaveSettings};
 use time::{Duration, Instant};
-use wire::{FrameBuilder, datagrams};
 
-use super::sent::{Sent, Ticket};
+use super::sent::Sender;
 
 /// Maximum number of output bytes of a unit.
 const OUTPUTS_MAX: usize = 1200;
-/// Maximum number of frames whose memory is kept for the next cycles.
-const SPARES_MAX: usize = 16;
 
 /// The process data of all units.
 #[derive(Debug)]
@@ -19,29 +14,12 @@ pub(crate) struct ProcessData {
     exchange: ::master::ProcessData,
     /// Outputs as the scenario sets them, of any length.
     outputs: Vec<Vec<u8>>,
-    /// Frames of this cycle that have not returned, and their datagrams.
-    awaited: Vec<(u64, Range<usize>)>,
-    /// Memory of frames that are no longer needed.
-    spares: Vec<Vec<u8>>,
 }
 
 impl ProcessData {
-    pub(crate) fn new(units: usize, period: Duration, phase: Duration) -> Self {
-        // LRW, or LWR and LRD if one datagram is too short; each unit has a separate working counter.
-        let exchange = Exchange {
-            period,
-            phase,
-            commands: Commands::Fitting,
-            grouping: Grouping::EachSlave,
-            ..Exchange::default()
-        };
+    pub(crate) fn new(units: usize, exchange: Exchange) -> Self {
         let addresses = (0..units).map(|unit| Address::Position(unit as u16));
-        Self {
-            exchange: ::master::ProcessData::new(exchange, addresses),
-            outputs: vec![Vec::new(); units],
-            awaited: Vec::new(),
-            spares: Vec::new(),
-        }
+        Self { exchange: ::master::ProcessData::new(exchange, addresses), outputs: vec![Vec::new(); units] }
     }
 
     pub(crate) const fn cycle(&self) -> Duration {
@@ -104,43 +82,19 @@ impl ProcessData {
         self.exchange.deadline()
     }
 
-    /// The frames of one cycle, which starts now.
-    pub(crate) fn send(&mut self, now: Instant, ticket: &mut u64) -> Vec<Sent> {
-        self.exchange.next_cycle(now);
-        self.awaited.clear();
-        core::iter::from_fn(|| {
-            let mut frame = self.spares.pop().map_or_else(FrameBuilder::new, FrameBuilder::reusing);
-            let datagrams = self.exchange.load(&mut frame);
-            if datagrams.is_empty() {
-                self.reuse(frame.finish());
-                return None;
-            }
-            *ticket += 1;
-            self.awaited.push((*ticket, datagrams));
-            let ticket = Ticket::Scripted(*ticket);
-            Some(Sent { ticket, frame: frame.finish() })
-        })
-        .collect()
+    /// The next cycle begins, if it is due.
+    pub(super) fn begin_cycle(&mut self, now: Instant) -> bool {
+        self.exchange.next_cycle(now)
     }
 
-    /// Takes the memory of a frame that is no longer needed.
-    pub(crate) fn reuse(&mut self, frame: Vec<u8>) {
-        if self.spares.len() < SPARES_MAX {
-            self.spares.push(frame);
-        }
+    /// Loads the next frame of the cycle.
+    pub(super) fn load(&mut self, load: &mut Load<Sender>) {
+        load.process_data(&mut self.exchange, Sender::Cycle);
     }
 
-    /// Processes a returned frame; false if it does not belong to this exchange.
-    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8]) -> bool {
-        let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
-            return false;
-        };
-        let (_, numbers) = self.awaited.remove(place);
-        for (number, datagram) in numbers.zip(datagrams(frame)) {
-            let answer = Answer { working_counter: datagram.working_counter, data: datagram.data };
-            let _ = self.exchange.answer(number, answer);
-        }
-        true
+    /// Processes the answer to a datagram.
+    pub(super) fn answer(&mut self, number: usize, answer: Answer<'_>) {
+        let _ = self.exchange.answer(number, answer);
     }
 
     pub(crate) fn cycles(&self) -> u64 {

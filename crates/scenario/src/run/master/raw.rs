@@ -1,12 +1,8 @@
 //! What the master reads without any service, right or wrong: registers, whole mailbox messages, whole frames.
 
-use time::{Duration, Instant};
+use time::Instant;
 
-use super::sent::{Sent, Ticket};
 use crate::model::hex;
-
-/// A frame that has not come back after this time is lost.
-const PATIENCE: Duration = Duration::from_millis(2);
 
 /// A kind of reads, of which the last one has its answer here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,7 +78,7 @@ pub(crate) struct Raw {
     /// Frames that are sent now.
     unsent: Vec<(RawNumber, Vec<u8>)>,
     /// The frames in flight, with the time at which each is lost.
-    in_flight: Vec<(u64, RawNumber, Instant)>,
+    in_flight: Vec<(RawNumber, Instant)>,
 }
 
 impl Raw {
@@ -145,7 +141,7 @@ impl Raw {
     /// The time of its next frame or time-out.
     pub(super) fn deadline(&self) -> Instant {
         if self.unsent.is_empty() {
-            self.in_flight.iter().map(|(_, _, until)| *until).min().unwrap_or(Instant::NEVER)
+            self.in_flight.iter().map(|(_, until)| *until).min().unwrap_or(Instant::NEVER)
         } else {
             Instant::ZERO
         }
@@ -156,31 +152,34 @@ impl Raw {
         self.unsent.is_empty() && self.in_flight.is_empty()
     }
 
-    /// The frames that are sent now. Frames that should have come back by now are lost; `story` gets the words for the
-    /// trace.
-    pub(super) fn send(&mut self, now: Instant, ticket: &mut u64, story: &mut Vec<String>) -> Vec<Sent> {
-        let lost: Vec<RawNumber> = self
-            .in_flight
-            .extract_if(.., |(_, _, until)| *until <= now)
-            .map(|(_, number, _)| number)
-            .collect();
+    /// The frames that are sent now, and are lost at `due`. Frames that should have come back by now are lost; `story` gets
+    /// the words for the trace.
+    pub(super) fn send(
+        &mut self,
+        now: Instant,
+        due: Instant,
+        story: &mut Vec<String>,
+    ) -> Vec<(RawNumber, Vec<u8>)> {
+        let lost: Vec<RawNumber> =
+            self.in_flight.extract_if(.., |(_, until)| *until <= now).map(|(number, _)| number).collect();
         for number in lost {
             self.give_up(number);
             story.push("the last frame did not come back".to_owned());
         }
         let unsent = core::mem::take(&mut self.unsent);
-        let send = |(number, frame)| {
-            *ticket += 1;
-            self.in_flight.push((*ticket, number, now + PATIENCE));
-            Sent { ticket: Ticket::Scripted(*ticket), frame }
-        };
-        unsent.into_iter().map(send).collect()
+        self.in_flight.extend(unsent.iter().map(|(number, _)| (*number, due)));
+        unsent
     }
 
-    /// Processes a returned frame; none if it is not one of these, otherwise the words for the trace.
-    pub(super) fn receive(&mut self, ticket: u64, frame: &[u8]) -> Option<String> {
-        let place = self.in_flight.iter().position(|(awaited, ..)| *awaited == ticket)?;
-        let (_, number, _) = self.in_flight.remove(place);
-        Some(self.answer(number, frame.to_vec()))
+    /// Processes a returned frame; returns the words for the trace, none if it is no longer awaited.
+    pub(super) fn receive(&mut self, number: RawNumber, frame: Vec<u8>) -> Option<String> {
+        let place = self.in_flight.iter().position(|(awaited, _)| *awaited == number)?;
+        self.in_flight.remove(place);
+        Some(self.answer(number, frame))
+    }
+
+    /// The reads of a master that restarts: it has ordered none, and the answers to older ones are not its own.
+    pub(super) fn restarted(&self) -> Self {
+        Self { ordered: self.ordered, ..Self::default() }
     }
 }

@@ -1,10 +1,14 @@
-//! A frame of a master in flight.
+//! Frames of the masters, and who gets their answers.
 
-/// The master that sent the frame, and the frame's number.
+use super::raw::RawNumber;
+
+/// The master that sent a frame, and its number there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Ticket {
     /// The scripted master's.
-    Scripted(u64),
+    Scripted(::master::Ticket),
+    /// The scripted master's, as a step has ordered it byte by byte.
+    Raw(RawNumber),
     /// The recorded master's.
     Recorded(usize),
 }
@@ -13,4 +17,15 @@ pub(crate) enum Ticket {
 pub(crate) struct Sent {
     pub(crate) ticket: Ticket,
     pub(crate) frame: Vec<u8>,
+}
+
+/// The part of the scripted master to which the answer to a datagram belongs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sender {
+    /// The first operation; the number of its access.
+    Operation(u32),
+    /// The datagram of process data with this number in the cycle.
+    Cycle(usize),
+    /// The read of the state of the unit at this position.
+    State(usize),
 }

@@ -1,11 +1,9 @@
 //! The states of the slaves in the master, from one read of each AL status in each task period.
 
-use core::ops::Range;
+use ::master::{Access, Address, AlReport, Answer, Load, registers};
+use wire::{AlState, AlStatus};
 
-use ::master::{Access, Address, AlReport, registers};
-use wire::{AlState, AlStatus, DatagramView, FrameBuilder, datagrams};
-
-use super::sent::{Sent, Ticket};
+use super::sent::Sender;
 
 const LOOK: Access<'static> = Access::Read { offset: registers::AL_STATUS, length_bytes: 2 };
 /// Number of consecutive reads without an answer after which a slave counts as missing.
@@ -15,56 +13,44 @@ const MISSED_MAX: u8 = 2;
 #[derive(Debug)]
 pub(crate) struct States {
     looks: Vec<Look>,
-    /// Frames that have not returned, and the slaves that they read.
-    awaited: Vec<(u64, Range<usize>)>,
+    /// The slave that is read next.
+    next: usize,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Look {
+    is_awaited: bool,
     missed: u8,
     status: Option<AlStatus>,
 }
 
 impl States {
     pub(crate) fn new(units: usize) -> Self {
-        Self { looks: vec![Look::default(); units], awaited: Vec::new() }
+        Self { looks: vec![Look::default(); units], next: units }
     }
 
-    /// A read of each slave, in shared frames. Reads that have not returned by now count as missed.
-    pub(crate) fn send(&mut self, ticket: &mut u64) -> Vec<Sent> {
-        for (_, slaves) in self.awaited.drain(..) {
-            self.looks[slaves].iter_mut().for_each(Look::miss);
-        }
-        let mut frames = Vec::new();
-        let mut first = 0;
-        while first < self.looks.len() {
-            let mut frame = FrameBuilder::new();
-            let mut behind = first;
-            while behind < self.looks.len()
-                && frame.room_bytes().is_some_and(|room| LOOK.length_bytes() <= room)
-            {
-                LOOK.add_to(&mut frame, Address::Position(behind as u16));
-                behind += 1;
-            }
-            *ticket += 1;
-            self.awaited.push((*ticket, first..behind));
-            let ticket = Ticket::Scripted(*ticket);
-            frames.push(Sent { ticket, frame: frame.finish() });
-            first = behind;
-        }
-        frames
+    /// A read of each slave begins. Reads that have not returned by now count as missed.
+    pub(super) fn begin(&mut self) {
+        self.looks.iter_mut().filter(|look| look.is_awaited).for_each(Look::miss);
+        self.next = 0;
     }
 
-    /// Processes a returned frame; false if it is not such a read.
-    pub(crate) fn receive(&mut self, ticket: u64, frame: &[u8]) -> bool {
-        let Some(place) = self.awaited.iter().position(|(awaited, _)| *awaited == ticket) else {
-            return false;
-        };
-        let (_, slaves) = self.awaited.remove(place);
-        for (look, answer) in self.looks[slaves].iter_mut().zip(datagrams(frame)) {
-            look.receive(&answer);
+    /// Loads the reads of the next slaves, as many as fit.
+    pub(super) fn load(&mut self, load: &mut Load<Sender>) {
+        while let Some(look) = self.looks.get_mut(self.next)
+            && load.has_room(LOOK.length_bytes())
+        {
+            load.access(Sender::State(self.next), Address::Position(self.next as u16), &LOOK);
+            look.is_awaited = true;
+            self.next += 1;
         }
-        true
+    }
+
+    /// Processes the answer to the read of a slave.
+    pub(super) fn answer(&mut self, unit: usize, answer: Answer<'_>) {
+        if let Some(look) = self.looks.get_mut(unit) {
+            look.receive(answer);
+        }
     }
 
     /// The state of a slave, with or without an error; none if it is missing.
@@ -75,15 +61,15 @@ impl States {
 }
 
 impl Look {
-    fn receive(&mut self, answer: &DatagramView<'_>) {
-        if answer.working_counter == 0 {
-            return self.miss();
-        }
+    fn receive(&mut self, answer: Answer<'_>) {
+        let Some(data) = answer.taken() else { return self.miss() };
+        self.is_awaited = false;
         self.missed = 0;
-        self.status = Some(AlReport::parse(answer.data).status);
+        self.status = Some(AlReport::parse(data).status);
     }
 
     const fn miss(&mut self) {
+        self.is_awaited = false;
         self.missed = self.missed.saturating_add(1);
         if self.missed >= MISSED_MAX {
             self.status = None;
@@ -93,23 +79,20 @@ impl Look {
 
 #[cfg(test)]
 mod tests {
+    use ::master::{Flights, Habits};
+    use time::Instant;
+
     use super::*;
-    use wire::FrameKind;
 
     /// One read, answered with this state and working counter, or not at all.
     fn look(states: &mut States, answer: Option<(u16, u16)>) -> Option<AlState> {
-        let mut ticket = 7;
-        let sent = states.send(&mut ticket).remove(0);
+        let mut flights = Flights::default();
+        states.begin();
+        let mut load = flights.load(Vec::new(), &Habits::default());
+        states.load(&mut load);
+        assert!(flights.depart(load, Instant::NEVER).1.is_some(), "there is a slave");
         if let Some((bits, working_counter)) = answer {
-            let mut frame = sent.frame;
-            if let FrameKind::Datagrams(layout) = FrameKind::of(&frame) {
-                for mut datagram in layout.datagrams(&mut frame) {
-                    datagram.data.copy_from_slice(&bits.to_le_bytes());
-                    datagram.working_counter = working_counter;
-                    datagram.close();
-                }
-            }
-            assert!(states.receive(8, &frame) && !states.receive(8, &frame));
+            states.answer(0, Answer { working_counter, data: &bits.to_le_bytes() });
         }
         states.state(0)
     }

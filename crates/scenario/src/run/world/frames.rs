@@ -55,7 +55,8 @@ impl LineEnds<Ticket> for Ends<'_> {
         self.recording.returned(now, &answer, comment(met).as_deref());
         match ticket {
             Ticket::Recorded(number) => self.recorded.receive(number, &answer),
-            Ticket::Scripted(number) => self.master.receive(number, answer, now),
+            Ticket::Scripted(ticket) => self.master.receive(ticket, answer, now),
+            Ticket::Raw(number) => self.master.receive_raw(number, answer),
         }
     }
 
