@@ -38,19 +38,20 @@ impl Agenda {
         self.changed.insert(position);
     }
 
-    /// Those whose ESC a frame has touched, and those whose deadline has come, are to be looked at too.
-    pub(crate) fn gather(&mut self, segment: &mut Segment, now: Instant) {
+    /// Those whose ESC a frame has touched are to be looked at too.
+    pub(crate) fn gather(&mut self, segment: &mut Segment) {
         segment.take_touched(&mut self.to_look_at);
-        let mut from = 0;
-        while let Some(position) = self.deadlines.next_due(from, now) {
-            self.to_look_at.insert(position);
-            from = position + 1;
-        }
     }
 
-    /// The first slave from `from` on that is to be looked at.
-    pub(crate) fn next_to_look_at(&self, from: usize) -> Option<usize> {
-        self.to_look_at.next(from)
+    /// The first slave from `from` on that is to be looked at, or whose deadline has come.
+    ///
+    /// The deadlines are asked for each slave that is looked at, and not for all of them first: a slave that was looked at
+    /// has its next deadline already, so that mostly nothing else is due, which the first deadline shows.
+    pub(crate) fn next_to_look_at(&self, from: usize, now: Instant) -> Option<usize> {
+        match (self.to_look_at.next(from), self.deadlines.next_due(from, now)) {
+            (Some(one), Some(other)) => Some(one.min(other)),
+            (one, other) => one.or(other),
+        }
     }
 
     /// Whether no slave is to be looked at.
@@ -66,7 +67,9 @@ impl Agenda {
     /// A slave was looked at; it is looked at again with the next poll if it is still called.
     pub(crate) fn looked_at(&mut self, position: usize, deadline: Instant, is_called: bool) {
         self.deadlines.set(position, deadline);
-        if !is_called {
+        if is_called {
+            self.to_look_at.insert(position);
+        } else {
             self.to_look_at.remove(position);
         }
     }
@@ -98,6 +101,8 @@ mod tests {
         }
         assert_eq!(agenda.to_look_at().collect::<Vec<_>>(), [1]);
         agenda.looked_at(1, Instant::NEVER, false);
-        assert_eq!((agenda.next_to_look_at(0), agenda.first()), (None, later));
+        assert_eq!((agenda.next_to_look_at(0, Instant::ZERO), agenda.first()), (None, later));
+        assert_eq!(agenda.next_to_look_at(0, later), Some(0));
+        assert_eq!(agenda.next_to_look_at(1, later), Some(2), "the second one has no deadline");
     }
 }

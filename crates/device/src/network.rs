@@ -84,9 +84,9 @@ impl<U: Unit> Network<U> {
     /// Lets every slave react that has pending work. The other slaves are not looked at and cost nothing.
     pub fn poll(&mut self, now: Instant) {
         let mut reset = false;
-        self.agenda.gather(&mut self.segment, now);
+        self.agenda.gather(&mut self.segment);
         let mut from = 0;
-        while let Some(position) = self.agenda.next_to_look_at(from) {
+        while let Some(position) = self.agenda.next_to_look_at(from, now) {
             from = position + 1;
             let device = self.devices.get_mut(position);
             let (Some(device), Some(esc)) = (device, self.segment.esc_mut(position)) else { continue };

@@ -1,75 +1,63 @@
 //! The deadlines of many: which one comes first and which are due, without a look at all of them.
 
-use crate::Instant;
+mod queue;
+mod tree;
 
-/// A deadline for each of a fixed number of places. A change costs the logarithm of that number, and so does each
-/// place that is due. Nothing is allocated after [`Deadlines::new`].
+use crate::Instant;
+use queue::Queue;
+use tree::Tree;
+
+/// A deadline for each of a fixed number of places. Nothing is allocated after [`Deadlines::new`].
+///
+/// Most deadlines are those of periodic work, which come in turn: a deadline after all others waits in a queue, and costs
+/// the same whatever the number of places is. The others are in a tree, where a change costs the logarithm of that number,
+/// and so does each place that is due.
 #[derive(Clone, Debug)]
 pub struct Deadlines {
-    /// A binary tree in one piece: node `n` has the children `2n` and `2n + 1` and holds the earlier of theirs. The
-    /// leaves are the places, filled up to a power of two.
-    nodes: Box<[Instant]>,
+    queue: Queue,
+    tree: Tree,
+    /// The earliest of both.
+    first: Instant,
     places: usize,
 }
 
 impl Deadlines {
-    /// For so many places, each [`Instant::NEVER`].
+    /// For this number of places, each [`Instant::NEVER`].
     #[must_use]
     pub fn new(places: usize) -> Self {
-        let leaves = places.next_power_of_two();
-        Self { nodes: vec![Instant::NEVER; 2 * leaves].into_boxed_slice(), places }
+        Self { queue: Queue::new(places), tree: Tree::new(places), first: Instant::NEVER, places }
     }
 
     /// The earliest deadline; [`Instant::NEVER`] without any.
+    #[inline]
     #[must_use]
-    pub fn first(&self) -> Instant {
-        self.nodes[1]
+    pub const fn first(&self) -> Instant {
+        self.first
     }
 
     /// Sets the deadline of a place; one beyond their number is left out.
     pub fn set(&mut self, place: usize, deadline: Instant) {
-        if place >= self.places {
+        if place >= self.places || self.queue.holds(place, deadline) {
             return;
         }
-        let mut node = self.leaves() + place;
-        let mut earliest = deadline;
-        while self.nodes[node] != earliest {
-            self.nodes[node] = earliest;
-            if node == 1 {
-                return;
-            }
-            earliest = earliest.min(self.nodes[node ^ 1]);
-            node /= 2;
-        }
+        self.queue.remove(place);
+        let is_last = deadline != Instant::NEVER && self.queue.push(place, deadline);
+        self.tree.set(place, if is_last { Instant::NEVER } else { deadline });
+        self.first = self.queue.first().min(self.tree.first());
     }
 
     /// The first place from `from` on whose deadline has come at `now`.
     #[must_use]
     pub fn next_due(&self, from: usize, now: Instant) -> Option<usize> {
-        // Mostly nothing is due at all, and the search begins at the first place.
-        if from >= self.places || self.first() > now {
+        // Mostly nothing is due at all.
+        if from >= self.places || self.first > now {
             return None;
         }
-        let leaves = self.leaves();
-        let mut node = if from == 0 { 1 } else { leaves + from };
-        while self.nodes[node] > now {
-            // Up, as long as there is nothing to the right; then to the subtree on the right.
-            while node % 2 == 1 {
-                node /= 2;
-            }
-            if node == 0 {
-                return None;
-            }
-            node += 1;
+        match (self.queue.next_due(from, now), self.tree.next_due(from, now)) {
+            (Some(one), Some(other)) => Some(one.min(other)),
+            (one, other) => one.or(other),
         }
-        while node < leaves {
-            node = 2 * node + usize::from(self.nodes[2 * node] > now);
-        }
-        Some(node - leaves).filter(|place| *place < self.places)
-    }
-
-    fn leaves(&self) -> usize {
-        self.nodes.len() / 2
+        .filter(|place| *place < self.places)
     }
 }
 
@@ -89,6 +77,30 @@ mod tests {
         let mut deadlines = Deadlines::new(3);
         deadlines.set(3, Instant::ZERO);
         assert_eq!((deadlines.first(), deadlines.next_due(0, Instant::ZERO)), (Instant::NEVER, None));
+    }
+
+    /// Work with its own periods: a place that is due gets its next deadline, as places of a line do.
+    #[test]
+    fn periodic_places_are_due_in_the_order_of_a_plain_list() {
+        for periods in [&[7_u64; 300][..], &[5, 5, 5, 5], &[3, 4, 6, 1_000, 3], &[1]] {
+            let mut deadlines = Deadlines::new(periods.len());
+            let mut list: Vec<u64> = (0..periods.len() as u64).map(|place| place * 5 % 7).collect();
+            for (place, nanos) in list.iter().enumerate() {
+                deadlines.set(place, Instant::from_nanos(*nanos));
+            }
+            for now in 0..3_000 {
+                let mut from = 0;
+                while let Some(place) = deadlines.next_due(from, Instant::from_nanos(now)) {
+                    let expected = (from..list.len()).find(|place| list[*place] <= now);
+                    assert_eq!(Some(place), expected, "at {now}, from {from}");
+                    list[place] += periods[place];
+                    deadlines.set(place, Instant::from_nanos(list[place]));
+                    from = place + 1;
+                }
+                assert!((from..list.len()).all(|place| list[place] > now), "at {now}, from {from}");
+                assert_eq!(Some(deadlines.first().as_nanos()), list.iter().min().copied());
+            }
+        }
     }
 
     proptest! {
