@@ -47,8 +47,8 @@ pub(crate) use sent::{Sent, Ticket};
 pub(crate) use slave::changed_settings;
 pub(crate) use variables::{MasterVariables, NODE_ADDRESS_MAX, Node};
 
-/// Maximum number of frames whose memory is kept for the next ones.
-const SPARES_MAX: usize = 16;
+/// Maximum number of frames whose memory is kept for the next ones: a cycle with 100 units has 34.
+const SPARES_MAX: usize = 256;
 
 /// The scripted master.
 #[derive(Debug)]
