@@ -22,7 +22,9 @@ use crate::description::description;
 use crate::events::Event;
 use crate::fault::Fault;
 use crate::indicators::Indicators;
-use crate::memory::{Damage, LogRecord, MemoryAtPowerOn, NonVolatileMemory};
+use crate::memory::{
+    ACCESS_RECORDS_MAX, Damage, LogRecord, MemoryAtPowerOn, NonVolatileMemory, SYSTEM_RECORDS_MAX,
+};
 use crate::model_tables;
 use crate::named_bits::NAMED_BITS;
 use crate::outage::Outage;
@@ -90,6 +92,18 @@ impl Model for NxEct101Model {
 
     fn is_fault_of_operation(&self, fault: &str) -> bool {
         Fault::named(fault).is_some_and(Fault::is_of_operation)
+    }
+
+    fn is_single_fault(&self, fault: &str) -> bool {
+        Fault::named(fault) == Some(Fault::MessageCommunications)
+    }
+
+    fn records_max(&self, log: EventLog) -> Option<usize> {
+        match log {
+            EventLog::System => Some(SYSTEM_RECORDS_MAX),
+            EventLog::Access => Some(ACCESS_RECORDS_MAX),
+            EventLog::None => Some(0),
+        }
     }
 
     fn indicators(&self) -> &'static [&'static str] {

@@ -7,10 +7,13 @@
 use time::Duration;
 
 use crate::random::RandomStep;
-use crate::run::{DICE_OF_STEPS, Dice, Failure, Met, Recording, Report, Scenario, play};
+use crate::run::{DICE_OF_STEPS, Dice, Failure, Met, Recording, Report, Scenario, each_step, play};
 
 /// Maximum number of variations of a seed.
 const VARIATIONS_MAX: u64 = 4;
+/// A step that checks nothing and does nothing.
+const NOTHING: &str =
+    "{ expect = \"any of (the master has nothing to do; not (the master has nothing to do))\" }";
 /// Makes different dice for the variations of a seed.
 const DICE_OF_VARIATIONS: u64 = 0x9E37_79B9_7F4A_7C15;
 
@@ -124,7 +127,7 @@ impl Scenario {
         for (number, part) in self.random.iter().enumerate().rev() {
             let lines: Vec<String> =
                 steps.iter().filter(|step| step.part == number).map(RandomStep::toml).collect();
-            text = replaced(&text, part.bytes.clone(), &lines.join(",\n  "));
+            text = replaced(&text, part.bytes.clone(), &group(&lines));
         }
         // A key `seed` of a table is another one.
         let tables = text.lines().position(|line| line.starts_with('[')).unwrap_or(usize::MAX);
@@ -152,7 +155,9 @@ impl Search<'_> {
     #[must_use]
     pub fn has_all_steps(&self, seed: u64, written: &Scenario) -> bool {
         let wanted = self.scenario.steps_with(&self.scenario.random_steps(seed));
-        written.random.is_empty() && written.seed == seed && wanted.len() == written.steps.len()
+        written.random.is_empty()
+            && written.seed == seed
+            && each_step(&wanted).len() == written.each_step().len()
     }
 
     /// Replays a seed, and its variations while they meet something new.
@@ -208,12 +213,18 @@ fn met(report: &Report) -> Met {
     report.recording.met().cloned().unwrap_or_default()
 }
 
-/// The text with other steps in this place; without any, the comma behind them goes too.
-fn replaced(text: &str, place: core::ops::Range<usize>, steps: &str) -> String {
+/// The text with another step in this place.
+fn replaced(text: &str, place: core::ops::Range<usize>, step: &str) -> String {
     let before = text.get(..place.start).unwrap_or_default();
     let after = text.get(place.end..).unwrap_or_default();
-    let after = if steps.is_empty() { after.strip_prefix(',').unwrap_or(after) } else { after };
-    format!("{before}{steps}{after}")
+    format!("{before}{step}{after}")
+}
+
+/// Steps as a group, in which and after which an order may do nothing: the file undoes whatever random steps have done.
+fn group(lines: &[String]) -> String {
+    // A group has steps.
+    let lines = if lines.is_empty() { NOTHING.to_owned() } else { lines.join(",\n    ") };
+    format!("{{ steps = [\n    {lines},\n  ] }}")
 }
 
 /// Whether a line of the file sets the seed.

@@ -217,8 +217,8 @@ mod tests {
             "{ after = \"500ms\", expect = \"unit 1 is in OP\" }",
             "{ expect = \"unit 1 is in OP\", within = \"500ms\" }",
             "{ after = \"500ms\", expect = \"unit 1 is in OP\", for = \"50ms\" }",
-            "{ never = \"unit 1 is in BOOT\" },\n{ expect = \"unit 1 is in OP\", within = \"500ms\" }",
-            "{ never = \"unit 1 is in BOOT\", until = \"unit 1 is in OP\" }",
+            "{ never = \"unit 1 has recorded 85000000\" },\n{ expect = \"unit 1 is in OP\", within = \"500ms\" }",
+            "{ never = \"unit 1 has recorded 85000000\", until = \"unit 1 is in OP\" }",
             "{ when = \"unit 1 is in PRE-OP\", expect = \"unit 1 has no error\", until = \"unit 1 is in OP\" }",
             "{ expect = \"unit 1 has no error\", while = \"unit 1 is in OP\" },\n\
              { expect = \"unit 1 is in OP\", within = \"500ms\" }",

@@ -160,8 +160,8 @@ fn not_is_what_never_means_at_a_moment() {
 fn the_failing_part_is_seen() {
     let seen = failure("{ expect = \"all of (unit 1 has no error; unit 1 is in OP)\" }");
     assert_eq!(seen.as_deref(), Some("`unit 1 is in OP`: unit 1 is in INIT"));
-    let seen = failure("{ expect = \"any of (unit 1 is in BOOT; unit 1 is in OP)\", within = \"1ms\" }");
-    let both = "`unit 1 is in BOOT`: unit 1 is in INIT; `unit 1 is in OP`: unit 1 is in INIT";
+    let seen = failure("{ expect = \"any of (unit 1 is in SAFE-OP; unit 1 is in OP)\", within = \"1ms\" }");
+    let both = "`unit 1 is in SAFE-OP`: unit 1 is in INIT; `unit 1 is in OP`: unit 1 is in INIT";
     assert_eq!(seen.as_deref(), Some(both));
 }
 

@@ -237,7 +237,7 @@ fn a_cpu_unit_without_power_obeys_nothing() {
     let trace = trace(
         "",
         &[
-            "cpu = \"power on the CPU Rack of unit 1\"",
+            "steps = [{ cpu = \"power on the CPU Rack of unit 1\" }]",
             "cpu = \"power off the CPU Rack of unit 1\"",
             "cpu = \"set unit 1 to PROGRAM mode\"",
             "cpu = \"write N1_UINTs_01_C_to_M[0] as 5\"",

@@ -52,7 +52,7 @@ fn a_list_that_no_object_has_room_for_is_refused_with_its_place() {
 
 /// What the unit shows at the end, after these orders.
 fn shown(unit: &str, orders: &[String]) -> Result<String, String> {
-    let report = parsed(unit, orders, "unit 1 is in BOOT")?.replay(1, Recording::new(false, false));
+    let report = parsed(unit, orders, "unit 1 is in OP")?.replay(1, Recording::new(false, false));
     Ok(report.failure.map_or_else(String::new, |failure| failure.seen))
 }
 

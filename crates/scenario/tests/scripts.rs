@@ -100,11 +100,11 @@ fn a_script_that_is_built_in_code_replays_and_names_steps_by_their_numbers() {
     assert!(report.recording.trace().unwrap_or_default().contains("step      take all units to OP"));
 
     let mut wrong = built();
-    let hasty = Expectation { condition: unit_1_is_in(AlState::Boot), mode: Mode::Now };
+    let hasty = Expectation { condition: unit_1_is_in(AlState::Init), mode: Mode::Now };
     wrong.steps.push(Step::at_once(Order::Expect(hasty)).into());
     let scenario = Scenario::of(wrong, &mut Nothing).expect("a right script");
-    let failure = scenario.replay(1, Recording::new(false, false)).failure.expect("it is not in BOOT");
-    assert_eq!((failure.line, failure.text.as_str()), (3, "unit 1 is in BOOT"));
+    let failure = scenario.replay(1, Recording::new(false, false)).failure.expect("it is not in INIT");
+    assert_eq!((failure.line, failure.text.as_str()), (3, "unit 1 is in INIT"));
 }
 
 #[test]

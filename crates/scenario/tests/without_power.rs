@@ -17,7 +17,8 @@ fn off_and(steps: &[&str]) -> Report {
 
 /// The events of the unit while it has no power, and whether the trace says that the order has no effect.
 fn after_order(order: &str) -> (usize, bool) {
-    let report = off_and(&[&format!("unit = \"{order}\""), "after = \"1s\", line = \"be quiet\""]);
+    let report =
+        off_and(&[&format!("steps = [{{ unit = \"{order}\" }}]"), "after = \"1s\", line = \"be quiet\""]);
     let trace = report.recording.trace().unwrap_or_default();
     (trace.matches(" records ").count(), trace.contains(NO_EFFECT))
 }
@@ -70,7 +71,7 @@ fn what_a_hand_does_to_it_has_an_effect() {
 fn a_unit_with_power_gets_none() {
     let steps = [
         "{ master = \"take unit 1 to OP\" }",
-        "{ when = \"unit 1 is in OP\", unit = \"power on unit 1\" }",
+        "{ when = \"unit 1 is in OP\", steps = [{ unit = \"power on unit 1\" }] }",
         "{ expect = \"unit 1 is in OP\", for = \"500ms\" }",
     ];
     let report = replay(&steps.map(str::to_owned));

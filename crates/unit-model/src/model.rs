@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use variables::VariableTable;
 
-use crate::event::{EventCode, EventInfo};
+use crate::event::{EventCode, EventInfo, EventLog};
 use crate::tables::ModelTables;
 
 /// A unit model. Lists are in the order in which they are shown.
@@ -26,6 +26,17 @@ pub trait Model: Sync {
     /// also appear without power, and are found at the next start.
     fn is_fault_of_operation(&self, _fault: &str) -> bool {
         false
+    }
+
+    /// Whether a fault is a single occurrence, such as a lost message: it can occur again at any time, and its cause does
+    /// not persist.
+    fn is_single_fault(&self, _fault: &str) -> bool {
+        false
+    }
+
+    /// The most records that a log of a unit holds; none for a model without a limit.
+    fn records_max(&self, _log: EventLog) -> Option<usize> {
+        None
     }
 
     /// The names of the indicators.

@@ -5,8 +5,10 @@ use time::Duration;
 
 use super::fault_names::FaultNames;
 use super::files::Files;
+use super::possible::Ordered;
 use super::problem::{Part, Problem};
 use super::program_values::LastingValue;
+use super::standing::Standing;
 use crate::run::{LoadedProgram, MasterProgram, Replacement, SiiImage, UnitSource};
 
 /// Makes a scenario ready.
@@ -34,6 +36,10 @@ pub(super) struct Maker<'f> {
     pub(super) lasting_values: Vec<LastingValue>,
     /// The faults of frames with names in the steps so far.
     pub(super) fault_names: FaultNames,
+    /// What all steps order.
+    pub(super) ordered: Ordered,
+    /// What the orders of the steps so far have changed.
+    pub(super) standing: Standing,
     /// Number of steps and groups so far.
     pub(super) entries: usize,
     /// The latest time at which the scenario ends.
@@ -56,6 +62,8 @@ impl<'f> Maker<'f> {
             unreadable: Vec::new(),
             lasting_values: Vec::new(),
             fault_names: FaultNames::default(),
+            ordered: Ordered::default(),
+            standing: Standing::default(),
             entries: 0,
             limit: Duration::ZERO,
             problems: Vec::new(),

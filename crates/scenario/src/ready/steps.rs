@@ -3,6 +3,7 @@
 use time::Duration;
 
 use super::maker::Maker;
+use super::possible::Ordered;
 use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
 use super::reach::{Subject, line_of, missing_cable, subject};
@@ -57,12 +58,14 @@ impl Maker<'_> {
     ) -> ReadySteps {
         let mut ready = ReadySteps::default();
         self.loads = loads(&steps);
+        self.ordered = Ordered::by(&steps);
         self.limit = limit;
         let mut written = written.into_iter();
         for step in steps {
             let place = Place { at: self.entries, reached: ready.reached, depth: 0, is_repeated: false };
             if let ScriptStep::Random(random) = step {
                 self.entries += 1;
+                self.forget_standing();
                 if let Some(written) = written.next() {
                     self.random(place.at, random, written, ground, &mut ready);
                 }
@@ -95,6 +98,7 @@ impl Maker<'_> {
             ScriptStep::Group(group) => {
                 self.check_moment(&mut place, &group.trigger);
                 let (group, reached) = self.group(group, own, written, place, ground)?;
+                self.forget_standing();
                 Some((PlayedStep::Group(group), reached))
             }
             ScriptStep::Step(mut step) => {
@@ -103,6 +107,9 @@ impl Maker<'_> {
                     self.check_repetition(at, repetition);
                 }
                 self.check_step(at, &mut step, ground);
+                if place.depth == 0 && ground == Ground::Firm {
+                    self.check_does_something(&step.order, Part::Step(at, StepPart::Order));
+                }
                 let Written { line, text, .. } = own;
                 Some((PlayedStep::Step(WrittenStep { step, line, text }), place.reached))
             }
@@ -213,10 +220,14 @@ impl Maker<'_> {
                 self.unit_files(order, part)
             }
             Order::Master(order) => {
+                self.check_sdo(order, part)?;
                 self.check_raw(order, part)?;
                 self.check_outputs(order, part)
             }
-            Order::Line(order) => self.check_cable(order, part),
+            Order::Line(order) => {
+                self.check_mailbox_frames(order, part)?;
+                self.check_cable(order, part)
+            }
             Order::Expect(_) => Some(()),
         }
     }
@@ -281,6 +292,7 @@ impl Maker<'_> {
             self.check_value(of, test, part, lasting)?;
         }
         self.check_words_of_condition(condition, part)?;
+        self.check_can_come(condition, part)?;
         self.check_process_data(condition, part)?;
         self.check_reports(condition, part)?;
         self.resolve(condition, part)?;

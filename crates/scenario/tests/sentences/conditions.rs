@@ -336,7 +336,7 @@ fn logic() -> Vec<ConditionRow> {
     vec![
         condition("not (unit 1 is in INIT)", &[OP], &[], "100ms"),
         condition("all of (unit 1 is in OP; 20 cycles are done)", &[OP], &[PRE_OP], "200ms"),
-        condition("any of (unit 1 is in BOOT; not (unit 1 has no error))", &[BROKEN], &[LATER], "10ms"),
+        condition("any of (unit 1 is in SAFE-OP; not (unit 1 has no error))", &[BROKEN], &[LATER], "10ms"),
     ]
 }
 

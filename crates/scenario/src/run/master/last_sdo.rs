@@ -66,9 +66,10 @@ impl LastSdo {
         self.awaited = Some(number);
     }
 
-    /// An SDO is answered; without a number it is one that the master sends on the way to a state.
+    /// An SDO is answered. Without a number it is one that the master sends on the way to a state, which no step has
+    /// ordered.
     fn answer(&mut self, number: Option<SdoNumber>, result: &SdoResult) {
-        if self.awaited.is_none() || self.awaited == number {
+        if number.is_some() && self.awaited == number {
             (self.awaited, self.result) = (None, Some(result.clone()));
         }
     }
