@@ -5,6 +5,7 @@ use wire::Emergency;
 
 use super::master::scripted;
 use super::seen::{Seen, holds, is_often_enough};
+use super::unit::has_power;
 use crate::model::{Bytes, Hex, WhichUnit, hex};
 use crate::run::bench::Bench;
 use crate::run::master::Received;
@@ -52,6 +53,7 @@ fn words(Received { unit, emergency }: &Received, is_long: bool) -> String {
 }
 
 pub(super) fn lost(world: &mut Bench<'_>, at: usize, times: u64) -> Result<(), Seen> {
+    has_power(world, at)?;
     let seen = world.emergencies_lost(at);
     holds(seen == times, || format!("unit {} has lost {seen}", at + 1))
 }

@@ -5,6 +5,7 @@ use core::ops::Range;
 use wire::{ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds, is_often_enough};
+use super::unit::has_power;
 use crate::model::{Bytes, EventCode, EventLog, hex};
 use crate::run::bench::Bench;
 
@@ -24,17 +25,20 @@ pub(super) fn has(
     event: EventCode,
     times: Option<u64>,
 ) -> Check {
+    has_power(world, at)?;
     let logged = logged(world, at, log);
     let seen = logged.iter().filter(|logged| **logged == event).count() as u64;
     holds(is_often_enough(seen, times), || format!("unit {}: {}", at + 1, words(&logged)))
 }
 
 pub(super) fn is_empty(world: &mut Bench<'_>, at: usize, log: EventLog) -> Check {
+    has_power(world, at)?;
     let logged = logged(world, at, log);
     holds(logged.is_empty(), || format!("unit {}: {}", at + 1, words(&logged)))
 }
 
 pub(super) fn message(world: &mut Bench<'_>, at: usize, number: Option<u8>, event: EventCode) -> Check {
+    has_power(world, at)?;
     let unit = world.unit(at);
     let message =
         number.or(unit.newest_diagnosis_message()).and_then(|number| unit.diagnosis_message(number));
@@ -46,6 +50,7 @@ pub(super) fn message(world: &mut Bench<'_>, at: usize, number: Option<u8>, even
 }
 
 pub(super) fn message_bytes(world: &mut Bench<'_>, at: usize, number: u8, wanted: &Bytes) -> Check {
+    has_power(world, at)?;
     let sub = number.saturating_add(BEFORE_MESSAGES);
     let message = world.object(at, HISTORY, SubIndex(sub)).unwrap_or_default();
     let is_there = world.unit(at).diagnosis_message(number).is_some();
@@ -57,6 +62,7 @@ pub(super) fn message_bytes(world: &mut Bench<'_>, at: usize, number: u8, wanted
 }
 
 pub(super) fn message_count(world: &mut Bench<'_>, at: usize, count: u64) -> Check {
+    has_power(world, at)?;
     let logged = logged(world, at, EventLog::System);
     holds(logged.len() as u64 == count, || {
         format!("unit {} has {}: {}", at + 1, logged.len(), words(&logged))

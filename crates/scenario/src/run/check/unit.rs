@@ -28,6 +28,7 @@ pub(super) fn state(world: &mut Bench<'_>, at: usize, state: AlState, code: Opti
 }
 
 pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times: Option<u64>) -> Check {
+    has_power(world, at)?;
     let seen = world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64;
     holds(is_often_enough(seen, times), || {
         format!("{} has recorded it {}; {}", name(at), times_words(seen), world.recorded_words(at))
@@ -35,6 +36,7 @@ pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times
 }
 
 pub(super) fn recorded_nothing(world: &mut Bench<'_>, at: usize) -> Check {
+    has_power(world, at)?;
     holds(world.recorded(at).is_empty(), || format!("{}: {}", name(at), world.recorded_words(at)))
 }
 
@@ -74,6 +76,7 @@ pub(super) fn register(world: &mut Bench<'_>, at: usize, register: u16, value: &
 }
 
 pub(super) fn outputs(world: &mut Bench<'_>, at: usize, first: u16, bytes: &Bytes) -> Check {
+    has_power(world, at)?;
     lie_at(world.io(at).m_to_c(), first.into(), bytes)
 }
 
@@ -107,6 +110,7 @@ pub(super) fn direction_valid(
 }
 
 pub(super) fn io_data_active(world: &mut Bench<'_>, at: usize, active: bool) -> Check {
+    has_power(world, at)?;
     let seen = world.io(at).io_data_active();
     holds(seen == active, || format!("{}: NX Unit I/O Data Active Status is {}", name(at), truth(seen)))
 }

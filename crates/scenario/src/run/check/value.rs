@@ -93,6 +93,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::OutputByte { unit, at: first } => {
             let at = there(unit, world)?;
+            unit::has_power(world, at)?;
             byte(world.io(at).m_to_c(), *first)
         }
         Quantity::InputByte { unit, at: first } => {
@@ -101,6 +102,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::Outputs { unit } => {
             let at = there(unit, world)?;
+            unit::has_power(world, at)?;
             Ok(Reading::bytes(world.io(at).m_to_c().to_vec(), None))
         }
         Quantity::Inputs { unit } => {
@@ -126,6 +128,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::Records { unit, event } => {
             let at = there(unit, world)?;
+            unit::has_power(world, at)?;
             Ok(Reading::count(world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64))
         }
         Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
