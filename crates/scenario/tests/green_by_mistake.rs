@@ -106,6 +106,39 @@ steps = [
     assert!(quiet.passes() && quiet.lasted > Duration::from_millis(200), "{:?}", quiet.failure);
 }
 
+/// What is pending when the last step is done is waited for.
+#[test]
+fn a_never_as_the_last_step_lasts_until_effects_that_are_pending_have_come() {
+    let op = r#"title = "t"
+steps = [
+  { unit = "let transition OS of unit 1 take 300ms" },
+  { master = "take unit 1 to OP" },
+  { expect = "unit 1 is in OP", within = "1s" },"#;
+    for (steps, condition) in [
+        (r#"{ master = "request SAFE-OP of unit 1" }"#, "unit 1 is in SAFE-OP"),
+        (
+            r#"{ master = "write register 0x0420 of unit 1 as 88 13" }, { expect = "the master has nothing to do", within = "10ms" }, { line = "lose all process data frames" }"#,
+            "unit 1 has recorded 85000000",
+        ),
+        (
+            r#"{ line = "lose numbers 400 to 600 of the process data frames" }"#,
+            "unit 1 has recorded 85000000",
+        ),
+    ] {
+        let failure = failure(&format!("{op} {steps}, {{ never = \"{condition}\" }}]"));
+        assert_eq!((failure.text.as_str(), failure.seen.as_str()), (condition, "it does hold"), "{steps}");
+    }
+    // Frames that do not come, and the limit, end the wait.
+    let mailbox =
+        r#"{ line = "lose the next 5 mailbox frames of unit 1" }, { never = "unit 1 is in SAFE-OP" }"#;
+    let report = replay(&format!("{op} {mailbox}]"));
+    assert!(report.passes() && report.lasted < Duration::from_secs(2), "{:?}", report.failure);
+    let long =
+        r#"{ line = "lose 1 % of the mailbox frames for 1999ms" }, { never = "unit 1 is in SAFE-OP" }"#;
+    let report = replay(&format!("{op} {long}]").replace("steps = [", "limit = \"2s\"\nsteps = ["));
+    assert!(report.passes() && report.lasted >= Duration::from_secs(2), "{:?}", report.failure);
+}
+
 #[test]
 fn a_run_ends_when_the_master_has_nothing_to_do() {
     let text = r#"title = "t"

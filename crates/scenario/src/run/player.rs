@@ -112,9 +112,9 @@ impl<'a> Player<'a> {
                 return Ok(waits);
             }
             let last = self.shared.last;
-            self.rest = last.map(|last| Rest::after(last, stage.now(), &self.shared));
+            self.rest = last.map(|last| Rest::after(last, stage, &self.shared));
         }
-        match &self.rest {
+        match &mut self.rest {
             Some(rest) => rest.poll(stage, &mut self.shared),
             None => Ok(Progress::Done),
         }

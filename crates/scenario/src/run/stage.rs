@@ -35,6 +35,16 @@ pub(crate) trait Stage {
     /// What the scripted master is doing; none: it has nothing to do.
     fn unfinished(&self) -> Option<String>;
 
+    /// Whether effects of orders are still to come, whatever the master does: a transition under way, a fault of frames that
+    /// will end by itself.
+    fn is_unsettled(&mut self) -> bool;
+
+    /// The number of frames that faults of the line have to see until they have met all that they select.
+    fn frames_to_come(&self) -> u64;
+
+    /// The time after which what has happened by now has shown its effects: a watchdog expires.
+    fn shows_until(&self) -> Instant;
+
     /// Adds a line about a step to the trace.
     fn note_step(&mut self, words: &str);
 }

@@ -44,6 +44,18 @@ impl Stage for World {
         (!master.is_idle()).then(|| master.activity())
     }
 
+    fn is_unsettled(&mut self) -> bool {
+        self.is_unsettled()
+    }
+
+    fn frames_to_come(&self) -> u64 {
+        self.frames_to_come()
+    }
+
+    fn shows_until(&self) -> Instant {
+        self.shows_until()
+    }
+
     fn note_step(&mut self, words: &str) {
         let now = self.now();
         self.recording().tell(now, "step", words);

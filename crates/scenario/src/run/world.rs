@@ -2,6 +2,7 @@
 
 mod frames;
 mod indicators;
+mod settled;
 mod supply;
 
 use coe_kit::indicators::Pattern;
