@@ -131,19 +131,25 @@ fn what_can_never_come_is_refused() {
         ),
         (&["never = \"unit 1 has 33 diagnosis messages\""], "33 messages in a log of unit 1, which holds 32"),
         (&["never = \"diagnosis message 33 of unit 1 is 85000000\""], "33 messages in a log of unit 1"),
-        (&["never = \"unit 1 is in BOOT\""], "unit 1 is a nx-ect101, which has no state BOOT"),
+        (&["never = \"unit 1 is in BOOT\""], "which has no state BOOT"),
         (&["never = \"all units are in BOOT\""], "which has no state BOOT"),
         (&[READ, "never = \"the last SDO was refused with 0x12345678\""], "0x12345678 is no abort code"),
         (&["never = \"the last frame did not come back\""], "no step sends a frame"),
         (&["never = \"the last mailbox message has no answer\""], "no step sends a mailbox message"),
         (&["never = \"the last register read gave 00\""], "no step reads a register"),
         (&["never = \"the last SDO was taken\""], "no step sends an SDO"),
-        (&["master = \"read SDO 1018:01 of unit 2\""], "unit 2 is a digital, which has no mailbox"),
+        (
+            &["master = \"read SDO 1018:01 of unit 2\""],
+            "unit 2 is of the model digital, which has no mailbox",
+        ),
         (
             &[READ, "never = \"the last SDO of unit 2 was taken\""],
-            "unit 2 is a digital, which has no mailbox",
+            "unit 2 is of the model digital, which has no mailbox",
         ),
-        (&["line = \"lose all mailbox frames of unit 2\""], "unit 2 is a digital, which has no mailbox"),
+        (
+            &["line = \"lose all mailbox frames of unit 2\""],
+            "unit 2 is of the model digital, which has no mailbox",
+        ),
     ] {
         assert_refused(steps, words);
     }

@@ -5,7 +5,7 @@ use time::Duration;
 
 use super::fault_names::FaultNames;
 use super::files::Files;
-use super::possible::Ordered;
+use super::ordered::Ordered;
 use super::problem::{Part, Problem};
 use super::program_values::LastingValue;
 use super::standing::Standing;

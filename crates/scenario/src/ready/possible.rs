@@ -7,92 +7,14 @@ use wire::{AlState, AlStatusCode, SdoAbort};
 
 use super::maker::Maker;
 use super::model_words::Needed;
+use super::ordered::sdo_unit;
 use super::problem::Part;
 use crate::model::{
-    Condition, ConductOrder, Disturbance, EventLog, FrameKind, LineOrder, MasterOrder, Order, Quantity,
-    ScriptStep, WhichUnit, UnitOrder, UnitSet, in_order,
+    Condition, Disturbance, EventLog, FrameKind, LineOrder, MasterOrder, Quantity, UnitSet, WhichUnit,
 };
 
 /// Bytes of the registers; the RAM begins there.
 const REGISTER_BYTES: usize = 0x1000;
-
-/// What the steps of a scenario order somewhere, as far as conditions are about it.
-#[derive(Default)]
-pub(super) struct Ordered {
-    /// There are random steps, which can order anything.
-    has_random: bool,
-    /// AL status codes with which units refuse states.
-    codes: Vec<u16>,
-    reads_register: bool,
-    sends_message: bool,
-    sends_frame: bool,
-    /// The units to which SDOs are sent, by their positions.
-    sdos: Vec<usize>,
-}
-
-impl Ordered {
-    pub(super) fn by(steps: &[ScriptStep]) -> Self {
-        let mut ordered = Self::default();
-        for entry in in_order(steps) {
-            match entry {
-                ScriptStep::Random(_) => ordered.has_random = true,
-                ScriptStep::Step(step) => ordered.add(&step.order),
-                ScriptStep::Group(_) => {}
-            }
-        }
-        ordered
-    }
-
-    fn add(&mut self, order: &Order) {
-        match order {
-            Order::Unit(UnitOrder::Conduct {
-                conduct: ConductOrder::Refuse { al_status_code, .. }, ..
-            }) => {
-                self.codes.push(al_status_code.0);
-            }
-            Order::Master(order) => {
-                self.sdos.extend(sdo_unit(order).map(WhichUnit::position));
-                self.reads_register |= matches!(order, MasterOrder::ReadRegister { .. });
-                self.sends_message |= matches!(order, MasterOrder::SendMailboxMessage { .. });
-                self.sends_frame |= matches!(order, MasterOrder::SendFrame { .. });
-            }
-            Order::Unit(_) | Order::Cpu(_) | Order::Line(_) | Order::Expect(_) => {}
-        }
-    }
-}
-
-/// The unit to whose mailbox an order sends an SDO.
-const fn sdo_unit(order: &MasterOrder) -> Option<&WhichUnit> {
-    match order {
-        MasterOrder::WriteSdo { unit, .. }
-        | MasterOrder::ReadSdo { unit, .. }
-        | MasterOrder::ReadCompleteSdo { unit, .. }
-        | MasterOrder::WriteCompleteSdo { unit, .. }
-        | MasterOrder::WriteSdoInSegments { unit, .. }
-        | MasterOrder::ReadObjectList { unit, .. }
-        | MasterOrder::DescribeObject { unit, .. }
-        | MasterOrder::DescribeEntry { unit, .. } => Some(unit),
-        MasterOrder::Take { .. }
-        | MasterOrder::Request { .. }
-        | MasterOrder::ExchangeProcessData { .. }
-        | MasterOrder::StopProcessData
-        | MasterOrder::SetOutputs { .. }
-        | MasterOrder::MapPdo { .. }
-        | MasterOrder::AssignPdos { .. }
-        | MasterOrder::SetSyncManagerLength { .. }
-        | MasterOrder::SetSyncManagerControl { .. }
-        | MasterOrder::WriteRegister { .. }
-        | MasterOrder::WriteRegisterInHalves { .. }
-        | MasterOrder::ReadRegister { .. }
-        | MasterOrder::SendMailboxMessage { .. }
-        | MasterOrder::SendFrame { .. }
-        | MasterOrder::UseMailboxCounter { .. }
-        | MasterOrder::ReadNoMailbox
-        | MasterOrder::ReadNoEmergencies
-        | MasterOrder::Behave
-        | MasterOrder::Restart => None,
-    }
-}
 
 impl Maker<'_> {
     /// Whether the unit of an SDO has a mailbox.
@@ -111,7 +33,10 @@ impl Maker<'_> {
 
     fn check_mailbox(&mut self, unit: &WhichUnit, part: Part) -> Option<()> {
         let is_known = Box::new(|unit: &dyn UnitSection| unit.shape().mailbox);
-        self.check_words(&Needed { units: UnitSet::from(unit.clone()), words: "mailbox".to_owned(), is_known }, part)
+        self.check_words(
+            &Needed { units: UnitSet::from(unit.clone()), words: "mailbox".to_owned(), is_known },
+            part,
+        )
     }
 
     /// Whether what a condition is about can come.
@@ -138,9 +63,13 @@ impl Maker<'_> {
                 self.check_count(units, EventLog::System, *count, "messages", part)
             }
             Condition::DiagnosisMessage { unit, number: Some(number), .. }
-            | Condition::DiagnosisMessageBytes { unit, number, .. } => {
-                self.check_count(&UnitSet::from(unit.clone()), EventLog::System, (*number).into(), "messages", part)
-            }
+            | Condition::DiagnosisMessageBytes { unit, number, .. } => self.check_count(
+                &UnitSet::from(unit.clone()),
+                EventLog::System,
+                (*number).into(),
+                "messages",
+                part,
+            ),
             Condition::SdoRefused { unit, abort_code } => {
                 self.check_abort_code(abort_code.0, part)?;
                 self.check_sdo_ordered(unit.as_ref(), part)

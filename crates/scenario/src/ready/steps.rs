@@ -3,7 +3,7 @@
 use time::Duration;
 
 use super::maker::Maker;
-use super::possible::Ordered;
+use super::ordered::Ordered;
 use super::problem::{Part, StepPart};
 use super::programs::{Lasting, loads};
 use super::reach::{Subject, line_of, missing_cable, subject};
