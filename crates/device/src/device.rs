@@ -7,6 +7,7 @@ mod start_up;
 mod watch;
 
 use esc::{AlEvents, Esc, Pdi, SmIndex};
+use mailbox::MailboxNote;
 use time::{Duration, Instant};
 use wire::{AlState, AlStatus, AlStatusCode};
 
@@ -117,6 +118,12 @@ impl<U: Unit> Device<U> {
     #[must_use]
     pub const fn al_status_code(&self) -> AlStatusCode {
         self.machine.code()
+    }
+
+    /// Takes the oldest note of what has happened in the mailbox, for an observer. Without one a few are kept.
+    #[inline]
+    pub fn take_mailbox_note(&mut self) -> Option<MailboxNote> {
+        self.mailbox.as_mut().and_then(MailboxService::take_note)
     }
 
     /// Mutable access to the conduct of the state machine; [`Device::behave`] restores the configured conduct.

@@ -1,7 +1,7 @@
 //! SyncManagers 0 and 1 for the mailbox: when a request is served, when a message may be sent, repeats.
 
 use esc::{Pdi, SmIndex};
-use mailbox::{Mailbox, MailboxSizes};
+use mailbox::{Mailbox, MailboxNote, MailboxSizes};
 use objects::{ObjectServer, ObjectTable};
 use time::{Duration, Instant};
 use wire::AlState;
@@ -39,6 +39,12 @@ impl MailboxService {
 
     pub(crate) fn mailbox(&mut self) -> &mut Mailbox {
         &mut self.mailbox
+    }
+
+    /// Takes the oldest note of what has happened.
+    #[inline]
+    pub(crate) fn take_note(&mut self) -> Option<MailboxNote> {
+        self.mailbox.take_note()
     }
 
     /// A request that is already waiting keeps its time.

@@ -224,6 +224,9 @@ impl<U: Unit> Network<U> {
             && has_power(Some(cable))
             && has_power(cable.checked_sub(1));
         self.segment.set_cable(cable, carries);
+        // Its ends show another link.
+        let ends = [Some(cable), cable.checked_sub(1)].into_iter().flatten();
+        ends.filter(|end| *end < self.devices.len()).for_each(|end| self.agenda.has_changed(end));
     }
 
     /// Restarts one slave; a position without a slave has no effect, nor has any start but [`Start::PowerOn`] of a

@@ -44,9 +44,11 @@ mod checks;
 mod emergencies;
 mod info;
 mod mailbox;
+mod notes;
 mod outbox;
 mod sdo;
 
 pub use abort_profile::AbortProfile;
 pub use emergencies::EmergencyLost;
 pub use mailbox::{Mailbox, MailboxSizes};
+pub use notes::{MailboxNote, MessageContent, MessageNote, SdoDirection, SdoEnd, SdoNote, SdoValue};

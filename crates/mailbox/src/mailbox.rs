@@ -3,13 +3,14 @@
 use objects::{ObjectServer, ObjectTable};
 use wire::{
     AlState, CoeHeader, CoeService, Emergency, MailboxErrorCode, MailboxErrorReply, MailboxHeader,
-    MailboxType,
+    MailboxType, ObjectIndex, SdoAbort, SdoResponse, SubIndex,
 };
 
 use crate::AbortProfile;
 use crate::checks::Judge;
 use crate::emergencies::{Emergencies, EmergencyLost};
 use crate::info::InfoServer;
+use crate::notes::{MailboxNote, MessageContent, MessageNote, Notes};
 use crate::outbox::Outbox;
 use crate::sdo::SdoServer;
 
@@ -47,6 +48,7 @@ pub struct Mailbox {
     info: InfoServer,
     emergencies: Emergencies,
     outbox: Outbox,
+    notes: Notes,
     /// Counter of the last counted message received, 0 for none.
     received_counter: u8,
     /// Counter of the last message sent, 0 for none.
@@ -72,6 +74,7 @@ impl Mailbox {
             info: InfoServer::new(table, send_bytes),
             emergencies: Emergencies::default(),
             outbox: Outbox::new(send_bytes),
+            notes: Notes::default(),
             received_counter: 0,
             sent_counter: 0,
         }
@@ -108,7 +111,9 @@ impl Mailbox {
         let reply = reply.get_mut(..usize::from(self.sizes.send_bytes))?;
         let (_, room) = reply.split_at_mut_checked(MailboxHeader::LENGTH_BYTES)?;
         let header = MailboxHeader::parse(request);
-        if header.is_some_and(|header| self.came_before(header)) {
+        let again = header.is_some_and(|header| self.came_before(header));
+        self.notes.add(MailboxNote::Received(note_of(header, request, again)));
+        if again {
             return None;
         }
         let address = header.map_or(0, |header| header.address);
@@ -140,7 +145,9 @@ impl Mailbox {
             *coe = CoeHeader::new(CoeService::SdoInformation).pack();
             length_bytes
         } else {
-            let emergency = self.emergencies.pop()?.pack();
+            let emergency = self.emergencies.pop()?;
+            self.notes.add(MailboxNote::Emergency(emergency));
+            let emergency = emergency.pack();
             *coe = CoeHeader::new(CoeService::Emergency).pack();
             *room.first_chunk_mut()? = emergency;
             emergency.len()
@@ -171,7 +178,16 @@ impl Mailbox {
     /// which then replace the contents of SyncManager 1. None if the master has read none since
     /// [`Mailbox::reset`]; SyncManager 1 is then unchanged.
     pub fn repeat(&mut self, reply: &mut [u8]) -> Option<usize> {
-        self.outbox.repeat(reply)
+        let length_bytes = self.outbox.repeat(reply)?;
+        let message = reply.get(..length_bytes)?;
+        self.notes.add(MailboxNote::Sent(note_of(MailboxHeader::parse(message), message, true)));
+        Some(length_bytes)
+    }
+
+    /// Takes the oldest note of what has happened; none if there is none. Without an observer a few are kept.
+    #[inline]
+    pub fn take_note(&mut self) -> Option<MailboxNote> {
+        if self.notes.is_empty() { None } else { self.notes.take() }
     }
 
     /// Whether this message has already been served; messages with counter 0 are never compared.
@@ -218,8 +234,8 @@ impl Mailbox {
             return Ok(None);
         };
         let (service, length_bytes) = match header.service {
-            CoeService::SdoRequest => match self.sdo.request(data, judge, objects)? {
-                Some(response) => (response.service(), response.pack(room)),
+            CoeService::SdoRequest => match self.sdo(data, judge, objects, room)? {
+                Some(response) => response,
                 None => return Ok(None),
             },
             CoeService::SdoInformation => {
@@ -229,6 +245,23 @@ impl Mailbox {
         };
         *coe = CoeHeader::new(service).pack();
         Ok(length_bytes.map(|length_bytes| CoeHeader::LENGTH_BYTES + length_bytes))
+    }
+
+    /// Serves an SDO; returns the service and the length of the response, or none for an abort by the master.
+    fn sdo(
+        &mut self,
+        sdo: &[u8],
+        judge: Judge,
+        objects: &mut dyn ObjectServer,
+        room: &mut [u8],
+    ) -> Result<Option<(CoeService, Option<usize>)>, MailboxErrorCode> {
+        let response = self.sdo.request(sdo, judge, objects)?;
+        let abort = response.as_ref().and_then(refusal);
+        let packed = response.map(|response| (response.service(), response.pack(room)));
+        if let Some(note) = self.sdo.take_note(abort) {
+            self.notes.add(MailboxNote::Sdo(note));
+        }
+        Ok(packed)
     }
 
     /// Writes the header before a message and keeps a copy of the message. The address of a reply is that of
@@ -253,8 +286,34 @@ impl Mailbox {
         *reply.first_chunk_mut()? = header.pack();
         let message = reply.get(..MailboxHeader::LENGTH_BYTES + length_bytes)?;
         self.outbox.sent(message);
+        self.notes.add(MailboxNote::Sent(note_of(Some(header), message, false)));
         Some(message.len())
     }
+}
+
+/// The object and the reason of a refusal.
+const fn refusal(response: &SdoResponse<'_>) -> Option<(ObjectIndex, SubIndex, SdoAbort)> {
+    match response {
+        SdoResponse::Abort { index, sub, code } => Some((*index, *sub, *code)),
+        SdoResponse::Download { .. }
+        | SdoResponse::DownloadSegment { .. }
+        | SdoResponse::UploadExpedited { .. }
+        | SdoResponse::UploadNormal { .. }
+        | SdoResponse::UploadSegment { .. } => None,
+    }
+}
+
+fn note_of(header: Option<MailboxHeader>, message: &[u8], again: bool) -> MessageNote {
+    let body = message.get(MailboxHeader::LENGTH_BYTES..).unwrap_or_default();
+    let protocol = header.map_or(MailboxType::Other(0), |header| header.mailbox_type);
+    let content = match (protocol, CoeHeader::parse(body)) {
+        (MailboxType::Coe, Some((coe, _))) => MessageContent::Coe(coe.service),
+        (MailboxType::Error, _) => MailboxErrorReply::parse(body)
+            .map_or(MessageContent::Other(MailboxType::Error), |reply| MessageContent::Error(reply.detail)),
+        (protocol, _) => MessageContent::Other(protocol),
+    };
+    let (counter, length_bytes) = header.map_or((0, 0), |header| (header.counter, header.length_bytes));
+    MessageNote { content, counter, length_bytes, again }
 }
 
 /// INIT has no mailbox.

@@ -7,6 +7,7 @@ use wire::{
 };
 
 use crate::checks::Judge;
+use crate::notes::{SdoDirection, SdoEnd, SdoNote, SdoValue};
 
 /// A transfer that a further segment continues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +44,17 @@ pub(crate) struct SdoServer {
     undo: Vec<u8>,
     /// Maximum length of one SDO in bytes, after the CoE header.
     sdo_bytes_max: usize,
+    /// The last request, for the note of its end.
+    asked: Asked,
+    /// The SDO that the last request has ended; none if there is none, or it was refused.
+    ended: Option<SdoNote>,
+}
+
+/// What is known of a request, whatever its answer is.
+#[derive(Clone, Copy, Debug)]
+struct Asked {
+    direction: Option<SdoDirection>,
+    access: SdoAccess,
 }
 
 impl SdoServer {
@@ -54,11 +66,25 @@ impl SdoServer {
             buffer: vec![0; longest_bytes],
             undo: vec![0; longest_bytes],
             sdo_bytes_max,
+            asked: Asked { direction: None, access: SdoAccess::Entry },
+            ended: None,
         }
     }
 
     pub(crate) fn reset(&mut self) {
         self.transfer = Transfer::Idle;
+    }
+
+    /// Takes the note of the SDO that the last request has ended; `refused` is its refusal, if it was refused.
+    pub(crate) fn take_note(
+        &mut self,
+        refused: Option<(ObjectIndex, SubIndex, SdoAbort)>,
+    ) -> Option<SdoNote> {
+        let ended = self.ended.take();
+        let Some((index, sub, code)) = refused else { return ended };
+        let Asked { direction, access } = self.asked;
+        let target = SdoTarget { index, sub, access };
+        Some(SdoNote { direction, target, value: SdoValue::default(), end: SdoEnd::Refused(code) })
     }
 
     /// Serves one SDO; returns the response, or none for an abort by the master.
@@ -68,7 +94,9 @@ impl SdoServer {
         judge: Judge,
         objects: &mut dyn ObjectServer,
     ) -> Result<Option<SdoResponse<'_>>, MailboxErrorCode> {
-        let outcome = match SdoRequest::parse(sdo) {
+        let request = SdoRequest::parse(sdo);
+        self.asked = asked(request.as_ref().ok(), self.transfer);
+        let outcome = match request {
             Ok(request) => self.serve(request, judge, objects),
             Err(SdoSyntaxError::TooShort) => return Err(MailboxErrorCode::SIZE_TOO_SHORT),
             Err(SdoSyntaxError::InvalidSize) => return Err(MailboxErrorCode::INVALID_SIZE),
@@ -105,7 +133,13 @@ impl SdoServer {
             SdoRequest::DownloadSegment { toggle, last, data } => {
                 self.download_segment(transfer, toggle, last, data, judge, objects).map(Some)
             }
-            SdoRequest::Abort { .. } => Ok(None),
+            SdoRequest::Abort { index, sub, code } => {
+                let Asked { direction, access } = self.asked;
+                let target = SdoTarget { index, sub, access };
+                let (value, end) = (SdoValue::default(), SdoEnd::AbortedByMaster(code));
+                self.ended = Some(SdoNote { direction, target, value, end });
+                Ok(None)
+            }
         }
     }
 
@@ -116,11 +150,15 @@ impl SdoServer {
         objects: &mut dyn ObjectServer,
     ) -> Result<SdoResponse<'_>, SdoAbort> {
         let size_bytes = self.read(target, judge, objects)?;
+        let noted = SdoValue::of(self.buffer.get(..size_bytes).ok_or(SdoAbort::OUT_OF_MEMORY)?);
+        let room_bytes = self.sdo_bytes_max.saturating_sub(SdoResponse::UPLOAD_OVERHEAD_BYTES);
+        if size_bytes <= room_bytes {
+            self.ended = Some(done(SdoDirection::Upload, target, noted));
+        }
         let value = self.buffer.get(..size_bytes).ok_or(SdoAbort::OUT_OF_MEMORY)?;
         if let Some(field) = expedited(value) {
             return Ok(SdoResponse::UploadExpedited { target, field, length_bytes: size_bytes as u8 });
         }
-        let room_bytes = self.sdo_bytes_max.saturating_sub(SdoResponse::UPLOAD_OVERHEAD_BYTES);
         let data = value.get(..room_bytes).unwrap_or(value);
         if data.len() < size_bytes {
             self.transfer =
@@ -141,7 +179,10 @@ impl SdoServer {
         let room_bytes = self.sdo_bytes_max.saturating_sub(SdoResponse::SEGMENT_OVERHEAD_BYTES);
         let data = rest.get(..room_bytes).unwrap_or(rest);
         let last = data.len() == rest.len();
-        if !last {
+        if last {
+            let value = SdoValue::of(self.buffer.get(..size_bytes).unwrap_or_default());
+            self.ended = Some(done(SdoDirection::Upload, target, value));
+        } else {
             let sent_bytes = sent_bytes + data.len();
             self.transfer = Transfer::Upload { target, size_bytes, sent_bytes, expected_toggle: !toggle };
         }
@@ -228,7 +269,9 @@ impl SdoServer {
         judge: Judge,
         objects: &mut dyn ObjectServer,
     ) -> Result<(), SdoAbort> {
-        write(target, data, judge, objects, &mut self.undo)
+        write(target, data, judge, objects, &mut self.undo)?;
+        self.ended = Some(done(SdoDirection::Download, target, SdoValue::of(data)));
+        Ok(())
     }
 
     fn write_buffer(
@@ -239,8 +282,34 @@ impl SdoServer {
         objects: &mut dyn ObjectServer,
     ) -> Result<(), SdoAbort> {
         let data = self.buffer.get(..size_bytes).ok_or(SdoAbort::OUT_OF_MEMORY)?;
-        write(target, data, judge, objects, &mut self.undo)
+        write(target, data, judge, objects, &mut self.undo)?;
+        self.ended = Some(done(SdoDirection::Download, target, SdoValue::of(data)));
+        Ok(())
     }
+}
+
+const fn done(direction: SdoDirection, target: SdoTarget, value: SdoValue) -> SdoNote {
+    SdoNote { direction: Some(direction), target, value, end: SdoEnd::Done }
+}
+
+/// The direction of a request, and its access; those of the transfer that it continues or ends.
+const fn asked(request: Option<&SdoRequest<'_>>, transfer: Transfer) -> Asked {
+    let (of_transfer, transferred) = match transfer {
+        Transfer::Idle => (None, SdoAccess::Entry),
+        Transfer::Upload { target, .. } => (Some(SdoDirection::Upload), target.access),
+        Transfer::Download { target, .. } => (Some(SdoDirection::Download), target.access),
+    };
+    let (direction, access) = match request {
+        None => (None, SdoAccess::Entry),
+        Some(SdoRequest::Abort { .. }) => (of_transfer, transferred),
+        Some(SdoRequest::Upload { target }) => (Some(SdoDirection::Upload), target.access),
+        Some(SdoRequest::UploadSegment { .. }) => (Some(SdoDirection::Upload), transferred),
+        Some(SdoRequest::DownloadExpedited { target, .. } | SdoRequest::DownloadNormal { target, .. }) => {
+            (Some(SdoDirection::Download), target.access)
+        }
+        Some(SdoRequest::DownloadSegment { .. }) => (Some(SdoDirection::Download), transferred),
+    };
+    Asked { direction, access }
 }
 
 /// Checks and writes; the state may have changed since a segmented download began.

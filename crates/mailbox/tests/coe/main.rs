@@ -6,6 +6,7 @@ mod complete_access;
 mod emergency;
 mod headers;
 mod information;
+mod notes;
 mod properties;
 mod repeat;
 mod sdo;
