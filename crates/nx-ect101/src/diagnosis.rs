@@ -12,7 +12,7 @@ mod standing;
 
 use arrayvec::ArrayVec;
 use coe_kit::history::HistoryRequests;
-use unit_model::CurrentError;
+use unit_model::{AttachedInformation, CurrentError, RecordedEvent};
 use wire::{Emergency, SdoAbort};
 
 use crate::events::{Event, EventCode, EventLevel, EventLog, Notified};
@@ -54,7 +54,7 @@ pub(crate) struct Diagnosis {
     /// Number of those for which there was no room, since power-on.
     emergencies_lost: u64,
     /// The events since the last query.
-    occurred: ArrayVec<EventCode, OCCURRED_MAX>,
+    occurred: ArrayVec<RecordedEvent, OCCURRED_MAX>,
     /// 10F3:03 and :05.
     requests: HistoryRequests,
     levels: EventLevels,
@@ -94,7 +94,8 @@ impl Diagnosis {
         let Some(event) = Event::find(occurrence.event) else { return };
         let level = self.levels.of(event);
         // The observer takes them in every step; without an observer the first ones are kept.
-        let _ = self.occurred.try_push(event.code);
+        let attached = AttachedInformation::of(&occurrence.details);
+        let _ = self.occurred.try_push(RecordedEvent { code: event.code, level, attached });
         self.record(event, level, &occurrence);
         self.list(event, &occurrence);
         if self.requests.emergencies_enabled() && event.emergency_notified == Notified::Possible {
@@ -151,12 +152,12 @@ impl Diagnosis {
     }
 
     /// Takes the events since the last call, the oldest first.
-    pub(crate) fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
+    pub(crate) fn take_occurred(&mut self) -> ArrayVec<RecordedEvent, OCCURRED_MAX> {
         core::mem::take(&mut self.occurred)
     }
 
     /// Takes the oldest of them.
-    pub(crate) fn take_event(&mut self) -> Option<EventCode> {
+    pub(crate) fn take_event(&mut self) -> Option<RecordedEvent> {
         self.occurred.pop_at(0)
     }
 

@@ -10,9 +10,9 @@ use objects::ObjectTable;
 use time::Duration;
 use unit_model::keys::Timing;
 use unit_model::{
-    CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable, MemoryDamage,
-    Model, ModelTables, ModelUnit, NotThere, PowerOn, PoweredUnit, SettingsCheck, SlaveView, UnitFiles,
-    UnitSection,
+    AttachedInformation, CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog,
+    LevelNotChangeable, MemoryDamage, Model, ModelTables, ModelUnit, NotThere, PowerOn, PoweredUnit,
+    RecordedEvent, SettingsCheck, SlaveView, StoredLogs, StoredRecord, UnitFiles, UnitSection,
 };
 use user_file::{Located, Reader, Section};
 use variables::VariableTable;
@@ -118,6 +118,21 @@ impl Model for NxEct101Model {
         model_tables::tables()
     }
 
+    fn stored_logs(&self, memory: &[u8]) -> Result<StoredLogs, MemoryDamage> {
+        let memory = decoded(memory)?;
+        let log = memory.error_log();
+        let stored = |log| {
+            move |record: &LogRecord| {
+                let attached = AttachedInformation::of(&record.details);
+                let event = RecordedEvent { code: record.event, level: record.level, attached };
+                StoredRecord { log, event, time_ns: record.time_ns }
+            }
+        };
+        let system = log.history().map(stored(EventLog::System));
+        let access = log.access.iter().map(stored(EventLog::Access));
+        Ok(StoredLogs { serial: memory.serial(), records: system.chain(access).collect() })
+    }
+
     fn every_variable(&self) -> Vec<VariableTable> {
         model_tables::every_variable()
     }
@@ -180,11 +195,7 @@ impl UnitSection for UnitFile {
     }
 
     fn check_memory(&self, bytes: &[u8]) -> Result<(), MemoryDamage> {
-        match NonVolatileMemory::decode(bytes) {
-            Ok(_) => Ok(()),
-            Err(Damage::NoMemory) => Err(MemoryDamage::NoMemory),
-            Err(damage) => Err(MemoryDamage::Damaged(damage.to_string())),
-        }
+        decoded(bytes).map(|_| ())
     }
 
     fn memory_bytes_max(&self, memory: &unit_model::MemoryAtPowerOn) -> usize {
@@ -206,6 +217,13 @@ impl UnitSection for UnitFile {
         let config = device_config_with(&settings, unit.memory().sii_image().to_vec());
         PoweredUnit { config, unit: Box::new(unit), cpu }
     }
+}
+
+fn decoded(bytes: &[u8]) -> Result<NonVolatileMemory, MemoryDamage> {
+    NonVolatileMemory::decode(bytes).map_err(|damage| match damage {
+        Damage::NoMemory => MemoryDamage::NoMemory,
+        damage => MemoryDamage::Damaged(damage.to_string()),
+    })
 }
 
 /// The memory that was found. What cannot be decoded is damaged.
@@ -230,8 +248,12 @@ impl ModelUnit for NxEct101 {
         DataValid { outputs: status.m_to_c_valid, inputs: status.c_to_m_valid }
     }
 
-    fn take_event(&mut self) -> Option<EventCode> {
+    fn take_event(&mut self) -> Option<RecordedEvent> {
         self.take_occurred_event()
+    }
+
+    fn injected_faults(&self) -> u32 {
+        self.injected_bits()
     }
 
     fn current_errors(&self, level: EventLevel) -> &[CurrentError] {

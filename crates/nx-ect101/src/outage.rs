@@ -75,6 +75,16 @@ impl Outages {
         self.found = self.present;
     }
 
+    /// Whether the cause is there.
+    pub(crate) const fn is_present(&self, outage: Outage) -> bool {
+        self.present[outage as usize]
+    }
+
+    /// Whether any cause is there.
+    pub(crate) fn has_cause(&self) -> bool {
+        self.present.contains(&true)
+    }
+
     /// Whether there is any.
     pub(crate) fn is_any(&self) -> bool {
         self.found.contains(&true)

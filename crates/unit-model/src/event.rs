@@ -61,6 +61,46 @@ pub struct EventInfo {
     pub level: EventLevel,
 }
 
+/// An event that a unit has recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RecordedEvent {
+    /// Its code.
+    pub code: EventCode,
+    /// Its level, as the user has set it.
+    pub level: EventLevel,
+    /// Its attached information.
+    pub attached: AttachedInformation,
+}
+
+/// Attached information 1 to 4 of an event, as many as it has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AttachedInformation {
+    values: [u32; Self::MAX],
+    count: u8,
+}
+
+impl AttachedInformation {
+    /// Maximum number of pieces of one event.
+    pub const MAX: usize = 4;
+
+    /// These values, the first four of them.
+    #[must_use]
+    pub fn of(values: &[u32]) -> Self {
+        let mut attached = Self::default();
+        for (place, value) in attached.values.iter_mut().zip(values) {
+            *place = *value;
+            attached.count += 1;
+        }
+        attached
+    }
+
+    /// The values.
+    #[must_use]
+    pub fn values(&self) -> &[u32] {
+        self.values.get(..usize::from(self.count)).unwrap_or(&self.values)
+    }
+}
+
 /// A current error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CurrentError {

@@ -10,15 +10,20 @@ mod model;
 mod section;
 mod settings_check;
 mod slave_view;
+mod stored_log;
 pub mod tables;
 mod unit;
 mod unit_files;
 
-pub use event::{CurrentError, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable};
+pub use event::{
+    AttachedInformation, CurrentError, EventCode, EventInfo, EventLevel, EventLog, LevelNotChangeable,
+    RecordedEvent,
+};
 pub use model::Model;
-pub use section::{MemoryAtPowerOn, MemoryDamage, PowerOn, PoweredUnit, ProcessDataBytes, UnitSection};
+pub use section::{MemoryAtPowerOn, PowerOn, PoweredUnit, ProcessDataBytes, UnitSection};
 pub use settings_check::{DirectionSizes, ExchangedData, FilePlace, SettingsCheck, SettingsFinding};
 pub use slave_view::SlaveView;
+pub use stored_log::{MemoryDamage, StoredLogs, StoredRecord};
 pub use tables::ModelTables;
 pub use unit::{DataValid, ModelUnit, NotThere};
 pub use unit_files::UnitFiles;

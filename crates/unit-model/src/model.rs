@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use variables::VariableTable;
 
 use crate::event::{EventCode, EventInfo, EventLog};
+use crate::stored_log::{MemoryDamage, StoredLogs};
 use crate::tables::ModelTables;
 
 /// A unit model. Lists are in the order in which they are shown.
@@ -53,6 +54,14 @@ pub trait Model: Sync {
     fn tables(&self) -> &'static ModelTables {
         static NONE: LazyLock<ModelTables> = LazyLock::new(ModelTables::default);
         &NONE
+    }
+
+    /// The event logs in a stored non-volatile memory.
+    ///
+    /// # Errors
+    /// The bytes are not the memory of a unit of this model.
+    fn stored_logs(&self, _memory: &[u8]) -> Result<StoredLogs, MemoryDamage> {
+        Err(MemoryDamage::NoMemory)
     }
 
     /// Tables of variables that together have each variable of the model, for units with its usual name.

@@ -1,7 +1,7 @@
 //! A unit before it has power: the section of a unit file that a model has read.
 
 use core::any::Any;
-use core::fmt::{self, Debug};
+use core::fmt::Debug;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -16,6 +16,7 @@ use variables::VariableTable;
 use crate::keys::Shape;
 use crate::model::Model;
 use crate::settings_check::SettingsCheck;
+use crate::stored_log::MemoryDamage;
 use crate::unit::ModelUnit;
 
 /// What a unit file says of one unit.
@@ -149,24 +150,6 @@ pub enum MemoryAtPowerOn {
     Stored(Vec<u8>),
     /// It cannot be read.
     Damaged,
-}
-
-/// Why bytes are not the non-volatile memory of a unit.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum MemoryDamage {
-    /// They have never been one.
-    NoMemory,
-    /// They have been one; the reason.
-    Damaged(String),
-}
-
-impl fmt::Display for MemoryDamage {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoMemory => formatter.write_str("not the memory of a unit"),
-            Self::Damaged(reason) => formatter.write_str(reason),
-        }
-    }
 }
 
 /// A unit that has just received power.

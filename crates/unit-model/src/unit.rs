@@ -6,7 +6,7 @@ use core::fmt::{self, Debug};
 use coe_kit::indicators::Pattern;
 use device::Unit;
 
-use crate::event::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable};
+use crate::event::{CurrentError, EventCode, EventLevel, EventLog, LevelNotChangeable, RecordedEvent};
 use crate::model::Model;
 use crate::slave_view::SlaveView;
 
@@ -19,8 +19,13 @@ pub trait ModelUnit: Unit + Any + Debug + Send {
     fn data_valid(&self) -> DataValid;
 
     /// Takes the oldest event that has not been taken yet. A unit keeps a bounded number of them.
-    fn take_event(&mut self) -> Option<EventCode> {
+    fn take_event(&mut self) -> Option<RecordedEvent> {
         None
+    }
+
+    /// The faults whose causes are injected at present: bit `n` is the one at this place of [`Model::faults`].
+    fn injected_faults(&self) -> u32 {
+        0
     }
 
     /// The current errors of a level, the oldest first.

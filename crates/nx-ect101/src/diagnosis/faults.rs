@@ -3,7 +3,7 @@
 use wire::AlStatusCode;
 
 use super::{Diagnosis, NX_BUS, Occurrence};
-use crate::fault::Fault;
+use crate::fault::{Fault, FaultSet};
 
 /// Causes.
 impl Diagnosis {
@@ -22,6 +22,16 @@ impl Diagnosis {
     /// The injected cause of a fault is removed. A fault that the unit has found remains until its recovery.
     pub(crate) const fn remove(&mut self, fault: Fault) {
         self.injected.remove(fault);
+    }
+
+    /// Whether any cause is injected.
+    pub(crate) fn has_injected(&self) -> bool {
+        self.injected != FaultSet::default()
+    }
+
+    /// Whether the cause of this fault is injected.
+    pub(crate) const fn is_injected(&self, fault: Fault) -> bool {
+        self.injected.contains(fault)
     }
 
     /// The unit itself detects the cause of a fault, in addition to injected causes.

@@ -2,7 +2,7 @@
 
 use arrayvec::ArrayVec;
 use device::Start;
-use unit_model::CurrentError;
+use unit_model::{CurrentError, RecordedEvent};
 use wire::{AlStatus, AlStatusCode};
 
 use crate::diagnosis::{OCCURRED_MAX, Occurrence};
@@ -45,12 +45,23 @@ impl NxEct101 {
     /// Takes the events that have occurred since the last call, the oldest first, for the observer of the unit.
     /// At most [`OCCURRED_MAX`] are kept; later ones are dropped until the next call.
     pub fn take_occurred(&mut self) -> ArrayVec<EventCode, OCCURRED_MAX> {
-        self.objects.diagnosis.take_occurred()
+        self.objects.diagnosis.take_occurred().iter().map(|event| event.code).collect()
     }
 
     /// Takes the oldest of them.
-    pub(crate) fn take_occurred_event(&mut self) -> Option<EventCode> {
+    pub(crate) fn take_occurred_event(&mut self) -> Option<RecordedEvent> {
         self.objects.diagnosis.take_event()
+    }
+
+    /// The injected faults, one bit each in the order of their names in the model.
+    pub(crate) fn injected_bits(&self) -> u32 {
+        let diagnosis = &self.objects.diagnosis;
+        if !diagnosis.has_injected() && !self.outages.has_cause() {
+            return 0;
+        }
+        let faults = Fault::ALL.into_iter().map(|fault| diagnosis.is_injected(fault));
+        let outages = Outage::ALL.into_iter().map(|outage| self.outages.is_present(outage));
+        faults.chain(outages).enumerate().fold(0, |bits, (at, is)| bits | u32::from(is) << at)
     }
 
     /// A user resets the errors from the side of the CPU Unit (manual, 8-6). An error whose cause persists

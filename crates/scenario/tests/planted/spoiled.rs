@@ -10,7 +10,7 @@ use objects::{ObjectServer, ObjectTable};
 use time::{Duration, Instant};
 use unit_model::{
     CurrentError, DataValid, EventCode, EventInfo, EventLevel, EventLog, Model, ModelTables, ModelUnit,
-    NotThere, PowerOn, PoweredUnit, SlaveView, UnitFiles, UnitSection,
+    NotThere, PowerOn, PoweredUnit, RecordedEvent, SlaveView, UnitFiles, UnitSection,
 };
 use user_file::{Reader, Section};
 use variables::VariableTable;
@@ -219,8 +219,12 @@ impl ModelUnit for Spoiled {
     fn data_valid(&self) -> DataValid {
         self.unit.data_valid()
     }
-    fn take_event(&mut self) -> Option<EventCode> {
-        self.unit.take_event().map(|event| self.bug.event(event))
+    fn take_event(&mut self) -> Option<RecordedEvent> {
+        let event = self.unit.take_event()?;
+        Some(RecordedEvent { code: self.bug.event(event.code), ..event })
+    }
+    fn injected_faults(&self) -> u32 {
+        self.unit.injected_faults()
     }
     fn current_errors(&self, level: EventLevel) -> &[CurrentError] {
         if self.bug.hides_errors() { &[] } else { self.unit.current_errors(level) }
