@@ -6,16 +6,20 @@
 
 mod dice;
 mod file;
+mod happening;
 pub mod line;
 pub mod notation;
+mod observer;
 mod powered;
 mod registry;
 mod words;
 
 pub use dice::Dice;
 pub use file::UnitFile;
+pub use happening::{Happening, HappeningKind, Mapping};
+pub use observer::{MASTER_GONE_AFTER, Observer, of_line};
 pub use powered::{PowerConditions, Powered};
 pub use registry::{
     ErrorLog, Fault, Indicators, Lights, LogRecord, default_model, error_log, indicators, models, unit_file,
 };
-pub use words::{event, has_fault};
+pub use words::{event, has_fault, stored_logs};

@@ -1,6 +1,6 @@
 //! Words with a meaning in at least one model.
 
-use unit_model::{EventCode, EventInfo};
+use unit_model::{EventCode, EventInfo, MemoryDamage, Model, StoredLogs};
 
 use crate::registry::models;
 
@@ -14,6 +14,20 @@ pub fn event(code: EventCode) -> Option<EventInfo> {
 #[must_use]
 pub fn has_fault(name: &str) -> bool {
     models().iter().any(|model| model.faults().contains(&name))
+}
+
+/// The event logs in a stored non-volatile memory, and the model of its unit.
+///
+/// # Errors
+/// The bytes are not the memory of a unit, or it is damaged.
+pub fn stored_logs(memory: &[u8]) -> Result<(&'static dyn Model, StoredLogs), MemoryDamage> {
+    for model in models() {
+        match model.stored_logs(memory) {
+            Err(MemoryDamage::NoMemory) => {}
+            read => return read.map(|logs| (*model as &dyn Model, logs)),
+        }
+    }
+    Err(MemoryDamage::NoMemory)
 }
 
 #[cfg(test)]

@@ -23,6 +23,8 @@ use crate::dice::Dice;
 pub struct LineFaults<T> {
     dice: Dice,
     active: Vec<Active>,
+    /// Number of faults so far.
+    numbered: u32,
     kept: Kept<T>,
     /// Frames that were lost because too many wait.
     lost_for_room: u64,
@@ -31,6 +33,7 @@ pub struct LineFaults<T> {
 /// A fault at work.
 #[derive(Clone, Debug)]
 struct Active {
+    number: u32,
     disturbance: Disturbance,
     until: Instant,
     /// Frames of its kind so far.
@@ -42,6 +45,8 @@ struct Active {
 /// A fault at work, and the number of frames that it has met.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ActiveFault<'a> {
+    /// Its number: the first fault of the line has 1.
+    pub number: u32,
     /// The fault.
     pub disturbance: &'a Disturbance,
     /// When it ends by itself; [`Instant::NEVER`]: not by the time.
@@ -85,7 +90,7 @@ impl<T: Copy> LineFaults<T> {
     /// No faults; the seed decides which frames random faults meet.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
-        Self { dice: Dice::new(seed), active: Vec::new(), kept: Kept::new(), lost_for_room: 0 }
+        Self { dice: Dice::new(seed), active: Vec::new(), numbered: 0, kept: Kept::new(), lost_for_room: 0 }
     }
 
     /// Carries out an order on this line.
@@ -134,7 +139,8 @@ impl<T: Copy> LineFaults<T> {
             return Err(LineRefusal::NameInUse(name.clone()));
         }
         let until = disturbance.lasts.map_or(Instant::NEVER, |time| now + time);
-        self.active.push(Active { disturbance, until, seen: 0, met: 0 });
+        self.numbered = self.numbered.saturating_add(1);
+        self.active.push(Active { number: self.numbered, disturbance, until, seen: 0, met: 0 });
         Ok(())
     }
 
@@ -277,6 +283,7 @@ impl Active {
 
     const fn view(&self) -> ActiveFault<'_> {
         ActiveFault {
+            number: self.number,
             disturbance: &self.disturbance,
             until: self.until,
             frames_seen: self.seen,

@@ -16,6 +16,12 @@ pub struct Calendar {
 }
 
 impl Calendar {
+    /// The second that contains this time, in nanoseconds since 1970-01-01 00:00:00 UTC; also after 2078.
+    #[must_use]
+    pub const fn from_nanos(nanos: u64) -> Self {
+        Self { seconds: nanos / NANOS_OF_SECOND }
+    }
+
     /// Nanoseconds since 1970-01-01 00:00:00 UTC.
     #[must_use]
     pub const fn as_nanos(self) -> u64 {

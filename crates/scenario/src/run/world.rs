@@ -5,14 +5,12 @@ mod indicators;
 mod settled;
 mod supply;
 
-use coe_kit::indicators::Pattern;
 use device::Network;
-use plant::Powered;
 use plant::line::{LineFaults, LineRefusal};
+use plant::{HappeningKind, Observer, Powered};
 use plc::{CpuEvent, CpuUnit, CpuUnits};
 use time::{Duration, Instant};
-use unit_model::ModelUnit;
-use wire::{AlStatus, AlStatusCode};
+use unit_model::{Model, ModelUnit};
 
 use super::bench::{Bench, Masters, state_words};
 use super::dice::dice_of_phases;
@@ -32,20 +30,11 @@ pub(crate) struct World {
     master: Master,
     recorded: Recorded,
     now: Instant,
-    watched: Vec<Watched>,
+    observer: Observer,
     records: Vec<Records>,
     brought: Brought,
     supply: SeededSupply,
     recording: Recording,
-}
-
-/// The state of a unit at the observer's last check.
-#[derive(Default)]
-struct Watched {
-    status: AlStatus,
-    code: AlStatusCode,
-    /// The pattern of each indicator, in the order of the unit's model.
-    patterns: Vec<Pattern>,
 }
 
 impl World {
@@ -63,7 +52,6 @@ impl World {
         });
         let network = Network::power_on(units.collect::<Vec<_>>(), now);
         let count = network.len();
-        let watched = (0..count).map(|_| Watched::default()).collect();
         let phase = scenario.cycle_phase.unwrap_or_else(|| dice_of_phases(seed, 0).phase(scenario.cycle));
         let devices: Vec<_> = scenario.units.iter().map(UnitSource::known_device).collect();
         let described = devices.iter().map(|device| &device.description);
@@ -80,7 +68,7 @@ impl World {
             master,
             recorded,
             now,
-            watched,
+            observer: Observer::new(count),
             records: (0..count).map(|_| Records::default()).collect(),
             brought: scenario.brought.clone(),
             supply: SeededSupply { seed, calendar_ns },
@@ -164,10 +152,8 @@ impl World {
     /// Carries out an action on units.
     pub(crate) fn unit_order(&mut self, order: &UnitOrder) {
         self.bench().unit_order(order);
-        if let UnitOrder::Replace { unit, .. } = order
-            && let Some(watched) = self.watched.get_mut(unit.position())
-        {
-            *watched = Watched::default();
+        if let UnitOrder::Replace { unit, .. } = order {
+            self.observer.is_replaced(unit.position());
         }
         self.happen();
     }
@@ -187,26 +173,12 @@ impl World {
 
     /// Records the changes.
     fn watch(&mut self) {
-        while let Some((at, device, _)) = self.network.take_changed() {
-            let (status, code) = (device.al_status(), device.al_status_code());
-            let unit = device.unit_mut();
-            let watched = &mut self.watched[at];
-            while let Some(event) = unit.take_event() {
-                let name = unit.model().event(event).map_or("", |event| event.name);
-                self.recording.tell(
-                    self.now,
-                    &format!("unit {}", at + 1),
-                    &format!("records {event} {name}"),
-                );
-                self.recording.meets(|met| met.event(unit.model(), event));
-                self.records[at].record(unit.model(), event);
-            }
-            if (status, code) != (watched.status, watched.code) {
-                self.recording.meets(|met| met.status(watched.status, status, code));
-                (watched.status, watched.code) = (status, code);
-                let words = state_words(status, code);
-                self.recording.tell(self.now, &format!("unit {}", at + 1), &format!("is in {words}"));
-            }
+        let Self { network, observer, records, recording, now, .. } = self;
+        while let Some((at, device, esc)) = network.take_changed() {
+            let (model, records) = (device.unit().model(), &mut records[at]);
+            observer.unit(*now, at, device, esc, |happening| {
+                watch_unit(recording, *now, at, model, records, &happening.kind);
+            });
         }
         for abort_code in self.master.take_refusals() {
             self.recording.meets(|met| met.refusal(abort_code));
@@ -215,6 +187,44 @@ impl World {
             self.recording.tell(self.now, "master", &words);
         }
         self.watch_indicators();
+    }
+}
+
+/// The trace of what has happened to a unit: its events and its states.
+fn watch_unit(
+    recording: &mut Recording,
+    now: Instant,
+    at: usize,
+    model: &'static dyn Model,
+    records: &mut Records,
+    what: &HappeningKind,
+) {
+    match *what {
+        HappeningKind::Event(recorded) => {
+            let event = recorded.code;
+            let name = model.event(event).map_or("", |event| event.name);
+            recording.tell(now, &format!("unit {}", at + 1), &format!("records {event} {name}"));
+            recording.meets(|met| met.event(model, event));
+            records.record(model, event);
+        }
+        HappeningKind::State { before, status, code } => {
+            recording.meets(|met| met.status(before, status, code));
+            let words = state_words(status, code);
+            recording.tell(now, &format!("unit {}", at + 1), &format!("is in {words}"));
+        }
+        HappeningKind::Power { .. }
+        | HappeningKind::Emergency(_)
+        | HappeningKind::EmergenciesLost { .. }
+        | HappeningKind::Sdo(_)
+        | HappeningKind::MessageReceived(_)
+        | HappeningKind::MessageSent(_)
+        | HappeningKind::Mapping(_)
+        | HappeningKind::Link { .. }
+        | HappeningKind::Indicator { .. }
+        | HappeningKind::Fault { .. }
+        | HappeningKind::Carrier { .. }
+        | HappeningKind::Master { .. }
+        | HappeningKind::FrameFaultEnded { .. } => {}
     }
 }
 

@@ -1,6 +1,6 @@
 //! The indicators of the units in the trace: a line for each change of patterns.
 
-use coe_kit::indicators::Pattern;
+use plant::HappeningKind;
 
 use super::World;
 
@@ -10,29 +10,21 @@ impl World {
         if !self.recording.has_trace() {
             return;
         }
-        for at in 0..self.network.len() {
-            let bench = self.bench();
-            let names = bench.unit(at).model().indicators();
-            let patterns = names.iter().map(|name| bench.pattern(at, name).unwrap_or_default());
-            let patterns: Vec<Pattern> = patterns.collect();
-            let before = self.watched.get(at).map_or(&[][..], |watched| &watched.patterns);
-            if patterns == before {
-                continue;
-            }
-            let is_news =
-                |place: usize, pattern: Pattern| before.get(place).copied().unwrap_or_default() != pattern;
-            let news = names
-                .iter()
-                .zip(&patterns)
-                .enumerate()
-                .filter(|(place, (_, pattern))| is_news(*place, **pattern));
-            let words: Vec<String> =
-                news.map(|(_, (name, pattern))| format!("{name} is {}", pattern.id())).collect();
-            if !words.is_empty() {
-                self.recording.tell(self.now, &format!("unit {}", at + 1), &words.join(", "));
-            }
-            if let Some(watched) = self.watched.get_mut(at) {
-                watched.patterns = patterns;
+        let Self { network, observer, recording, now, .. } = self;
+        for at in 0..network.len() {
+            let Some(names) = network.device(at).map(|device| device.unit().model().indicators()) else {
+                return;
+            };
+            let mut news = Vec::new();
+            observer.indicators(*now, at, network, |happening| {
+                if let HappeningKind::Indicator { place, pattern } = happening.kind
+                    && let Some(name) = names.get(usize::from(place))
+                {
+                    news.push(format!("{name} is {}", pattern.id()));
+                }
+            });
+            if !news.is_empty() {
+                recording.tell(*now, &format!("unit {}", at + 1), &news.join(", "));
             }
         }
     }
