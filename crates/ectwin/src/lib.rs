@@ -26,6 +26,7 @@ mod disturbed;
 #[cfg(feature = "ethercrab")]
 mod ethercrab_port;
 pub mod explain;
+pub mod happenings;
 mod line;
 mod live;
 mod master_in_memory;
@@ -47,6 +48,7 @@ pub use coe_kit::indicators::Pattern;
 pub use esi;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
+pub use happenings::Happenings;
 pub use line::FaultAtWork;
 pub use link::{self, FrameFate};
 pub use live::Live;

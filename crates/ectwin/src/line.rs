@@ -24,7 +24,7 @@ pub struct FaultAtWork {
 
 impl From<ActiveFault<'_>> for FaultAtWork {
     fn from(active: ActiveFault<'_>) -> Self {
-        let ActiveFault { disturbance, until, frames_seen, frames_met } = active;
+        let ActiveFault { number: _, disturbance, until, frames_seen, frames_met } = active;
         let disturbance = disturbance.clone();
         let sentence = LineOrder::Disturb(disturbance.clone()).sentence();
         Self { disturbance, sentence, until, frames_seen, frames_met }

@@ -56,7 +56,7 @@ impl Runtime {
     /// # Errors
     /// No thread can be started.
     pub fn start(twin: Twin, clock: Clock, stop: Arc<AtomicBool>) -> io::Result<Self> {
-        let Parts { line, mut cpus, programs, error_reset } = twin.into_parts();
+        let Parts { line, mut cpus, programs, error_reset, reporter } = twin.into_parts();
         cpus.each(|_, cpu| cpu.switch_off_on(Arc::clone(&stop)));
         let changes = ProgramChanges::watch(programs)?;
         let waiting = changes.waiting();
@@ -71,6 +71,7 @@ impl Runtime {
             changes,
             pulse: Arc::clone(&pulse),
             error_reset: Arc::clone(&error_reset),
+            reporter,
         };
         runtime.tasks = Some(spawn("cpu-unit", move || tasks.run())?);
         let watched = Arc::clone(&shared);

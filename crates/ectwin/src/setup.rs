@@ -12,6 +12,7 @@ use time::Instant;
 use unit_model::PowerOn;
 use user_file::Located;
 
+use crate::happenings::UnitName;
 use crate::memory_file::{self, MemoryFile};
 use crate::program_file::{ProgramFileError, ProgramText};
 use crate::user_files;
@@ -174,6 +175,11 @@ impl Setup {
     #[must_use]
     pub const fn file(&self) -> &UnitFile {
         &self.file
+    }
+
+    pub(crate) fn unit_name(&self) -> UnitName {
+        let section = self.file.section();
+        UnitName { name: section.name().to_owned(), model: section.model() }
     }
 
     /// The I/O map: the device variables of the CPU Unit for this unit.

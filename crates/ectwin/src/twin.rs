@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use device::{Device, Network};
 use link::{FrameFate, Responder};
-use plant::Powered;
 use plant::line::{ActiveFault, LineOrder, LineRefusal};
+use plant::{Observer, Powered};
 use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
@@ -15,6 +15,7 @@ use time::{Duration, Instant};
 use unit_model::ModelUnit;
 
 use crate::disturbed::Disturbed;
+use crate::happenings::{Happenings, Observed, Reporter, UnitName};
 use crate::memory_file::Keeper;
 use crate::unit_side::UnitSide;
 use crate::watched_program::WatchedProgram;
@@ -30,6 +31,8 @@ pub struct Twin {
     cpus: CpuUnits,
     programs: Vec<(usize, WatchedProgram)>,
     error_reset: ErrorReset,
+    names: Vec<UnitName>,
+    reporter: Option<Reporter>,
     now: Instant,
 }
 
@@ -40,6 +43,8 @@ pub(crate) struct Parts {
     /// User programs in files, with the positions of their units.
     pub(crate) programs: Vec<(usize, WatchedProgram)>,
     pub(crate) error_reset: ErrorReset,
+    /// Who gets the reports of the CPU Units too, if anybody does.
+    pub(crate) reporter: Option<Reporter>,
 }
 
 /// A flag that is set from outside to reset the errors of all NX Bus Function Modules.
@@ -68,16 +73,34 @@ impl Twin {
     pub fn power_on_for_run(setups: impl IntoIterator<Item = Setup>) -> Self {
         let now = Instant::ZERO;
         let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
-        let mut programs = Vec::new();
+        let (mut programs, mut names) = (Vec::new(), Vec::new());
         for (position, mut setup) in setups.into_iter().enumerate() {
             programs.extend(setup.watched_program().map(|program| (position, program)));
+            names.push(setup.unit_name());
             let (Powered { config, unit, cpu }, writer) = setup.power_on(now);
             units.push((config, unit));
             cpus.push(cpu);
             keepers.push(writer.map(Keeper::new));
         }
-        let line = Line { network: Network::power_on(units, now), disturbed: Disturbed::new(), keepers };
-        Self { line, cpus: CpuUnits::new(cpus), programs, error_reset: ErrorReset::default(), now }
+        let line = Line {
+            network: Network::power_on(units, now),
+            disturbed: Disturbed::new(),
+            keepers,
+            observed: None,
+        };
+        let (cpus, error_reset) = (CpuUnits::new(cpus), ErrorReset::default());
+        Self { line, cpus, programs, error_reset, names, reporter: None, now }
+    }
+
+    /// Begins to record what happens from now on, also when the twin answers a link: states, events, emergencies, SDOs, links,
+    /// faults. Reports of CPU Units are recorded on a link only; in virtual time [`plc::CpuUnit::take_events`] has them.
+    /// Whoever was recording before gets no more records.
+    pub fn observe(&mut self) -> Happenings {
+        let observer = Observer::beginning_with(&mut self.line.network, self.now);
+        let (happenings, observed, reporter) = Happenings::of(self.names.clone(), observer, self.now);
+        self.line.observed = Some(observed);
+        self.reporter = Some(reporter);
+        happenings
     }
 
     /// Sends one Ethernet frame, without FCS, to the line at the present time; the answer replaces it.
@@ -156,8 +179,8 @@ impl Twin {
     }
 
     pub(crate) fn into_parts(self) -> Parts {
-        let Self { line, cpus, programs, error_reset, now: _ } = self;
-        Parts { line, cpus, programs, error_reset }
+        let Self { line, cpus, programs, error_reset, names: _, reporter, now: _ } = self;
+        Parts { line, cpus, programs, error_reset, reporter }
     }
 
     fn poll(&mut self, now: Instant) {
@@ -178,6 +201,8 @@ pub(crate) struct Line {
     disturbed: Disturbed,
     /// For each unit, who stores its memory in a file, if anybody does.
     keepers: Vec<Option<Keeper>>,
+    /// Its observer, if there is one.
+    observed: Option<Observed>,
 }
 
 impl Line {
@@ -187,7 +212,13 @@ impl Line {
         position: usize,
         now: Instant,
     ) -> UnitSide<'a> {
+        self.is_lent(now);
         UnitSide::of(&mut self.network, cpus, position, now)
+    }
+
+    /// Something happens to it at this time, and not by a frame.
+    pub(crate) fn is_lent(&mut self, now: Instant) {
+        self.observed.iter_mut().for_each(|observed| observed.set_now(now));
     }
 
     /// All units, in the order of the line.
@@ -201,10 +232,14 @@ impl Line {
         if self.disturbed.deadline() <= now {
             self.disturbed.poll(now, &mut self.network);
         }
+        if let Some(observed) = &mut self.observed {
+            observed.time(now, &self.network);
+        }
     }
 
     /// Carries out an order on cables or faults.
     pub(crate) fn order(&mut self, now: Instant, order: &LineOrder) -> Result<(), LineRefusal> {
+        self.is_lent(now);
         self.disturbed.order(now, order, &mut self.network)
     }
 
@@ -221,14 +256,20 @@ impl Line {
         &mut self.disturbed
     }
 
-    /// Stores the memories that have changed, and shows each unit that may be another than last time. The others are
+    /// Stores the memories that have changed, records what has happened, and shows each unit that may be another than last time. The others are
     /// not looked at.
     pub(crate) fn each_changed(&mut self, mut show: impl FnMut(usize, &Device<Box<dyn ModelUnit>>)) {
         while let Some((position, device, esc)) = self.network.take_changed() {
             if let Some(Some(keeper)) = self.keepers.get_mut(position) {
                 keeper.keep(&mut **device.unit_mut(), esc);
             }
+            if let Some(observed) = &mut self.observed {
+                observed.unit(position, device, esc);
+            }
             show(position, device);
+        }
+        if let Some(observed) = &mut self.observed {
+            observed.frame_faults(&self.disturbed);
         }
     }
 
@@ -253,6 +294,9 @@ impl Drop for Line {
 
 impl Responder for Line {
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate {
+        if let Some(observed) = &mut self.observed {
+            observed.frame(now);
+        }
         if self.disturbed.is_quiet() {
             return self.network.frame(now, frame);
         }
@@ -276,11 +320,13 @@ impl Responder for Line {
     }
 
     fn deadline(&self) -> Instant {
-        self.network.deadline().min(self.disturbed.deadline())
+        let observed = self.observed.as_ref().map_or(Instant::NEVER, Observed::deadline);
+        self.network.deadline().min(self.disturbed.deadline()).min(observed)
     }
 
     fn carrier(&mut self, present: bool) {
         self.network.set_carrier(present);
+        self.observed.iter().for_each(|observed| observed.carrier(present));
     }
 
     fn overlong_frames(&self) -> u64 {

@@ -147,6 +147,12 @@ impl CpuUnit {
         &self.reports
     }
 
+    /// When it was powered on.
+    #[must_use]
+    pub const fn powered_on(&self) -> Instant {
+        self.powered_on
+    }
+
     /// The operating mode.
     #[must_use]
     pub const fn mode(&self) -> OperatingMode {

@@ -14,6 +14,7 @@ const TESTS: &[(&str, &str)] = &[
     ("ectwin", "scenario_reference"),
     ("ectwin-scenario", "values_page"),
     ("ectwin", "structured_text_reference"),
+    ("ectwin", "kinds_page"),
 ];
 
 /// Runs them all.

@@ -36,7 +36,9 @@ impl Handle {
     /// Accesses the line. Frames wait until `look` returns.
     pub(crate) fn look_at_line<T>(&self, look: impl FnOnce(&mut Line, Instant) -> T) -> T {
         let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
-        let seen = look(&mut line, self.clock.now());
+        let now = self.clock.now();
+        line.is_lent(now);
+        let seen = look(&mut line, now);
         line.each_changed(|position, device| self.shared.units.publish(position, device));
         seen
     }

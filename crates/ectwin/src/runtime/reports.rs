@@ -3,32 +3,51 @@
 use plc::{CpuEvent, CpuRecord, CpuUnits, ProgramEvent};
 use time::{Duration, Instant};
 
-/// Interval at which the events are logged.
+use crate::happenings::{Report, Reporter};
+
+/// Interval at which events are logged that come again and again.
 const LOG_AGAIN: Duration = Duration::from_millis(1_000);
+/// Interval at which new ones are looked for.
+const LOOK_AGAIN: Duration = Duration::from_millis(10);
 
 /// The events of CPU Units that are not logged yet.
 #[derive(Debug, Default)]
 pub(super) struct Reports {
+    look: Instant,
     next: Instant,
     lost: u64,
+    reporter: Option<Reporter>,
 }
 
 impl Reports {
-    /// Logs events, at most once a second: one that repeats is one line with its count.
-    pub(super) fn log(&mut self, cpus: &mut CpuUnits, now: Instant) {
-        if now < self.next {
-            return;
-        }
-        self.next = now + LOG_AGAIN;
-        self.log_all(cpus);
+    /// Reports that go to this receiver too.
+    pub(super) fn to(reporter: Option<Reporter>) -> Self {
+        Self { reporter, ..Self::default() }
     }
 
-    /// Logs the events that have not been logged.
-    pub(super) fn log_all(&mut self, cpus: &mut CpuUnits) {
-        let mut lost = 0;
+    /// Logs events, at most once a second: one that repeats is one line with its count. The first one is logged at once.
+    pub(super) fn log(&mut self, cpus: &mut CpuUnits, now: Instant) {
+        if now < self.next.max(self.look) {
+            return;
+        }
+        self.look = now + LOOK_AGAIN;
+        if self.log_all(cpus) {
+            self.next = now + LOG_AGAIN;
+        }
+    }
+
+    /// Logs the events that have not been logged, and returns whether there was one.
+    pub(super) fn log_all(&mut self, cpus: &mut CpuUnits) -> bool {
+        let (mut lost, mut is_any) = (0, false);
         cpus.each(|position, cpu| {
+            let powered_on = cpu.powered_on();
             for record in cpu.take_events() {
+                is_any = true;
                 log(position + 1, &record);
+                if let Some(reporter) = &self.reporter {
+                    let at = powered_on + record.first_at.saturating_since(Instant::ZERO);
+                    reporter.send(Report::Cpu { at, position, record });
+                }
             }
             lost += cpu.events_lost();
         });
@@ -36,6 +55,7 @@ impl Reports {
             tracing::warn!("{} events of CPU Units were lost: too many at once", lost - self.lost);
             self.lost = lost;
         }
+        is_any
     }
 }
 

@@ -13,6 +13,7 @@ use super::program_changes::ProgramChanges;
 use super::reports::Reports;
 use super::shared::Shared;
 use super::task_watch::TaskPulse;
+use crate::happenings::Reporter;
 
 /// Longest sleep, so that the stop flag is seen.
 const STOP_CHECK: Duration = Duration::from_millis(100);
@@ -25,6 +26,7 @@ pub(super) struct Tasks {
     pub(super) pulse: Arc<TaskPulse>,
     /// A reset of the errors of all CPU Units is requested.
     pub(super) error_reset: Arc<AtomicBool>,
+    pub(super) reporter: Option<Reporter>,
 }
 
 impl Tasks {
@@ -32,7 +34,7 @@ impl Tasks {
     pub(super) fn run(mut self) {
         let shared = Arc::clone(&self.shared);
         let mut cpus = shared.cpus.own();
-        let mut reports = Reports::default();
+        let mut reports = Reports::to(self.reporter.take());
         while !shared.is_stopped() {
             cpus.attend();
             let next = self.turn(&mut cpus, &mut reports);

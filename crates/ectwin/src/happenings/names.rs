@@ -1,0 +1,16 @@
+//! The units of a line by their names.
+
+use unit_model::Model;
+
+/// Name and model of a unit.
+#[derive(Clone)]
+pub(crate) struct UnitName {
+    pub(crate) name: String,
+    pub(crate) model: &'static dyn Model,
+}
+
+impl std::fmt::Debug for UnitName {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} ({})", self.name, self.model.name())
+    }
+}
