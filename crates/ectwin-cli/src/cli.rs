@@ -19,7 +19,8 @@ use crate::commands::replay::{PartitionChoice, SeedChoice, SeedRange};
 #[derive(Debug, Parser)]
 #[command(version, max_term_width = 100)]
 pub(crate) struct Cli {
-    /// Log more, to stderr (-v info, -vv debug, -vvv trace); RUST_LOG takes precedence
+    /// Log more, to stderr: -v what happens, -vv also SDOs, mailbox messages and mappings, -vvv also frames; RUST_LOG
+    /// takes precedence
     #[arg(short, long, action = clap::ArgAction::Count, global = true)]
     pub(crate) verbose: u8,
     #[command(subcommand)]
@@ -33,6 +34,8 @@ pub(crate) enum Command {
     Demo,
     /// Emulate units, in chain order, until SIGINT, SIGTERM or SIGHUP
     Run(RunArgs),
+    /// Print the event logs in a file of a unit's non-volatile memory, with causes and corrections
+    Log(LogArgs),
     /// Check I/O allocation and PDO setting of a unit file against the setting rules
     Check(CheckArgs),
     /// Print the I/O map of a unit: variables, types, positions, Modbus addresses
@@ -75,6 +78,9 @@ pub(crate) struct RunArgs {
     /// Write every frame to this file (pcapng)
     #[arg(long, value_name = "FILE")]
     pub(crate) pcap: Option<PathBuf>,
+    /// Write what happens to this file as JSON lines: states, events, emergencies, SDOs, links, faults, CPU Units
+    #[arg(long, value_name = "FILE")]
+    pub(crate) events: Option<PathBuf>,
     /// Run this user program instead of the one in the unit files: FILE.st in Structured Text, or FILE.wasm if the
     /// feature `wasm` is built in. Several files, or a folder, are one program. It is reloaded when a file changes
     #[arg(long = "program", value_name = "FILE")]
@@ -98,6 +104,16 @@ pub(crate) struct MapArgs {
     /// Comma-separated values instead of text, with a line of column names
     #[arg(long, conflicts_with = "json")]
     pub(crate) csv: bool,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LogArgs {
+    /// The file that `storage` of the unit file names
+    #[arg(value_name = "FILE.nvm")]
+    pub(crate) memory: PathBuf,
     /// One JSON document instead of text
     #[arg(long)]
     pub(crate) json: bool,

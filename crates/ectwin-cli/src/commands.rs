@@ -11,6 +11,7 @@ mod list_indicators;
 mod list_nx_objects;
 mod list_objects;
 mod list_rules;
+mod log;
 mod map;
 mod merge;
 pub(crate) mod replay;
@@ -27,6 +28,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         #[cfg(feature = "ethercrab")]
         Command::Demo => demo::run(),
         Command::Run(args) => run::run(&args),
+        Command::Log(args) => log::run(&args),
         Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),

@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::path::Path;
 
+use link::Medium;
+
 use crate::failure::Failure;
 use crate::output::is_stdout;
 use crate::output_file::{BegunFile, OutputFile};
@@ -35,6 +37,14 @@ pub(crate) enum ResultOut {
 }
 
 impl ResultOut {
+    /// Cuts off everything after the first `length_bytes`, if that is possible.
+    pub(crate) fn cut(&mut self, length_bytes: u64) -> io::Result<()> {
+        match self {
+            Self::Stdout => Ok(()),
+            Self::File(file) => file.cut(length_bytes),
+        }
+    }
+
     /// The result is complete, even if it is empty.
     pub(crate) fn complete(&mut self) -> io::Result<()> {
         match self {

@@ -1,20 +1,33 @@
 //! `ectwin run FILE… --link LINK`.
 
+mod events_file;
+mod frame_log;
+mod observers;
 mod servers;
+mod show;
 mod signals;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
+use ectwin::happenings::{self, Record};
 use ectwin::{ChangesLost, Ended, ModbusServer, Runtime, Setup, Twin};
-use link::{Clock, FramePort, LinkSpec, Observer, Recorder, Statistics};
+use link::{Clock, FramePort, LinkSpec, Recorder, Statistics};
+use time::Instant;
+use tracing::level_filters::LevelFilter;
 
 use crate::cli::RunArgs;
 use crate::failure::Failure;
+use crate::later_output::LaterOutput;
+use crate::output::People;
 use crate::output_file::{BegunFile, OutputFile};
 use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, unit_files};
+use events_file::EventsFile;
+use frame_log::FrameLog;
+use observers::Observers;
+use show::{Show, Showing};
 
 /// Emulates the units until SIGINT, SIGTERM, SIGHUP or the end of the link.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -34,6 +47,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     #[cfg(feature = "opcua")]
     let opcua_listener = args.opcua.map(servers::listen_for_opcua).transpose()?;
     let capture = args.pcap.as_deref().map(OutputFile::open).transpose()?;
+    let events = args.events.as_deref().map(LaterOutput::open).transpose()?;
     privileges::give_up(&files(args, &setups));
 
     // What is open from here on is closed in order. Until then a signal ends the command: it may wait for the
@@ -41,6 +55,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let stop = signals::stop().map_err(Failure::LinkLost)?;
     let setups = with_storage(args, setups)?;
     let clock = Clock::start();
+    let first = happenings::ready(Instant::ZERO, &link.to_string(), clock.origin_unix_nanos(), &setups);
     let with_system_time = |setup: Setup| setup.system_time_ns(clock.origin_unix_nanos());
     let mut twin = Twin::power_on_for_run(setups.into_iter().map(with_system_time));
     twin.reset_errors_on(reset_errors);
@@ -48,16 +63,22 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
     let mut recorder = capture.map(|capture| record(capture.begin(), args, &link, &clock)).transpose()?;
+    let (mut frame_log, showing) = show(args, &mut twin, events, first)?;
     // The port is open: a frame that arrives from now on waits in it and is answered.
-    output::print_line(ready(&link, units, modbus.as_ref()))?;
-    let observer = recorder.as_mut().map(|recorder| recorder as &mut dyn Observer);
+    People::beside(args.events.as_deref())
+        .print_text(&format!("{}\n", ready(&link, units, modbus.as_ref())))?;
+    let mut observers = Observers::default();
+    observers.add(recorder.as_mut());
+    observers.add(frame_log.as_mut());
+    let observer = observers.as_one();
     let runtime = Runtime::start(twin, clock, stop).map_err(Failure::LinkLost)?;
     let ended = runtime.answer(&mut port, observer);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));
+    let shown = showing.map_or(Ok(()), |showing| showing.end(args.events.as_deref()));
     let Ended { statistics, lost } = ended.map_err(Failure::LinkLost)?;
     tell(statistics);
-    recorded.and_then(|()| refuse_loss(lost))
+    recorded.and(shown).and_then(|()| refuse_loss(lost))
 }
 
 /// Each loss has already been logged.
@@ -66,6 +87,23 @@ fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
         Some(lost) => Err(Failure::ChangesLost(lost)),
         None => Ok(()),
     }
+}
+
+/// Shows what happens, if it is to be shown: in the log, in a file.
+fn show(
+    args: &RunArgs,
+    twin: &mut Twin,
+    events: Option<LaterOutput>,
+    first: Vec<Record>,
+) -> Result<(Option<FrameLog>, Option<Showing>), Failure> {
+    let level = LevelFilter::current();
+    if events.is_none() && level < LevelFilter::INFO {
+        return Ok((None, None));
+    }
+    let (frame_log, frames) = (level == LevelFilter::TRACE).then(frame_log::frame_log).unzip();
+    let file = args.events.as_deref().zip(events).map(|(path, out)| EventsFile::begin(path, out));
+    let showing = Show { happenings: twin.observe(), frames, file }.start(first);
+    Ok((frame_log, Some(showing.map_err(Failure::LinkLost)?)))
 }
 
 /// One line for programs: what is ready, with the actual ports.
@@ -89,10 +127,12 @@ fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failur
 }
 
 fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
-    let Some(path) = &args.pcap else { return Ok(()) };
+    let outputs = [("--pcap", &args.pcap), ("--events", &args.events)];
+    let outputs = outputs.iter().filter_map(|(option, path)| Some(Output { option, path: path.as_deref()? }));
+    let outputs: Vec<Output<'_>> = outputs.filter(|output| !output::is_stdout(output.path)).collect();
     let programs = setups.iter().flat_map(Setup::program_paths);
     let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups));
-    overwrite::refuse(&[Output { option: "--pcap", path }], files)
+    overwrite::refuse(&outputs, files)
 }
 
 /// The files of the non-volatile memories.

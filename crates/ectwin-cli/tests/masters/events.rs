@@ -1,12 +1,13 @@
 //! Events with real masters: on every channel while process data are exchanged, after power-off, without a memory.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use nx_ect101::{ErrorLog, EventCode, NonVolatileMemory};
 
-use crate::run::{Line, Run, with_pysoem};
+use crate::run::{Line, Run, top_folder, with_pysoem};
 
 const UNIT: &str = "model = \"nx-ect101\"\nstorage = \"N1.nvm\"\n";
 const MEMORY_ERROR: EventCode = EventCode(0x0020_0000);
@@ -114,5 +115,42 @@ fn a_unit_without_memory_says_so_to_pysoem_and_in_no_log() {
         let log = unit.log();
         let mut records = log.system.iter().chain(&log.access);
         assert!(!records.any(|record| record.event == MEMORY_ERROR), "{log:?}");
+    });
+}
+
+#[test]
+fn what_happens_with_pysoem_is_written_as_json_lines() {
+    with_pysoem("events::what_happens_with_pysoem_is_written_as_json_lines", |python| {
+        let lines = Path::new(env!("CARGO_TARGET_TMPDIR")).join("what-happens-with-pysoem.jsonl");
+        let unit = top_folder().join("tests/masters/units/mismatch.toml");
+        let line = Line::start_with(0, &[unit], None, &["-vv", "--events", lines.to_str().unwrap()]);
+        line.run_master(python, "events.py", &["told"]);
+        assert_eq!(line.end("TERM"), Some(0), "ectwin after SIGTERM");
+        let text = fs::read_to_string(&lines).unwrap();
+        let records: Vec<serde_json::Value> =
+            text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+        let of = |kind: &'static str| records.iter().filter(move |record| record["kind"] == kind);
+        let kinds: BTreeSet<&str> = records.iter().filter_map(|record| record["kind"].as_str()).collect();
+        let expected = [
+            "ready",
+            "unit",
+            "finding",
+            "master",
+            "state",
+            "sdo",
+            "message",
+            "mapping",
+            "event",
+            "emergency",
+            "indicator",
+        ];
+        assert!(expected.iter().all(|kind| kinds.contains(kind)), "{kinds:?}");
+        let states: BTreeSet<&str> = of("state").filter_map(|record| record["to"].as_str()).collect();
+        assert!(["PRE-OP", "SAFE-OP", "OP"].iter().all(|state| states.contains(state)), "{states:?}");
+        assert!(of("event").any(|record| record["event"] == "39170000"), "the mismatch");
+        assert!(of("emergency").any(|record| record["error_code"] == "0xFF30"), "its emergency");
+        assert!(of("sdo").any(|record| record["abort_code"] == "0x06090030"), "an aborted SDO");
+        let times: Vec<u64> = records.iter().filter_map(|record| record["at_ns"].as_u64()).collect();
+        assert!(times.is_sorted() || kinds.contains("cpu"), "in the order of their times");
     });
 }

@@ -1,0 +1,137 @@
+//! Each frame in one line of the log, with `-vvv`: the frame thread only copies the headers.
+
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+use link::{Observer, Seen};
+use time::Instant;
+use wire::{Command, DatagramHeader, datagrams};
+
+/// Datagrams that are named; of the others only their number.
+const NAMED: usize = 3;
+/// Frames that wait for the log.
+const FRAMES_MAX: usize = 4_096;
+
+/// A frame in small.
+#[derive(Clone, Copy)]
+struct FrameNote {
+    at: Instant,
+    length_bytes: usize,
+    named: [Option<(DatagramHeader, u16)>; NAMED],
+    /// Number of its datagrams.
+    datagrams: usize,
+    fate: Fate,
+    lost_before: u64,
+}
+
+#[derive(Clone, Copy)]
+enum Fate {
+    Returned,
+    DidNotReturn,
+    LateAnswer,
+}
+
+/// The frame thread's end.
+pub(crate) struct FrameLog {
+    notes: SyncSender<FrameNote>,
+    lost: u64,
+}
+
+/// The log's end.
+pub(crate) struct FrameLines(Receiver<FrameNote>);
+
+/// Both ends.
+pub(crate) fn frame_log() -> (FrameLog, FrameLines) {
+    let (notes, lines) = sync_channel(FRAMES_MAX);
+    (FrameLog { notes, lost: 0 }, FrameLines(lines))
+}
+
+impl FrameLog {
+    fn note(&mut self, at: Instant, frame: &[u8], fate: Fate) {
+        let mut named = [None; NAMED];
+        let mut count = 0;
+        for datagram in datagrams(frame) {
+            if let Some(place) = named.get_mut(count) {
+                *place = Some((datagram.header, datagram.working_counter));
+            }
+            count += 1;
+        }
+        let note = FrameNote {
+            at,
+            length_bytes: frame.len(),
+            named,
+            datagrams: count,
+            fate,
+            lost_before: self.lost,
+        };
+        match self.notes.try_send(note) {
+            Ok(()) => self.lost = 0,
+            Err(_) => self.lost += 1,
+        }
+    }
+}
+
+impl Observer for FrameLog {
+    fn frame(&mut self, seen: Seen<'_>) {
+        match seen.answer {
+            Some(answer) => self.note(seen.received, answer, Fate::Returned),
+            None => self.note(seen.received, seen.request, Fate::DidNotReturn),
+        }
+    }
+
+    fn late_answer(&mut self, answered: Instant, answer: &[u8]) {
+        self.note(answered, answer, Fate::LateAnswer);
+    }
+}
+
+impl FrameLines {
+    /// Logs the frames that wait.
+    pub(crate) fn log(&mut self) {
+        while let Ok(note) = self.0.try_recv() {
+            if note.lost_before > 0 {
+                tracing::trace!(
+                    "{} frames are missing here: more came than could be logged",
+                    note.lost_before
+                );
+            }
+            tracing::trace!("{}", words(&note));
+        }
+    }
+}
+
+fn words(note: &FrameNote) -> String {
+    let (seconds, micros) = (note.at.as_nanos() / 1_000_000_000, note.at.as_nanos() / 1_000 % 1_000_000);
+    let mut parts: Vec<String> =
+        note.named.iter().flatten().map(|(header, counter)| datagram(header, *counter)).collect();
+    match note.datagrams.saturating_sub(parts.len()) {
+        0 => {}
+        more => parts.push(format!("and {more} more")),
+    }
+    let what = if parts.is_empty() { "no datagram".to_owned() } else { parts.join("; ") };
+    let fate = match note.fate {
+        Fate::Returned => "",
+        Fate::DidNotReturn => " (did not return)",
+        Fate::LateAnswer => " (late or second answer)",
+    };
+    format!("{seconds}.{micros:06} s frame of {} bytes: {what}{fate}", note.length_bytes)
+}
+
+fn datagram(header: &DatagramHeader, counter: u16) -> String {
+    let name = format!("{:?}", header.command).to_uppercase();
+    let place = match header.command {
+        Command::Lrd | Command::Lwr | Command::Lrw => format!("0x{:08X}", header.logical_address()),
+        Command::Nop
+        | Command::Aprd
+        | Command::Apwr
+        | Command::Aprw
+        | Command::Fprd
+        | Command::Fpwr
+        | Command::Fprw
+        | Command::Brd
+        | Command::Bwr
+        | Command::Brw
+        | Command::Armw
+        | Command::Frmw
+        | Command::Other(_) => format!("0x{:04X} 0x{:04X}", header.address, header.offset),
+    };
+    format!("{name} {place}, {} bytes, WKC {counter}", header.length_bytes)
+}

@@ -1,0 +1,96 @@
+//! The thread that shows what happens: in the log, and as JSON lines. No thread of the twin waits for it.
+
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::Duration;
+
+use ectwin::happenings::{Detail, Happenings, Record};
+
+use super::events_file::EventsFile;
+use super::frame_log::FrameLines;
+use crate::failure::Failure;
+
+/// Time between two looks. Nobody wakes the thread, so that a frame never pays for it.
+const LOOK_AGAIN: Duration = Duration::from_millis(20);
+/// The longest time at the end in which the medium may accept nothing, such as a pipe that nobody reads.
+const PATIENCE: Duration = Duration::from_secs(5);
+
+/// What is shown, and where.
+pub(crate) struct Show {
+    pub(crate) happenings: Happenings,
+    pub(crate) frames: Option<FrameLines>,
+    pub(crate) file: Option<EventsFile>,
+}
+
+/// The thread.
+pub(crate) struct Showing {
+    stop: Arc<AtomicBool>,
+    ended: Receiver<io::Result<()>>,
+    thread: thread::Thread,
+}
+
+impl Show {
+    /// Shows these first records, and then what happens.
+    pub(crate) fn start(mut self, first: Vec<Record>) -> io::Result<Showing> {
+        let stop = Arc::new(AtomicBool::new(false));
+        let is_stopped = Arc::clone(&stop);
+        let (sender, ended) = channel();
+        let body = move || {
+            self.show(first);
+            while !is_stopped.load(Ordering::Relaxed) {
+                thread::park_timeout(LOOK_AGAIN);
+                let records = self.happenings.take();
+                self.show(records);
+            }
+            let records = self.happenings.take();
+            self.show(records);
+            // If the result is not awaited any more, the process ends.
+            let _ = sender.send(self.file.map_or(Ok(()), EventsFile::end));
+        };
+        let handle = thread::Builder::new().name("events".to_owned()).spawn(body)?;
+        Ok(Showing { stop, ended, thread: handle.thread().clone() })
+    }
+
+    fn show(&mut self, records: Vec<Record>) {
+        for record in &records {
+            log(record);
+            self.file.iter_mut().for_each(|file| file.add(record));
+        }
+        self.file.iter_mut().for_each(EventsFile::write);
+        self.frames.iter_mut().for_each(FrameLines::log);
+    }
+}
+
+/// CPU Units and carriers have log lines of their own.
+fn log(record: &Record) {
+    if ["cpu", "carrier"].contains(&record.kind) {
+        return;
+    }
+    match record.detail {
+        Detail::Brief => tracing::info!("{record}"),
+        Detail::Full => tracing::debug!("{record}"),
+        Detail::Programs => {}
+    }
+}
+
+impl Showing {
+    /// Shows the rest.
+    pub(crate) fn end(self, path: Option<&Path>) -> Result<(), Failure> {
+        self.stop.store(true, Ordering::Relaxed);
+        self.thread.unpark();
+        let ended = match self.ended.recv_timeout(PATIENCE) {
+            Ok(ended) => ended,
+            Err(RecvTimeoutError::Timeout) => {
+                let words = format!("it has accepted nothing for {} s", PATIENCE.as_secs());
+                Err(io::Error::new(io::ErrorKind::TimedOut, words))
+            }
+            Err(RecvTimeoutError::Disconnected) => Err(io::Error::other("the thread of the events panicked")),
+        };
+        let path = path.unwrap_or(Path::new("stderr")).to_owned();
+        ended.map_err(|source| Failure::Unwritable { path, source })
+    }
+}
