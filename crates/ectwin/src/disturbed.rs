@@ -8,7 +8,7 @@ use plant::line::{ActiveFault, KEPT_FRAMES_MAX, LineEnds, LineFaults, LineOrder,
 use time::Instant;
 use unit_model::ModelUnit;
 
-type Units = Network<Box<dyn ModelUnit>>;
+pub(crate) type Units = Network<Box<dyn ModelUnit>>;
 
 /// The seed of the random faults, if nobody sets another one.
 const SEED: u64 = 1;

@@ -26,7 +26,9 @@ mod disturbed;
 #[cfg(feature = "ethercrab")]
 mod ethercrab_port;
 pub mod explain;
+mod files_here;
 pub mod happenings;
+mod lending;
 mod line;
 mod live;
 mod master_in_memory;
@@ -36,9 +38,11 @@ mod modbus_clients;
 pub mod object_words;
 #[cfg(feature = "opcua")]
 mod opcua_clients;
+mod orders;
 mod program_file;
 mod runtime;
 mod setup;
+mod supply;
 mod twin;
 mod unit_side;
 pub mod user_files;
@@ -57,6 +61,7 @@ pub use master;
 pub use modbus::{self, ModbusMap, Server as ModbusServer};
 #[cfg(feature = "opcua")]
 pub use opcua::{self, Server as OpcUaServer};
+pub use orders::NotHeld;
 pub use plant::{self, ErrorLog, Fault, Indicators, Lights, LogRecord, UnitFile, unit_file};
 pub use plc::{
     CpuEvent, CpuRecord, DeviceVariables, Echo, Io, MessageEcho, NxCall, NxCallRefused, NxMessageError,
@@ -64,7 +69,7 @@ pub use plc::{
     Target, Validity, Variable, VariableAccess, VariableError, VariableId, VariableType, VariableValue,
 };
 pub use runtime::{Ended, Handle, Runtime, UnitStatus};
-pub use scenario;
+pub use scenario::{self, Reason, Refused};
 pub use setup::{Setup, SetupError};
 pub use st;
 pub use storage::ChangesLost;

@@ -1,5 +1,6 @@
 //! A line of units in real time: the one loop behind `ectwin run` and [`Twin::serve`].
 
+mod changes;
 mod frames;
 mod handle;
 mod handover;
@@ -56,12 +57,13 @@ impl Runtime {
     /// # Errors
     /// No thread can be started.
     pub fn start(twin: Twin, clock: Clock, stop: Arc<AtomicBool>) -> io::Result<Self> {
-        let Parts { line, mut cpus, programs, error_reset, reporter } = twin.into_parts();
+        let Parts { line, mut cpus, programs, error_reset, reporter, known, supply } = twin.into_parts();
         cpus.each(|_, cpu| cpu.switch_off_on(Arc::clone(&stop)));
         let changes = ProgramChanges::watch(programs)?;
         let waiting = changes.waiting();
         let pulse = Arc::new(TaskPulse::of(&mut cpus));
-        let shared = Arc::new(Shared::new(line, cpus, stop));
+        let supply = supply.in_real_time(pulse.scans(), Arc::clone(&stop));
+        let shared = Arc::new(Shared::new(line, cpus, known, supply, stop));
         let handle = Handle { shared: Arc::clone(&shared), clock };
         let mut runtime = Self { handle, tasks: None, watch: None };
 

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use plant::{PowerConditions, Powered, UnitFile};
 use plc::{Builtin, DeviceVariables, Io, Program, StructuredText};
+use scenario::{UnitSource, UserProgram};
 use time::Instant;
 use unit_model::PowerOn;
 use user_file::Located;
@@ -15,6 +16,7 @@ use user_file::Located;
 use crate::happenings::UnitName;
 use crate::memory_file::{self, MemoryFile};
 use crate::program_file::{ProgramFileError, ProgramText};
+use crate::supply::Supply;
 use crate::user_files;
 use crate::watched_program::{self, Stamps, WatchedProgram};
 
@@ -27,6 +29,8 @@ pub use error::SetupError;
 pub struct Setup {
     file: UnitFile,
     program: Box<dyn Program + Send>,
+    /// What is known about it without running it.
+    known_program: UserProgram,
     /// The files of the program, if it has files.
     program_files: Option<ProgramFiles>,
     is_fast: bool,
@@ -83,6 +87,7 @@ impl Setup {
     #[must_use]
     pub fn program(mut self, program: impl Program + Send + 'static) -> Self {
         self.program = Box::new(program);
+        self.known_program = UserProgram::Custom(unknown);
         self.program_files = None;
         self
     }
@@ -202,6 +207,16 @@ impl Setup {
         self.program_files.as_ref().map_or(&[][..], |files| &files.paths)
     }
 
+    /// What orders to the unit and conditions are checked against.
+    pub(crate) fn source(&self) -> UnitSource {
+        UnitSource { file: self.file.clone(), program: self.known_program.clone() }
+    }
+
+    /// The conditions under which a unit in the same line gets power.
+    pub(crate) const fn supply(&self) -> Supply {
+        Supply::of(self.is_fast, self.system_time_ns)
+    }
+
     /// The files of the user program, if it has files; they are moved out.
     pub(crate) fn watched_program(&mut self) -> Option<WatchedProgram> {
         let ProgramFiles { paths, stamps, text } = self.program_files.take()?;
@@ -240,7 +255,16 @@ impl Setup {
 
     fn without_program(file: UnitFile) -> Self {
         let program = Box::new(|_: &mut Io| {});
-        Self { file, program, program_files: None, is_fast: false, system_time_ns: None, memory: None }
+        let known_program = UserProgram::None;
+        Self {
+            file,
+            program,
+            known_program,
+            program_files: None,
+            is_fast: false,
+            system_time_ns: None,
+            memory: None,
+        }
     }
 
     fn with_named_program(
@@ -269,6 +293,7 @@ impl Setup {
         match builtin.map_err(|refused| SetupError::Builtin { refused, span: span.cloned() })? {
             Some(builtin) => {
                 self.program = builtin.program();
+                self.known_program = UserProgram::Builtin(builtin);
                 self.program_files = None;
                 Ok(true)
             }
@@ -289,6 +314,7 @@ impl Setup {
         });
         let (text, program) = read.map_err(|error| refused(error, span))?;
         self.program = program;
+        self.known_program = UserProgram::Custom(unknown);
         self.program_files = Some(ProgramFiles { paths, stamps, text });
         Ok(())
     }
@@ -297,6 +323,11 @@ impl Setup {
         let program = StructuredText::compile(source, &self.device_variables())?;
         Ok(program.with_budget(self.file.cpu().statement_budget.value))
     }
+}
+
+/// A program whose variables only the CPU Unit knows that runs it.
+fn unknown() -> Box<dyn Program + Send> {
+    Box::new(|_: &mut Io| {})
 }
 
 fn refused(error: ProgramFileError, span: Option<Range<usize>>) -> SetupError {

@@ -10,13 +10,16 @@ use plant::{Observer, Powered};
 use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
+use scenario::{Bench, Brought, KnownLine, Lent, Records};
 use storage::ChangesLost;
 use time::{Duration, Instant};
 use unit_model::ModelUnit;
 
 use crate::disturbed::Disturbed;
 use crate::happenings::{Happenings, Observed, Reporter, UnitName};
+use crate::lending::NoNotes;
 use crate::memory_file::Keeper;
+use crate::supply::Supply;
 use crate::unit_side::UnitSide;
 use crate::watched_program::WatchedProgram;
 use crate::{Setup, SetupError};
@@ -33,6 +36,8 @@ pub struct Twin {
     error_reset: ErrorReset,
     names: Vec<UnitName>,
     reporter: Option<Reporter>,
+    known: KnownLine,
+    supply: Supply,
     now: Instant,
 }
 
@@ -45,6 +50,9 @@ pub(crate) struct Parts {
     pub(crate) error_reset: ErrorReset,
     /// Who gets the reports of the CPU Units too, if anybody does.
     pub(crate) reporter: Option<Reporter>,
+    /// What orders and conditions are checked against.
+    pub(crate) known: KnownLine,
+    pub(crate) supply: Supply,
 }
 
 /// A flag that is set from outside to reset the errors of all NX Bus Function Modules.
@@ -74,7 +82,10 @@ impl Twin {
         let now = Instant::ZERO;
         let (mut units, mut cpus, mut keepers) = (Vec::new(), Vec::new(), Vec::new());
         let (mut programs, mut names) = (Vec::new(), Vec::new());
+        let (mut sources, mut supply) = (Vec::new(), Supply::default());
         for (position, mut setup) in setups.into_iter().enumerate() {
+            sources.push(setup.source());
+            supply = setup.supply();
             programs.extend(setup.watched_program().map(|program| (position, program)));
             names.push(setup.unit_name());
             let (Powered { config, unit, cpu }, writer) = setup.power_on(now);
@@ -82,14 +93,17 @@ impl Twin {
             cpus.push(cpu);
             keepers.push(writer.map(Keeper::new));
         }
+        let records = units.iter().map(|_| Records::with_fixed_room()).collect();
         let line = Line {
             network: Network::power_on(units, now),
             disturbed: Disturbed::new(),
+            records,
             keepers,
             observed: None,
         };
-        let (cpus, error_reset) = (CpuUnits::new(cpus), ErrorReset::default());
-        Self { line, cpus, programs, error_reset, names, reporter: None, now }
+        let (cpus, known, error_reset) =
+            (CpuUnits::new(cpus), KnownLine::new(sources), ErrorReset::default());
+        Self { line, cpus, programs, error_reset, names, reporter: None, known, supply, now }
     }
 
     /// Begins to record what happens from now on, also when the twin answers a link: states, events, emergencies, SDOs, links,
@@ -118,6 +132,23 @@ impl Twin {
 
     pub(crate) const fn line_mut(&mut self) -> &mut Line {
         &mut self.line
+    }
+
+    pub(crate) const fn known_mut(&mut self) -> &mut KnownLine {
+        &mut self.known
+    }
+
+    /// Lends everything that orders act on and conditions look at.
+    pub(crate) fn with_bench<T>(&mut self, brought: &Brought, act: impl FnOnce(&mut Bench<'_>) -> T) -> T {
+        let Self { line, cpus, supply, now, .. } = self;
+        act(&mut line.bench(cpus, brought, supply, &mut NoNotes, *now))
+    }
+
+    /// Another unit takes this place: it has no memory file, and its program no watched files.
+    pub(crate) fn will_be_replaced(&mut self, position: usize) {
+        self.programs.retain(|(other, _)| *other != position);
+        self.line.keep();
+        finish_replaced(self.line.take_keeper(position));
     }
 
     /// Advances virtual time; work that becomes due is done at its time.
@@ -179,8 +210,8 @@ impl Twin {
     }
 
     pub(crate) fn into_parts(self) -> Parts {
-        let Self { line, cpus, programs, error_reset, names: _, reporter, now: _ } = self;
-        Parts { line, cpus, programs, error_reset, reporter }
+        let Self { line, cpus, programs, error_reset, names: _, reporter, known, supply, now: _ } = self;
+        Parts { line, cpus, programs, error_reset, reporter, known, supply }
     }
 
     fn poll(&mut self, now: Instant) {
@@ -193,12 +224,21 @@ impl Twin {
     }
 }
 
+/// Stores the last changes of a unit that leaves the line.
+pub(crate) fn finish_replaced(keeper: Option<Keeper>) {
+    if let Some(Err(ChangesLost { path, source })) = keeper.map(Keeper::finish) {
+        tracing::warn!("{}: the last changes are lost: {source}", path.display());
+    }
+}
+
 /// The units without their CPU Units, for a link.
 #[derive(Debug)]
 pub(crate) struct Line {
     network: Network<Box<dyn ModelUnit>>,
     /// Its faults.
     disturbed: Disturbed,
+    /// What each unit has recorded.
+    records: Vec<Records>,
     /// For each unit, who stores its memory in a file, if anybody does.
     keepers: Vec<Option<Keeper>>,
     /// Its observer, if there is one.
@@ -219,6 +259,26 @@ impl Line {
     /// Something happens to it at this time, and not by a frame.
     pub(crate) fn is_lent(&mut self, now: Instant) {
         self.observed.iter_mut().for_each(|observed| observed.set_now(now));
+    }
+
+    /// Everything that orders act on and conditions look at.
+    pub(crate) fn bench<'a>(
+        &'a mut self,
+        cpus: &'a mut CpuUnits,
+        brought: &'a Brought,
+        supply: &'a Supply,
+        notes: &'a mut NoNotes,
+        now: Instant,
+    ) -> Bench<'a> {
+        self.is_lent(now);
+        let Self { network, disturbed, records, .. } = self;
+        Lent { network, cpus, line: disturbed, records, brought, supply, notes, now }.into()
+    }
+
+    /// Takes who stores the memory of the unit at this position: it leaves the line, and its changes have been passed on.
+    pub(crate) fn take_keeper(&mut self, position: usize) -> Option<Keeper> {
+        self.observed.iter_mut().for_each(|observed| observed.is_replaced(position));
+        self.keepers.get_mut(position)?.take()
     }
 
     /// All units, in the order of the line.
@@ -263,8 +323,16 @@ impl Line {
             if let Some(Some(keeper)) = self.keepers.get_mut(position) {
                 keeper.keep(&mut **device.unit_mut(), esc);
             }
-            if let Some(observed) = &mut self.observed {
-                observed.unit(position, device, esc);
+            let mut no_records = Records::default();
+            let records = self.records.get_mut(position).unwrap_or(&mut no_records);
+            match &mut self.observed {
+                Some(observed) => observed.unit(position, device, esc, |event| records.record(event)),
+                None => {
+                    let unit = device.unit_mut();
+                    while let Some(event) = unit.take_event() {
+                        records.record(event.code);
+                    }
+                }
             }
             show(position, device);
         }

@@ -213,6 +213,13 @@ impl CpuUnit {
         self.user_program.variable(name)
     }
 
+    /// A value of a variable of the user program in the notation of [`Self::program_variable`]; none if there is no such
+    /// variable, or it has no such value.
+    #[must_use]
+    pub fn program_value(&self, name: &str, text: &str) -> Option<String> {
+        self.user_program.value_of_variable(name, text)
+    }
+
     /// Takes the pending events, the oldest first. At most [`crate::CPU_EVENTS_MAX`] are kept, and one that
     /// repeats is one record.
     pub fn take_events(&mut self) -> impl ExactSizeIterator<Item = CpuRecord> {

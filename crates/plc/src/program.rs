@@ -30,6 +30,13 @@ pub trait Program {
         None
     }
 
+    /// A value of one of its variables in the notation of [`Program::variable`]; none if there is no such variable or it
+    /// has no such value.
+    fn value_of_variable(&self, name: &str, text: &str) -> Option<String> {
+        let _ = text;
+        self.variable(name).map(|_| text.to_owned())
+    }
+
     /// Runs once when it is replaced by another program: here it drops its pending calls.
     fn end(&mut self, io: &mut Io) {
         let _ = io;
@@ -97,6 +104,10 @@ impl Slot {
 
     pub(crate) fn variable(&self, name: &str) -> Option<String> {
         self.program.variable(name)
+    }
+
+    pub(crate) fn value_of_variable(&self, name: &str, text: &str) -> Option<String> {
+        self.program.value_of_variable(name, text)
     }
 
     /// One scan, if the program runs, and before the first one its start.

@@ -139,6 +139,11 @@ impl Program for StructuredText {
         self.value(name)
     }
 
+    fn value_of_variable(&self, name: &str, text: &str) -> Option<String> {
+        let mut trial = self.instance.clone();
+        trial.set(name, text).then(|| trial.value(name)).flatten()
+    }
+
     fn end(&mut self, io: &mut Io) {
         self.calls.forget(io.nx_objects());
     }

@@ -11,6 +11,7 @@ pub mod model;
 pub mod pool;
 mod random;
 mod ready;
+mod refused;
 mod replay;
 mod run;
 mod search;
@@ -19,11 +20,12 @@ mod vacuous;
 pub mod words;
 
 pub use builder::ScenarioBuilder;
-pub use ready::{ErrorPlace, Files, ScenarioError, ScenarioErrors};
+pub use ready::{ErrorPlace, Files, KnownLine, ReadyOrder, ScenarioError, ScenarioErrors};
+pub use refused::{Reason, Refused};
 pub use run::{
-    Aspect, DifferenceKind, Fact, FactKind, Failure, FailureKind, MasterProgram, Met, NotReplayable,
-    PlayedStep, ProgramFile, RandomPart, RecordedFrames, Recording, Report, Scenario, UnitSource,
-    UserProgram, WrittenGroup, WrittenStep,
+    Aspect, Bench, Brought, DifferenceKind, Fact, FactKind, Failure, FailureKind, Lent, LineHands, Look,
+    MasterProgram, Met, NotReplayable, Notes, PlayedStep, ProgramFile, RandomPart, RecordedFrames, Recording,
+    Records, Report, Scenario, Supply, UnitSource, UserProgram, WrittenGroup, WrittenStep,
 };
 pub use search::{Found, Search, Trial};
 pub use trace_difference::{TraceDifference, trace_differences};

@@ -6,6 +6,7 @@ mod check;
 mod dice;
 mod frame_words;
 mod ledger;
+mod look;
 mod master;
 mod met;
 mod observed;
@@ -20,8 +21,10 @@ mod stage;
 mod virtual_stage;
 mod world;
 
+pub use bench::{Bench, Lent, LineHands, Notes, Supply};
 pub(crate) use check::{is_signed, register_bytes};
 pub(crate) use dice::{DICE_OF_STEPS, Dice};
+pub use look::Look;
 pub use master::MasterProgram;
 pub(crate) use master::{MasterVariables, NODE_ADDRESS_MAX, Node, changed_settings};
 pub use met::{Fact, FactKind, Met};
@@ -30,6 +33,9 @@ pub use programs::ProgramFile;
 pub(crate) use programs::{LoadedProgram, SiiImage};
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
 pub use recording::Recording;
+pub use records::Records;
 pub use report::{Failure, FailureKind, Report};
-pub(crate) use scenario::{Brought, Replacement, each_step};
-pub use scenario::{PlayedStep, RandomPart, Scenario, UnitSource, UserProgram, WrittenGroup, WrittenStep};
+pub use scenario::{
+    Brought, PlayedStep, RandomPart, Scenario, UnitSource, UserProgram, WrittenGroup, WrittenStep,
+};
+pub(crate) use scenario::{Replacement, each_step};

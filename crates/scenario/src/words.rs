@@ -1,6 +1,7 @@
 //! Sentences: one notation of orders and conditions, for reading and writing. The tables are also the reference
 //! of the language.
 
+mod any_order;
 mod place;
 mod sentence;
 mod spoken;
@@ -9,6 +10,7 @@ mod value;
 
 use crate::model::Quantity;
 
+pub(crate) use any_order::{nearest_conditions, nearest_orders};
 pub use place::Place;
 pub(crate) use sentence::try_read;
 pub use sentence::{NoSentence, Sentence, read, row_of};

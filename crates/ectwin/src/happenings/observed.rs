@@ -9,7 +9,7 @@ use esc::Esc;
 use plant::line::ActiveFault;
 use plant::{Happening, HappeningKind, Observer};
 use time::Instant;
-use unit_model::ModelUnit;
+use unit_model::{EventCode, ModelUnit};
 
 use super::queue::{Report, Reporter};
 use crate::disturbed::Disturbed;
@@ -65,11 +65,27 @@ impl Observed {
         self.observer.frame(now, |happening| queue.push(happening));
     }
 
-    /// A unit that may have changed.
+    /// A unit that may have changed. `record` gets its events.
     #[inline]
-    pub(crate) fn unit(&mut self, position: usize, device: &mut Device<Box<dyn ModelUnit>>, esc: &Esc) {
+    pub(crate) fn unit(
+        &mut self,
+        position: usize,
+        device: &mut Device<Box<dyn ModelUnit>>,
+        esc: &Esc,
+        mut record: impl FnMut(EventCode),
+    ) {
         let queue = &self.queue;
-        self.observer.unit(self.now, position, device, esc, |happening| queue.push(happening));
+        self.observer.unit(self.now, position, device, esc, |happening| {
+            if let HappeningKind::Event(recorded) = &happening.kind {
+                record(recorded.code);
+            }
+            queue.push(happening);
+        });
+    }
+
+    /// Another unit takes this place.
+    pub(crate) fn is_replaced(&mut self, position: usize) {
+        self.observer.is_replaced(position);
     }
 
     /// What a time brings: a master that is gone, indicators.

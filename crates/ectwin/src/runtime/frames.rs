@@ -5,24 +5,30 @@ use time::Instant;
 
 use super::handover::Owned;
 use super::shared::Shared;
-use super::status::Published;
 use crate::twin::Line;
 
 /// The line in the hands of the thread that answers frames.
 pub(super) struct Frames<'a> {
     line: Owned<'a, Line>,
-    units: &'a Published,
+    shared: &'a Shared,
 }
 
 impl<'a> Frames<'a> {
     /// The calling thread answers frames from now on.
     pub(super) fn own(shared: &'a Shared) -> Self {
-        Self { line: shared.line.own(), units: &shared.units }
+        Self { line: shared.line.own(), shared }
     }
 
     fn publish_changed(&mut self) {
-        let units = self.units;
-        self.line.each_changed(|position, device| units.publish(position, device));
+        let shared = self.shared;
+        let mut has_changed = false;
+        self.line.each_changed(|position, device| {
+            shared.units.publish(position, device);
+            has_changed = true;
+        });
+        if has_changed {
+            shared.changes.announce();
+        }
     }
 }
 

@@ -1,13 +1,17 @@
 //! Access to a line that runs in real time.
 
-use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::sync::{Arc, MutexGuard, PoisonError};
 
 use link::Clock;
-use time::Instant;
+use scenario::model::Order;
+use scenario::{Bench, Brought, KnownLine, Refused};
+use time::{Duration, Instant};
 
 use super::shared::{Shared, wake};
 use super::status::UnitStatus;
-use crate::twin::Line;
+use crate::lending::{NoNotes, replaced_place};
+use crate::twin::{Line, finish_replaced};
 use crate::unit_side::UnitSide;
 
 /// Access from any thread to the units of a [`crate::Runtime`]; clones access the same units, also after its end.
@@ -28,9 +32,53 @@ impl Handle {
         let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
         let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
         let seen = look(&mut line.unit(&mut cpus, position, self.clock.now()));
-        // Here too: the frame thread publishes in its next turn, and not after its end.
-        line.each_changed(|position, device| self.shared.units.publish(position, device));
+        self.publish_changed(&mut line);
         seen
+    }
+
+    /// Lends everything that orders act on and conditions look at. Frames and tasks wait until `act` returns.
+    pub(crate) fn with_bench<T>(&self, brought: &Brought, act: impl FnOnce(&mut Bench<'_>) -> T) -> T {
+        let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
+        let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
+        let done =
+            act(&mut line.bench(&mut cpus, brought, &self.shared.supply, &mut NoNotes, self.clock.now()));
+        self.publish_changed(&mut line);
+        done
+    }
+
+    /// Carries out an order that has been checked. The units react before it returns.
+    pub(crate) fn carry_out(&self, order: &Order, brought: &Brought) -> Result<(), Refused> {
+        let replaced = replaced_place(order);
+        if let Some(place) = replaced.and_then(|position| self.shared.replaced.get(position)) {
+            place.store(true, Ordering::Relaxed);
+        }
+        let keeper = self.look_at_line(|line, _| {
+            self.publish_changed(line);
+            replaced.and_then(|position| line.take_keeper(position))
+        });
+        finish_replaced(keeper);
+        self.with_bench(brought, |bench| bench.carry_out(order))?;
+        self.look_at_line(Line::react);
+        Ok(())
+    }
+
+    /// What orders and conditions are checked against.
+    pub(crate) fn known(&self) -> MutexGuard<'_, KnownLine> {
+        self.shared.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Looks until `look` is satisfied, after each change on the line, for this time at most.
+    ///
+    /// # Errors
+    /// The last one.
+    pub(crate) fn wait_for<E>(&self, within: Duration, look: impl FnMut() -> Result<(), E>) -> Result<(), E> {
+        self.shared.changes.wait_for(std::time::Duration::from_nanos(within.as_nanos()), look)
+    }
+
+    /// Here too: the frame thread publishes in its next turn, and not after its end.
+    fn publish_changed(&self, line: &mut Line) {
+        line.each_changed(|position, device| self.shared.units.publish(position, device));
+        self.shared.changes.announce();
     }
 
     /// Accesses the line. Frames wait until `look` returns.
@@ -39,7 +87,7 @@ impl Handle {
         let now = self.clock.now();
         line.is_lent(now);
         let seen = look(&mut line, now);
-        line.each_changed(|position, device| self.shared.units.publish(position, device));
+        self.publish_changed(&mut line);
         seen
     }
 

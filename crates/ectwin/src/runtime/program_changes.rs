@@ -64,11 +64,12 @@ impl ProgramChanges {
         self.waiting.clone()
     }
 
-    /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it.
-    pub(super) fn apply(&mut self, cpus: &mut CpuUnits) {
+    /// Loads changed programs, in PROGRAM mode; a CPU Unit in RUN mode returns to it. They are not those of units that have
+    /// taken the places of others.
+    pub(super) fn apply(&mut self, cpus: &mut CpuUnits, is_replaced: impl Fn(usize) -> bool) {
         while let Ok(Change { programs, report }) = self.changed.try_recv() {
             self.waiting.0.fetch_sub(1, Ordering::Relaxed);
-            for (position, program) in programs {
+            for (position, program) in programs.into_iter().filter(|(position, _)| !is_replaced(*position)) {
                 if let Some(cpu) = cpus.get_mut(position) {
                     cpu.change_program(program);
                 }

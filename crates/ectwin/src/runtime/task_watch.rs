@@ -32,6 +32,11 @@ impl TaskPulse {
         Self { scan, position: AtomicUsize::new(0) }
     }
 
+    /// Watches and ends the scans of the CPU Units.
+    pub(super) fn scans(&self) -> Arc<ScanWatch> {
+        Arc::clone(&self.scan)
+    }
+
     /// Runs the task of each CPU Unit that is due at `now`.
     pub(super) fn cycle(&self, cpus: &mut CpuUnits, now: Instant, clock: &Clock) {
         cpus.cycle(now, |position, cpu| {

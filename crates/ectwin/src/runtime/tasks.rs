@@ -47,13 +47,14 @@ impl Tasks {
     /// Does what is due, and returns when the next task period begins.
     fn turn(&mut self, cpus: &mut Owned<'_, CpuUnits>, reports: &mut Reports) -> Instant {
         let now = self.clock.now();
-        self.changes.apply(cpus);
+        self.changes.apply(cpus, |position| self.shared.is_replaced(position));
         if self.error_reset.swap(false, Ordering::Relaxed) {
             cpus.each(|_, cpu| cpu.reset_errors());
             tracing::warn!("the errors of all NX Bus Function Modules are reset");
         }
         self.pulse.cycle(cpus, now, &self.clock);
         reports.log(cpus, now);
+        self.shared.changes.announce();
         cpus.deadline()
     }
 }

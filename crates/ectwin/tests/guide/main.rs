@@ -17,5 +17,6 @@ mod master_in_virtual_time;
 mod messages;
 #[cfg(feature = "modbus")]
 mod modbus;
+mod orders;
 mod scenario;
 mod scenario_values;

@@ -13,9 +13,10 @@ impl Maker<'_> {
         match order {
             LineOrder::Disturb(disturbance) => {
                 self.check_effect(disturbance, part)?;
-                self.check_name(disturbance, part)
+                if self.follows_steps { self.check_name(disturbance, part) } else { Some(()) }
             }
-            LineOrder::End { name } => self.check_end(name, part),
+            LineOrder::End { name } if self.follows_steps => self.check_end(name, part),
+            LineOrder::End { .. } => Some(()),
             LineOrder::BeQuiet => {
                 self.fault_names.end_all();
                 Some(())

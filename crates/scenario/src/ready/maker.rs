@@ -34,6 +34,8 @@ pub(super) struct Maker<'f> {
     pub(super) unreadable: Vec<usize>,
     /// Values of programs' variables that are checked to the end.
     pub(super) lasting_values: Vec<LastingValue>,
+    /// Orders follow each other as steps; else the line that runs decides what is at work.
+    pub(super) follows_steps: bool,
     /// The faults of frames with names in the steps so far.
     pub(super) fault_names: FaultNames,
     /// What all steps order.
@@ -61,6 +63,7 @@ impl<'f> Maker<'f> {
             loads: Vec::new(),
             unreadable: Vec::new(),
             lasting_values: Vec::new(),
+            follows_steps: true,
             fault_names: FaultNames::default(),
             ordered: Ordered::default(),
             standing: Standing::default(),

@@ -240,7 +240,7 @@ impl Maker<'_> {
         None
     }
 
-    fn condition(
+    pub(super) fn condition(
         &mut self,
         condition: &mut Condition,
         part: Part,
@@ -303,7 +303,7 @@ impl Maker<'_> {
     }
 
     /// A value has not changed yet when its step begins.
-    fn check_can_change(&mut self, condition: &Condition, mode: &Mode, part: Part) {
+    pub(super) fn check_can_change(&mut self, condition: &Condition, mode: &Mode, part: Part) {
         let is_checked_at_once = match mode {
             Mode::Now | Mode::For(_) | Mode::Until(_) => true,
             Mode::Within(_) | Mode::Never | Mode::NeverUntil(_) | Mode::While(_) => false,

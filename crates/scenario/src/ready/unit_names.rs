@@ -49,6 +49,11 @@ impl<'u> UnitNames<'u> {
         Self { names: units.iter().map(|unit| unit.file.name()).collect() }
     }
 
+    /// Units with these names.
+    pub(super) fn named(names: &'u [String]) -> Self {
+        Self { names: names.iter().map(String::as_str).collect() }
+    }
+
     /// Replaces the names by numbers; otherwise the first mistake: its message and the remedy.
     pub(crate) fn number(&self, words: Option<UnitWords<'_>>) -> Result<(), (String, String)> {
         words.into_iter().flat_map(UnitWords::each).try_for_each(|unit| {

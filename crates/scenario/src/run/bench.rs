@@ -17,11 +17,13 @@ use super::recorded::Recorded;
 use super::recording::Recording;
 use super::records::Records;
 use super::scenario::{Brought, UnitSource};
+use crate::model::Order;
+use crate::refused::{Reason, Refused};
 
 pub(crate) use looks::state_words;
 
 /// The units of a line with everything that belongs to them, between two moments of their time.
-pub(crate) struct Bench<'a> {
+pub struct Bench<'a> {
     pub(crate) network: &'a mut Network<Box<dyn ModelUnit>>,
     pub(crate) cpus: &'a mut CpuUnits,
     pub(crate) line: &'a mut dyn LineHands,
@@ -33,6 +35,64 @@ pub(crate) struct Bench<'a> {
     /// None: other masters use the line.
     pub(crate) masters: Option<Masters<'a>>,
     pub(crate) now: Instant,
+    /// Units and CPU Units on which an order had no effect, and why.
+    pub(crate) without_effect: Vec<String>,
+}
+
+/// The parts of a line that runs with other masters than those of scenarios.
+pub struct Lent<'a> {
+    /// The units.
+    pub network: &'a mut Network<Box<dyn ModelUnit>>,
+    /// The CPU Units, in the order of the line.
+    pub cpus: &'a mut CpuUnits,
+    /// Cables and faults of frames.
+    pub line: &'a mut dyn LineHands,
+    /// What each unit has recorded.
+    pub records: &'a mut [Records],
+    /// What the order brings to the line.
+    pub brought: &'a Brought,
+    /// Gives power to units that it brings.
+    pub supply: &'a dyn Supply,
+    /// Takes down what an order does in addition.
+    pub notes: &'a mut dyn Notes,
+    /// The present time.
+    pub now: Instant,
+}
+
+impl<'a> From<Lent<'a>> for Bench<'a> {
+    fn from(lent: Lent<'a>) -> Self {
+        let Lent { network, cpus, line, records, brought, supply, notes, now } = lent;
+        let without_effect = Vec::new();
+        Self { network, cpus, line, records, brought, supply, notes, masters: None, now, without_effect }
+    }
+}
+
+impl Bench<'_> {
+    /// Carries out an order that has been checked for this line.
+    ///
+    /// # Errors
+    /// [`Reason::NotNow`], [`Reason::WithoutEffect`]; an order to a master is [`Reason::ScriptedMaster`].
+    pub fn carry_out(&mut self, order: &Order) -> Result<(), Refused> {
+        self.without_effect.clear();
+        match order {
+            Order::Unit(order) => self.unit_order(order),
+            Order::Cpu(order) => self.cpu_order(order),
+            Order::Line(order) => {
+                let ordered = self.line.order(self.now, order, self.network);
+                return ordered.map_err(|refusal| Refused::new(Reason::NotNow, refusal.to_string(), ""));
+            }
+            Order::Master(_) | Order::Expect(_) => {
+                return Err(Refused::new(Reason::ScriptedMaster, "a line carries out no such order", ""));
+            }
+        }
+        let units = order.clone().unit_words().map(|units| units.set());
+        let targets = units.map_or(1, |units| units.positions(self.network.len()).count());
+        if self.without_effect.is_empty() || self.without_effect.len() < targets {
+            return Ok(());
+        }
+        let message = format!("{}: the order has no effect", self.without_effect.join(", "));
+        Err(Refused::new(Reason::WithoutEffect, message, ""))
+    }
 }
 
 /// The masters of a scenario.
@@ -43,7 +103,7 @@ pub(crate) struct Masters<'a> {
 }
 
 /// Carries out orders on cables and faults of frames.
-pub(crate) trait LineHands {
+pub trait LineHands {
     /// Carries out an order.
     ///
     /// # Errors
@@ -68,13 +128,13 @@ impl<T: Copy> LineHands for LineFaults<T> {
 }
 
 /// Gives power to units that take the places of others.
-pub(crate) trait Supply {
+pub trait Supply {
     /// A unit and its CPU Unit with power. `number` counts the units that were brought, from 0.
     fn power(&self, number: usize, unit: &UnitSource, now: Instant) -> Powered;
 }
 
 /// Takes down what orders do in addition to their effect.
-pub(crate) trait Notes {
+pub trait Notes {
     /// A participant, such as `unit 1`, and what it does.
     fn tell(&mut self, now: Instant, who: &str, what: &str);
 }

@@ -17,6 +17,9 @@ pub(crate) fn emergency_code(model: &dyn Model, event: EventCode) -> Option<u16>
     row.emergency.map(|emergency| emergency.code)
 }
 
+/// Of so many records the oldest are forgotten, a whole round of the history at a time.
+const RECORDS_MAX: usize = 3 * MESSAGES;
+
 /// The records of a history since its last clear.
 #[derive(Debug, Default)]
 pub(crate) struct Ledger {
@@ -57,12 +60,15 @@ const fn sub_of(number: usize) -> u8 {
 impl Ledger {
     /// An event with this emergency error code is recorded.
     pub(crate) fn record(&mut self, code: u16) {
+        if self.records.len() == RECORDS_MAX {
+            self.records.drain(..MESSAGES);
+        }
         self.records.push(Some(code));
         self.fresh += 1;
     }
 
     /// The unit starts.
-    pub(crate) fn start(&mut self) {
+    pub(crate) const fn start(&mut self) {
         self.has_started = true;
     }
 
@@ -79,7 +85,8 @@ impl Ledger {
         let fresh = core::mem::take(&mut self.fresh);
         let number = self.records.len();
         if core::mem::take(&mut self.has_started) {
-            self.records = vec![None; number_of(*stored, *newest)];
+            self.records.clear();
+            self.records.resize(number_of(*stored, *newest), None);
         } else if there < number.min(MESSAGES) && there <= fresh {
             // It was cleared, and these events came after that.
             self.records.drain(..number - there);
@@ -132,7 +139,7 @@ mod tests {
 
     #[test]
     fn a_right_history_is_consistent_at_every_length_and_after_a_start() {
-        let codes: Vec<u16> = (1..=70).collect();
+        let codes: Vec<u16> = (1..=300).collect();
         let mut ledger = Ledger::default();
         for length in 0..codes.len() {
             assert_eq!(ledger.compare(&shown(&codes[..length])), Ok(()), "{length}");

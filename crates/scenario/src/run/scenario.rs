@@ -100,7 +100,7 @@ impl UnitSource {
 
 /// What orders bring to the places of the line, as their files were read.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Brought {
+pub struct Brought {
     /// Programs for CPU Units.
     pub(crate) programs: Vec<LoadedProgram>,
     /// Images for EEPROMs.
@@ -133,7 +133,9 @@ pub enum UserProgram {
 }
 
 impl UserProgram {
-    pub(crate) fn start(&self) -> Box<dyn Program + Send> {
+    /// The program in its initial state.
+    #[must_use]
+    pub fn start(&self) -> Box<dyn Program + Send> {
         match self {
             Self::None => Box::new(|_: &mut Io| {}),
             Self::Builtin(builtin) => builtin.program(),

@@ -94,6 +94,7 @@ impl World {
             notes: &mut self.recording,
             masters: Some(Masters { scripted: &self.master, recorded: &self.recorded }),
             now: self.now,
+            without_effect: Vec::new(),
         }
     }
 
@@ -205,7 +206,7 @@ fn watch_unit(
             let name = model.event(event).map_or("", |event| event.name);
             recording.tell(now, &format!("unit {}", at + 1), &format!("records {event} {name}"));
             recording.meets(|met| met.event(model, event));
-            records.record(model, event);
+            records.record(event);
         }
         HappeningKind::State { before, status, code } => {
             recording.meets(|met| met.status(before, status, code));

@@ -258,20 +258,25 @@ impl<T> Misfit<'_, T> {
 
     /// No part of the text matches: the example with the nearest words, if it is near.
     fn nearest(&self) -> NoSentence {
-        let meant = rows(self.table).filter(|sentence| has_a_word_of(sentence, self.text));
-        let scored = meant.map(|sentence| (likeness(sentence, self.text), sentence));
-        let nearest = scored.max_by(|(a, _), (b, _)| a.total_cmp(b));
+        let nearest = likenesses(self.table, self.text).max_by(|(a, _), (b, _)| a.total_cmp(b));
         let near = nearest.filter(|(likeness, _)| *likeness >= NEAR);
         let help = near.map_or_else(
             || "docs/user/scenario-reference.md has the sentences of every key".to_owned(),
-            |(_, sentence)| user_file::did_you_mean(sentence.example),
+            |(_, example)| user_file::did_you_mean(example),
         );
         NoSentence { message: format!("`{}` is not a valid sentence here", self.text), help }
     }
 }
 
+/// How alike each sentence that is suggested and a text are, with the example of the sentence. Sentences without a word of
+/// the text are left out.
+pub(super) fn likenesses<T>(table: &[Sentence<T>], text: &str) -> impl Iterator<Item = (f64, &'static str)> {
+    let meant = rows(table).filter(move |sentence| has_a_word_of(sentence, text));
+    meant.map(move |sentence| (likeness(sentence, text), sentence.example))
+}
+
 /// A sentence is near a text from this likeness on: two words of three are alike.
-const NEAR: f64 = 0.6;
+pub(super) const NEAR: f64 = 0.6;
 
 /// Number of words of a text that are compared: more than any sentence has words.
 const WORDS_COMPARED: usize = 32;

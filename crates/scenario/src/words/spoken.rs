@@ -55,11 +55,20 @@ pub trait Say<T> {
     /// # Errors
     /// The text is not a sentence.
     fn value(self) -> Result<T, NoSentence>;
+
+    /// The text; none of a typed value.
+    fn text(&self) -> Option<&str> {
+        None
+    }
 }
 
 impl<T: Spoken> Say<T> for &str {
     fn value(self) -> Result<T, NoSentence> {
         T::from_sentence(self)
+    }
+
+    fn text(&self) -> Option<&str> {
+        Some(self)
     }
 }
 
@@ -67,11 +76,19 @@ impl<T: Spoken> Say<T> for &String {
     fn value(self) -> Result<T, NoSentence> {
         T::from_sentence(self)
     }
+
+    fn text(&self) -> Option<&str> {
+        Some(self)
+    }
 }
 
 impl<T: Spoken> Say<T> for String {
     fn value(self) -> Result<T, NoSentence> {
         T::from_sentence(&self)
+    }
+
+    fn text(&self) -> Option<&str> {
+        Some(self)
     }
 }
 

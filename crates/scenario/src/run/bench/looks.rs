@@ -70,9 +70,15 @@ impl Bench<'_> {
         self.records[at].events()
     }
 
+    /// How often a unit has recorded an event.
+    pub(crate) fn recorded_times(&self, at: usize, event: EventCode) -> u64 {
+        self.records[at].times(event)
+    }
+
     /// The diagnosis history as the recorded events say.
     pub(crate) fn ledger_mut(&mut self, at: usize) -> &mut Ledger {
-        self.records[at].ledger_mut()
+        let model = self.unit(at).model();
+        self.records[at].ledger(model)
     }
 
     /// The emergency error codes that the master has received from a unit, each with its number.

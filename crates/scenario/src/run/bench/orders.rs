@@ -23,10 +23,7 @@ impl Bench<'_> {
         let units = order.units();
         for at in units.positions(self.count()) {
             match self.why_without_effect(order, at) {
-                Some(reason) => {
-                    let words = format!("{reason}: the order has no effect");
-                    self.notes.tell(self.now, &format!("unit {}", at + 1), &words);
-                }
+                Some(reason) => self.note_without_effect(&format!("unit {}", at + 1), reason),
                 None => self.act_on_unit(order, at),
             }
         }
@@ -166,10 +163,14 @@ impl Bench<'_> {
     pub(super) fn cpu_has_power(&mut self, at: usize) -> bool {
         let has_power = self.cpus.get(at).is_some_and(CpuUnit::has_power);
         if !has_power {
-            let words = "has no power: the order has no effect";
-            self.notes.tell(self.now, &format!("cpu {}", at + 1), words);
+            self.note_without_effect(&format!("cpu {}", at + 1), "has no power");
         }
         has_power
+    }
+
+    fn note_without_effect(&mut self, who: &str, reason: &str) {
+        self.notes.tell(self.now, who, &format!("{reason}: the order has no effect"));
+        self.without_effect.push(format!("{who} {reason}"));
     }
 
     fn invert_sii_word(&mut self, at: usize, word: u16) {
@@ -206,15 +207,14 @@ impl Bench<'_> {
     fn power_on_rack(&mut self, at: usize) {
         let has_power = self.cpus.get(at).is_some_and(CpuUnit::has_power);
         if has_power && !self.is_off(at) {
-            let words = "has power: the order has no effect";
-            return self.notes.tell(self.now, &format!("cpu {}", at + 1), words);
+            return self.note_without_effect(&format!("cpu {}", at + 1), "has power");
         }
         self.cycle_rack_power(at);
     }
 
     fn start(&mut self, at: usize, start: Start) {
         self.network.restart(at, self.now, start);
-        self.records[at].ledger_mut().start();
+        self.records[at].start();
     }
 }
 

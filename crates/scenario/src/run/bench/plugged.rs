@@ -4,7 +4,6 @@ use device::Start;
 use plant::Powered;
 
 use super::Bench;
-use crate::run::records::Records;
 
 /// A byte of an EEPROM that has never been written.
 pub(super) const ERASED: u8 = 0xFF;
@@ -36,7 +35,7 @@ impl Bench<'_> {
             *place = cpu;
         }
         if let Some(records) = self.records.get_mut(at) {
-            *records = Records::default();
+            records.begin_anew();
         }
         self.notes.tell(self.now, &format!("unit {}", at + 1), &format!("is replaced by {file}"));
     }

@@ -29,7 +29,7 @@ pub(super) fn state(world: &mut Bench<'_>, at: usize, state: AlState, code: Opti
 
 pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times: Option<u64>) -> Check {
     has_power(world, at)?;
-    let seen = world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64;
+    let seen = world.recorded_times(at, unit_model::EventCode(event.0));
     holds(is_often_enough(seen, times), || {
         format!("{} has recorded it {}; {}", name(at), times_words(seen), world.recorded_words(at))
     })

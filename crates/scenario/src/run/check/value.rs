@@ -129,7 +129,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         Quantity::Records { unit, event } => {
             let at = there(unit, world)?;
             unit::has_power(world, at)?;
-            Ok(Reading::count(world.recorded(at).iter().filter(|code| code.0 == event.0).count() as u64))
+            Ok(Reading::count(world.recorded_times(at, unit_model::EventCode(event.0))))
         }
         Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
         Quantity::Cycles => Ok(Reading::count(scripted(world)?.cycles())),

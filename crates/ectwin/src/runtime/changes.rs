@@ -1,0 +1,74 @@
+//! Waiting until something on the line may have changed. As long as nobody waits, its threads take no lock.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Shortest time from one look to the next, so that the frames do not wait too often.
+const LOOK_AGAIN: Duration = Duration::from_millis(1);
+
+/// Tells those who wait that something may have changed.
+#[derive(Debug, Default)]
+pub(super) struct Changes {
+    waiting: AtomicUsize,
+    /// Number of changes while somebody waited.
+    count: Mutex<u64>,
+    changed: Condvar,
+}
+
+impl Changes {
+    /// Something may have changed.
+    pub(super) fn announce(&self) {
+        // Who has begun to wait looks once more after that.
+        if self.waiting.load(Ordering::Relaxed) > 0 {
+            *self.lock() += 1;
+            self.changed.notify_all();
+        }
+    }
+
+    /// Looks until `look` is satisfied, after each change, and at the end of this time.
+    ///
+    /// # Errors
+    /// The last one.
+    pub(super) fn wait_for<E>(
+        &self,
+        within: Duration,
+        mut look: impl FnMut() -> Result<(), E>,
+    ) -> Result<(), E> {
+        let end = Instant::now().checked_add(within);
+        let _waiting = Waiting::begin(self);
+        loop {
+            let (before, began) = (*self.lock(), Instant::now());
+            let looked = look();
+            let rest = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+            if looked.is_ok() || rest.is_zero() {
+                return looked;
+            }
+            std::thread::sleep(LOOK_AGAIN.saturating_sub(began.elapsed()).min(rest));
+            let rest = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+            let is_same = |count: &mut u64| *count == before;
+            drop(self.changed.wait_timeout_while(self.lock(), rest, is_same));
+        }
+    }
+
+    /// A number is consistent also after a panic.
+    fn lock(&self) -> MutexGuard<'_, u64> {
+        self.count.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Somebody waits until this is dropped.
+struct Waiting<'a>(&'a Changes);
+
+impl<'a> Waiting<'a> {
+    fn begin(changes: &'a Changes) -> Self {
+        changes.waiting.fetch_add(1, Ordering::Relaxed);
+        Self(changes)
+    }
+}
+
+impl Drop for Waiting<'_> {
+    fn drop(&mut self) {
+        self.0.waiting.fetch_sub(1, Ordering::Relaxed);
+    }
+}
