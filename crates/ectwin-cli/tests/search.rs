@@ -15,6 +15,7 @@ steps = [
   { master = "take all units to OP" },
   { when = "all units are in OP", expect = "unit 1 has no error" },
   { random = 20, within = "1s" },
+  { unit = "power on unit 1" },
   { expect = "unit 1 has recorded 40200000 0 times" },
 ]
 "#;
@@ -54,7 +55,7 @@ fn a_failure_is_cut_down_to_a_file_that_replay_repeats() {
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
     for fragment in [
         "FAILED  never.toml: no error at all",
-        "found.toml:7: `unit 1 has recorded 40200000 0 times`",
+        "found.toml:10: `unit 1 has recorded 40200000 0 times`",
         "seen    unit 1 has recorded it once",
         "steps   1 of 20 are left",
         "repeat  ectwin replay found.toml\n",
@@ -66,7 +67,7 @@ fn a_failure_is_cut_down_to_a_file_that_replay_repeats() {
     let again = bench.ectwin(&["replay", "found.toml"]);
     assert_eq!(again.code, Some(1), "{}", again.stderr);
     assert!(
-        again.stdout.contains("found.toml:7: `unit 1 has recorded 40200000 0 times`"),
+        again.stdout.contains("found.toml:10: `unit 1 has recorded 40200000 0 times`"),
         "{}",
         again.stdout
     );
@@ -291,7 +292,7 @@ fn the_steps_of_a_failure_are_written_into_a_file_with_a_prelude() {
     let ended = bench.ectwin(&["search", "never.toml", "-o", "found.toml"]);
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
     assert!(
-        ended.stdout.contains("found.toml:8: `unit 1 has recorded 40200000 0 times`"),
+        ended.stdout.contains("found.toml:11: `unit 1 has recorded 40200000 0 times`"),
         "{}",
         ended.stdout
     );
