@@ -48,6 +48,18 @@ impl Stage for Desk {
         None
     }
 
+    fn is_unsettled(&mut self) -> bool {
+        false
+    }
+
+    fn frames_to_come(&self) -> u64 {
+        0
+    }
+
+    fn shows_until(&self) -> Instant {
+        self.now()
+    }
+
     fn note_step(&mut self, words: &str) {
         self.story.push(format!("{} {words}", self.now.as_nanos() / 1_000_000));
     }
