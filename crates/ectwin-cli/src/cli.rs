@@ -3,12 +3,13 @@
 mod address;
 mod count;
 
+use std::ffi::OsString;
 use std::net::SocketAddr;
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use link::LinkSpec;
 use plant::{default_model, models};
 use unit_model::ModelTables;
@@ -36,6 +37,17 @@ pub(crate) enum Command {
     Run(RunArgs),
     /// Print the event logs in a file of a unit's non-volatile memory, with causes and corrections
     Log(LogArgs),
+    /// Run a command with units behind its network interface; the command's exit code is the result
+    Exec(ExecArgs),
+    /// The first process inside the namespaces of `exec`
+    #[command(hide = true)]
+    ExecInside(ExecInsideArgs),
+    /// The process that becomes the command of `exec`
+    #[command(name = "exec-command", hide = true)]
+    ExecProgram {
+        #[arg(last = true, required = true)]
+        command: Vec<OsString>,
+    },
     /// Check I/O allocation and PDO setting of a unit file against the setting rules
     Check(CheckArgs),
     /// Print the I/O map of a unit: variables, types, positions, Modbus addresses
@@ -94,6 +106,88 @@ pub(crate) struct RunArgs {
     /// Skip the simulated times of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
+    /// End when stdin is closed too, for a program that starts the units: they end with it, whatever ended it
+    #[arg(long)]
+    pub(crate) until_stdin_closes: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ExecArgs {
+    /// Unit files, in chain order from the master
+    #[arg(required = true, value_name = "FILE")]
+    pub(crate) units: Vec<PathBuf>,
+    /// The cable: `veth`, an interface in a network namespace of its own, whose name is in ECTWIN_INTERFACE; or `udp`,
+    /// whose address is in ECTWIN_UDP
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) link: Cable,
+    /// Write every frame to this file (pcapng)
+    #[arg(long, value_name = "FILE", conflicts_with = "on_failure")]
+    pub(crate) pcap: Option<PathBuf>,
+    /// Write what happens to this file, as JSON lines
+    #[arg(long, value_name = "FILE", conflicts_with = "on_failure")]
+    pub(crate) events: Option<PathBuf>,
+    /// Run this user program instead of the one in the unit files, as with `run`
+    #[arg(long = "program", value_name = "FILE")]
+    pub(crate) programs: Vec<PathBuf>,
+    /// Skip the simulated times of the unit, such as 2 ms before each SDO response
+    #[arg(long)]
+    pub(crate) fast: bool,
+    /// Keep the capture, the events and the command line in a new folder in DIR if the command fails
+    #[arg(long, value_name = "DIR")]
+    pub(crate) on_failure: Option<PathBuf>,
+    /// The command and its arguments, after `--`
+    #[arg(last = true, required = true, value_name = "COMMAND")]
+    pub(crate) command: Vec<OsString>,
+}
+
+/// The cable between the command and the units.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Cable {
+    /// Two interfaces in a network namespace of its own
+    #[default]
+    Veth,
+    /// UDP on the loopback interface; needs no namespace
+    Udp,
+}
+
+impl ExecArgs {
+    /// The arguments again.
+    pub(crate) fn arguments(&self) -> Vec<OsString> {
+        let link = self.link.to_possible_value().map(|link| link.get_name().to_owned()).unwrap_or_default();
+        let mut arguments: Vec<_> = self.units.iter().map(OsString::from).collect();
+        arguments.extend(["--link".into(), link.into()]);
+        arguments.extend(self.of_units());
+        arguments.push("--".into());
+        arguments.extend(self.command.iter().cloned());
+        arguments
+    }
+
+    /// Those that are for the units.
+    pub(crate) fn of_units(&self) -> Vec<OsString> {
+        let mut arguments = Vec::new();
+        for program in &self.programs {
+            arguments.extend(["--program".into(), OsString::from(program)]);
+        }
+        for (option, file) in [("--pcap", &self.pcap), ("--events", &self.events)] {
+            arguments.extend(file.iter().flat_map(|file| [option.into(), OsString::from(file)]));
+        }
+        if self.fast {
+            arguments.push("--fast".into());
+        }
+        arguments
+    }
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ExecInsideArgs {
+    /// The process outside
+    #[arg(long)]
+    pub(crate) outside: u32,
+    /// It is the first process of a namespace: the kernel ends all others with it
+    #[arg(long)]
+    pub(crate) first: bool,
+    #[command(flatten)]
+    pub(crate) exec: ExecArgs,
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 mod check;
 #[cfg(feature = "ethercrab")]
 mod demo;
+mod exec;
 mod explain;
 mod export;
 mod import;
@@ -19,16 +20,21 @@ mod run;
 mod search;
 mod st_check;
 
+pub(crate) use exec::OWN_FAILURE;
+
 use crate::cli::{Command, List, St};
 use crate::failure::Failure;
 
-/// Executes the command.
-pub(crate) fn run(command: Command) -> Result<(), Failure> {
+/// Executes the command; `verbose` is the number of `-v`.
+pub(crate) fn run(command: Command, verbose: u8) -> Result<(), Failure> {
     match command {
         #[cfg(feature = "ethercrab")]
         Command::Demo => demo::run(),
         Command::Run(args) => run::run(&args),
         Command::Log(args) => log::run(&args),
+        Command::Exec(args) => exec::run(&args, verbose),
+        Command::ExecInside(args) => exec::run_inside(&args, verbose),
+        Command::ExecProgram { command } => exec::run_command(&command),
         Command::Check(args) => check::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),

@@ -11,6 +11,7 @@ use ectwin::user_files::Unreadable;
 use link::OpenError;
 use user_file::escaped;
 
+use crate::commands::OWN_FAILURE;
 use crate::descriptors;
 use crate::file_problem::{FileProblem, FileProblems};
 
@@ -48,14 +49,26 @@ pub(crate) enum Failure {
     /// A step of the demo failed.
     #[cfg(feature = "ethercrab")]
     Demo(String),
+    /// `exec` itself failed, before its command or beside it.
+    Exec(Box<Self>),
+    /// The command of `exec` ended with this exit code. Its output says why.
+    Command(u8),
+    /// The command of `exec` cannot be started; the exit code is that of a shell.
+    NotStarted { program: PathBuf, source: io::Error, code: u8 },
+    /// The system refuses something that it usually gives.
+    System(io::Error),
 }
 
 impl Failure {
     /// Reports it to the user on stderr, and returns the exit code defined for the command line.
     pub(crate) fn report(self) -> ExitCode {
         let (message, help) = self.words();
-        let mut text = match self {
-            Self::BadFile(_) | Self::ProgramWrong(_) | Self::RulesBroken | Self::CasesFailed => message,
+        let mut text = match self.cause() {
+            Self::BadFile(_)
+            | Self::ProgramWrong(_)
+            | Self::RulesBroken
+            | Self::CasesFailed
+            | Self::Command(_) => message,
             _ => format!("error: {}\n", escaped(&message)),
         };
         if let Some(help) = help {
@@ -64,6 +77,11 @@ impl Failure {
         // If stderr is closed, the message cannot be delivered.
         let _ = io::stderr().write_all(text.as_bytes());
         ExitCode::from(self.exit_code())
+    }
+
+    /// What has failed, if it was a part of `exec`.
+    fn cause(&self) -> &Self {
+        if let Self::Exec(cause) = self { cause.cause() } else { self }
     }
 
     /// Whether user files are at fault, so that other files can be examined beside them.
@@ -96,6 +114,8 @@ impl Failure {
 
     fn exit_code(&self) -> u8 {
         match self {
+            Self::Exec(_) => OWN_FAILURE,
+            Self::Command(code) | Self::NotStarted { code, .. } => *code,
             // Whatever the reason was: the units have run.
             Self::ChangesLost(_) => 2,
             _ if self.source().is_some_and(descriptors::are_exhausted) => 3,
@@ -103,7 +123,8 @@ impl Failure {
             | Self::ProgramWrong(_)
             | Self::RulesBroken
             | Self::CasesFailed
-            | Self::LinkLost(_) => 1,
+            | Self::LinkLost(_)
+            | Self::System(_) => 1,
             #[cfg(feature = "ethercrab")]
             Self::Demo(_) => 1,
             Self::BadFile(_)
@@ -126,7 +147,10 @@ impl Failure {
             | Self::ChangesLost(ChangesLost { source, .. })
             | Self::Modbus { source, .. }
             | Self::Link(OpenError::Failed { source, .. })
-            | Self::LinkLost(source) => Some(source),
+            | Self::LinkLost(source)
+            | Self::NotStarted { source, .. }
+            | Self::System(source) => Some(source),
+            Self::Exec(cause) => cause.source(),
             #[cfg(feature = "opcua")]
             Self::OpcUa { source, .. } => Some(source),
             _ => None,
@@ -148,7 +172,8 @@ impl Failure {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), Some(reason.help().to_owned())),
             Self::BadFile(problems) | Self::ProgramWrong(problems) => (problems.pictures(), None),
-            Self::RulesBroken | Self::CasesFailed => (String::new(), None),
+            Self::RulesBroken | Self::CasesFailed | Self::Command(_) => (String::new(), None),
+            Self::Exec(cause) => cause.message_and_help(),
             Self::Refused { message, help } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(source.help()))
@@ -171,6 +196,10 @@ impl Failure {
             Self::LinkLost(error) => (format!("the link is lost: {error}"), None),
             #[cfg(feature = "ethercrab")]
             Self::Demo(reason) => (reason.clone(), None),
+            Self::NotStarted { program, source, .. } => {
+                (format!("cannot run {}: {source}", program.display()), None)
+            }
+            Self::System(source) => (format!("the system refuses a process or a signal: {source}"), None),
         }
     }
 }

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     // A write beyond the file size limit of the process is then refused, like by a full disk, and does not end
     // the process. On a system without this signal no handler is needed.
     let _ = signal_hook::flag::register(SIGXFSZ, Arc::default());
-    match commands::run(cli.command) {
+    match commands::run(cli.command, cli.verbose) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }

@@ -29,7 +29,7 @@ use frame_log::FrameLog;
 use observers::Observers;
 use show::{Show, Showing};
 
-/// Emulates the units until SIGINT, SIGTERM, SIGHUP or the end of the link.
+/// Emulates the units until SIGINT, SIGTERM, SIGHUP, the end of the link, or that of stdin if this is asked for.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     // Before anything that takes time: without it the signal would end the command.
     let reset_errors = signals::reset_errors().map_err(Failure::LinkLost)?;
@@ -72,6 +72,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     observers.add(frame_log.as_mut());
     let observer = observers.as_one();
     let runtime = Runtime::start(twin, clock, stop).map_err(Failure::LinkLost)?;
+    if args.until_stdin_closes {
+        signals::stop_when_stdin_closes(runtime.handle()).map_err(Failure::LinkLost)?;
+    }
     let ended = runtime.answer(&mut port, observer);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));

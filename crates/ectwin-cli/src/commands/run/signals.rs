@@ -1,16 +1,29 @@
-//! The signals that a running command obeys.
+//! The signals, and the end of stdin, that a running command obeys.
 
 use std::fs;
 use std::io;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+use std::thread;
 
+use ectwin::Handle;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
 
 /// Set when the command has to end. A closed terminal (SIGHUP) ends it too, but not if `nohup` has started it.
 pub(super) fn stop() -> io::Result<Arc<AtomicBool>> {
     let signals = [SIGINT, SIGTERM, SIGHUP];
     flag_of(signals.into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP)))
+}
+
+/// Stops the units at the end of stdin; what comes before is ignored.
+pub(super) fn stop_when_stdin_closes(units: Handle) -> io::Result<()> {
+    let wait = move || {
+        if let Err(error) = io::copy(&mut io::stdin(), &mut io::sink()) {
+            tracing::warn!("cannot wait for the end of stdin: {error}");
+        }
+        units.stop();
+    };
+    thread::Builder::new().name("stdin".to_owned()).spawn(wait).map(drop)
 }
 
 /// Set when the errors of all CPU Units have to be reset.
