@@ -20,8 +20,6 @@ mod run;
 mod search;
 mod st_check;
 
-pub(crate) use exec::OWN_FAILURE;
-
 use crate::cli::{Command, List, St};
 use crate::failure::Failure;
 

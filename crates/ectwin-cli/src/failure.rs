@@ -11,9 +11,11 @@ use ectwin::user_files::Unreadable;
 use link::OpenError;
 use user_file::escaped;
 
-use crate::commands::OWN_FAILURE;
 use crate::descriptors;
 use crate::file_problem::{FileProblem, FileProblems};
+
+/// The exit code of `exec` for what is not its command's result, as with env(1) and timeout(1).
+pub(crate) const OWN_FAILURE: u8 = 125;
 
 /// Why a command failed.
 pub(crate) enum Failure {

@@ -15,17 +15,15 @@ mod spawned;
 mod units;
 mod veth;
 
-use std::process::Command;
-
 use rustix::process::kill_process;
 
 use crate::cli::{Cable, ExecArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, OWN_FAILURE};
 use crate::output;
 use kept::Kept;
 use namespaces::Namespaces;
 use signals::{Signals, rustix_signal};
-use spawned::{End, Spawned};
+use spawned::{End, Spawned, itself};
 
 pub(crate) use command::run as run_command;
 pub(crate) use inside::run as run_inside;
@@ -51,9 +49,6 @@ pub(crate) fn run(args: &ExecArgs, verbose: u8) -> Result<(), Failure> {
         code => Err(Failure::Command(code)),
     }
 }
-
-/// The exit code of what is not the command's result, as with env(1) and timeout(1).
-pub(crate) const OWN_FAILURE: u8 = 125;
 
 fn run_and_wait(args: &ExecArgs, verbose: u8) -> Result<u8, Failure> {
     let signals = Signals::block().map_err(Failure::System)?;
@@ -84,13 +79,4 @@ fn run_and_wait(args: &ExecArgs, verbose: u8) -> Result<u8, Failure> {
             let _ = kill_process(inside.id(), rustix_signal(signal));
         }
     }
-}
-
-/// This program, with the same verbosity.
-fn itself(verbose: u8) -> Result<Command, Failure> {
-    let mut command = Command::new(std::env::current_exe().map_err(Failure::System)?);
-    (0..verbose).for_each(|_| {
-        command.arg("-v");
-    });
-    Ok(command)
 }

@@ -6,11 +6,12 @@ use std::time::{Duration, Instant};
 
 use rustix::process::{Signal, WaitOptions, kill_process, wait};
 
-use super::spawned::{End, Spawned};
+use super::signals::{Signals, rustix_signal};
+use super::spawned::{End, Spawned, itself};
 use super::units::{Said, Units};
-use super::{OWN_FAILURE, descendants, itself, namespaces, parent, signals::Signals, veth};
+use super::{descendants, namespaces, parent, veth};
 use crate::cli::{Cable, ExecArgs, ExecInsideArgs};
-use crate::failure::Failure;
+use crate::failure::{Failure, OWN_FAILURE};
 
 /// The command has this time after it was asked to end.
 const TIME_TO_END: Duration = Duration::from_secs(5);
@@ -120,7 +121,7 @@ impl Run {
             if let Some(end) = self.ended.command {
                 return Ok(end.code());
             }
-            let mut send = received.to_hand_on().map(super::rustix_signal);
+            let mut send = received.to_hand_on().map(rustix_signal);
             if received.is_parents_end() || kill_at.is_some_and(|at| at <= Instant::now()) {
                 send = Some(Signal::KILL);
             } else if self.ended.units.is_some() && kill_at.is_none() {

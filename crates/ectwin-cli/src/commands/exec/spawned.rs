@@ -5,6 +5,8 @@ use std::process::{Child, Command};
 
 use rustix::process::{Pid, WaitOptions, WaitStatus, waitpid};
 
+use crate::failure::Failure;
+
 /// A child process.
 pub(super) struct Spawned {
     id: Pid,
@@ -57,4 +59,13 @@ impl End {
             Self::Killed(signal) => signal.saturating_add(128),
         }
     }
+}
+
+/// This program, with the same verbosity.
+pub(super) fn itself(verbose: u8) -> Result<Command, Failure> {
+    let mut command = Command::new(std::env::current_exe().map_err(Failure::System)?);
+    (0..verbose).for_each(|_| {
+        command.arg("-v");
+    });
+    Ok(command)
 }

@@ -5,8 +5,7 @@ use std::os::fd::AsFd;
 use std::os::unix::process::CommandExt;
 use std::process::{ChildStdout, Stdio};
 
-use super::itself;
-use super::spawned::Spawned;
+use super::spawned::{Spawned, itself};
 use crate::cli::ExecArgs;
 use crate::failure::Failure;
 
