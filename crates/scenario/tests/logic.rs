@@ -218,3 +218,18 @@ fn a_change_needs_time() {
     let never = "{ never = \"the number of cycles changes\" }, { after = \"5ms\", line = \"be quiet\" }";
     assert_eq!(failure(&format!("{op}{never}")), Some("it does hold".to_owned()));
 }
+
+/// Variables of type BOOL are TRUE or FALSE; others are neither.
+#[test]
+fn truth_values_are_compared() {
+    let read = |condition: &str| {
+        let text = format!("title = \"t\"\nsteps = [{{ expect = \"{condition}\" }}]\n");
+        Scenario::parse(&text, |_| Err(String::new())).map_err(|errors| errors.to_string())
+    };
+    let holds =
+        |condition: &str| read(condition).expect(condition).replay(1, Recording::new(false, false)).passes();
+    assert!(holds("variable N1_SDO_Communications_Enabled is not TRUE"));
+    assert!(!holds("variable N1_SDO_Communications_Enabled is not FALSE"));
+    let refused = read("variable N1_UINTs_01_M_to_C[0] is TRUE").map(drop).expect_err("a UINT");
+    assert!(refused.contains("is UINT, which is neither TRUE nor FALSE"), "{refused}");
+}

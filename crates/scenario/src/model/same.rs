@@ -33,6 +33,9 @@ impl Quantity {
             }
             Self::Outputs { unit } => Condition::Outputs { unit: unit.clone(), at: 0, bytes: bytes()? },
             Self::Inputs { unit } => Condition::Inputs { unit: unit.clone(), at: 0, bytes: bytes()? },
+            Self::Variable { variable } if ["TRUE", "FALSE"].contains(&text) => {
+                Condition::VariableValue { variable: variable.clone(), value: text.to_owned() }
+            }
             Self::Variable { variable } => {
                 Condition::VariableBytes { variable: variable.clone(), bytes: bytes()? }
             }

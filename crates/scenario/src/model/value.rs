@@ -103,6 +103,8 @@ pub enum Test {
     BeginsWith(Bytes),
     HasBits(Hex<u32>),
     HasNoBits(Hex<u32>),
+    /// It is this truth value: only a device variable of type BOOL.
+    Is(bool),
     /// It is another value than at the beginning of the step.
     #[serde(with = "super::spelling::nothing")]
     Changes,

@@ -23,6 +23,8 @@ struct Values {
 enum Numbers {
     /// It is none, such as an array or a text.
     None,
+    /// TRUE or FALSE.
+    Truth,
     /// From the first one to the last one.
     Whole(i128, i128),
     Real,
@@ -74,6 +76,12 @@ impl Maker<'_> {
             }
             Test::BeginsWith(bytes) => self.check_first_bytes(of, &values, bytes, part),
             Test::HasBits(bits) | Test::HasNoBits(bits) => self.check_bits(of, &values, *bits, part),
+            Test::Is(_) if matches!(values.numbers, Numbers::Truth) => Some(()),
+            Test::Is(_) => {
+                let message = format!("{} is {}, which is neither TRUE nor FALSE", said(of), values.words);
+                self.refuse(part, message, "compare it as a number or by its bytes");
+                None
+            }
             Test::Changes => Some(()),
         }
     }
@@ -184,7 +192,7 @@ impl Maker<'_> {
     fn check_amounts(&mut self, of: &Quantity, values: &Values, test: &Test, part: Part) -> Option<()> {
         let amounts = amounts(test);
         let (least, most) = match values.numbers {
-            Numbers::None => {
+            Numbers::None | Numbers::Truth => {
                 let help = "name a number, such as an element of an array";
                 self.refuse(part, format!("{} is {}, which is no number", said(of), values.words), help);
                 return None;
@@ -234,7 +242,7 @@ impl Maker<'_> {
         let most = match values.numbers {
             Numbers::Whole(_, most) => most.max(0),
             Numbers::Unknown => i128::from(u64::MAX),
-            Numbers::None | Numbers::Real | Numbers::Time => {
+            Numbers::None | Numbers::Truth | Numbers::Real | Numbers::Time => {
                 self.refuse(part, format!("{} is {}, which has no bits", said(of), values.words), "");
                 return None;
             }
@@ -263,9 +271,12 @@ fn amounts(test: &Test) -> Vec<&Amount> {
             vec![amount]
         }
         Test::Between { from, to } => vec![from, to],
-        Test::IsNot(_) | Test::BeginsWith(_) | Test::HasBits(_) | Test::HasNoBits(_) | Test::Changes => {
-            Vec::new()
-        }
+        Test::IsNot(_)
+        | Test::BeginsWith(_)
+        | Test::HasBits(_)
+        | Test::HasNoBits(_)
+        | Test::Is(_)
+        | Test::Changes => Vec::new(),
     }
 }
 
@@ -281,7 +292,12 @@ fn passes(test: &Test, number: Number) -> bool {
             order(from).is_some_and(core::cmp::Ordering::is_ge)
                 && order(to).is_some_and(core::cmp::Ordering::is_le)
         }
-        Test::IsNot(_) | Test::BeginsWith(_) | Test::HasBits(_) | Test::HasNoBits(_) | Test::Changes => true,
+        Test::IsNot(_)
+        | Test::BeginsWith(_)
+        | Test::HasBits(_)
+        | Test::HasNoBits(_)
+        | Test::Is(_)
+        | Test::Changes => true,
     }
 }
 
@@ -302,7 +318,7 @@ fn numbers_of(kind: VariableType) -> Numbers {
         Elementary::Real | Elementary::Lreal => Numbers::Real,
         Elementary::Time => Numbers::Time,
         Elementary::Date | Elementary::TimeOfDay | Elementary::DateAndTime => Numbers::None,
-        Elementary::Bool => Numbers::None,
+        Elementary::Bool => Numbers::Truth,
         Elementary::Byte
         | Elementary::Word
         | Elementary::Dword

@@ -119,6 +119,13 @@ fn data() -> Vec<ConditionRow> {
         condition("input byte 2 of unit 1 is 2A 00", &[INPUTS, OP], &[OP], "100ms"),
         condition("variable N1_UINTs_01_C_to_M is 05 00", &[WRITE], &[], "2ms"),
         condition("variable N1_UINTs_01_C_to_M[0] has the value 5", &[WRITE], &[], "2ms"),
+        condition("variable N1_SDO_Communications_Enabled is TRUE", &[OP], &[], "100ms"),
+        condition(
+            "variable N1_SDO_Communications_Enabled is FALSE",
+            &[],
+            &[OP, r#"{ after = "100ms", expect = "unit 1 is in OP" }"#],
+            "2ms",
+        ),
         condition(
             "the working counter of unit 1 is 3",
             &[OP],

@@ -41,6 +41,9 @@ pub(super) fn value(
         Test::BeginsWith(bytes) => lie_at(&reading.bytes, 0, bytes),
         Test::HasBits(Hex(bits)) => holds(reading.bits() & bits == *bits, || reading.as_it_is()),
         Test::HasNoBits(Hex(bits)) => holds(reading.bits() & bits == 0, || reading.as_it_is()),
+        Test::Is(wanted) => {
+            holds(reading.bytes.iter().any(|byte| *byte != 0) == *wanted, || reading.as_it_is())
+        }
         Test::Changes => {
             let before = observed.since_the_beginning(of, &reading);
             holds(*before != reading, || format!("it is still {}", reading.words))

@@ -91,6 +91,12 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
     row!("variable {variable} has the value {value}", "variable N1_UINTs_01_M_to_C[3] has the value 5",
         "a device variable, or an element of it, by a value of its type",
         |variable, value| VariableValue { variable, value }),
+    row!("variable {variable} is TRUE", "variable N1_SDO_Communications_Enabled is TRUE",
+        "a device variable of type BOOL; `is not TRUE` and `changes` are for it too",
+        |variable| Value { of: Quantity::Variable { variable }, test: Test::Is(true) }),
+    row!("variable {variable} is FALSE", "variable N1_SDO_Communications_Enabled is FALSE",
+        "a device variable of type BOOL; `is not FALSE` and `changes` are for it too",
+        |variable| Value { of: Quantity::Variable { variable }, test: Test::Is(false) }),
     // Before the sentence whose value takes all words.
     comparison(row!("{quantity} is not {other}", "object 2002:01 of unit 1 is not 20",
         "it has a value, and another one than the sentence with `is` says. While it has none, as in a unit without power, the condition is false",
