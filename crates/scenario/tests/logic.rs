@@ -183,6 +183,8 @@ fn a_comparison_that_every_value_passes_or_none_is_refused() {
         ("the working counter of unit 1 begins with 00", "has no bytes"),
         ("object 9999:00 of unit 1 changes", "unit 1 has no object 9999:00"),
         ("output byte 5000 of unit 1 is above 3", "has no output byte 5000"),
+        ("the outputs of unit 1 have bits 0", "no bit is named"),
+        ("the outputs of unit 1 do not begin with 5G", "as in the sentence with `is`"),
         ("program variable n of the master is above 3", "the master has no user program"),
     ] {
         let text = format!("title = \"t\"\nsteps = [{{ never = \"{condition}\" }}]\n");

@@ -25,6 +25,8 @@ enum Numbers {
     None,
     /// TRUE or FALSE.
     Truth,
+    /// It is none, but its first four bytes have bits.
+    Bits,
     /// From the first one to the last one.
     Whole(i128, i128),
     Real,
@@ -51,6 +53,10 @@ impl Values {
             _ => format!("{bytes} bytes"),
         };
         Self { words, numbers, size_bytes: Some(bytes) }
+    }
+
+    fn process_data(bytes: usize) -> Self {
+        Self { words: format!("{bytes} bytes"), numbers: Numbers::Bits, size_bytes: Some(bytes) }
     }
 
     fn count(most: u64) -> Self {
@@ -105,8 +111,17 @@ impl Maker<'_> {
             Quantity::Register { register, .. } => Some(Values::unsigned(register_bytes(register.0))),
             Quantity::OutputByte { unit, at } => self.byte(unit, "output", *at, part),
             Quantity::InputByte { unit, at } => self.byte(unit, "input", *at, part),
-            Quantity::Outputs { unit } => self.byte(unit, "output", 0, part),
-            Quantity::Inputs { unit } => self.byte(unit, "input", 0, part),
+            Quantity::Outputs { unit } => {
+                self.byte(unit, "output", 0, part)?;
+                // As in the CPU Unit.
+                let bytes = self.units.get(unit.position())?.file.variables().unit().m_to_c_bytes;
+                Some(Values::process_data(bytes))
+            }
+            Quantity::Inputs { unit } => {
+                self.byte(unit, "input", 0, part)?;
+                let bytes = self.units.get(unit.position())?.file.section().process_data_bytes().inputs;
+                Some(Values::process_data(bytes.into()))
+            }
             Quantity::Variable { variable } => {
                 let kind = self.type_of_variable(variable, part)?;
                 Some(Values {
@@ -192,8 +207,13 @@ impl Maker<'_> {
     fn check_amounts(&mut self, of: &Quantity, values: &Values, test: &Test, part: Part) -> Option<()> {
         let amounts = amounts(test);
         let (least, most) = match values.numbers {
-            Numbers::None | Numbers::Truth => {
-                let help = "name a number, such as an element of an array";
+            Numbers::None | Numbers::Truth | Numbers::Bits => {
+                let help = match of {
+                    Quantity::Outputs { .. } | Quantity::Inputs { .. } => {
+                        "name a byte of it, such as `output byte 2`"
+                    }
+                    _ => "name a number, such as an element of an array",
+                };
                 self.refuse(part, format!("{} is {}, which is no number", said(of), values.words), help);
                 return None;
             }
@@ -242,6 +262,7 @@ impl Maker<'_> {
         let most = match values.numbers {
             Numbers::Whole(_, most) => most.max(0),
             Numbers::Unknown => i128::from(u64::MAX),
+            Numbers::Bits => i128::from(u32::MAX),
             Numbers::None | Numbers::Truth | Numbers::Real | Numbers::Time => {
                 self.refuse(part, format!("{} is {}, which has no bits", said(of), values.words), "");
                 return None;

@@ -304,6 +304,17 @@ fn comparisons() -> Vec<ConditionRow> {
             &[OP, IN_OP, LATER],
             "10ms",
         ),
+        condition("the outputs of unit 1 do not begin with 00 00 00", &[OUTPUTS, OP], &[OP], "100ms"),
+        condition("the outputs of unit 1 have bits 0x00080000", &[OUTPUTS, OP], &[OP], "100ms"),
+        condition(
+            "the outputs of unit 1 have no bits 0x00080000",
+            &[OP, IN_OP, LATER],
+            &[OUTPUTS, OP, IN_OP, LATER],
+            "0s",
+        ),
+        condition("the inputs of unit 1 do not begin with 17 00 00", &[INPUTS, OP], &[], "100ms"),
+        condition("the inputs of unit 1 have bits 0x00080000", &[INPUTS, OP], &[OP], "100ms"),
+        condition("the inputs of unit 1 have no bits 0x00080000", &[OP], &[], "100ms"),
     ]
 }
 

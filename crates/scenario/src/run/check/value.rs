@@ -106,7 +106,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         Quantity::Outputs { unit } => {
             let at = there(unit, world)?;
             unit::has_power(world, at)?;
-            Ok(Reading::bytes(world.io(at).m_to_c().to_vec(), None))
+            some_bytes(world.io(at).m_to_c()).map(|bytes| Reading::bytes(bytes.to_vec(), None))
         }
         Quantity::Inputs { unit } => {
             let at = there(unit, world)?;
@@ -204,11 +204,12 @@ impl Reading {
         Self::bytes(bytes, number)
     }
 
-    /// All bits, of a negative number in two's complement.
+    /// All bits, of a negative number in two's complement; of what is no number those of the first four bytes.
     fn bits(&self) -> u32 {
         match self.number {
             Some(Number::Whole(whole)) => whole as u32,
-            Some(Number::Real(_)) | None => 0,
+            Some(Number::Real(_)) => 0,
+            None => self.bytes.iter().take(4).rev().fold(0, |bits, byte| bits << 8 | u32::from(*byte)),
         }
     }
 
