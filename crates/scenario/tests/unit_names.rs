@@ -160,6 +160,13 @@ fn mistakes_have_their_place_and_a_way_out() {
         (r#"{ expect = "unit is in OP" }"#, "found `is`", "{units} is in {state}"),
         (r#"{ expect = "unit 0 is in OP" }"#, "found `0`", "{units} is in {state}"),
         (r#"{ expect = "register 0x0300 of units 1 and 2 is 00" }"#, "found `units`", "{unit} is {bytes}"),
+        (
+            r#"{ expect = "object 1018:04 of units 1 to 2 is at least 2" }"#,
+            "found `units`",
+            "for.unit = [2, 3]",
+        ),
+        (r#"{ expect = "the outputs of all units begin with 00" }"#, "found `all`", "for.unit = [2, 3]"),
+        (r#"{ master = "read SDO 1018:04 of units 1 and 2" }"#, "found `units`", "for.unit = [2, 3]"),
         (r#"{ expect = { state = { units = [], state = "OP" } } }"#, "a list without units", ""),
         (
             r#"{ expect = { state = { units = [2, 2], state = "OP" } } }"#,

@@ -215,7 +215,10 @@ impl<T> Misfit<'_, T> {
                     Problem::Expected { found, .. } => expected(&self.expected(&words, reached), found),
                     Problem::Place(_) | Problem::More(_) => problem.to_string(),
                 },
-                help: format!("the sentence is `{pattern}`, such as `{example}`"),
+                help: format!(
+                    "the sentence is `{pattern}`, such as `{example}`{}",
+                    each_unit(&problem, words.get(reached..))
+                ),
             },
             None => self.nearest(),
         }
@@ -273,6 +276,16 @@ impl<T> Misfit<'_, T> {
 pub(super) fn likenesses<T>(table: &[Sentence<T>], text: &str) -> impl Iterator<Item = (f64, &'static str)> {
     let meant = rows(table).filter(move |sentence| has_a_word_of(sentence, text));
     meant.map(move |sentence| (likeness(sentence, text), sentence.example))
+}
+
+/// The way out for several units in a sentence about one.
+fn each_unit(problem: &Problem<'_>, found: Option<&[&str]>) -> &'static str {
+    match (problem, found) {
+        (Problem::Place(_), Some(["units", ..] | ["all", "units", ..])) => {
+            "; for several units, a group has a step for each: `{ for.unit = [2, 3], steps = [ … unit {unit} … ] }`"
+        }
+        _ => "",
+    }
 }
 
 /// A sentence is near a text from this likeness on: two words of three are alike.
