@@ -91,8 +91,12 @@ impl Maker<'_> {
         let mut place = Place { at, ..place };
         match step {
             ScriptStep::Random(_) => {
-                let message = "random steps are not in a group";
-                self.refuse(Part::Step(at, StepPart::Whole), message, "place `random` beside the group");
+                let message = "random steps are not in a group: `search` writes those of a seed in one place of the file";
+                self.refuse(
+                    Part::Step(at, StepPart::Whole),
+                    message,
+                    "place `random` beside the group, such as between two groups",
+                );
                 None
             }
             ScriptStep::Group(group) => {
