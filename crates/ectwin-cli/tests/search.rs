@@ -307,10 +307,6 @@ fn a_file_in_which_no_steps_can_be_written_is_refused_before_the_search() {
                of unit {unit}\"] }, within = \"1s\" },\n]\n";
     bench.put("parameter.toml", own);
     bench.put("tables.toml", "title = \"t\"\n[[steps]]\nrandom = 3\nwithin = \"1s\"\n");
-    bench.put(
-        "cases.toml",
-        &format!("with = {{ times = [0, 1] }}\n{TWO_ERRORS}").replace(" 0 times", " {times} times"),
-    );
     bench.put("two.toml", TWO_ERRORS);
     let in_prelude = "a prelude has no random steps; they belong into the scenario";
     bench.put("use.toml", "use = \"two.toml\"\n");
@@ -325,11 +321,6 @@ fn a_file_in_which_no_steps_can_be_written_is_refused_before_the_search() {
             "help: write `steps = [ … ]` with `random` in a step of its own",
         ),
         (&["tables.toml"], in_tables, "help: write `steps = [ … ]`"),
-        (
-            &["cases.toml"],
-            "cases.toml has 2 cases, where one is needed",
-            "help: give each of its parameters one value",
-        ),
         (&["use.toml"], in_prelude, ""),
         (&["two.toml", "--partition", "4/3"], "--partition <i/n|auto>", "such as 1/4"),
         (&["two.toml", "--partition", "auto"], "none of the variables", "help: use `--partition i/n`"),
@@ -368,4 +359,43 @@ fn a_parameter_with_the_name_seed_is_no_seed_of_the_file() {
     let ended = bench.ectwin(&["search", "never.toml", "-o", "found.toml"]);
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(1), ""), "{}", ended.stdout);
     assert!(bench.text("found.toml").contains("[with]\nseed = [0]\n"), "{}", bench.text("found.toml"));
+}
+
+/// Two of its four cases fail.
+const CASES: &str = r#"title = "no error with the ID {id}"
+steps = [
+  { unit = "turn the ID switch of unit 1 to {id}" },
+  { random = { steps = 3, from = ["break Processing of unit #"] }, within = "1s" },
+  { expect = "unit 1 has recorded {code} 0 times" },
+]
+[with]
+code = ["80200000", "40200000"]
+id = { from = 2, to = 3 }
+"#;
+
+/// Each case of a file is searched; the written file is this case only.
+#[test]
+fn the_cases_of_a_file_are_searched_one_after_the_other() {
+    let bench = Bench::new("search-cases");
+    bench.put("cases.toml", CASES);
+    let first = bench.ectwin(&["search", "cases.toml", "--runs", "3", "-o", "found.toml"]);
+    assert_eq!((first.code, first.stderr.as_str()), (Some(1), ""), "{}", first.stdout);
+    assert!(first.stdout.starts_with("FAILED  cases.toml (code = 40200000, id = 2): "), "{}", first.stdout);
+    let found = bench.text("found.toml");
+    assert!(found.contains("[with]\ncode = [\"40200000\"]\nid = [\"2\"]\n"), "{found}");
+    assert_eq!(bench.ectwin(&["replay", "found.toml"]).code, Some(1));
+    let all = ["search", "cases.toml", "--runs", "3", "--all", "--json", "all.jsonl", "--junit", "all.xml"];
+    let all = bench.ectwin(&all);
+    assert_eq!((all.code, all.stderr.as_str()), (Some(1), ""), "{}", all.stdout);
+    assert!(
+        all.stdout.contains("2 different failures in 12 runs of 4 cases from seed 1 on"),
+        "{}",
+        all.stdout
+    );
+    let lines = lines(&bench.text("all.jsonl"));
+    let parameters: Vec<_> = lines.iter().map(|line| line["parameters"].as_str()).collect();
+    assert_eq!(parameters, [Some("code = 40200000, id = 2"), Some("code = 40200000, id = 3")]);
+    assert!(bench.text("all.xml").contains("code = 40200000, id = 3, seed "), "{}", bench.text("all.xml"));
+    let parts = bench.ectwin(&["search", "cases.toml", "--runs", "3", "--all", "--partition", "2/3"]);
+    assert!(parts.stdout.contains(" in 4 runs of 4 cases (part 2/3 of 12 runs)"), "{}", parts.stdout);
 }

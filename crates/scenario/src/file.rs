@@ -62,6 +62,23 @@ impl Scenario {
         });
         all.map_err(ScenarioErrors::of_file)
     }
+
+    /// The text of each case of a scenario file, in the order of [`Scenario::cases`]: its parameters have one value there.
+    ///
+    /// # Errors
+    /// Text that is not TOML, and the mistakes of the parameters.
+    pub fn texts_of_cases(text: &str) -> Result<Vec<String>, ScenarioErrors> {
+        let texts = read_toml(text, Wanted::Scenario, |reader, file| {
+            let parameters = Parameters::read(reader, file)?;
+            let count = parameters.count();
+            if let Some(problem) = too_many(count, Number::Any) {
+                reader.refuse(parameters.span.clone(), problem);
+                return None;
+            }
+            Some((0..count).map(|number| parameters.text_of_case(text, number)).collect())
+        });
+        texts.map_err(ScenarioErrors::of_file)
+    }
 }
 
 impl Script {

@@ -189,3 +189,29 @@ steps = [
     let trace = reports[0].recording.trace().expect("a trace");
     assert!(trace.contains("lose 0 % of the frames called rain") && !trace.contains("is lost"), "{trace}");
 }
+
+/// The text of a case is a file with one value of each parameter, wherever and however they are written.
+#[test]
+fn the_text_of_a_case_has_one_value_of_each_parameter() {
+    for with in [
+        "with = { loss = [0, 1_0, 2], word = [\"a\", 'the \"b\"'], unit = { from = 1, to = 2 } }\nsteps = STEPS\n",
+        "steps = STEPS\n[with]\nloss = [ 0,\n  1_0, 2 ] # three\nunit = { from = 1, to = 2 }\nword = [\"a\", 'the \"b\"']\n",
+        "with.loss = [0, 1_0, 2]\nwith.word = [\"a\", 'the \"b\"']\nwith.unit = [{ from = 1, to = 2 }]\nsteps = STEPS\n",
+    ] {
+        let steps = "[{ line = \"lose {loss} % of the frames\" }, { unit = \"restart unit {unit}\" }]";
+        let with = with.replace("STEPS", steps);
+        let text = format!(
+            "title = \"{{word}}\"\nunits = [{{ model = \"nx-ect101\" }}, {{ model = \"nx-ect101\", serial = 2 }}]\n{with}"
+        );
+        let cases = cases(&text).unwrap_or_else(|errors| panic!("{text}\n{errors}"));
+        let texts = Scenario::texts_of_cases(&text).expect("it has cases");
+        assert_eq!((cases.len(), texts.len()), (12, 12), "{with}");
+        for (case, text) in cases.iter().zip(&texts) {
+            let own = self::cases(text).unwrap_or_else(|errors| panic!("{text}\n{errors}"));
+            assert_eq!(own.len(), 1, "{text}");
+            assert_eq!((&own[0].case, &own[0].title), (&case.case, &case.title), "{text}");
+        }
+    }
+    assert_eq!(Scenario::texts_of_cases("title = \"t\"\n").ok(), Some(vec!["title = \"t\"\n".to_owned()]));
+    assert!(Scenario::texts_of_cases("with = { a = [] }\n").is_err());
+}

@@ -37,8 +37,8 @@ use printed::{Printed, Shown};
 use results::Results;
 use threads::{Outputs, Wanted};
 
-pub(crate) use campaign::{read_scenario, scenario_in};
-pub(crate) use case::CASES_MAX;
+pub(crate) use campaign::{read_cases, scenario_in};
+pub(crate) use case::{CASES_MAX, named};
 pub(crate) use failed_cases::FailedCases;
 pub(crate) use junit::{JunitReport, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};

@@ -13,7 +13,7 @@ use scenario::{FailureKind, Found, Recording, Scenario, Search, Trial};
 use time::Duration;
 use user_file::on_one_line;
 
-use super::replay::{Partition, chosen_part, on_threads, read_scenario, scenario_in};
+use super::replay::{Partition, chosen_part, on_threads, read_cases, scenario_in, title};
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
 use crate::output::{self, shown};
@@ -27,24 +27,47 @@ pub(super) use found_file::{folder_of, refuse_existing, write_new};
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     let path = &args.scenario;
     let partition = chosen_part(args.partition)?;
-    let (scenario, inputs) = read_scenario(path)?;
+    let (scenarios, inputs) = read_cases(path)?;
     let text = user_files::text(path, Wanted::Scenario)
         .map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
-    if scenario.random.is_empty() {
-        return Err(without_dice(path));
-    }
-    let search = scenario.searched();
-    refuse_unwritable(args, &scenario, &search, &text)?;
+    let cases = cases(args, &scenarios, &text)?;
     overwrite::refuse(&outputs(args), &inputs)?;
     if let Some(output) = &args.output {
         output::refuse_stdout("-o", output, "a scenario refers to its files from a folder")?;
         refuse_existing(output)?;
-        refuse_elsewhere(path, &text, output)?;
+        cases.iter().try_for_each(|case| refuse_elsewhere(path, &case.text, output))?;
     }
-    let results = Results::open(args, &scenario, (partition, partition.cases_of(args.runs.get())))?;
-    let mut hunt = Hunt::new(args, partition, &search, &text, results);
+    let seeds = partition.cases_of(args.runs.get()).saturating_mul(cases.len() as u64);
+    let results = Results::open(args, (partition, seeds))?;
+    let mut hunt = Hunt::new(args, partition, &cases, results);
     hunt.run()?;
     hunt.end()
+}
+
+/// A case of the file, and the text of a file that is this case only.
+struct SearchedCase<'a> {
+    scenario: &'a Scenario,
+    search: Search<'a>,
+    text: String,
+}
+
+/// The cases of a file, each of which can be searched.
+fn cases<'a>(
+    args: &SearchArgs,
+    scenarios: &'a [Scenario],
+    text: &str,
+) -> Result<Vec<SearchedCase<'a>>, Failure> {
+    // Its parameters were read before.
+    let texts = Scenario::texts_of_cases(text).unwrap_or_default();
+    let case = |(scenario, text): (&'a Scenario, String)| {
+        if scenario.random.is_empty() {
+            return Err(without_dice(&args.scenario));
+        }
+        let search = scenario.searched();
+        refuse_unwritable(args, scenario, &search, &text)?;
+        Ok(SearchedCase { scenario, search, text })
+    };
+    scenarios.iter().zip(texts).map(case).collect()
 }
 
 fn outputs(args: &SearchArgs) -> Vec<Output<'_>> {
@@ -59,12 +82,11 @@ const SEEDS_AT_ONCE: usize = 10_000;
 struct Hunt<'a> {
     args: &'a SearchArgs,
     partition: Partition,
-    search: &'a Search<'a>,
-    text: &'a str,
+    cases: &'a [SearchedCase<'a>],
     results: Results,
     started: Instant,
-    /// The failures that have been reduced.
-    known: BTreeSet<FailureKind>,
+    /// The failures that have been reduced, of each case.
+    known: BTreeSet<(Option<&'a str>, FailureKind)>,
     runs: u64,
     variations: u64,
     lasted: Duration,
@@ -74,41 +96,55 @@ impl<'a> Hunt<'a> {
     fn new(
         args: &'a SearchArgs,
         partition: Partition,
-        search: &'a Search<'a>,
-        text: &'a str,
+        cases: &'a [SearchedCase<'a>],
         results: Results,
     ) -> Self {
         let (known, started, lasted) = (BTreeSet::new(), Instant::now(), Duration::ZERO);
-        Self { args, partition, search, text, results, started, known, runs: 0, variations: 0, lasted }
+        Self { args, partition, cases, results, started, known, runs: 0, variations: 0, lasted }
+    }
+
+    /// Searches the cases one after the other.
+    fn run(&mut self) -> Result<(), Failure> {
+        for case in self.cases {
+            if self.run_case(case)?.is_break() {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// Tries the seeds of the part on all threads, and takes their results in the order of the seeds.
-    fn run(&mut self) -> Result<(), Failure> {
-        let (args, search) = (self.args, self.search);
+    fn run_case(&mut self, case: &'a SearchedCase<'a>) -> Result<ControlFlow<()>, Failure> {
+        let (args, search) = (self.args, &case.search);
         let mut numbers = self.partition.cases(args.runs.get());
         let try_seed = |number: u64| search.seed(args.seed.wrapping_add(number - 1));
         loop {
             let seeds: Vec<u64> = numbers.by_ref().take(SEEDS_AT_ONCE).collect();
-            let mut is_over = seeds.is_empty();
+            if seeds.is_empty() {
+                return Ok(ControlFlow::Continue(()));
+            }
+            let mut is_over = false;
             on_threads(&seeds, args.jobs(), try_seed, |trial| {
-                let flow = self.take(&trial)?;
+                let flow = self.take(case, &trial)?;
                 is_over = flow.is_break();
                 Ok(flow)
             })?;
             if is_over {
-                return Ok(());
+                return Ok(ControlFlow::Break(()));
             }
         }
     }
 
     /// The result of the next seed. A failure that is not known yet is reduced, printed and written.
-    fn take(&mut self, trial: &Trial) -> Result<ControlFlow<()>, Failure> {
+    fn take(&mut self, case: &'a SearchedCase<'a>, trial: &Trial) -> Result<ControlFlow<()>, Failure> {
         self.runs += 1;
         self.variations += trial.variation;
         self.lasted = self.lasted + trial.lasted;
-        let is_new = trial.failure.as_ref().is_some_and(|failure| self.known.insert(failure.kind()));
-        if is_new && let Some(found) = self.search.reduce(self.text, trial) {
-            self.take_found(&found)?;
+        let name = case.scenario.case.as_deref();
+        let kind = trial.failure.as_ref().map(|failure| (name, failure.kind()));
+        let is_new = kind.is_some_and(|kind| self.known.insert(kind));
+        if is_new && let Some(found) = case.search.reduce(&case.text, trial) {
+            self.take_found(case, &found)?;
         }
         self.results.ended();
         let spent =
@@ -119,12 +155,12 @@ impl<'a> Hunt<'a> {
 
     /// The failure with the line numbers of the written file, which differ from those of the file with random steps. It
     /// is printed before the file is written: whatever is wrong with the file, the failure of a long search is known.
-    fn take_found(&mut self, found: &Found) -> Result<(), Failure> {
+    fn take_found(&mut self, case: &SearchedCase<'_>, found: &Found) -> Result<(), Failure> {
         let args = self.args;
         let output = args.output.clone().unwrap_or_else(|| free_beside(&args.scenario, found));
         let written = scenario_in(&output, &found.text);
         let failure = written.ok().and_then(|it| it.replay(found.seed, Recording::new(false, false)).failure);
-        self.results.take(found, &output, failure.as_ref().unwrap_or(&found.failure))?;
+        self.results.take(case.scenario, found, &output, failure.as_ref().unwrap_or(&found.failure))?;
         if let Err(failure) = write_unless_equal(&output, &found.text) {
             let (message, _) = failure.words();
             let again = format!("--seed {} --runs 1 -o OUT", found.seed);
@@ -136,14 +172,20 @@ impl<'a> Hunt<'a> {
     fn end(self) -> Result<(), Failure> {
         let is_told = self.known.is_empty() || self.args.all;
         let totals = is_told.then(|| self.totals());
-        self.results.close(totals.as_deref(), self.args.seed, self.lasted)
+        let titles = self.cases.first().map_or_else(String::new, |case| title(case.scenario));
+        self.results.close(totals.as_deref(), (self.args.seed, titles), self.lasted)
     }
 
     fn totals(&self) -> String {
         let Self { args, known, runs, variations, lasted, .. } = self;
+        let all = args.runs.get().saturating_mul(self.cases.len() as u64);
         let part = match self.partition.count() {
             1 => String::new(),
-            _ => format!(" (part {} of {})", self.partition, counted(args.runs.get(), "run")),
+            _ => format!(" (part {} of {})", self.partition, counted(all, "run")),
+        };
+        let cases = match self.cases.len() as u64 {
+            1 => String::new(),
+            count => format!(" of {}", counted(count, "case")),
         };
         let variations = match variations {
             0 => String::new(),
@@ -155,7 +197,7 @@ impl<'a> Hunt<'a> {
             count => format!("{count} different failures"),
         };
         format!(
-            "{}: {found} in {}{part} from seed {} on{variations}, {lasted} of virtual time",
+            "{}: {found} in {}{cases}{part} from seed {} on{variations}, {lasted} of virtual time",
             shown(&args.scenario),
             counted(*runs, "run"),
             args.seed

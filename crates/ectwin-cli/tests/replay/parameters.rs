@@ -54,21 +54,45 @@ fn one_case_is_replayed_by_its_values() {
     assert!(told.contains("such as --case 'state = PRE-OP, loss = 2'"), "{told}");
 }
 
+/// The golden trace of a file has the traces of all of its cases, each behind its name.
 #[test]
-fn where_one_scenario_is_needed_a_file_of_several_is_refused() {
-    let bench = Bench::new("several-cases");
-    bench.put("states.toml", STATES);
-    bench.put("states.trace", "");
-    let told = |arguments: &[&str]| {
-        let ended = bench.ectwin(arguments);
+fn the_cases_of_a_file_are_blessed_and_compared() {
+    let bench = Bench::new("blessed-cases");
+    bench.put("states.toml", &STATES.replace("1us", "500ms"));
+    let ended = bench.ectwin(&["replay", "states.toml", "--bless"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+    let golden = bench.text("states.trace");
+    let names: Vec<&str> = golden.lines().filter_map(|line| line.strip_prefix("case ")).collect();
+    let expected = [
+        "state = PRE-OP, loss = 1",
+        "state = PRE-OP, loss = 2",
+        "state = OP, loss = 1",
+        "state = OP, loss = 2",
+    ];
+    assert_eq!(names, expected, "{golden}");
+    assert_eq!(bench.ectwin(&["replay", "states.toml"]).code, Some(0));
+    let again = bench.ectwin(&["replay", ".", "--bless"]);
+    assert_eq!(again.stdout, "blessed ./states.trace: unchanged\n", "{}", again.stderr);
+    bench.put("states.trace", &golden.replacen("step ", "stop ", 1));
+    let differs = bench.ectwin(&["replay", "states.toml"]);
+    assert_eq!(differs.code, Some(1), "{}", differs.stdout);
+    assert_eq!(differs.stdout.matches("FAILED").count(), 1, "{}", differs.stdout);
+    for (text, message) in [
+        (
+            golden.replace("case state = OP, loss = 2", "case state = OP, loss = 3"),
+            "has no trace of the case state = OP, loss = 2",
+        ),
+        (
+            format!("{golden}case state = BOOT, loss = 1\n"),
+            "has the case state = BOOT, loss = 1, and its scenario does not",
+        ),
+        (format!("       0 ms\n{golden}"), "has lines that belong to no case of its scenario"),
+        (String::new(), "has no trace of the case state = PRE-OP, loss = 1"),
+    ] {
+        bench.put("states.trace", &text);
+        let ended = bench.ectwin(&["replay", "states.toml"]);
+        let told = ended.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
         assert_eq!(ended.code, Some(2), "{}{}", ended.stdout, ended.stderr);
-        ended.stderr.split_whitespace().collect::<Vec<_>>().join(" ")
-    };
-    let golden = told(&["replay", "states.toml"]);
-    assert!(golden.contains("states.trace is a golden trace, and its scenario has 4 cases"), "{golden}");
-    let blessed = told(&["replay", "states.toml", "--bless"]);
-    assert!(blessed.contains("golden trace"), "{blessed}");
-    std::fs::remove_file(bench.folder.join("states.trace")).unwrap();
-    let searched = told(&["search", "states.toml"]);
-    assert!(searched.contains("states.toml has 4 cases, where one is needed"), "{searched}");
+        assert!(told.contains(message) && told.contains("`ectwin replay --bless` writes"), "{told}");
+    }
 }

@@ -26,6 +26,14 @@ impl<'i> Named<'i> {
         format!("{} = {}", self.name, written(&self.value))
     }
 
+    /// The value in the notation of a file.
+    pub(super) fn toml(&self) -> String {
+        match &self.value {
+            DeValue::String(text) => toml::Value::String(text.to_string()).to_string(),
+            other => written(other),
+        }
+    }
+
     /// Refuses a name that no text has used: every case would be the same.
     pub(super) fn refuse_unused(&self, reader: &mut Reader<'_>, help: &str) {
         if !self.is_used.get() {

@@ -27,6 +27,8 @@ pub(super) struct Parameters<'d, 'i> {
 pub(super) struct Parameter<'d, 'i> {
     pub(super) name: Located<&'d str>,
     values: Vec<DeValue<'i>>,
+    /// The place of its values.
+    span: Span,
 }
 
 impl<'d, 'i> Parameters<'d, 'i> {
@@ -56,6 +58,18 @@ impl<'d, 'i> Parameters<'d, 'i> {
     pub(super) fn case(&self, number: usize) -> Vec<Named<'i>> {
         combination(&self.list, number)
     }
+
+    /// The text of the file with one value for each parameter, those of the case with this number.
+    pub(super) fn text_of_case(&self, text: &str, number: usize) -> String {
+        let mut text = text.to_owned();
+        let mut own: Vec<_> = self.list.iter().map(|list| list.span.clone()).zip(self.case(number)).collect();
+        // From the last one on, so that the places of the others stay right.
+        own.sort_by_key(|(span, _)| core::cmp::Reverse(span.start));
+        for (span, named) in own {
+            text.replace_range(span, &format!("[{}]", named.toml()));
+        }
+        text
+    }
 }
 
 /// The names of a table, each with its list of values; none if there is a mistake.
@@ -72,7 +86,7 @@ pub(super) fn parameters<'d, 'i>(
             reader.refuse(name.span.clone().unwrap_or_default(), Problem::new(message, "").with_help(help));
         }
         if let Some(values) = values(reader, &section.place_of(name.value), value) {
-            list.push(Parameter { name, values });
+            list.push(Parameter { name, values, span: value.span() });
         }
     }
     (reader.refused() == refused).then_some(list)
@@ -153,7 +167,7 @@ pub(super) fn product(list: &[Parameter<'_, '_>]) -> usize {
 /// The combination with this number, from 0.
 pub(super) fn combination<'i>(list: &[Parameter<'_, 'i>], number: usize) -> Vec<Named<'i>> {
     let mut rest = number;
-    let last_first = list.iter().rev().map(|Parameter { name, values }| {
+    let last_first = list.iter().rev().map(|Parameter { name, values, .. }| {
         let value = values[rest % values.len()].clone();
         rest /= values.len();
         Named::new(name, value)

@@ -7,7 +7,8 @@ use ectwin::user_files::{self, Wanted};
 use scenario::{Recording, TraceDifference, trace_differences};
 
 use super::campaign::Campaign;
-use super::golden::TRACE;
+use super::case;
+use super::golden::{self, TRACE};
 use crate::failure::Failure;
 use crate::output::{self, shown};
 use crate::overwrite::{self, Output};
@@ -29,34 +30,40 @@ enum Change {
 /// # Errors
 /// A scenario fails for another reason, or a trace cannot be written.
 pub(super) fn bless(campaign: &mut Campaign, named: &[PathBuf]) -> Result<(), Failure> {
-    let mut is_any = false;
+    let mut traces: Vec<(PathBuf, String)> = Vec::new();
     for (path, scenario) in campaign.scenarios_mut() {
         if scenario.golden_trace.take().is_none() && !named.iter().any(|name| name == path) {
             continue;
         }
-        if let Some(case) = &scenario.case {
-            let message = format!("{} has parameters, and so no golden trace ({case})", path.display());
-            let help = "give each value a file of its own".to_owned();
-            return Err(Failure::Refused { message, help });
-        }
-        is_any = true;
         let report = scenario.replay(scenario.seed, Recording::new(true, false));
         if let Some(failure) = &report.failure {
             let help = "only a scenario that passes has a golden trace".to_owned();
-            return Err(Failure::Refused { message: format!("{}: {failure}", path.display()), help });
+            let named = case::named(&path.to_string_lossy(), scenario.case.as_deref());
+            return Err(Failure::Refused { message: format!("{named}: {failure}"), help });
         }
-        let trace = path.with_extension(TRACE);
-        // A scenario with that name is not a golden trace.
-        overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
-        let text = report.recording.trace().unwrap_or_default();
-        let change = Change::to(&trace, text);
-        output::write(Some(&trace), text.as_bytes())?;
-        output::print_line(format_args!("blessed {}: {change}", shown(&trace)))?;
+        let text = golden::part(scenario, report.recording.trace().unwrap_or_default());
+        match traces.last_mut() {
+            // The next case of the same file.
+            Some((last, all)) if last == path => all.push_str(&text),
+            Some(_) | None => traces.push((path.to_owned(), text)),
+        }
     }
-    if is_any {
-        return Ok(());
+    if traces.is_empty() {
+        return output::print_line(
+            "nothing blessed: no scenario has a golden trace, and no file is named to get one",
+        );
     }
-    output::print_line("nothing blessed: no scenario has a golden trace, and no file is named to get one")
+    traces.iter().try_for_each(|(path, text)| write(path, text, named))
+}
+
+/// Writes the golden trace of a file.
+fn write(path: &Path, text: &str, named: &[PathBuf]) -> Result<(), Failure> {
+    let trace = path.with_extension(TRACE);
+    // A scenario with that name is not a golden trace.
+    overwrite::refuse(&[Output { option: "--bless", path: &trace }], named)?;
+    let change = Change::to(&trace, text);
+    output::write(Some(&trace), text.as_bytes())?;
+    output::print_line(format_args!("blessed {}: {change}", shown(&trace)))
 }
 
 impl Change {

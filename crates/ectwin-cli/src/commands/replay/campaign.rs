@@ -192,12 +192,12 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
     Err(Failure::Refused { message, help })
 }
 
-/// Reads one scenario, and its files, relative to its folder. Also returns the paths of all files that were read, and
-/// of the memories of the units.
-pub(crate) fn read_scenario(path: &Path) -> Result<(Scenario, Vec<PathBuf>), Failure> {
+/// Reads the cases of one scenario file, and its files, relative to its folder. Also returns the paths of all files that
+/// were read, and of the memories of the units.
+pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Scenario>, Vec<PathBuf>), Failure> {
     let mut inputs = Vec::new();
     let cases = load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut inputs);
-    Ok((only(path, cases.map_err(Failure::BadFile)?)?, inputs))
+    Ok((cases.map_err(Failure::BadFile)?, inputs))
 }
 
 /// The scenario that a file at this path would be, with this text.
@@ -219,7 +219,7 @@ fn only(path: &Path, mut cases: Vec<Scenario>) -> Result<Scenario, Failure> {
 /// Reads the cases of a scenario file, and its files, relative to its folder.
 fn load(
     path: &Path,
-    golden: GoldenTraces,
+    kind: GoldenTraces,
     fingerprint: &mut Fingerprint,
     inputs: &mut Vec<PathBuf>,
 ) -> Result<Vec<Scenario>, FileProblems> {
@@ -229,22 +229,17 @@ fn load(
     fingerprint.add(text.as_bytes());
     let mut cases = parse(path, &text, fingerprint, inputs)?;
     let trace = path.with_extension("trace");
-    let golden = golden::read(&trace, path, golden).map_err(|error| unreadable(&trace, &error))?;
-    if let Some(text) = &golden {
-        if cases.len() > 1 {
-            return Err(golden_of_several(&trace, cases.len()).into());
-        }
-        fingerprint.add(text.as_bytes());
-        inputs.push(trace);
+    let golden = golden::read(&trace, path, kind).map_err(|error| unreadable(&trace, &error))?;
+    let Some(text) = golden else { return Ok(cases) };
+    fingerprint.add(text.as_bytes());
+    for scenario in &mut cases {
+        scenario.golden_trace = Some(text.clone());
     }
-    cases.iter_mut().for_each(|scenario| scenario.golden_trace.clone_from(&golden));
+    if matches!(kind, GoldenTraces::Compared) {
+        golden::divide(&trace, &text, &mut cases)?;
+    }
+    inputs.push(trace);
     Ok(cases)
-}
-
-/// A golden trace is that of one case.
-fn golden_of_several(trace: &Path, cases: usize) -> FileProblem {
-    let message = format!("{} is a golden trace, and its scenario has {cases} cases", trace.display());
-    FileProblem::of_file(&message, "remove the trace, or give each parameter one value")
 }
 
 /// The cases of the scenario in this text, with the files that it names, relative to the folder of `path`.

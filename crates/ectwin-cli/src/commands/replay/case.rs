@@ -26,13 +26,13 @@ pub(super) struct Case<'a> {
 
 impl Case<'_> {
     /// The file, with the values of its parameters.
-    pub(super) fn named(&self) -> String {
+    pub(crate) fn named(&self) -> String {
         named(&self.path.to_string_lossy(), self.scenario.case.as_deref())
     }
 }
 
 /// A file with the values of its parameters: `line.toml (loss = 1, state = OP)`.
-pub(super) fn named(file: &str, parameters: Option<&str>) -> String {
+pub(crate) fn named(file: &str, parameters: Option<&str>) -> String {
     let file = on_one_line(file);
     match parameters {
         Some(parameters) => format!("{file} ({})", on_one_line(parameters)),

@@ -4,6 +4,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Unreadable, Wanted};
+use scenario::Scenario;
+use user_file::on_one_line;
 
 use crate::failure::Failure;
 use crate::file_problem::FileProblem;
@@ -19,6 +21,56 @@ pub(super) enum GoldenTraces {
     Compared,
     /// They are written, so that it does not matter what is in them.
     Written,
+}
+
+/// Begins the line before the trace of a case of a file with parameters: `case loss = 1, state = OP`. A line of a trace
+/// begins with a space.
+const CASE: &str = "case ";
+
+/// The trace of a scenario in its golden trace: behind the name of the case if it has parameters.
+pub(super) fn part(scenario: &Scenario, trace: &str) -> String {
+    match &scenario.case {
+        Some(case) => format!("{CASE}{}\n{trace}", on_one_line(case)),
+        None => trace.to_owned(),
+    }
+}
+
+/// Gives each case of a file with parameters its part of the golden trace. Without parameters it is all of it.
+pub(super) fn divide(trace: &Path, golden: &str, cases: &mut [Scenario]) -> Result<(), FileProblem> {
+    if cases.iter().all(|scenario| scenario.case.is_none()) {
+        return Ok(());
+    }
+    // What is before the first case belongs to none.
+    let mut parts = vec![(String::new(), String::new())];
+    for line in golden.split_inclusive('\n') {
+        match (line.strip_prefix(CASE), parts.last_mut()) {
+            (Some(name), _) => parts.push((name.trim_end_matches('\n').to_owned(), String::new())),
+            (None, Some((_, text))) => text.push_str(line),
+            (None, None) => {}
+        }
+    }
+    parts.retain(|(name, text)| !(name.is_empty() && text.is_empty()));
+    for scenario in cases {
+        let name = on_one_line(scenario.case.as_deref().unwrap_or_default());
+        let Some(at) = parts.iter().position(|(other, _)| *other == name) else {
+            return Err(of_other_cases(trace, &format!("has no trace of the case {name}")));
+        };
+        scenario.golden_trace = Some(parts.remove(at).1);
+    }
+    match parts.first() {
+        None => Ok(()),
+        Some((name, _)) if name.is_empty() => {
+            Err(of_other_cases(trace, "has lines that belong to no case of its scenario"))
+        }
+        Some((name, _)) => {
+            Err(of_other_cases(trace, &format!("has the case {name}, and its scenario does not")))
+        }
+    }
+}
+
+fn of_other_cases(trace: &Path, problem: &str) -> FileProblem {
+    let message = format!("{} {problem}", shown(trace));
+    FileProblem::of_file(&message, "`ectwin replay --bless` writes the traces of all cases again")
 }
 
 /// The golden traces below these folders whose scenarios do not exist: they would never be compared.

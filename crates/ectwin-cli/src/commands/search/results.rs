@@ -9,7 +9,7 @@ use time::Duration;
 use user_file::on_one_line;
 
 use super::super::replay::{
-    CaseResult, Counted, FailedStep, Partition, Progress, Spool, Verdict, quoted, title,
+    CaseResult, Counted, FailedStep, Partition, Progress, Spool, Verdict, named, quoted, title,
 };
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
@@ -21,6 +21,9 @@ use crate::output::{self, People, shown};
 struct FoundLine {
     /// The scenario file with random steps.
     file: String,
+    /// The values of its parameters; left out if it has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parameters: Option<String>,
     /// Its title.
     title: String,
     /// The seed that failed.
@@ -42,7 +45,6 @@ pub(super) struct Results {
     lines: Option<(PathBuf, ResultOut)>,
     junit: Option<Spool>,
     file: String,
-    title: String,
     /// The part of the search and its number of seeds.
     part: (Partition, u64),
     /// Number of different failures.
@@ -51,18 +53,14 @@ pub(super) struct Results {
 
 impl Results {
     /// Opens the files before anything is replayed. None of them is changed unless all are open.
-    pub(super) fn open(
-        args: &SearchArgs,
-        scenario: &Scenario,
-        part: (Partition, u64),
-    ) -> Result<Self, Failure> {
+    pub(super) fn open(args: &SearchArgs, part: (Partition, u64)) -> Result<Self, Failure> {
         let people = People::beside([&args.json, &args.junit].into_iter().filter_map(Option::as_deref));
         let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
         let junit = args.junit.as_deref().map(|path| Spool::open(path, "ectwin search")).transpose()?;
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
         let progress = Progress::of(part.1, Counted::Seeds, false);
-        let (file, title) = (args.scenario.display().to_string(), title(scenario));
-        Ok(Self { people, progress, lines, junit, file, title, part, failures: 0 })
+        let file = args.scenario.display().to_string();
+        Ok(Self { people, progress, lines, junit, file, part, failures: 0 })
     }
 
     /// One more seed has been tried.
@@ -73,16 +71,18 @@ impl Results {
     /// The next failure, and the file to which its steps are written. `failure` has the lines of that file.
     pub(super) fn take(
         &mut self,
+        case: &Scenario,
         found: &Found,
         written: &Path,
         failure: &scenario::Failure,
     ) -> Result<(), Failure> {
         self.failures += 1;
-        let text = self.story(found, written, failure);
+        let text = self.story(case, found, written, failure);
         self.progress.beside(|| self.people.print_cases(&text))?;
         let line = FoundLine {
             file: self.file.clone(),
-            title: self.title.clone(),
+            parameters: case.case.clone(),
+            title: title(case),
             seed: found.seed,
             failure: FailedStep::of(failure),
             steps: found.steps,
@@ -95,15 +95,15 @@ impl Results {
             written.map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
         }
         // CI systems link a failure to its line, which is one of the written file.
-        let FoundLine { written, seed, failure, .. } = line;
+        let FoundLine { written, seed, failure, title, parameters, .. } = line;
         let lasted = Duration::from_nanos(failure.at_ns);
-        self.case(written, seed, Some(failure), lasted)
+        self.case((written, title, parameters), seed, Some(failure), lasted)
     }
 
-    /// A case of the JUnit report.
+    /// A case of the JUnit report: a file, its title and the values of its parameters.
     fn case(
         &mut self,
-        file: String,
+        (file, title, parameters): (String, String, Option<String>),
         seed: u64,
         failure: Option<FailedStep>,
         lasted: Duration,
@@ -116,8 +116,8 @@ impl Results {
             partition,
             campaign: String::new(),
             file,
-            parameters: None,
-            title: self.title.clone(),
+            parameters,
+            title,
             seed,
             verdict: if failure.is_none() { Verdict::Passed } else { Verdict::Failed },
             failure,
@@ -130,14 +130,14 @@ impl Results {
         })
     }
 
-    fn story(&self, found: &Found, written: &Path, failure: &scenario::Failure) -> String {
+    fn story(&self, case: &Scenario, found: &Found, written: &Path, failure: &scenario::Failure) -> String {
         let Found { seed, steps, steps_before, .. } = found;
         format!(
             "FAILED  {}: {}\n        {}:{}: `{}`\n        seen    {}\n        at      {}\n        \
              seed    {seed}\n        steps   {steps} of {steps_before} are left\n        \
              repeat  ectwin replay {}\n",
-            on_one_line(&self.file),
-            self.title,
+            named(&self.file, case.case.as_deref()),
+            title(case),
             shown(written),
             failure.line,
             on_one_line(&failure.text),
@@ -147,15 +147,20 @@ impl Results {
         )
     }
 
-    /// All seeds have been tried, from `first` on. `totals` is the line for people, if there is one.
-    pub(super) fn close(mut self, totals: Option<&str>, first: u64, lasted: Duration) -> Result<(), Failure> {
+    /// All seeds have been tried, from `first` on, of the file with this title. `totals` is the line for people, if there is one.
+    pub(super) fn close(
+        mut self,
+        totals: Option<&str>,
+        (first, title): (u64, String),
+        lasted: Duration,
+    ) -> Result<(), Failure> {
         self.progress.end();
         if let Some((path, lines)) = &mut self.lines {
             // A search that has found nothing has no lines.
             lines.complete().map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
         }
         if self.failures == 0 {
-            self.case(self.file.clone(), first, None, lasted)?;
+            self.case((self.file.clone(), title, None), first, None, lasted)?;
         }
         if let Some(junit) = self.junit.take() {
             junit.close()?;
