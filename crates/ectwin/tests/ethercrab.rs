@@ -9,6 +9,8 @@ use std::net::UdpSocket;
 use std::thread;
 use std::time::Duration;
 
+use ectwin::plant::line::LineOrder;
+use ectwin::scenario::words::Spoken;
 use ectwin::{AlState, EthercrabPort, Io, Live, Setup, Twin};
 use ethercrab::PduLoop;
 use ethercrab::std::ethercat_now;
@@ -162,4 +164,45 @@ fn two_units_over_a_raw_link() {
         });
         live.stop().unwrap();
     });
+}
+
+#[test]
+fn a_master_on_a_raw_link_meets_faults_of_frames() {
+    in_network_namespace("a_master_on_a_raw_link_meets_faults_of_frames", || {
+        add_veth_pair("veth0", "veth1");
+        let (tx, rx, pdu_loop) = patient_master::frames();
+        let live = units(2).serve(link::open(&"raw:veth1".parse().unwrap()).unwrap()).unwrap();
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
+        runtime.block_on(async {
+            let frames = ethercrab::std::tx_rx_task("veth0", tx, rx).unwrap();
+            tokio::select! {
+                ended = frames => panic!("the master's link ended: {:?}", ended.is_ok()),
+                () = meet_faults(pdu_loop, &live) => {}
+            }
+        });
+        live.stop().unwrap();
+    });
+}
+
+/// Takes two units to OP; then three cycles meet each fault, and the next one meets none.
+async fn meet_faults(pdu_loop: PduLoop<'static>, live: &Live) {
+    let master = patient_master::master(pdu_loop, 10);
+    let group = master.init_single_group::<16, 4096>(ethercat_now).await.unwrap();
+    let group = patient_master::into_op(group, &master).await;
+    let expected = working_counter(2);
+    for (sentence, counter) in [
+        ("lower the working counter of the next 3 process data frames by 2", expected - 2),
+        ("delay the next 3 process data frames by 5ms", expected),
+        ("delay the next 3 process data frames on the way back by 5ms", expected),
+    ] {
+        live.line_order(&LineOrder::from_sentence(sentence).unwrap()).unwrap();
+        for cycle in 1..=3 {
+            let seen = group.tx_rx(&master).await.unwrap().working_counter;
+            assert_eq!(seen, counter, "{sentence}: cycle {cycle}");
+        }
+        assert_eq!(live.faults(), [], "{sentence}: three frames have met it");
+        let seen = group.tx_rx(&master).await.unwrap().working_counter;
+        assert_eq!(seen, expected, "after: {sentence}");
+    }
+    let _ = group.into_safe_op(&master).await.unwrap();
 }
