@@ -48,7 +48,11 @@ impl Agenda {
     /// The deadlines are asked for each slave that is looked at, and not for all of them first: a slave that was looked at
     /// has its next deadline already, so that mostly nothing else is due, which the first deadline shows.
     pub(crate) fn next_to_look_at(&self, from: usize, now: Instant) -> Option<usize> {
-        match (self.to_look_at.next(from), self.deadlines.next_due(from, now)) {
+        let called = self.to_look_at.next(from);
+        if self.deadlines.first() > now {
+            return called;
+        }
+        match (called, self.deadlines.next_due(from, now)) {
             (Some(one), Some(other)) => Some(one.min(other)),
             (one, other) => one.or(other),
         }

@@ -50,12 +50,16 @@ impl Queue {
             return;
         }
         self.deadlines[place] = Instant::NEVER;
-        // The first and the last entry are valid, an entry between them need not be.
+        // The first and the last entry are valid, an entry between them need not be. One of the two may now be that of the
+        // place, mostly the first: its deadline has come.
+        if self.is_valid(self.entry(0)) {
+            while !self.is_valid(self.entry(self.length - 1)) {
+                self.length -= 1;
+            }
+            return;
+        }
         while self.length > 0 && !self.is_valid(self.entry(0)) {
             self.head += 1;
-            self.length -= 1;
-        }
-        while self.length > 0 && !self.is_valid(self.entry(self.length - 1)) {
             self.length -= 1;
         }
     }
@@ -75,9 +79,18 @@ impl Queue {
 
     /// The first place from `from` on whose deadline has come at `now`.
     pub(super) fn next_due(&self, from: usize, now: Instant) -> Option<usize> {
-        let entries = (0..self.length).map(|number| self.entry(number));
-        let due = entries.take_while(|entry| entry.deadline <= now);
-        due.filter(|entry| entry.place >= from && self.is_valid(*entry)).map(|entry| entry.place).min()
+        let mut first = None;
+        for number in 0..self.length {
+            let entry = self.entry(number);
+            if entry.deadline > now {
+                break;
+            }
+            let is_earlier = entry.place >= from && first.is_none_or(|first| entry.place < first);
+            if is_earlier && self.is_valid(entry) {
+                first = Some(entry.place);
+            }
+        }
+        first
     }
 
     fn is_valid(&self, entry: Entry) -> bool {
