@@ -1,5 +1,7 @@
 //! Frames on their way: tickets, the sender of each datagram, and which frames count as lost.
 
+use std::collections::VecDeque;
+
 use time::Instant;
 use wire::{FrameBuilder, datagrams};
 
@@ -62,7 +64,8 @@ impl<S> Flight<S> {
 pub struct Flights<S> {
     last: u64,
     next_index: u8,
-    flying: Vec<Flight<S>>,
+    /// The first sent is the first: mostly it is the first that returns.
+    flying: VecDeque<Flight<S>>,
     /// The lists of completed flights, for reuse.
     spare: Vec<Vec<Part<S>>>,
 }
@@ -90,14 +93,17 @@ impl<S> Flights<S> {
         self.last += 1;
         let ticket = Ticket(self.last);
         self.next_index = self.next_index.wrapping_add(parts.len() as u8);
-        self.flying.push(Flight { ticket, first_index, due, parts });
+        self.flying.push_back(Flight { ticket, first_index, due, parts });
         (frame, Some(ticket))
     }
 
     /// The datagrams of the frame to which this one is the answer; none if it is late, a duplicate or damaged.
     pub fn arrive(&mut self, ticket: Ticket, frame: &[u8]) -> Option<Vec<Part<S>>> {
         let at = self.flying.iter().position(|flight| flight.ticket == ticket)?;
-        self.flying[at].is_answered_by(frame).then(|| self.flying.remove(at).parts)
+        if !self.flying[at].is_answered_by(frame) {
+            return None;
+        }
+        self.flying.remove(at).map(|flight| flight.parts)
     }
 
     /// The ticket of a frame, for a caller that does not keep tickets.
@@ -107,16 +113,22 @@ impl<S> Flights<S> {
     }
 
     /// The datagrams of the next frame that is lost by now.
+    #[inline]
     pub fn lose(&mut self, now: Instant) -> Option<Vec<Part<S>>> {
+        // Mostly nothing is on its way.
+        if self.flying.is_empty() {
+            return None;
+        }
         let at = self.flying.iter().position(|flight| flight.due <= now)?;
-        Some(self.flying.remove(at).parts)
+        self.flying.remove(at).map(|flight| flight.parts)
     }
 
     /// Answers to the frames of these senders are ignored from now on, and their loss is not reported.
     pub fn forget(&mut self, is_meant: impl Fn(&S) -> bool) {
-        while let Some(at) = self.flying.iter().position(|flight| flight.is_of(&is_meant)) {
-            let parts = self.flying.remove(at).parts;
-            self.recycle(parts);
+        while let Some(at) = self.flying.iter().position(|flight| flight.is_of(&is_meant))
+            && let Some(flight) = self.flying.remove(at)
+        {
+            self.recycle(flight.parts);
         }
     }
 
@@ -127,8 +139,12 @@ impl<S> Flights<S> {
     }
 
     /// The time at which the next frame counts as lost.
+    #[inline]
     #[must_use]
     pub fn deadline(&self) -> Instant {
+        if self.flying.is_empty() {
+            return Instant::NEVER;
+        }
         self.flying.iter().map(|flight| flight.due).min().unwrap_or(Instant::NEVER)
     }
 }
@@ -142,6 +158,6 @@ impl<S: PartialEq> Flights<S> {
 
 impl<S> Default for Flights<S> {
     fn default() -> Self {
-        Self { last: 0, next_index: 0, flying: Vec::new(), spare: Vec::new() }
+        Self { last: 0, next_index: 0, flying: VecDeque::new(), spare: Vec::new() }
     }
 }
