@@ -15,7 +15,7 @@ impl Stage for World {
     }
 
     fn has_passed(&self, time: Instant) -> bool {
-        self.deadline() > time && self.now() >= time
+        self.now() >= time && self.deadline() > time
     }
 
     fn check(&mut self, condition: &Condition, observed: &mut Observed) -> Result<(), Seen> {
