@@ -66,7 +66,9 @@ fn a_replay_with_a_panic_is_repeatable_and_the_next_one_is_not_touched() {
     let panicking = scenario(PLAIN);
     let told = |seed| replay(&panicking, seed).recording.trace().map(str::to_owned);
     assert_eq!(told(3), told(3));
-    let whole = Scenario::parse(&PLAIN.replace("break Processing of", "reset the errors of"), |_| Err(String::new())).expect("right");
+    let whole =
+        Scenario::parse(&PLAIN.replace("break Processing of", "reset the errors of"), |_| Err(String::new()))
+            .expect("right");
     let failure = replay(&whole, 1).failure.expect("no error");
     assert_eq!(failure.kind(), FailureKind::Expectation { line: 6 });
 }

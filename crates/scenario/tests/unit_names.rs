@@ -1,7 +1,5 @@
 //! Units by their names, ranges and lists: each form in a scenario that passes and in one that fails, and its mistakes.
 
-#![expect(clippy::expect_used, reason = "a test ends where something is not as it should be")]
-
 use scenario::model::{Condition, MasterOrder, Order, Script, ScriptStep, UnitNumber, UnitSet, WhichUnit};
 use scenario::words::Spoken;
 use scenario::{Recording, Scenario};
