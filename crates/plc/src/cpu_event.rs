@@ -37,6 +37,8 @@ pub enum CpuEvent {
 pub struct CpuRecord {
     /// The event.
     pub event: CpuEvent,
+    /// When its CPU Unit was powered on.
+    pub powered_on: Instant,
     /// Start of the task period in which it first occurred, counted from power-on of the CPU Unit.
     pub first_at: Instant,
     /// The same for its last occurrence.
@@ -50,6 +52,7 @@ pub struct CpuRecord {
 pub(crate) struct CpuEventLog {
     records: VecDeque<CpuRecord>,
     lost: u64,
+    powered_on: Instant,
 }
 
 impl fmt::Display for CpuEvent {
@@ -103,12 +106,12 @@ impl CpuEvent {
 
 impl CpuEventLog {
     pub(crate) fn new() -> Self {
-        Self { records: VecDeque::with_capacity(CPU_EVENTS_MAX), lost: 0 }
+        Self { records: VecDeque::with_capacity(CPU_EVENTS_MAX), lost: 0, powered_on: Instant::ZERO }
     }
 
     /// One that gets its room with its first record.
     pub(crate) const fn without_room() -> Self {
-        Self { records: VecDeque::new(), lost: 0 }
+        Self { records: VecDeque::new(), lost: 0, powered_on: Instant::ZERO }
     }
 
     /// Records an event. One that repeats takes one record; if there is no room, the oldest is lost.
@@ -123,7 +126,13 @@ impl CpuEventLog {
             self.records.pop_front();
             self.lost += 1;
         }
-        self.records.push_back(CpuRecord { event, first_at: now, last_at: now, count: 1 });
+        let powered_on = self.powered_on;
+        self.records.push_back(CpuRecord { event, powered_on, first_at: now, last_at: now, count: 1 });
+    }
+
+    /// The times of what follows are counted from this one.
+    pub(crate) const fn power_on(&mut self, now: Instant) {
+        self.powered_on = now;
     }
 
     /// Takes all records, the oldest first.
@@ -159,6 +168,7 @@ mod tests {
         let exceeded = CpuEvent::TaskPeriodExceeded { missed_periods: 2_000 };
         let expected = [exceeded, OVERRUN].map(|event| CpuRecord {
             event,
+            powered_on: at(0),
             first_at: at(0),
             last_at: at(999),
             count: 1_000,

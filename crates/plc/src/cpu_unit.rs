@@ -84,6 +84,7 @@ impl CpuUnit {
             task_periods: 0,
             deadline: now + settings.task_phase,
         };
+        cpu.io.events.power_on(now);
         cpu.announce();
         cpu
     }
@@ -250,6 +251,7 @@ impl CpuUnit {
         self.io_refreshing = true;
         self.nx_bus_function.power_on();
         self.io.power_on();
+        self.io.events.power_on(now);
         self.user_program.start_anew();
         self.announce();
     }

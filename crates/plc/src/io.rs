@@ -214,6 +214,7 @@ impl Io {
     pub(crate) fn power_on(&mut self) {
         self.memory = Memory::new(&self.variables);
         self.nx_bus_reset = NxBusReset::None;
+        self.now = Instant::ZERO;
         self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
     }
 

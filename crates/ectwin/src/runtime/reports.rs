@@ -40,12 +40,11 @@ impl Reports {
     pub(super) fn log_all(&mut self, cpus: &mut CpuUnits) -> bool {
         let (mut lost, mut is_any) = (0, false);
         cpus.each(|position, cpu| {
-            let powered_on = cpu.powered_on();
             for record in cpu.take_events() {
                 is_any = true;
                 log(position + 1, &record);
                 if let Some(reporter) = &self.reporter {
-                    let at = powered_on + record.first_at.saturating_since(Instant::ZERO);
+                    let at = record.powered_on + record.first_at.saturating_since(Instant::ZERO);
                     reporter.send(Report::Cpu { at, position, record });
                 }
             }

@@ -213,6 +213,19 @@ fn an_error_in_every_scan_is_counted_and_not_logged_endlessly() {
     assert_eq!(cpu.events_lost(), 0);
 }
 
+/// So that the time of a report on the line is known, whenever it is taken.
+#[test]
+fn a_record_knows_from_when_its_times_are_counted() {
+    let program = |io: &mut Io| io.report(ProgramEvent::TaskOverrun { budget_statements: io.now().as_nanos() });
+    let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
+    cpu.cycle(at_ms(100));
+    cpu.cycle(at_ms(101));
+    cpu.cycle_power(at_ms(200));
+    cpu.set_mode(OperatingMode::Program);
+    let times: Vec<_> = cpu.take_events().map(|record| (record.powered_on, record.first_at)).collect();
+    assert_eq!(times, [(at_ms(100), at_ms(0)), (at_ms(100), at_ms(1)), (at_ms(200), at_ms(0))]);
+}
+
 #[test]
 fn a_program_knows_the_time() {
     let (times, heard) = channel();
