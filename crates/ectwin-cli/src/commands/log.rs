@@ -36,7 +36,7 @@ fn read(path: &Path) -> Result<(&'static dyn Model, StoredLogs), Failure> {
         MemoryDamage::NoMemory => unreadable("it is not the memory of a unit".to_owned(), help),
         MemoryDamage::Damaged(reason) => unreadable(
             format!("the memory is damaged: {reason}"),
-            "a unit with it reports 00200000; the next start with `storage` renames the file and makes a new one",
+            "a unit with it records an event of its own; the next start with `storage` renames the file and makes a new one",
         ),
     })
 }

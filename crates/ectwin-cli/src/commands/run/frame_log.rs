@@ -1,5 +1,7 @@
 //! Each frame in one line of the log, with `-vvv`: the frame thread only copies the headers.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use link::{Observer, Seen};
@@ -13,8 +15,8 @@ const FRAMES_MAX: usize = 4_096;
 
 /// A frame in small.
 #[derive(Clone, Copy)]
-struct FrameNote {
-    at: Instant,
+pub(crate) struct FrameNote {
+    pub(crate) at: Instant,
     length_bytes: usize,
     named: [Option<(DatagramHeader, u16)>; NAMED],
     /// Number of its datagrams.
@@ -33,16 +35,25 @@ enum Fate {
 /// The frame thread's end.
 pub(crate) struct FrameLog {
     notes: SyncSender<FrameNote>,
+    /// Those that had no room since the last one that had.
     lost: u64,
+    all_lost: Arc<AtomicU64>,
 }
 
 /// The log's end.
-pub(crate) struct FrameLines(Receiver<FrameNote>);
+pub(crate) struct FrameLines {
+    notes: Receiver<FrameNote>,
+    all_lost: Arc<AtomicU64>,
+    /// Those of the lost ones that have been logged.
+    logged_lost: u64,
+}
 
 /// Both ends.
 pub(crate) fn frame_log() -> (FrameLog, FrameLines) {
-    let (notes, lines) = sync_channel(FRAMES_MAX);
-    (FrameLog { notes, lost: 0 }, FrameLines(lines))
+    let (sender, notes) = sync_channel(FRAMES_MAX);
+    let all_lost = Arc::new(AtomicU64::new(0));
+    let log = FrameLog { notes: sender, lost: 0, all_lost: Arc::clone(&all_lost) };
+    (log, FrameLines { notes, all_lost, logged_lost: 0 })
 }
 
 impl FrameLog {
@@ -65,7 +76,10 @@ impl FrameLog {
         };
         match self.notes.try_send(note) {
             Ok(()) => self.lost = 0,
-            Err(_) => self.lost += 1,
+            Err(_) => {
+                self.lost += 1;
+                self.all_lost.fetch_add(1, Ordering::Relaxed);
+            }
         }
     }
 }
@@ -84,16 +98,26 @@ impl Observer for FrameLog {
 }
 
 impl FrameLines {
-    /// Logs the frames that wait.
-    pub(crate) fn log(&mut self) {
-        while let Ok(note) = self.0.try_recv() {
-            if note.lost_before > 0 {
-                tracing::trace!(
-                    "{} frames are missing here: more came than could be logged",
-                    note.lost_before
-                );
-            }
-            tracing::trace!("{}", words(&note));
+    /// Takes the frames that wait, and not those that come meanwhile, so that this ends on a fast link.
+    pub(crate) fn take(&mut self) -> Vec<FrameNote> {
+        self.notes.try_iter().take(FRAMES_MAX).collect()
+    }
+
+    /// Logs one of them.
+    pub(crate) fn log(&mut self, note: &FrameNote) {
+        self.log_lost(note.lost_before);
+        tracing::trace!("{}", words(note));
+    }
+
+    /// Logs how many were lost after the last one.
+    pub(crate) fn end(&mut self) {
+        self.log_lost(self.all_lost.load(Ordering::Relaxed).saturating_sub(self.logged_lost));
+    }
+
+    fn log_lost(&mut self, count: u64) {
+        self.logged_lost += count;
+        if count > 0 {
+            tracing::trace!("{count} frames are missing here: more came than could be logged");
         }
     }
 }
@@ -134,4 +158,23 @@ fn datagram(header: &DatagramHeader, counter: u16) -> String {
         | Command::Other(_) => format!("0x{:04X} 0x{:04X}", header.address, header.offset),
     };
     format!("{name} {place}, {} bytes, WKC {counter}", header.length_bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_look_takes_as_many_frames_as_wait_and_the_end_knows_of_the_lost_ones() {
+        let (mut log, mut lines) = frame_log();
+        for at in 0..FRAMES_MAX as u64 + 5 {
+            log.note(Instant::from_nanos(at), &[0; 60], Fate::Returned);
+        }
+        let taken = lines.take();
+        assert_eq!(taken.len(), FRAMES_MAX);
+        taken.iter().for_each(|note| lines.log(note));
+        assert_eq!(lines.logged_lost, 0);
+        lines.end();
+        assert_eq!(lines.logged_lost, 5);
+    }
 }

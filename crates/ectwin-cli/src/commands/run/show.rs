@@ -48,6 +48,7 @@ impl Show {
             }
             let records = self.happenings.take();
             self.show(records);
+            self.frames.iter_mut().for_each(FrameLines::end);
             // If the result is not awaited any more, the process ends.
             let _ = sender.send(self.file.map_or(Ok(()), EventsFile::end));
         };
@@ -57,12 +58,26 @@ impl Show {
 
     fn show(&mut self, records: Vec<Record>) {
         for record in &records {
-            log(record);
             self.file.iter_mut().for_each(|file| file.add(record));
         }
         self.file.iter_mut().for_each(EventsFile::write);
-        self.frames.iter_mut().for_each(FrameLines::log);
+        match &mut self.frames {
+            Some(frames) => log_with_frames(&records, frames),
+            None => records.iter().for_each(log),
+        }
     }
+}
+
+/// Records and frames in the order of their times; of the same time, the record first, which is in its queue first.
+fn log_with_frames(records: &[Record], lines: &mut FrameLines) {
+    let mut frames = lines.take().into_iter().peekable();
+    for record in records {
+        while let Some(frame) = frames.next_if(|frame| frame.at < record.at) {
+            lines.log(&frame);
+        }
+        log(record);
+    }
+    frames.for_each(|frame| lines.log(&frame));
 }
 
 /// CPU Units and carriers have log lines of their own.
@@ -84,6 +99,8 @@ impl Showing {
         self.thread.unpark();
         let ended = match self.ended.recv_timeout(PATIENCE) {
             Ok(ended) => ended,
+            // Nobody reads the log any more; no result is missing.
+            Err(RecvTimeoutError::Timeout) if path.is_none() => Ok(()),
             Err(RecvTimeoutError::Timeout) => {
                 let words = format!("it has accepted nothing for {} s", PATIENCE.as_secs());
                 Err(io::Error::new(io::ErrorKind::TimedOut, words))
