@@ -46,7 +46,8 @@ impl Disturbed {
 
     /// The random faults begin with this seed; all faults and frames that wait are gone.
     pub(crate) fn start_again(&mut self, seed: u64) {
-        *self = Self { faults: LineFaults::new(seed), answers: Answers::default() };
+        self.faults.start_again(seed);
+        self.answers = Answers::default();
     }
 
     pub(crate) fn order(

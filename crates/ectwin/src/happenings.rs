@@ -52,6 +52,21 @@ pub struct Happenings {
     last: Instant,
 }
 
+/// What is taken from one of the queues.
+enum Taken {
+    Report(Report),
+    Happening(Happening),
+}
+
+impl Taken {
+    const fn at(&self) -> Instant {
+        match self {
+            Self::Report(report) => report.at(),
+            Self::Happening(happening) => happening.at,
+        }
+    }
+}
+
 impl Happenings {
     /// The queue of a line with these units, and its other ends.
     pub(crate) fn of(names: Vec<UnitName>, observer: Observer, now: Instant) -> (Self, Observed, Reporter) {
@@ -68,17 +83,22 @@ impl Happenings {
 
     /// Takes the records since the last call, the oldest first. This does not wait.
     pub fn take(&mut self) -> Vec<Record> {
-        let mut records = Vec::new();
-        while let Ok(report) = self.reports.try_recv() {
-            records.push(self.reported(&report));
-        }
-        while let Ok(happening) = self.happenings.try_recv() {
-            records.push(self.happened(&happening));
-        }
-        records.sort_by_key(|record| record.at);
+        // The happenings first: what a report says about one of them is in its queue before it.
+        let happenings: Vec<Happening> = self.happenings.try_iter().take(HAPPENINGS_MAX).collect();
+        let reports = self.reports.try_iter().take(REPORTS_MAX).map(Taken::Report);
+        let mut taken: Vec<Taken> = reports.chain(happenings.into_iter().map(Taken::Happening)).collect();
+        taken.sort_by_key(Taken::at);
+        let mut records: Vec<Record> = taken.into_iter().map(|one| self.record(one)).collect();
         self.last = records.last().map_or(self.last, |record| record.at);
         records.extend(self.losses());
         records
+    }
+
+    fn record(&mut self, taken: Taken) -> Record {
+        match taken {
+            Taken::Report(report) => self.reported(report),
+            Taken::Happening(happening) => self.happened(&happening),
+        }
     }
 
     fn happened(&mut self, happening: &Happening) -> Record {
@@ -89,18 +109,29 @@ impl Happenings {
         Record { text, ..record.with("sentence", sentence) }
     }
 
-    fn reported(&mut self, report: &Report) -> Record {
+    fn reported(&mut self, report: Report) -> Record {
         match report {
             Report::Cpu { at, position, record } => {
-                let name = self.names.get(*position).map(|unit| unit.name.clone()).unwrap_or_default();
-                Record { unit: Some((*position + 1, name)), ..cpu::record(*at, record) }
+                let name = self.names.get(position).map(|unit| unit.name.clone()).unwrap_or_default();
+                Record { unit: Some((position + 1, name)), ..cpu::record(at, &record) }
+            }
+            Report::Replaced { at, position, unit } => {
+                let record = start::unit(at, position, &unit);
+                if let Some(name) = self.names.get_mut(position) {
+                    *name = unit;
+                }
+                record
             }
             Report::FrameFaultBegan { at, number, disturbance } => {
-                let sentence = LineOrder::Disturb(disturbance.clone()).sentence();
-                self.frame_faults.insert(*number, sentence.clone());
+                let sentence = LineOrder::Disturb(disturbance).sentence();
+                self.frame_faults.insert(number, sentence.clone());
+                // The end of one may have been lost.
+                while self.frame_faults.len() > REPORTS_MAX {
+                    self.frame_faults.pop_first();
+                }
                 let text = format!("a fault of frames begins: {sentence}");
-                Record::new(*at, "frame_fault", Detail::Brief, text)
-                    .with("number", *number)
+                Record::new(at, "frame_fault", Detail::Brief, text)
+                    .with("number", number)
                     .with("sentence", sentence)
                     .with("present", true)
             }

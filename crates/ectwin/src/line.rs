@@ -74,7 +74,8 @@ impl Twin {
 
     /// Random faults begin with this seed, 1 without it. Faults and frames that wait are gone.
     pub fn seed_faults(&mut self, seed: u64) {
-        self.line_mut().disturbed_mut().start_again(seed);
+        let now = self.now();
+        self.line_mut().seed_faults(now, seed);
     }
 
     /// Number of frames and answers that the faults of the line lost because too many waited: more than 4,096.
@@ -124,7 +125,7 @@ impl Handle {
 
     /// Random faults begin with this seed, 1 without it. Faults and frames that wait are gone.
     pub fn seed_faults(&self, seed: u64) {
-        self.look_at_line(|line, _| line.disturbed_mut().start_again(seed));
+        self.look_at_line(|line, now| line.seed_faults(now, seed));
     }
 
     /// Number of frames and answers that the faults of the line lost because too many waited: more than 4,096.

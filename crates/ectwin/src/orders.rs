@@ -62,7 +62,7 @@ impl Twin {
         if let Some(position) = replaced_place(&order) {
             self.will_be_replaced(position);
         }
-        self.with_bench(&brought, |bench| bench.carry_out(&order))?;
+        self.carry_out(&order, &brought)?;
         self.run_for(Duration::ZERO);
         Ok(())
     }

@@ -183,8 +183,7 @@ impl Setup {
     }
 
     pub(crate) fn unit_name(&self) -> UnitName {
-        let section = self.file.section();
-        UnitName { name: section.name().to_owned(), model: section.model() }
+        UnitName::of(self.file.section())
     }
 
     /// The I/O map: the device variables of the CPU Unit for this unit.

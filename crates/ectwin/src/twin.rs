@@ -10,14 +10,15 @@ use plant::{Observer, Powered};
 use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
-use scenario::{Bench, Brought, KnownLine, Lent, Records};
+use scenario::model::Order;
+use scenario::{Bench, Brought, KnownLine, Lent, Records, Refused};
 use storage::ChangesLost;
 use time::{Duration, Instant};
 use unit_model::ModelUnit;
 
 use crate::disturbed::Disturbed;
 use crate::happenings::{Happenings, Observed, Reporter, UnitName};
-use crate::lending::NoNotes;
+use crate::lending::{NoNotes, replaced_place};
 use crate::memory_file::Keeper;
 use crate::supply::Supply;
 use crate::unit_side::UnitSide;
@@ -142,6 +143,12 @@ impl Twin {
     pub(crate) fn with_bench<T>(&mut self, brought: &Brought, act: impl FnOnce(&mut Bench<'_>) -> T) -> T {
         let Self { line, cpus, supply, now, .. } = self;
         act(&mut line.bench(cpus, brought, supply, &mut NoNotes, *now))
+    }
+
+    /// Carries out an order that has been checked.
+    pub(crate) fn carry_out(&mut self, order: &Order, brought: &Brought) -> Result<(), Refused> {
+        let Self { line, cpus, supply, now, .. } = self;
+        line.carry_out(cpus, order, brought, supply, *now)
     }
 
     /// Another unit takes this place: it has no memory file, and its program no watched files.
@@ -277,7 +284,6 @@ impl Line {
 
     /// Takes who stores the memory of the unit at this position: it leaves the line, and its changes have been passed on.
     pub(crate) fn take_keeper(&mut self, position: usize) -> Option<Keeper> {
-        self.observed.iter_mut().for_each(|observed| observed.is_replaced(position));
         self.keepers.get_mut(position)?.take()
     }
 
@@ -300,7 +306,41 @@ impl Line {
     /// Carries out an order on cables or faults.
     pub(crate) fn order(&mut self, now: Instant, order: &LineOrder) -> Result<(), LineRefusal> {
         self.is_lent(now);
-        self.disturbed.order(now, order, &mut self.network)
+        let done = self.disturbed.order(now, order, &mut self.network);
+        self.compare_frame_faults();
+        done
+    }
+
+    /// Carries out an order that has been checked.
+    pub(crate) fn carry_out(
+        &mut self,
+        cpus: &mut CpuUnits,
+        order: &Order,
+        brought: &Brought,
+        supply: &Supply,
+        now: Instant,
+    ) -> Result<(), Refused> {
+        self.bench(cpus, brought, supply, &mut NoNotes, now).carry_out(order)?;
+        let replacement = replaced_place(order).and_then(|position| Some((position, brought.unit_at(position)?)));
+        if let (Some((position, source)), Some(observed)) = (replacement, &mut self.observed) {
+            observed.is_replaced(position, UnitName::of(source.file.section()));
+        }
+        self.compare_frame_faults();
+        Ok(())
+    }
+
+    /// The random faults begin with this seed; all faults and frames that wait are gone.
+    pub(crate) fn seed_faults(&mut self, now: Instant, seed: u64) {
+        self.is_lent(now);
+        self.disturbed.start_again(seed);
+        self.compare_frame_faults();
+    }
+
+    /// Records the faults of frames that have begun or ended: one may meet its last frame before the next poll.
+    fn compare_frame_faults(&mut self) {
+        if let Some(observed) = &mut self.observed {
+            observed.frame_faults(&self.disturbed);
+        }
     }
 
     /// The faults at work.
@@ -310,10 +350,6 @@ impl Line {
 
     pub(crate) const fn disturbed(&self) -> &Disturbed {
         &self.disturbed
-    }
-
-    pub(crate) const fn disturbed_mut(&mut self) -> &mut Disturbed {
-        &mut self.disturbed
     }
 
     /// Stores the memories that have changed, records what has happened, and shows each unit that may be another than last time. The others are
@@ -336,9 +372,7 @@ impl Line {
             }
             show(position, device);
         }
-        if let Some(observed) = &mut self.observed {
-            observed.frame_faults(&self.disturbed);
-        }
+        self.compare_frame_faults();
     }
 
     /// Stores the changes, and releases the files. Changes that cannot be stored are lost.
@@ -392,9 +426,9 @@ impl Responder for Line {
         self.network.deadline().min(self.disturbed.deadline()).min(observed)
     }
 
-    fn carrier(&mut self, present: bool) {
+    fn carrier(&mut self, now: Instant, present: bool) {
         self.network.set_carrier(present);
-        self.observed.iter().for_each(|observed| observed.carrier(present));
+        self.observed.iter_mut().for_each(|observed| observed.carrier(now, present));
     }
 
     fn overlong_frames(&self) -> u64 {

@@ -200,10 +200,7 @@ impl UnitSide<'_> {
     }
 
     fn port(&self, port: Port) -> PortCondition {
-        let activity = self.network.segment().port_activity(self.position, port);
-        activity.map_or(PortCondition::NoLink, |activity| {
-            PortCondition::new(activity.link, activity.is_active(self.now))
-        })
+        plant::port_condition(self.network, self.position, port, self.now)
     }
 }
 

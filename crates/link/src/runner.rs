@@ -20,7 +20,8 @@ pub trait Responder {
     /// A frame passes through, edited in place; nothing else is done.
     fn frame(&mut self, now: Instant, frame: &mut [u8]) -> FrameFate;
 
-    /// Does what the last frame requested and what is due at `now`; called after each frame and at each deadline.
+    /// Does what the last frame requested and what is due at `now`; called after each frame, after each change of the
+    /// carrier and at each deadline.
     fn poll(&mut self, now: Instant);
 
     /// The time at which [`Responder::poll`] must be called next without a frame; [`Instant::NEVER`]: no call needed.
@@ -41,7 +42,7 @@ pub trait Responder {
     fn attend(&mut self) {}
 
     /// The cable to the master has lost its carrier, or has it again. At the start it has a carrier.
-    fn carrier(&mut self, _present: bool) {}
+    fn carrier(&mut self, _now: Instant, _present: bool) {}
 
     /// Number of frames so far whose EtherCAT length exceeded their end and that were accepted nevertheless.
     fn overlong_frames(&self) -> u64 {
@@ -74,8 +75,8 @@ impl<R: Responder + ?Sized> Responder for &mut R {
         (**self).attend();
     }
 
-    fn carrier(&mut self, present: bool) {
-        (**self).carrier(present);
+    fn carrier(&mut self, now: Instant, present: bool) {
+        (**self).carrier(now, present);
     }
 
     fn overlong_frames(&self) -> u64 {
@@ -189,14 +190,15 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         let wait = self.responder.deadline().saturating_since(self.clock.now()).min(STOP_CHECK);
         let received = self.port.receive(&mut buffers.frame, wait)?;
         // Before the frame that arrived over the cable.
-        if self.port.carrier() != self.carrier {
+        let has_changed = self.port.carrier() != self.carrier;
+        if has_changed {
             self.carrier = !self.carrier;
-            self.responder.carrier(self.carrier);
+            self.responder.carrier(self.clock.now(), self.carrier);
         }
         if let Some(length_bytes) = received {
             self.answer(length_bytes, buffers);
         }
-        self.poll(received.is_some());
+        self.poll(has_changed || received.is_some());
         self.send_late_answers(&mut buffers.frame);
         Ok(())
     }
@@ -277,9 +279,9 @@ impl<'a, 'o, P: FramePort, R: Responder> Run<'a, 'o, P, R> {
         self.statistics.overlong = overlong;
     }
 
-    fn poll(&mut self, after_frame: bool) {
+    fn poll(&mut self, has_news: bool) {
         let (now, deadline) = (self.clock.now(), self.responder.deadline());
-        if after_frame || now >= deadline {
+        if has_news || now >= deadline {
             self.statistics.late_polls += u64::from(now.saturating_since(deadline) >= LATE);
             self.responder.poll(now);
         }

@@ -110,7 +110,7 @@ pub const KINDS: &[KindRow] = &[
             number("unix_ns", "calendar time of `at_ns` 0, in nanoseconds since 1970-01-01 UTC"),
         ],
     ),
-    row("unit", "-v", "a unit of the line, once after `ready`", &[text("model", "its model")]),
+    row("unit", "-v", "a unit of the line, once after `ready`, and again when another unit takes its place", &[text("model", "its model")]),
     row(
         "finding",
         "-v",
@@ -223,7 +223,7 @@ pub const KINDS: &[KindRow] = &[
     row(
         "fault",
         "-v",
-        "the cause of a fault of a unit is injected or removed",
+        "the cause of a fault of a unit is injected or removed; none for a fault without a duration, such as `MessageCommunications`, or with one shorter than until the next poll",
         &[text("fault", "name of the fault"), flag("present", "whether it is there now")],
     ),
     row(

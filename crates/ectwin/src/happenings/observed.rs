@@ -11,6 +11,7 @@ use plant::{Happening, HappeningKind, Observer};
 use time::Instant;
 use unit_model::{EventCode, ModelUnit};
 
+use super::names::UnitName;
 use super::queue::{Report, Reporter};
 use crate::disturbed::Disturbed;
 
@@ -24,7 +25,7 @@ pub(crate) struct Observed {
     at_work: Vec<u32>,
     /// The number of the newest of them so far.
     newest: u32,
-    /// When the first of them ends by itself.
+    /// When the first of them ends by itself; never without one.
     first_end: Instant,
     now: Instant,
 }
@@ -83,9 +84,10 @@ impl Observed {
         });
     }
 
-    /// Another unit takes this place.
-    pub(crate) fn is_replaced(&mut self, position: usize) {
+    /// Another unit has taken this place.
+    pub(crate) fn is_replaced(&mut self, position: usize, unit: UnitName) {
         self.observer.is_replaced(position);
+        self.reports.send(Report::Replaced { at: self.now, position, unit });
     }
 
     /// What a time brings: a master that is gone, indicators.
@@ -103,7 +105,8 @@ impl Observed {
         self.observer.deadline().min(self.first_end)
     }
 
-    pub(crate) fn carrier(&self, present: bool) {
+    pub(crate) fn carrier(&mut self, now: Instant, present: bool) {
+        self.now = now;
         self.queue.push(plant::of_line(self.now, HappeningKind::Carrier { present }));
     }
 
@@ -129,8 +132,11 @@ impl Observed {
         });
         self.first_end = Instant::NEVER;
         for ActiveFault { number, disturbance, until, .. } in disturbed.active(now) {
-            self.first_end = self.first_end.min(until);
-            if number > self.newest {
+            let is_new = number > self.newest;
+            if is_new || self.at_work.contains(&number) {
+                self.first_end = self.first_end.min(until);
+            }
+            if is_new {
                 self.newest = number;
                 self.at_work.push(number);
                 // Only after an order, so that its sender waits for this, and not a frame.

@@ -8,11 +8,23 @@ use plant::line::Disturbance;
 use plc::CpuRecord;
 use time::Instant;
 
+use super::names::UnitName;
+
 /// A report with text.
 #[derive(Debug)]
 pub(crate) enum Report {
     Cpu { at: Instant, position: usize, record: CpuRecord },
+    Replaced { at: Instant, position: usize, unit: UnitName },
     FrameFaultBegan { at: Instant, number: u32, disturbance: Disturbance },
+}
+
+impl Report {
+    /// When it happened.
+    pub(super) const fn at(&self) -> Instant {
+        match self {
+            Self::Cpu { at, .. } | Self::Replaced { at, .. } | Self::FrameFaultBegan { at, .. } => *at,
+        }
+    }
 }
 
 /// The end of the queue for those who report.

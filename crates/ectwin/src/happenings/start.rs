@@ -3,6 +3,7 @@
 use time::Instant;
 
 use super::describe::level_id;
+use super::names::UnitName;
 use super::record::{Detail, Record};
 use crate::Setup;
 
@@ -14,13 +15,19 @@ pub fn ready(at: Instant, link: &str, unix_ns: u64, setups: &[Setup]) -> Vec<Rec
     let ready = ready.with("link", link).with("units", setups.len()).with("unix_ns", unix_ns);
     let units = setups.iter().enumerate().flat_map(|(position, setup)| {
         let section = setup.file().section();
-        let unit = (position + 1, section.name().to_owned());
-        let model = section.model().name();
-        let record = Record::new(at, "unit", Detail::Brief, format!("model {model}")).with("model", model);
-        let records = core::iter::once(record).chain(findings(at, setup));
-        records.map(move |record| Record { unit: Some(unit.clone()), ..record })
+        let first = unit(at, position, &UnitName::of(section));
+        let of_unit = first.unit.clone();
+        let records = findings(at, setup).map(move |record| Record { unit: of_unit.clone(), ..record });
+        core::iter::once(first).chain(records)
     });
     core::iter::once(ready).chain(units).collect()
+}
+
+/// A unit of the line.
+pub(super) fn unit(at: Instant, position: usize, unit: &UnitName) -> Record {
+    let model = unit.model.name();
+    let record = Record::new(at, "unit", Detail::Brief, format!("model {model}")).with("model", model);
+    Record { unit: Some((position + 1, unit.name.clone())), ..record }
 }
 
 /// The setting rules that a unit file does not satisfy.

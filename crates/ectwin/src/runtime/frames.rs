@@ -60,8 +60,8 @@ impl Responder for Frames<'_> {
         self.line.is_disturbed()
     }
 
-    fn carrier(&mut self, present: bool) {
-        self.line.carrier(present);
+    fn carrier(&mut self, now: Instant, present: bool) {
+        self.line.carrier(now, present);
     }
 
     fn overlong_frames(&self) -> u64 {

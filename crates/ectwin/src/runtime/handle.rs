@@ -57,7 +57,13 @@ impl Handle {
             replaced.and_then(|position| line.take_keeper(position))
         });
         finish_replaced(keeper);
-        self.with_bench(brought, |bench| bench.carry_out(order))?;
+        {
+            let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
+            let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
+            let done = line.carry_out(&mut cpus, order, brought, &self.shared.supply, self.clock.now());
+            self.publish_changed(&mut line);
+            done?;
+        }
         self.look_at_line(Line::react);
         Ok(())
     }

@@ -170,7 +170,7 @@ impl Responder for Diary {
         Instant::NEVER
     }
 
-    fn carrier(&mut self, present: bool) {
+    fn carrier(&mut self, _now: Instant, present: bool) {
         self.0.push(format!("carrier {present}"));
     }
 }

@@ -93,6 +93,12 @@ impl<T: Copy> LineFaults<T> {
         Self { dice: Dice::new(seed), active: Vec::new(), numbered: 0, kept: Kept::new(), lost_for_room: 0 }
     }
 
+    /// The random faults begin with this seed; all faults and frames that wait are gone. The numbers of faults go on, so
+    /// that each is used once.
+    pub fn start_again(&mut self, seed: u64) {
+        *self = Self { numbered: self.numbered, ..Self::new(seed) };
+    }
+
     /// Carries out an order on this line.
     ///
     /// # Errors

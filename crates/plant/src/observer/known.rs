@@ -26,7 +26,8 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// Reports the differences, in the order in which a log is read: a cause before its effect.
+    /// Reports the differences in a fixed order: power, links, faults, events, state, and what the mailbox has done. An SDO
+    /// comes after the events that it has caused.
     #[inline]
     pub(super) fn compare(
         &mut self,

@@ -109,6 +109,14 @@ pub struct Brought {
     pub(crate) replacements: Vec<Replacement>,
 }
 
+impl Brought {
+    /// The unit that takes this place.
+    #[must_use]
+    pub fn unit_at(&self, position: usize) -> Option<&UnitSource> {
+        self.replacements.iter().find(|other| other.unit == position).map(|other| &other.source)
+    }
+}
+
 /// A unit that takes the place of another one.
 #[derive(Clone, Debug)]
 pub(crate) struct Replacement {

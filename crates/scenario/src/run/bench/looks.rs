@@ -173,10 +173,7 @@ impl Bench<'_> {
     }
 
     fn port(&self, at: usize, port: Port) -> PortCondition {
-        let activity = self.network.segment().port_activity(at, port);
-        activity.map_or(PortCondition::NoLink, |activity| {
-            PortCondition::new(activity.link, activity.is_active(self.now))
-        })
+        plant::port_condition(self.network, at, port, self.now)
     }
 }
 
