@@ -27,11 +27,12 @@ use time::Instant;
 pub use kinds::{COMMON, FieldRow, Form, KINDS, KindRow, Presence};
 pub(crate) use names::UnitName;
 pub(crate) use observed::Observed;
-pub(crate) use queue::{Report, Reporter};
+pub(crate) use queue::Reporter;
 pub use record::{Detail, Record};
 pub use start::{findings, ready};
 
 use observed::Queue;
+use queue::Report;
 
 /// Values that wait: more than 300 units make in one step.
 const HAPPENINGS_MAX: usize = 8_192;

@@ -108,12 +108,12 @@ impl Twin {
     }
 
     /// Begins to record what happens from now on, also when the twin answers a link: states, events, emergencies, SDOs, links,
-    /// faults. Reports of CPU Units are recorded on a link only; in virtual time [`plc::CpuUnit::take_events`] has them.
-    /// Whoever was recording before gets no more records.
+    /// faults, reports of CPU Units, which [`plc::CpuUnit::take_events`] has too. Whoever was recording before gets no more records.
     pub fn observe(&mut self) -> Happenings {
         let observer = Observer::beginning_with(&mut self.line.network, self.now);
         let (happenings, observed, reporter) = Happenings::of(self.names.clone(), observer, self.now);
         self.line.observed = Some(observed);
+        self.cpus.each(|_, cpu| cpu.observe());
         self.reporter = Some(reporter);
         happenings
     }
@@ -222,8 +222,12 @@ impl Twin {
     }
 
     fn poll(&mut self, now: Instant) {
-        self.cpus.cycle(now, |_, cpu| cpu.cycle(now));
-        self.line.poll(now);
+        let Self { line, cpus, reporter, .. } = self;
+        cpus.cycle(now, |position, cpu| {
+            cpu.cycle(now);
+            reporter.iter().for_each(|reporter| reporter.cpu(position, cpu, now));
+        });
+        line.poll(now);
     }
 
     pub(crate) fn deadline(&self) -> Instant {
@@ -321,7 +325,8 @@ impl Line {
         now: Instant,
     ) -> Result<(), Refused> {
         self.bench(cpus, brought, supply, &mut NoNotes, now).carry_out(order)?;
-        let replacement = replaced_place(order).and_then(|position| Some((position, brought.unit_at(position)?)));
+        let replacement =
+            replaced_place(order).and_then(|position| Some((position, brought.unit_at(position)?)));
         if let (Some((position, source)), Some(observed)) = (replacement, &mut self.observed) {
             observed.is_replaced(position, UnitName::of(source.file.section()));
         }

@@ -7,7 +7,7 @@ use ectwin::happenings::Record;
 use ectwin::link::FramePort;
 use ectwin::master::{Connected, Master};
 use ectwin::plant::line::{Choice, Disturbance, FrameFault, FrameKind, Frames};
-use ectwin::{AlState, Duration, Happenings, Instant, Setup, Twin};
+use ectwin::{AlState, Duration, Happenings, Instant, Io, ProgramEvent, Setup, Twin};
 use wire::{Command, FrameBuilder};
 
 const UNIT: &str = "model = \"nx-ect101\"\nname = \"first\"\n";
@@ -46,7 +46,7 @@ fn a_fault_that_meets_its_only_frame_at_once_begins_and_ends() {
     assert!(faults[0].starts_with("a fault of frames begins: lose"), "{faults:?}");
     assert!(faults[1].starts_with("a fault of frames has ended: lose"), "{faults:?}");
 
-    twin.apply("lose the next frame").unwrap();
+    twin.apply("lose the next 1 frames").unwrap();
     twin.frame(&mut broadcast_read());
     assert_eq!(texts(&happenings.take(), "frame_fault").len(), 2, "by its sentence too");
 }
@@ -113,6 +113,31 @@ fn the_indicators_of_all_units_follow_the_last_frame_in_time() {
 }
 
 #[test]
+fn cpu_units_report_in_virtual_time_what_is_new_at_once_and_what_repeats_once_a_second() {
+    let setup = Setup::from_toml(UNIT).unwrap();
+    let overrun = ProgramEvent::TaskOverrun { budget_statements: 1_000 };
+    let mut twin = Twin::power_on([setup.program(move |io: &mut Io| io.report(overrun.clone()))]);
+    let mut happenings = twin.observe();
+    twin.run_for(Duration::from_millis(2_500));
+    twin.apply("set unit 1 to PROGRAM mode").unwrap();
+    twin.run_for(Duration::from_millis(20));
+    let records = happenings.take();
+    let reports: Vec<&Record> = records.iter().filter(|record| record.kind == "cpu").collect();
+    let words: Vec<bool> =
+        reports.iter().map(|record| record.json().contains("\"report\":\"task_overrun\"")).collect();
+    assert_eq!(words, [true, true, true, true, false], "{reports:?}");
+    let seconds: Vec<u64> = reports.iter().map(|record| record.at.as_nanos() / 1_000_000_000).collect();
+    assert_eq!(
+        seconds,
+        [0, 0, 1, 2, 2],
+        "the second one has those that came in the first second: {reports:?}"
+    );
+    assert_eq!(reports[4].text, "CPU Unit: PROGRAM mode");
+    assert_eq!(reports[4].unit, Some((1, "first".to_owned())));
+    assert_ne!(twin.unit(0).cpu().take_events().len(), 0, "they can be taken too");
+}
+
+#[test]
 fn a_unit_that_takes_the_place_of_another_one_has_its_own_name() {
     let file = path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("happenings-other.toml");
     fs::write(&file, OTHER).unwrap();
@@ -132,7 +157,10 @@ fn a_unit_that_takes_the_place_of_another_one_has_its_own_name() {
     twin.run_for(Duration::from_millis(1));
     let records = happenings.take();
     let names_then = names(&records);
-    assert_eq!((names_then.first().unwrap().as_str(), names_then.last().unwrap().as_str()), ("first", "other"));
+    assert_eq!(
+        (names_then.first().unwrap().as_str(), names_then.last().unwrap().as_str()),
+        ("first", "other")
+    );
     let model = records.iter().find(|record| record.kind == "unit").unwrap();
     assert!(model.json().contains("\"name\":\"other\",\"kind\":\"unit\""), "{}", model.json());
 

@@ -85,6 +85,11 @@ impl CpuEvent {
         }
     }
 
+    /// Whether it is the other one again.
+    pub(crate) fn is_same_as(&self, other: &Self) -> bool {
+        self.clone().absorb(other)
+    }
+
     /// Merges the other event into this one, if it is the same again.
     fn absorb(&mut self, other: &Self) -> bool {
         match (self, other) {
@@ -133,6 +138,16 @@ impl CpuEventLog {
     /// The times of what follows are counted from this one.
     pub(crate) const fn power_on(&mut self, now: Instant) {
         self.powered_on = now;
+    }
+
+    /// Whether it has an event after which the same trouble counts as new.
+    pub(crate) fn has_turn(&self) -> bool {
+        self.records.iter().any(|record| record.event.is_turn())
+    }
+
+    /// Takes the records for which `take` is true, the oldest first.
+    pub(crate) fn take_if(&mut self, mut take: impl FnMut(&CpuRecord) -> bool) {
+        self.records.retain(|record| !take(record));
     }
 
     /// Takes all records, the oldest first.

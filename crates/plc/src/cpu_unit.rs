@@ -15,6 +15,7 @@ use crate::cpu_event::{CpuEvent, CpuRecord};
 use crate::device_variables::DeviceVariables;
 use crate::io::Io;
 use crate::nx_bus_function::{IoRefreshing, NxBusFunction, NxBusReset};
+use crate::observed_events::ObservedEvents;
 use crate::program::{Program, Slot};
 use crate::reports::Reports;
 use crate::scan_watch::ScanWatch;
@@ -227,6 +228,31 @@ impl CpuUnit {
         self.io.events.take()
     }
 
+    /// Begins to keep the events for [`Self::take_observed`] too.
+    pub fn observe(&mut self) {
+        self.io.observed = Some(ObservedEvents::new(self.powered_on));
+    }
+
+    /// Gives the observer the events that are due: a new one at once, and one that repeats at most once a second, with its
+    /// number of occurrences. [`Self::take_events`] has them too.
+    pub fn take_observed(&mut self, now: Instant, give: impl FnMut(CpuRecord)) {
+        if let Some(observed) = &mut self.io.observed {
+            observed.take(now, give);
+        }
+    }
+
+    /// Gives the observer all events that it has not got.
+    pub fn take_all_observed(&mut self, give: impl FnMut(CpuRecord)) {
+        if let Some(observed) = &mut self.io.observed {
+            observed.take_all(give);
+        }
+    }
+
+    /// Number of event records lost since the last call, because the observer did not get them in time.
+    pub fn take_observed_lost(&mut self) -> u64 {
+        self.io.observed.as_mut().map_or(0, ObservedEvents::take_lost)
+    }
+
     /// Number of event records lost since power-on, because they were not taken.
     #[must_use]
     pub const fn events_lost(&self) -> u64 {
@@ -252,6 +278,7 @@ impl CpuUnit {
         self.nx_bus_function.power_on();
         self.io.power_on();
         self.io.events.power_on(now);
+        self.io.observed.iter_mut().for_each(|observed| observed.log_mut().power_on(now));
         self.user_program.start_anew();
         self.announce();
     }

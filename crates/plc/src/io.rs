@@ -11,6 +11,7 @@ use crate::cpu_event::{CpuEvent, CpuEventLog};
 use crate::device_variables::{DeviceVariables, Memory};
 use crate::nx_bus_function::{IoRefreshing, NxBusReset};
 use crate::nx_object_client::NxObjectClient;
+use crate::observed_events::ObservedEvents;
 use crate::program_event::ProgramEvent;
 use crate::scan_watch::ScanWatch;
 
@@ -28,6 +29,8 @@ pub struct Io {
     /// The positions of the entries that exist in both directions.
     twins: Vec<(Place, Place)>,
     pub(crate) events: CpuEventLog,
+    /// The same for an observer, if there is one.
+    pub(crate) observed: Option<ObservedEvents>,
     /// The reports of programs since the end of the last task period.
     pub(crate) program_reports: CpuEventLog,
     /// Start of the task period, counted from power-on.
@@ -50,6 +53,7 @@ impl Io {
             twins: twins(&variables),
             variables,
             events: CpuEventLog::new(),
+            observed: None,
             program_reports: CpuEventLog::without_room(),
             now: Instant::ZERO,
             system_time_ns: None,
@@ -230,6 +234,9 @@ impl Io {
     }
 
     pub(crate) fn log(&mut self, event: CpuEvent) {
+        if let Some(observed) = &mut self.observed {
+            observed.log_mut().add(self.now, event.clone());
+        }
         self.events.add(self.now, event);
     }
 

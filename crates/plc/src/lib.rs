@@ -14,6 +14,7 @@ mod io;
 mod message_echo;
 mod nx_bus_function;
 mod nx_object_client;
+mod observed_events;
 pub mod outside;
 mod program;
 mod program_event;

@@ -110,7 +110,12 @@ pub const KINDS: &[KindRow] = &[
             number("unix_ns", "calendar time of `at_ns` 0, in nanoseconds since 1970-01-01 UTC"),
         ],
     ),
-    row("unit", "-v", "a unit of the line, once after `ready`, and again when another unit takes its place", &[text("model", "its model")]),
+    row(
+        "unit",
+        "-v",
+        "a unit of the line, once after `ready`, and again when another unit takes its place",
+        &[text("model", "its model")],
+    ),
     row(
         "finding",
         "-v",

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::SyncSender;
 
 use plant::line::Disturbance;
-use plc::CpuRecord;
+use plc::{CpuRecord, CpuUnit};
 use time::Instant;
 
 use super::names::UnitName;
@@ -35,6 +35,22 @@ pub(crate) struct Reporter {
 }
 
 impl Reporter {
+    /// Sends what a CPU Unit reports and is due.
+    pub(crate) fn cpu(&self, position: usize, cpu: &mut CpuUnit, now: Instant) {
+        self.lost.fetch_add(cpu.take_observed_lost(), Ordering::Relaxed);
+        cpu.take_observed(now, |record| self.record(position, record));
+    }
+
+    /// Sends everything that a CPU Unit has not reported yet.
+    pub(crate) fn rest_of_cpu(&self, position: usize, cpu: &mut CpuUnit) {
+        cpu.take_all_observed(|record| self.record(position, record));
+    }
+
+    fn record(&self, position: usize, record: CpuRecord) {
+        let at = record.powered_on + record.first_at.saturating_since(Instant::ZERO);
+        self.send(Report::Cpu { at, position, record });
+    }
+
     /// Sends a report without waiting. One for which there is no room is lost, which is counted.
     pub(crate) fn send(&self, report: Report) {
         if self.reports.try_send(report).is_err() {

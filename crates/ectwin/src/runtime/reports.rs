@@ -3,7 +3,7 @@
 use plc::{CpuEvent, CpuRecord, CpuUnits, ProgramEvent};
 use time::{Duration, Instant};
 
-use crate::happenings::{Report, Reporter};
+use crate::happenings::Reporter;
 
 /// Interval at which events are logged that come again and again.
 const LOG_AGAIN: Duration = Duration::from_millis(1_000);
@@ -26,27 +26,35 @@ impl Reports {
     }
 
     /// Logs events, at most once a second: one that repeats is one line with its count. The first one is logged at once.
+    /// The observer gets each new one at once.
     pub(super) fn log(&mut self, cpus: &mut CpuUnits, now: Instant) {
-        if now < self.next.max(self.look) {
+        if now < self.look {
             return;
         }
         self.look = now + LOOK_AGAIN;
-        if self.log_all(cpus) {
+        if let Some(reporter) = &self.reporter {
+            cpus.each(|position, cpu| reporter.cpu(position, cpu, now));
+        }
+        if now >= self.next && self.log_all(cpus) {
             self.next = now + LOG_AGAIN;
         }
     }
 
+    /// The last events.
+    pub(super) fn end(&mut self, cpus: &mut CpuUnits) {
+        if let Some(reporter) = &self.reporter {
+            cpus.each(|position, cpu| reporter.rest_of_cpu(position, cpu));
+        }
+        self.log_all(cpus);
+    }
+
     /// Logs the events that have not been logged, and returns whether there was one.
-    pub(super) fn log_all(&mut self, cpus: &mut CpuUnits) -> bool {
+    fn log_all(&mut self, cpus: &mut CpuUnits) -> bool {
         let (mut lost, mut is_any) = (0, false);
         cpus.each(|position, cpu| {
             for record in cpu.take_events() {
                 is_any = true;
                 log(position + 1, &record);
-                if let Some(reporter) = &self.reporter {
-                    let at = record.powered_on + record.first_at.saturating_since(Instant::ZERO);
-                    reporter.send(Report::Cpu { at, position, record });
-                }
             }
             lost += cpu.events_lost();
         });

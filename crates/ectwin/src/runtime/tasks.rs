@@ -41,7 +41,7 @@ impl Tasks {
             let wait = next.saturating_since(self.clock.now()).min(STOP_CHECK);
             thread::park_timeout(std::time::Duration::from_nanos(wait.as_nanos()));
         }
-        reports.log_all(&mut cpus);
+        reports.end(&mut cpus);
     }
 
     /// Does what is due, and returns when the next task period begins.

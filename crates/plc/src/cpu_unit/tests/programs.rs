@@ -216,7 +216,8 @@ fn an_error_in_every_scan_is_counted_and_not_logged_endlessly() {
 /// So that the time of a report on the line is known, whenever it is taken.
 #[test]
 fn a_record_knows_from_when_its_times_are_counted() {
-    let program = |io: &mut Io| io.report(ProgramEvent::TaskOverrun { budget_statements: io.now().as_nanos() });
+    let program =
+        |io: &mut Io| io.report(ProgramEvent::TaskOverrun { budget_statements: io.now().as_nanos() });
     let (_unit, mut cpu) = cpu_unit(CpuSettings::default(), Box::new(program));
     cpu.cycle(at_ms(100));
     cpu.cycle(at_ms(101));
