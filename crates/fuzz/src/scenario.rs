@@ -90,7 +90,7 @@ fn file(path: &str) -> Result<String, String> {
 #[rustfmt::skip]
 const WORDS: &[&str] = &[
     "title", "seed", "limit", "cycle", "cycle_phase", "calendar", "capture", "master", "units", "steps", "at", "after", "when",
-    "unit", "cpu", "line", "expect", "never", "within", "for", "until", "repeat", "every", "jitter", "random",
+    "unit", "cpu", "line", "expect", "never", "within", "for", "until", "repeat", "every", "jitter", "random", "together", "while",
     "\"10ms\"", "\"0ms\"", "\"1us\"", "\"5m\"", "\"1 000ms\"", "all", "units", "INIT", "PRE-OP", "SAFE-OP", "OP", "1",
     "2", "3", "0x0020", "85000000", "6000:01", "the", "next", "frames", "%", "not", "is", "are", "has", "program",
 ];
@@ -125,10 +125,40 @@ fn any_file(random: &mut Random) -> String {
         text.push_str("  { master = \"take all units to OP\" },\n");
     }
     for _ in 0..random.between(1, 10) {
-        let step = step(random);
-        text.push_str(&format!("  {{ {step} }},\n"));
+        let entry = entry(random, 0);
+        text.push_str(&format!("  {{ {entry} }},\n"));
     }
     text + "]\n"
+}
+
+/// How deep the groups of a file are in each other.
+const GROUPS_MAX: usize = 3;
+
+/// A step, or a group of some.
+fn entry(random: &mut Random, depth: usize) -> String {
+    if depth == GROUPS_MAX || !random.once_in(6) {
+        return step(random);
+    }
+    let mut list = || {
+        let entries = (0..random.between(1, 3)).map(|_| format!("{{ {} }}", entry(random, depth + 1)));
+        entries.collect::<Vec<_>>().join(", ")
+    };
+    let (first, second) = (list(), list());
+    match random.below(4) {
+        0 => format!("steps = [{first}]"),
+        1 => format!(
+            "{}repeat = {}, every = \"{}\", steps = [{first}]",
+            moment(random),
+            random.one_of(&[1, 2, 10, 10_000]),
+            time(random)
+        ),
+        2 => format!("{}together = [[{first}], [{second}]]", moment(random)),
+        _ => format!(
+            "for.unit = {}, steps = [{}]",
+            random.text_of(&["[1, 2]", "[3]", "{ from = 1, to = 3 }"]),
+            first.replace("unit 1", "unit {unit}")
+        ),
+    }
 }
 
 fn unit(random: &mut Random) -> String {
@@ -143,14 +173,19 @@ fn unit(random: &mut Random) -> String {
     .to_owned()
 }
 
-fn step(random: &mut Random) -> String {
-    let moment = match random.below(6) {
+/// When a step or a group is due.
+fn moment(random: &mut Random) -> String {
+    match random.below(6) {
         0 => format!("at = \"{}\", ", time(random)),
         1 => format!("after = \"{}\", ", time(random)),
         2 => format!("when = \"{}\", ", sentence(CONDITIONS, random)),
         3 => format!("after = \"{}\", jitter = \"{}\", ", time(random), time(random)),
         _ => String::new(),
-    };
+    }
+}
+
+fn step(random: &mut Random) -> String {
+    let moment = moment(random);
     let order = match random.below(8) {
         0 | 1 => format!("master = \"{}\"", sentence(MASTER, random)),
         2 => format!("unit = \"{}\"", sentence(UNIT, random)),
