@@ -8,7 +8,7 @@ use scenario::Scenario;
 use user_file::on_one_line;
 
 use crate::failure::Failure;
-use crate::file_problem::FileProblem;
+use crate::file_problem::{FileProblem, FileProblems};
 use crate::output::shown;
 
 /// The ending of golden traces.
@@ -36,7 +36,7 @@ pub(super) fn part(scenario: &Scenario, trace: &str) -> String {
 }
 
 /// Gives each case of a file with parameters its part of the golden trace. Without parameters it is all of it.
-pub(super) fn divide(trace: &Path, golden: &str, cases: &mut [Scenario]) -> Result<(), FileProblem> {
+pub(super) fn divide(trace: &Path, golden: &str, cases: &mut [Scenario]) -> Result<(), FileProblems> {
     if cases.iter().all(|scenario| scenario.case.is_none()) {
         return Ok(());
     }
@@ -68,9 +68,9 @@ pub(super) fn divide(trace: &Path, golden: &str, cases: &mut [Scenario]) -> Resu
     }
 }
 
-fn of_other_cases(trace: &Path, problem: &str) -> FileProblem {
+fn of_other_cases(trace: &Path, problem: &str) -> FileProblems {
     let message = format!("{} {problem}", shown(trace));
-    FileProblem::of_file(&message, "`ectwin replay --bless` writes the traces of all cases again")
+    FileProblem::of_file(&message, "`ectwin replay --bless` writes the traces of all cases again").into()
 }
 
 /// The golden traces below these folders whose scenarios do not exist: they would never be compared.
