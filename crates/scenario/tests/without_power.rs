@@ -127,6 +127,7 @@ fn a_unit_without_power_shows_nothing() {
         "the system event log of unit 1 is empty",
         "the access event log of unit 1 has 94B80000 0 times",
         "unit 1 has 0 diagnosis messages",
+        "the diagnosis of unit 1 is consistent",
         "no emergency of unit 1 is lost",
         "the outputs of unit 1 begin with 00",
         "output byte 0 of unit 1 is not 01",
@@ -137,4 +138,18 @@ fn a_unit_without_power_shows_nothing() {
         let seen = off_and(&[&step]).failure.map(|failure| failure.seen);
         assert_eq!(seen.as_deref(), Some("unit 1 has no power"), "{condition}");
     }
+}
+
+/// Without power nothing is shown that could be contradictory.
+#[test]
+fn the_diagnosis_of_a_unit_without_power_is_not_contradictory() {
+    let seen = off_and(&["after = \"1ms\", expect = \"the diagnosis of unit 1 is contradictory\""])
+        .failure
+        .map(|failure| failure.seen);
+    assert_eq!(seen.as_deref(), Some("unit 1 has no power"));
+    let never = off_and(&[
+        "never = \"the diagnosis of unit 1 is contradictory\"",
+        "after = \"1s\", line = \"be quiet\"",
+    ]);
+    assert_eq!(never.failure, None);
 }

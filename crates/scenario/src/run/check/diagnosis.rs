@@ -4,15 +4,17 @@ use unit_model::EventLevel;
 use wire::{ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds};
+use super::unit::has_power;
 use crate::run::bench::Bench;
 use crate::run::ledger::{FIRST, History, MESSAGES};
 
 /// The diagnosis history of ETG.1020.
 const HISTORY: ObjectIndex = ObjectIndex(0x10F3);
 
-/// Whether nothing of it contradicts something else. A unit without power shows nothing.
+/// Whether nothing of it contradicts something else. A unit without power shows nothing: it is neither of the two.
 pub(super) fn is_consistent(world: &mut Bench<'_>, at: usize, wanted: bool) -> Result<(), Seen> {
-    let contradiction = if world.is_off(at) { None } else { contradiction(world, at) };
+    has_power(world, at)?;
+    let contradiction = contradiction(world, at);
     holds(contradiction.is_none() == wanted, || {
         let unit = format!("unit {}", at + 1);
         contradiction
