@@ -11,8 +11,11 @@ fn notes(bench: &mut Bench) -> Vec<MailboxNote> {
     core::iter::from_fn(|| bench.mailbox.take_note()).collect()
 }
 
-/// The SDOs among them: direction, object, length, first bytes, end.
-fn sdos(bench: &mut Bench) -> Vec<(Option<SdoDirection>, SdoTarget, u32, Vec<u8>, SdoEnd)> {
+/// Direction, object, length, first bytes, end.
+type Sdo = (Option<SdoDirection>, SdoTarget, u32, Vec<u8>, SdoEnd);
+
+/// The SDOs among them.
+fn sdos(bench: &mut Bench) -> Vec<Sdo> {
     let sdo = |note| match note {
         MailboxNote::Sdo(SdoNote { direction, target, value, end }) => {
             Some((direction, target, value.length_bytes, value.head().to_vec(), end))
