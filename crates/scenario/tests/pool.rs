@@ -51,6 +51,17 @@ fn each_group_gives_steps_that_the_line_can_carry_out_and_each_sentence_is_drawn
     }
 }
 
+#[test]
+fn steps_without_from_are_for_units_that_can_carry_them_out() {
+    let drawing = scenario(LINE, "{ random = 400, within = \"400ms\" }").expect("a scenario");
+    let drawn = steps(&drawing, 1);
+    assert!(drawn.len() >= 400, "{}", drawn.len());
+    for step in drawn {
+        let grouped = format!("{{ steps = [{}] }}", plain(&step));
+        assert!(scenario(LINE, &grouped).is_ok(), "{step}");
+    }
+}
+
 /// The key of a sentence.
 fn plain(sentence: &str) -> String {
     let key = [

@@ -34,7 +34,7 @@ impl Maker<'_> {
             return self.refuse(part, message, "");
         }
         let draws = match random.draws {
-            None => None,
+            None => self.everyday(part, ground),
             Some(draws) => match self.draws(&draws, part, ground) {
                 Some(draws) => Some(draws),
                 None => return,
@@ -48,6 +48,27 @@ impl Maker<'_> {
             bytes: written.bytes,
             draws,
         });
+    }
+
+    /// What steps without `from` are drawn from. None: from the whole everyday pool, for any of the units, if all of them can
+    /// carry out all of it; seeds in scenario files depend on what is drawn then.
+    fn everyday(&mut self, part: Part, ground: Ground) -> Option<ReadyDraws> {
+        const EVERYDAY: &str = "everyday";
+        if ground == Ground::Missing {
+            return None;
+        }
+        let rows = self.rows(EVERYDAY, part)?;
+        let units: Vec<KnownUnit> =
+            self.units.iter().map(|unit| KnownUnit::of(unit.file.section())).collect();
+        // One unit of each kind stands for the others.
+        let kinds: Vec<usize> =
+            (0..units.len()).filter(|&position| !units[..position].contains(&units[position])).collect();
+        let can_all =
+            rows.iter().all(|row| kinds.iter().all(|&kind| self.is_possible(row, &units, kind, part)));
+        if can_all {
+            return None;
+        }
+        self.draws(&Draws { from: vec![EVERYDAY.to_owned()], weights: Vec::new() }, part, ground)
     }
 
     /// None if something is wrong, or if it is unknown which units there are.
