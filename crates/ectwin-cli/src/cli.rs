@@ -183,6 +183,9 @@ pub(crate) struct ExecInsideArgs {
     /// The process outside
     #[arg(long)]
     pub(crate) outside: u32,
+    /// Capture and events are for the case that the command fails
+    #[arg(long)]
+    pub(crate) kept: bool,
     /// It is the first process of a namespace: the kernel ends all others with it
     #[arg(long)]
     pub(crate) first: bool,

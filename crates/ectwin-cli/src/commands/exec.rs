@@ -43,9 +43,11 @@ pub(crate) fn run(args: &ExecArgs, verbose: u8) -> Result<(), Failure> {
     }
     let ended = run_and_wait(&all, verbose).map_err(own);
     let code = ended.as_ref().map_or(OWN_FAILURE, |end| *end);
-    let kept = kept.map_or(Ok(()), |kept| kept.end(code, args)).map_err(own);
+    if let Some(kept) = kept {
+        kept.end(code, args);
+    }
     match ended? {
-        0 => kept,
+        0 => Ok(()),
         code => Err(Failure::Command(code)),
     }
 }
@@ -59,6 +61,9 @@ fn run_and_wait(args: &ExecArgs, verbose: u8) -> Result<u8, Failure> {
     };
     let mut inside = itself(verbose)?;
     inside.arg("exec-inside").arg("--outside").arg(std::process::id().to_string());
+    if args.on_failure.is_some() {
+        inside.arg("--kept");
+    }
     if namespaces.has_processes() {
         inside.arg("--first");
     }

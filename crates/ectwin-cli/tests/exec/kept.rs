@@ -61,3 +61,26 @@ fn stdout_is_that_of_the_command() {
         assert!(stderr.starts_with(&message), "{stderr}");
     }
 }
+
+/// A folder in which no file can be written, as on a full disk: the limit of the size of files is 0.
+#[test]
+fn a_full_disk_does_not_change_the_exit_code() {
+    for (command, code) in [("exit 0", 0), ("exit 3", 3)] {
+        let folder = folder_of(&format!("full-{code}"));
+        let limited = "ulimit -f 0; exec \"$0\" \"$@\"";
+        let output = std::process::Command::new("sh")
+            .args(["-c", limited, env!("CARGO_BIN_EXE_ectwin"), "exec", UNIT, "--link", "udp"])
+            .arg("--on-failure")
+            .arg(&folder)
+            .args(["--", "sh", "-c", command])
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{stderr}");
+        let says_so = stderr.contains("not everything could be kept in ");
+        assert_eq!(says_so, code != 0, "{stderr}");
+        if code == 0 {
+            assert_eq!(names(&folder), [""; 0]);
+        }
+    }
+}

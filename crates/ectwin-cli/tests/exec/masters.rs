@@ -57,7 +57,7 @@ fn an_ordinary_user_needs_no_root() {
     for (from, name) in [(env!("CARGO_BIN_EXE_ectwin"), "ectwin"), (UNIT, "unit.toml")] {
         fs::copy(from, folder.join(name)).unwrap();
     }
-    let sees = "ip -o link show \"$ECTWIN_INTERFACE\" && id -u && grep CapEff /proc/self/status";
+    let sees = "ip -o link show \"$ECTWIN_INTERFACE\" && id -u && grep -E 'Cap(Eff|Inh)' /proc/self/status";
     let output = Command::new("setpriv")
         .args(ORDINARY)
         .arg(folder.join("ectwin"))
@@ -71,5 +71,7 @@ fn an_ordinary_user_needs_no_root() {
     assert!(output.status.success(), "{stdout}{stderr}");
     assert!(stdout.contains("ectwin0") && stdout.contains("\n65534\n"), "{stdout}");
     // CAP_NET_ADMIN and CAP_NET_RAW, and no other.
-    assert!(stdout.contains("CapEff:\t0000000000003000"), "{stdout}");
+    for set in ["CapEff", "CapInh"] {
+        assert!(stdout.contains(&format!("{set}:\t0000000000003000")), "{stdout}");
+    }
 }

@@ -13,6 +13,8 @@ use super::{descendants, namespaces, parent, veth};
 use crate::cli::{Cable, ExecArgs, ExecInsideArgs};
 use crate::failure::{Failure, OWN_FAILURE};
 
+/// The exit code of units that have run, and could not write everything.
+const FILES_LACK: u8 = 2;
 /// The command has this time after it was asked to end.
 const TIME_TO_END: Duration = Duration::from_secs(5);
 /// The units have this time to write their files.
@@ -57,6 +59,8 @@ fn run_command(inside: &ExecInsideArgs, verbose: u8) -> Result<u8, Failure> {
     let units = run.end_units();
     match (ended?, units?) {
         (0, End::Exit(0)) => Ok(0),
+        // What is only for a failure is missing, and there was none.
+        (0, End::Exit(FILES_LACK)) if inside.kept => Ok(0),
         // The units have said on stderr what was wrong.
         (0, _) => Ok(OWN_FAILURE),
         (code, _) => Ok(code),

@@ -53,18 +53,23 @@ impl Kept {
         self.folder.join(EVENTS)
     }
 
-    /// After the end of the command with this exit code.
-    pub(super) fn end(self, code: u8, args: &ExecArgs) -> Result<(), Failure> {
+    /// After the end of the command with this exit code, which stays as it is if nothing can be kept.
+    pub(super) fn end(self, code: u8, args: &ExecArgs) {
         if code == 0 {
             // What somebody else has put there is kept.
-            let own = [self.capture(), self.events()].into_iter().try_for_each(fs::remove_file);
-            let _ = own.and_then(|()| fs::remove_dir(&self.folder));
-            return Ok(());
+            let _removed = [self.capture(), self.events()].map(fs::remove_file);
+            let _ = fs::remove_dir(&self.folder);
+            return;
         }
         let report = format!("exit code {code}\n{}\n", again(args));
-        output::write(Some(&self.folder.join(REPORT)), report.as_bytes())?;
-        tracing::warn!("exit code {code}: capture and events are kept in {}", self.folder.display());
-        Ok(())
+        let folder = self.folder.display();
+        match output::write(Some(&self.folder.join(REPORT)), report.as_bytes()) {
+            Ok(()) => tracing::warn!("exit code {code}: capture and events are kept in {folder}"),
+            Err(failure) => {
+                let (reason, _) = failure.words();
+                tracing::warn!("exit code {code}: not everything could be kept in {folder}: {reason}");
+            }
+        }
     }
 }
 

@@ -85,8 +85,12 @@ fn inherit(kept: &[CapabilitySet]) -> io::Result<()> {
 
 /// The command does not need everything that the first process has.
 pub(super) fn keep_only_the_network() {
-    // An error means that it was not inherited: a run by root.
-    let _ = configure_capability_in_ambient_set(TO_MOUNT, false);
+    let lowered = capabilities(None).and_then(|sets| {
+        set_capabilities(None, CapabilitySets { inheritable: sets.inheritable - TO_MOUNT, ..sets })
+    });
+    if let Err(error) = lowered {
+        tracing::debug!("the command inherits more capabilities than it needs: {error}");
+    }
 }
 
 /// Shows the processes of this namespace in /proc, and only here. A container can refuse it; then /proc shows others.

@@ -47,7 +47,11 @@ impl Signals {
         });
         let mut waited = vec![PollFd::from_borrowed_fd(self.0.as_fd(), PollFlags::IN)];
         waited.extend(beside.map(|beside| PollFd::from_borrowed_fd(beside, PollFlags::IN)));
-        poll(&mut waited, time.as_ref())?;
+        match poll(&mut waited, time.as_ref()) {
+            // A signal without a meaning here; whoever waits looks again.
+            Err(rustix::io::Errno::INTR) => return Ok((Received(None), false)),
+            ready => ready?,
+        };
         let readable = waited.get(1).is_some_and(|beside| !beside.revents().is_empty());
         Ok((self.take()?, readable))
     }
