@@ -123,7 +123,9 @@ These keys give the time of an `expect`, and the repetition of a step:
 | `jitter` | each repetition is earlier or later by at most this time, chosen at random |
 
 The next step waits for the last repetition of a step. A run ends after the last step, when the master has nothing to do; if an
-order, a `never` or a `while` is the last step, 200 ms later at the earliest. If `limit` comes before that, the scenario fails.
+order, a `never` or a `while` is the last step, 200 ms later at the earliest. If `limit` comes before that, the scenario fails. After such a step the
+run also waits, at most until `limit`, for what is pending: a transition that takes its time, a watchdog that runs, faults of frames that will end by
+themselves or whose frames are still to come.
 
 If an order changes what the next expectation is about, the state before the order does not fulfil it: after `request OP of unit 1`, the
 condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts. `for` checks that a state stays as it is.
@@ -182,7 +184,7 @@ gives up the order and goes on to the next one.
 
 A unit without power does nothing: an order that its software would carry out has no effect, and the trace says so. Actions by hand
 have an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
-errors, objects, registers, the validity of its data) fails while it has no power.
+errors, objects, registers, events, logs, diagnosis, lost emergencies, outputs, the validity of its data) fails while it has no power.
 
 Values compare as numbers by their type: those of a variable and of an object with a signed or real type as such, bytes otherwise as unsigned
 little-endian numbers. `is` and `is not` keep the notation of the sentence with `is`: bytes of objects, registers and process data are hexadecimal,
@@ -194,7 +196,13 @@ checks that its condition is false, which is what `not` checks at one moment.
 
 An expectation that cannot fail, or that can never hold, is a mistake in the file: a condition on the program of a unit that has none at that
 time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data. Orders on such bytes, and on
-what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
+what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. So are AL status codes, abort codes and registers that
+no unit has, more records than a log holds, and `the last SDO …`, `the last frame …` and their kind if no step orders one.
+
+An order that does nothing is a mistake: a cable that is unplugged already, a unit that has power already, the cause of a fault that is there.
+In a group, and after a group or random steps, it is not known, and nothing is refused.
+
+A condition on a variable of a program is checked with the program that the unit has at that step, of `never` also with those
 that later steps load. If the variable is not there when the condition is checked, the step fails.
 "#;
 
