@@ -44,6 +44,16 @@ fn the_same_holds_behind_other_orders_and_for_outputs_objects_registers_and_erro
         (r#"{ master = "set the outputs of unit 1 to 2A" }"#, "the outputs of unit 1 begin with 00 00"),
         (r#"{ master = "write SDO 10F3:05 of unit 1 as 01 00" }"#, "object 10F3:05 of unit 1 is 00 00"),
         (r#"{ master = "write register 0x0310 of unit 1 as 05" }"#, "register 0x0310 of unit 1 is 00"),
+        (
+            r#"{ master = "write register 0x0310 of unit 1 in two halves as 05 00" }"#,
+            "register 0x0310 of unit 1 is 00",
+        ),
+        (
+            r#"{ master = "write SDO 10F3:05 of unit 1 in segments as 01 00" }"#,
+            "object 10F3:05 of unit 1 is 00 00",
+        ),
+        (r#"{ master = "request OP of unit 1" }"#, "all of (unit 1 is in SAFE-OP; unit 1 has no error)"),
+        (r#"{ master = "request OP of unit 1" }"#, "any of (unit 1 is in SAFE-OP; all units are in SAFE-OP)"),
         (r#"{ line = "unplug cable 1" }, { master = "request OP of unit 1" }"#, "all units are in SAFE-OP"),
         (
             r#"{ cpu = "stop the task of unit 1" }, { unit = "break Processing of unit 1" }"#,

@@ -4,7 +4,18 @@
 use crate::model::{Bytes, Condition, CpuOrder, MasterOrder, Order, UnitOrder};
 
 /// Whether an order changes what a condition is about to something else than the condition.
+///
+/// All parts of `all of` are true while it is, so that the end of one of them ends it. Of `any of` another part may stay
+/// true, so that it ends if each of its parts does.
 pub(crate) fn ends(order: &Order, condition: &Condition) -> bool {
+    match (order, condition) {
+        (_, Condition::AllOf(parts)) => parts.iter().any(|part| ends(order, part)),
+        (_, Condition::AnyOf(parts)) => !parts.is_empty() && parts.iter().all(|part| ends(order, part)),
+        _ => ends_one(order, condition),
+    }
+}
+
+fn ends_one(order: &Order, condition: &Condition) -> bool {
     match order {
         Order::Master(order) => master_ends(order, condition),
         Order::Unit(order) => unit_ends(order, condition),
@@ -24,11 +35,13 @@ fn master_ends(order: &MasterOrder, condition: &Condition) -> bool {
             Condition::Outputs { unit: of, at: first, bytes: expected },
         ) => unit == of && differ(*at, bytes, *first, expected),
         (
-            MasterOrder::WriteRegister { unit, register, bytes },
+            MasterOrder::WriteRegister { unit, register, bytes }
+            | MasterOrder::WriteRegisterInHalves { unit, register, bytes },
             Condition::Register { unit: of, register: first, value },
         ) => unit == of && differ(register.0, bytes, first.0, value),
         (
-            MasterOrder::WriteSdo { unit, entry, value },
+            MasterOrder::WriteSdo { unit, entry, value }
+            | MasterOrder::WriteSdoInSegments { unit, entry, value },
             Condition::Object { unit: of, entry: other, value: expected },
         ) => (unit, entry) == (of, other) && value != expected,
         _ => false,
