@@ -153,3 +153,35 @@ fn the_diagnosis_of_a_unit_without_power_is_not_contradictory() {
     ]);
     assert_eq!(never.failure, None);
 }
+
+/// What cannot be read is not contradicted either.
+#[test]
+fn the_contrary_of_what_needs_power_does_not_hold_without_it() {
+    let changes = "object 1018:01 of unit 1 changes";
+    for (condition, seen) in [
+        (format!("not ({changes})"), "unit 1 has no power".to_owned()),
+        ("not (output byte 0 of unit 1 changes)".to_owned(), "unit 1 has no power".to_owned()),
+        ("not (the diagnosis of unit 1 is contradictory)".to_owned(), "unit 1 has no power".to_owned()),
+        (
+            format!("any of ({changes}; not ({changes}))"),
+            format!("`{changes}`: unit 1 has no power; `not ({changes})`: unit 1 has no power"),
+        ),
+        (
+            format!("not (all of ({changes}; the master has nothing to do))"),
+            format!("`{changes}`: unit 1 has no power"),
+        ),
+    ] {
+        let step = format!("after = \"1ms\", expect = \"{condition}\"");
+        if !condition.contains("all of") {
+            assert_eq!(replay(&[format!("{{ {step} }}")]).failure, None, "{condition}");
+        }
+        let failure = off_and(&[&step]).failure.map(|failure| failure.seen);
+        assert_eq!(failure.as_deref(), Some(seen.as_str()), "{condition}");
+    }
+    // `never` and a state: nothing of it is there.
+    for step in
+        [format!("never = \"{changes}\""), "after = \"1ms\", expect = \"not (unit 1 is in INIT)\"".to_owned()]
+    {
+        assert_eq!(off_and(&[&step]).failure, None, "{step}");
+    }
+}

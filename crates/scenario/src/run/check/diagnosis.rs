@@ -4,7 +4,7 @@ use unit_model::EventLevel;
 use wire::{ObjectIndex, SubIndex};
 
 use super::seen::{Seen, holds};
-use super::unit::has_power;
+use super::unit::is_readable;
 use crate::run::bench::Bench;
 use crate::run::ledger::{FIRST, History, MESSAGES};
 
@@ -13,7 +13,7 @@ const HISTORY: ObjectIndex = ObjectIndex(0x10F3);
 
 /// Whether nothing of it contradicts something else. A unit without power shows nothing: it is neither of the two.
 pub(super) fn is_consistent(world: &mut Bench<'_>, at: usize, wanted: bool) -> Result<(), Seen> {
-    has_power(world, at)?;
+    is_readable(world, at)?;
     let contradiction = contradiction(world, at);
     holds(contradiction.is_none() == wanted, || {
         let unit = format!("unit {}", at + 1);

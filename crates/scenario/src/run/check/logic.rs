@@ -1,27 +1,30 @@
 //! Conditions in conditions. A condition on what is not there is neither true nor false, and decides only what the
-//! others leave open.
+//! others leave open. So does one on what a unit without power does not show: `not` of it does not hold.
 
 use super::seen::Seen;
 use crate::model::Condition;
 
 type Check = Result<(), Seen>;
 
-/// True if the part is false; a part that is neither true nor false stays so.
+/// True if the part is false; a part that is neither true nor false stays so, as does one that cannot be read.
 pub(super) fn not(part: &Condition, checked: Check) -> Check {
     match checked {
         Ok(()) => Err(format!("`{part}` holds").into()),
-        Err(seen) if seen.is_false() => Ok(()),
+        Err(seen) if seen.is_contrary() => Ok(()),
         Err(seen) => Err(seen),
     }
 }
 
 /// False if a part is false, which is named; else neither true nor false if a part is.
 pub(super) fn all_of(parts: &[Condition], mut check: impl FnMut(&Condition) -> Check) -> Check {
-    let mut open = None;
+    let mut open: Option<Seen> = None;
     for part in parts {
         match check(part) {
             Ok(()) => {}
-            Err(seen) if seen.is_false() => return Err(seen.of(part)),
+            Err(seen) if seen.is_contrary() => return Err(seen.of(part)),
+            Err(seen) if seen.is_false() && open.as_ref().is_none_or(|open| !open.is_false()) => {
+                open = Some(seen.of(part));
+            }
             Err(seen) => open = open.or(Some(seen.of(part))),
         }
     }

@@ -10,12 +10,19 @@ pub(in crate::run) struct Seen {
     words: String,
     /// What the condition is about is there, so that it is false.
     is_there: bool,
+    /// It can be read, so that `not` of the condition is true if the condition is false.
+    is_readable: bool,
 }
 
 impl Seen {
     /// What the condition is about is not there: it is neither true nor false.
     pub(super) fn not_there(words: impl Into<String>) -> Self {
-        Self { words: words.into(), is_there: false }
+        Self { words: words.into(), is_there: false, is_readable: true }
+    }
+
+    /// What the condition is about cannot be read: the condition is false, and so is `not` of it.
+    pub(super) fn not_readable(self) -> Self {
+        Self { is_readable: false, ..self }
     }
 
     /// What is seen in place of a part of a condition.
@@ -26,18 +33,27 @@ impl Seen {
     /// What is seen in place of several parts: they are false together if each of them is.
     pub(super) fn together(parts: &[Self]) -> Self {
         let words: Vec<&str> = parts.iter().map(|seen| seen.words.as_str()).collect();
-        Self { words: words.join("; "), is_there: parts.iter().all(|seen| seen.is_there) }
+        Self {
+            words: words.join("; "),
+            is_there: parts.iter().all(|seen| seen.is_there),
+            is_readable: parts.iter().all(|seen| seen.is_readable),
+        }
     }
 
     /// Whether the condition is false.
     pub(in crate::run) const fn is_false(&self) -> bool {
         self.is_there
     }
+
+    /// Whether the condition is false, and `not` of it true.
+    pub(super) const fn is_contrary(&self) -> bool {
+        self.is_there && self.is_readable
+    }
 }
 
 impl From<String> for Seen {
     fn from(words: String) -> Self {
-        Self { words, is_there: true }
+        Self { words, is_there: true, is_readable: true }
     }
 }
 

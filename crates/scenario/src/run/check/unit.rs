@@ -19,6 +19,11 @@ pub(super) fn has_power(world: &Bench<'_>, at: usize) -> Check {
     holds(!world.is_off(at), || format!("{} has no power", name(at)))
 }
 
+/// The same, for what `not` does not turn into its contrary.
+pub(super) fn is_readable(world: &Bench<'_>, at: usize) -> Check {
+    has_power(world, at).map_err(Seen::not_readable)
+}
+
 pub(super) fn state(world: &mut Bench<'_>, at: usize, state: AlState, code: Option<Hex<u16>>) -> Check {
     has_power(world, at)?;
     let (status, shown) = world.al_status(at);

@@ -82,7 +82,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
     match of {
         Quantity::Object { unit, entry } => {
             let at = there(unit, world)?;
-            unit::has_power(world, at)?;
+            unit::is_readable(world, at)?;
             let (index, sub) = (ObjectIndex(entry.index), SubIndex(entry.sub));
             let value = world.object(at, index, sub);
             let bytes = value.map_err(|code| Seen::from(format!("it is refused with {:#010X}", code.0)))?;
@@ -91,12 +91,12 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::Register { unit, register } => {
             let at = there(unit, world)?;
-            unit::has_power(world, at)?;
+            unit::is_readable(world, at)?;
             Ok(Reading::unsigned(world.registers(at, register.0, register_bytes(register.0))))
         }
         Quantity::OutputByte { unit, at: first } => {
             let at = there(unit, world)?;
-            unit::has_power(world, at)?;
+            unit::is_readable(world, at)?;
             byte(world.io(at).m_to_c(), *first)
         }
         Quantity::InputByte { unit, at: first } => {
@@ -105,7 +105,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::Outputs { unit } => {
             let at = there(unit, world)?;
-            unit::has_power(world, at)?;
+            unit::is_readable(world, at)?;
             some_bytes(world.io(at).m_to_c()).map(|bytes| Reading::bytes(bytes.to_vec(), None))
         }
         Quantity::Inputs { unit } => {
@@ -131,7 +131,7 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
         }
         Quantity::Records { unit, event } => {
             let at = there(unit, world)?;
-            unit::has_power(world, at)?;
+            unit::is_readable(world, at)?;
             Ok(Reading::count(world.recorded_times(at, unit_model::EventCode(event.0))))
         }
         Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
