@@ -172,7 +172,11 @@ fn a_comparison_that_every_value_passes_or_none_is_refused() {
         ("the number of cycles is below 0", "it can never hold"),
         ("output byte 0 of unit 1 is at most 255", "it always holds"),
         ("output byte 0 of unit 1 is above 255", "it can never hold"),
-        ("the working counter of unit 1 is between 5 and 3", "it can never hold"),
+        ("the working counter of unit 1 is between 5 and 3", "as 5 is above 3"),
+        (
+            "the working counter of unit 1 is between 5 and 3",
+            "the lower limit is first: `is between 3 and 5`",
+        ),
         ("variable N1_UINTs_01_M_to_C[0] is at least 65536", "it can never hold"),
         ("variable N1_UINTs_01_M_to_C[0] is at least T#5ms", "is not of that kind"),
         ("variable N1_UINTs_01_M_to_C is at least 5", "which is no number"),

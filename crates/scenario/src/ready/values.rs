@@ -217,7 +217,7 @@ impl Maker<'_> {
                 self.refuse(part, format!("{} is {}, which is no number", said(of), values.words), help);
                 return None;
             }
-            Numbers::Unknown => return Some(()),
+            Numbers::Unknown => return self.check_limits(test, part),
             Numbers::Time | Numbers::Real => (Number::Real(f64::NEG_INFINITY), Number::Real(f64::INFINITY)),
             Numbers::Whole(least, most) => (Number::Whole(least), Number::Whole(most)),
         };
@@ -231,6 +231,7 @@ impl Maker<'_> {
             );
             return None;
         }
+        self.check_limits(test, part)?;
         let (first, last) = (passes(test, least), passes(test, most));
         if first && last {
             let message = format!("it always holds: {} is {}", said(of), values.words);
@@ -243,6 +244,18 @@ impl Maker<'_> {
             return None;
         }
         Some(())
+    }
+
+    /// Whether the lower limit is not above the upper one.
+    fn check_limits(&mut self, test: &Test, part: Part) -> Option<()> {
+        let Test::Between { from, to } = test else { return Some(()) };
+        if from.number().compare(to.number()) != Some(core::cmp::Ordering::Greater) {
+            return Some(());
+        }
+        let message =
+            format!("it can never hold: no value is between {from} and {to}, as {from} is above {to}");
+        self.refuse(part, message, format!("the lower limit is first: `is between {to} and {from}`"));
+        None
     }
 
     fn check_first_bytes(&mut self, of: &Quantity, values: &Values, bytes: &Bytes, part: Part) -> Option<()> {
