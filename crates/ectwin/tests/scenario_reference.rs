@@ -184,7 +184,8 @@ gives up the order and goes on to the next one.
 
 A unit without power does nothing: an order that its software would carry out has no effect, and the trace says so. Actions by hand
 have an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,
-errors, objects, registers, events, logs, diagnosis, lost emergencies, outputs, the validity of its data) fails while it has no power.
+errors, objects, registers, events, logs, diagnosis, lost emergencies, outputs, the validity of its data) fails while it has no power;
+of a value that is compared or `changes`, and of the diagnosis (`is contradictory`), `not (…)` fails too.
 
 Values compare as numbers by their type: those of a variable and of an object with a signed or real type as such, bytes otherwise as unsigned
 little-endian numbers. `is` and `is not` keep the notation of the sentence with `is`: bytes of objects, registers and process data are hexadecimal,
