@@ -196,7 +196,8 @@ the process data, is neither true nor false: `not` leaves it so, `all of` is fal
 checks that its condition is false, which is what `not` checks at one moment.
 
 An expectation that cannot fail, or that can never hold, is a mistake in the file: a condition on the program of a unit that has none at that
-time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data. Orders on such bytes, and on
+time, `0 cycles are done`, the validity of data that a terminal does not have, bytes beyond the process data, `any of (A; not (A))`, a
+`never` of two states of one unit at the same time, a `while` or `until` that is the expected condition itself. Orders on such bytes, and on
 what a unit does not have (a mailbox, the state BOOT, the ID switch), are mistakes too. So are AL status codes, abort codes and registers that
 no unit has, more records than a log holds, and `the last SDO …`, `the last frame …` and their kind if no step orders one.
 

@@ -218,3 +218,61 @@ fn a_while_has_no_other_time() {
         assert!(errors.contains("line 6, column 1") && errors.contains("`while`"), "{errors}");
     }
 }
+
+#[test]
+fn an_expectation_that_cannot_fail_is_refused() {
+    let until = "`until` is the condition of the expectation itself";
+    for (step, column, message) in [
+        (
+            r#"{ expect = "unit 1 is in OP", while = "unit 1 is in OP" }"#,
+            39,
+            "`while` is the condition of the expectation itself",
+        ),
+        (r#"{ expect = "unit 1 is in OP", until = "unit 1 is in OP" }"#, 39, until),
+        (r#"{ never = "unit 1 is in OP", until = "unit 1 is in OP" }"#, 38, until),
+        (
+            r#"{ expect = "any of (unit 1 is in OP; not (unit 1 is in OP))", for = "1s" }"#,
+            12,
+            "it always holds",
+        ),
+        (r#"{ expect = "not (all of (unit 1 is in OP; unit 1 is in SAFE-OP))" }"#, 12, "it always holds"),
+        (
+            r#"{ never = "all of (unit 1 is in OP; unit 1 is in SAFE-OP with AL status code 0x001B)" }"#,
+            11,
+            "it can never hold",
+        ),
+        (
+            r#"{ never = "any of (all of (unit 1 is in OP; unit 1 has no error; not (unit 1 has no error)))", until = "unit 1 is in INIT" }"#,
+            11,
+            "it can never hold",
+        ),
+    ] {
+        let errors = refused(&in_safe_op(step));
+        let place = format!("line 6, column {column}: ");
+        assert!(errors.contains(&place) && errors.contains(message), "{step}\n{errors}");
+        let way_out = if errors.contains("until") || errors.contains("while") {
+            "names another condition"
+        } else {
+            "leave one of the parts out"
+        };
+        assert!(errors.contains(way_out), "{errors}");
+    }
+}
+
+#[test]
+fn an_expectation_that_can_fail_is_accepted() {
+    for step in [
+        r#"{ expect = "unit 1 is in SAFE-OP", while = "unit 1 has no error" }"#,
+        r#"{ expect = "any of (unit 1 is in OP; not (unit 1 has no error))", within = "1s" }"#,
+        r#"{ never = "all of (unit 1 is in OP; unit 1 has no error)" }"#,
+        r#"{ never = "all of (unit 1 is in OP; unit 1 is in OP)" }"#,
+        r#"{ never = "all of (unit 1 is in OP; not (unit 1 is in SAFE-OP))" }"#,
+        r#"{ expect = "all of (unit 1 is in OP; unit 1 is in SAFE-OP)", within = "1s" }"#,
+        // False without power.
+        r#"{ expect = "any of (object 1018:01 of unit 1 changes; not (object 1018:01 of unit 1 changes))" }"#,
+    ] {
+        let text = in_safe_op(step);
+        let read = Scenario::parse(&text, |_| Err(String::new()));
+        assert!(read.is_ok(), "{step}\n{}", read.err().map(|errors| errors.to_string()).unwrap_or_default());
+    }
+}

@@ -171,10 +171,12 @@ impl Maker<'_> {
         }
         let part = Part::Step(at, StepPart::Order);
         match &mut step.order {
-            Order::Expect(Expectation { condition, mode }) => {
+            Order::Expect(expectation) => {
+                let Expectation { condition, mode } = expectation;
                 self.condition(condition, part, ground, Lasting::of(mode));
                 self.check_can_change(condition, mode, part);
                 self.check_mode(at, mode, ground);
+                self.check_can_fail(at, expectation);
             }
             order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
                 self.order(order, part, ground);
