@@ -123,7 +123,8 @@ impl<S> Flights<S> {
         self.flying.remove(at).map(|flight| flight.parts)
     }
 
-    /// Answers to the frames of these senders are ignored from now on, and their loss is not reported.
+    /// Answers to the frames whose first datagram has such a sender are ignored from now on, and their loss is not
+    /// reported. The other datagrams of such a frame are forgotten with it.
     pub fn forget(&mut self, is_meant: impl Fn(&S) -> bool) {
         while let Some(at) = self.flying.iter().position(|flight| flight.is_of(&is_meant))
             && let Some(flight) = self.flying.remove(at)

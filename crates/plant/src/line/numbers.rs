@@ -113,8 +113,8 @@ pub enum WhichUnit {
 }
 
 impl WhichUnit {
-    /// Its position in the line, counted from 0. A name is at no position of any line: who knows the units replaces it by
-    /// their number.
+    /// Its position in the line, counted from 0. A name is at no position of any line: code that knows the units
+    /// replaces it by their number.
     #[must_use]
     pub const fn position(&self) -> usize {
         match self {

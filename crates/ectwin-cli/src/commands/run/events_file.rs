@@ -1,4 +1,4 @@
-//! The file of `--events`: JSON lines. A medium that refuses them is tried again, and the twin goes on.
+//! The file of `--events`: JSON lines. A medium that refuses them is tried again, and the twin continues.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -87,7 +87,7 @@ impl EventsFile {
             (Err(error), known) => {
                 if known.is_none() {
                     tracing::error!(
-                        "the events cannot be written to {}: {error}; this is tried again, and the twin goes on",
+                        "the events cannot be written to {}: {error}; this is tried again, and the twin continues",
                         self.name
                     );
                 }
