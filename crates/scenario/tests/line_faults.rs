@@ -42,7 +42,6 @@ fn mistakes_are_reported_with_a_way_out() {
         (&[r#"line = "lose all frames on cable 2""#], "cable 2 does not exist", "the line has 1 unit"),
         (&[r#"line = "lose all frames of unit 2""#], "unit 2 does not exist", "the line has 1 unit"),
         (&[r#"line = "lose 1001 ‰ of the frames""#], "found `1001`", "the sentence is `lose {frames}"),
-        (&[r#"line = "lose 1001 ‰ of the frames""#], "found `1001`", "the sentence is `lose {frames}"),
         (
             &[r#"line = "lose numbers 5 to 4 of the frames""#],
             "found `numbers`",

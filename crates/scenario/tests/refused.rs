@@ -41,9 +41,10 @@ fn an_order_that_does_nothing_is_refused() {
             ],
             "there is no cause of MessageCommunications in unit 1",
         ),
-        (&[OFF, OFF], "unit 1: no power already"),
-        (&["unit = \"power on unit 1\""], "unit 1: power already"),
-        (&["unit = \"power off all units\"", OFF], "unit 1: no power already"),
+        (&[OFF, OFF], "unit 1 has no power already"),
+        (&["unit = \"power on unit 1\""], "unit 1 has power already"),
+        (&["unit = \"power off all units\"", OFF], "unit 1 has no power already"),
+        (&["unit = \"power on all units\""], "all units have power already"),
         (&["cpu = \"power on the CPU Rack of unit 1\""], "the CPU Rack of unit 1 has power already"),
         (
             &["cpu = \"power off the CPU Rack of unit 1\"", "cpu = \"power off the CPU Rack of unit 1\""],
@@ -123,7 +124,7 @@ fn what_can_never_come_is_refused() {
         ),
         (
             &["never = \"the system event log of unit 1 has 85000000 33 times\""],
-            "33 records in a log of unit 1, which holds 32",
+            "33 records in a log of unit 1, which holds 32; at most 32: the oldest",
         ),
         (
             &["never = \"the access event log of unit 1 has 94B80000 6 times\""],

@@ -103,8 +103,9 @@ impl Maker<'_> {
 
     fn switch(&mut self, switch: Switch, positions: &[usize], on: bool, units: &UnitSet) -> Option<String> {
         let does_something = self.standing.set(switch, positions, on);
-        let words = if on { "power" } else { "no power" };
-        (!does_something).then(|| format!("{units}: {words} already, so the order does nothing"))
+        let has = if matches!(units, UnitSet::One(_)) { "has" } else { "have" };
+        let words = if on { "power already" } else { "no power already" };
+        (!does_something).then(|| format!("{units} {has} {words}, so the order does nothing"))
     }
 
     fn inject(&mut self, units: &UnitSet, positions: &[usize], fault: &str) -> Option<String> {

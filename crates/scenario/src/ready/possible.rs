@@ -204,7 +204,8 @@ impl Maker<'_> {
             let most = unit.file.section().model().records_max(log).unwrap_or(usize::MAX);
             if count > most as u64 {
                 let message = format!("{count} {what} in a log of unit {}, which holds {most}", at + 1);
-                self.refuse(part, message, "the oldest record makes room for a new one");
+                let help = format!("at most {most}: the oldest record makes room for a new one");
+                self.refuse(part, message, help);
                 return None;
             }
         }
