@@ -60,7 +60,7 @@ steps = [
 ```
 
 These are six cases, named `FILE (loss = 0, state = SAFE-OP)` and so on; `ectwin replay --case "loss = 1, state = OP"` replays one of them.
-A value is a number, a text, `true`, `false`, or a range of numbers such as `{ from = 3, to = 5 }`, which is a text for each of them. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
+A value is a number, a text, `true`, `false`, or a range of numbers up to 65535 such as `{ from = 3, to = 5 }`, which is the same as `3, 4, 5`. A text that is only `{loss}` becomes the value itself: `seed = "{loss}"` is a number. Keys
 are not replaced. `{{loss}}` is the text `{loss}`. A parameter that no text uses, and a name in braces that is no parameter, are mistakes.
 
 ## The master's user program
@@ -180,7 +180,7 @@ steps = [
 Times have a unit: `20us`, `1.5ms`, `2s`. A sentence has at most 65,536 bytes.
 
 The scripted master waits 10 s for each state of a `take`, 5 s for an SDO, a register or a mailbox message, and 2 ms for a frame. Then it
-gives up the order and goes on to the next one.
+gives up the order and continues with the next one.
 
 A unit without power does nothing: an order that its software would carry out has no effect, and the trace says so. Actions by hand
 have an effect: power, the ID switch, the SII, causes of hardware faults, settings of its conduct. A condition on its inside (states,

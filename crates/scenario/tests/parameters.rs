@@ -64,6 +64,25 @@ fn each_combination_of_values_is_a_case() {
     );
 }
 
+/// A number of a range is an integer, as one of a list.
+#[test]
+fn numbers_of_a_range_are_as_those_of_a_list() {
+    let text = |values: &str| {
+        format!(
+            "title = \"t\"\nwith = {{ n = {values} }}\nseed = \"{{n}}\"\nsteps = [{{ line = \"lose {{n}} % of the frames\" }}]"
+        )
+    };
+    let seeds =
+        |values: &str| cases(&text(values)).expect(values).iter().map(|case| case.seed).collect::<Vec<_>>();
+    assert_eq!(seeds("[3, 4, 5]"), [3, 4, 5]);
+    assert_eq!(seeds("{ from = 3, to = 5 }"), [3, 4, 5]);
+    assert_eq!(seeds("[{ from = 0, to = 1 }, 7]"), [0, 1, 7]);
+    let last = text("{ from = 65534, to = 65535 }").replace("lose {n} %", "lose 5 %");
+    assert_eq!(cases(&last).map(|cases| cases.len()), Ok(2));
+    let told = errors(&last.replace("65535", "65536"));
+    assert!(told.contains("they end at 65535"), "{told}");
+}
+
 #[test]
 fn each_file_is_read_once_for_all_cases() {
     let mut files = OneUnit::default();

@@ -1,7 +1,10 @@
 //! Parameters: `with = { loss = [0, 1, 5], state = ["OP", "SAFE-OP"] }` makes a case of each combination of values.
 
+use core::cmp::Ordering;
+use std::sync::LazyLock;
+
 use serde::Deserialize;
-use toml::de::DeString;
+use toml::Spanned;
 use user_file::{DeValue, Located, Problem, Reader, Section, Value, wrong_type};
 
 use super::names::{Named, is_name, written};
@@ -143,11 +146,17 @@ fn elements<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Opti
         }
         DeValue::Table(_) => {
             let Numbers { from, to } = reader.typed(place, value)?;
-            if from < to && to - from < CASES_MAX as u64 {
-                return Some((from..=to).map(|number| DeValue::String(text(number))).collect());
+            if from < to && to - from < CASES_MAX as u64 && to <= NUMBER_MAX {
+                return Some((from..=to).filter_map(integer).collect());
             }
             let problem = Problem::new(format!("`{place}` is no range from {from} to {to}"), "");
-            let help = format!("`from` is less than `to`, and a range has at most {CASES_MAX} numbers");
+            let help = match from.cmp(&to) {
+                Ordering::Greater => format!("the smaller number is first: `{{ from = {to}, to = {from} }}`"),
+                Ordering::Equal => format!("one value is `[{from}]`"),
+                Ordering::Less => {
+                    format!("a range has at most {CASES_MAX} numbers, and they end at {NUMBER_MAX}")
+                }
+            };
             reader.refuse(value.span(), problem.with_help(help));
             None
         }
@@ -155,8 +164,17 @@ fn elements<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Opti
     }
 }
 
-fn text<'i>(number: u64) -> DeString<'i> {
-    DeString::Owned(number.to_string())
+/// Last number of a range.
+const NUMBER_MAX: u64 = 65_535;
+
+/// The digits of the numbers of ranges: an integer of a file borrows its text.
+static DIGITS: LazyLock<Vec<String>> =
+    LazyLock::new(|| (0..=NUMBER_MAX).map(|number| number.to_string()).collect());
+
+/// A number as in a list; none if it is greater than the last one.
+fn integer(number: u64) -> Option<DeValue<'static>> {
+    let digits = DIGITS.get(usize::try_from(number).ok()?)?;
+    DeValue::parse(digits).ok().map(Spanned::into_inner)
 }
 
 /// Number of combinations of all values.
