@@ -20,7 +20,7 @@ fn two_units_with_one_name_are_told_with_both() {
         (["\"a.toml\"", other, "\"a.toml\""], "line 5, column 1: units 1 and 3 are both named K1"),
         (
             ["\"a.toml\"", "{ model = \"digital\", inputs = 8, name = \"k1\" }", other],
-            "line 4, column 1: units 1 and 2 are both named k1",
+            "line 4, column 1: units 1 and 2 are named K1 and k1, and upper and lower case are the same",
         ),
         (
             [UNNAMED, other, "{ model = \"nx-ect101\", name = \"N1\" }"],

@@ -105,10 +105,12 @@ fn values_of_for_are_names_and_ranges() {
     }
     for (values, message) in [
         ("{ from = 5, to = 4 }", "`for.unit` is no range from 5 to 4"),
+        ("{ from = 5, to = 3 }", "the smaller number is first: `{ from = 3, to = 5 }`"),
+        ("{ from = 5, to = 5 }", "one value is `[5]`"),
         ("{ from = 1, to = 100000 }", "a range has at most 10000 numbers"),
         ("[4, { from = 3, to = 5 }]", "has the value 4 twice"),
         ("{ from = 4, to = 6 }", "unit 6 does not exist"),
-        ("[\"Convyor\"]", "did you mean Conveyor?"),
+        ("[\"Convyor\"]", "did you mean `Conveyor`?"),
         ("[{ first = 4, to = 6 }]", "unknown"),
     ] {
         let told = read(&steps(values)).expect_err(values).join("\n");
@@ -123,10 +125,10 @@ fn mistakes_have_their_place_and_a_way_out() {
         (
             r#"{ expect = "unit Convyor is in OP" }"#,
             "no unit is named Convyor",
-            "did you mean Conveyor? the units are",
+            "did you mean `Conveyor`? the units are",
         ),
         (r#"{ expect = "unit Press is in OP" }"#, "no unit is named Press", known),
-        (r#"{ line = "lose all frames of unit K9" }"#, "no unit is named K9", "did you mean K3?"),
+        (r#"{ line = "lose all frames of unit K9" }"#, "no unit is named K9", "did you mean `K3`?"),
         (
             r#"{ unit = "restart units 5 to 3" }"#,
             "`5 to 3` is no range of units",
@@ -156,6 +158,16 @@ fn mistakes_have_their_place_and_a_way_out() {
             "the sentence is `take {units} to {state}`",
         ),
         (r#"{ expect = "unit is in OP" }"#, "found `is`", "{units} is in {state}"),
+        (
+            r#"{ expect = "unit is is in OP" }"#,
+            "found `is`",
+            "`is` is a word of the sentences: a unit with this name has its number",
+        ),
+        (
+            r#"{ master = "take unit to to OP" }"#,
+            "found `to`",
+            "`to` is a word of the sentences: a unit with this name has its number",
+        ),
         (r#"{ expect = "unit 0 is in OP" }"#, "found `0`", "{units} is in {state}"),
         (r#"{ expect = "register 0x0300 of units 1 and 2 is 00" }"#, "found `units`", "{unit} is {bytes}"),
         (

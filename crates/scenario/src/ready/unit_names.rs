@@ -4,6 +4,8 @@
 
 use std::collections::BTreeSet;
 
+use user_file::{did_you_mean, nearest};
+
 use super::maker::Maker;
 use super::problem::{Part, Problem, StepPart};
 use super::reach::line_of;
@@ -12,9 +14,6 @@ use crate::model::{
     UnitSpan, UnitWords, WhichUnit,
 };
 use crate::run::UnitSource;
-
-/// Two names are near each other from this likeness on.
-const NEAR: f64 = 0.65;
 
 impl Maker<'_> {
     /// Replaces the names of units in all steps by their numbers.
@@ -78,12 +77,10 @@ impl<'u> UnitNames<'u> {
 
     /// The names that there are, after the nearest one.
     fn known(&self, name: &UnitName) -> String {
-        let likeness = |own: &&&str| strsim::jaro_winkler(&own.to_lowercase(), &name.as_str().to_lowercase());
-        // Of several that are equally near the first one.
-        let nearest = self.names.iter().rev().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-        let nearest = nearest.filter(|own| likeness(own) >= NEAR);
-        let asked = nearest.map_or_else(String::new, |own| format!("did you mean {own}? "));
-        format!("{asked}{}", self.words())
+        match nearest(name.as_str(), &self.names) {
+            Some(nearest) => format!("{} {}", did_you_mean(nearest), self.words()),
+            None => self.words(),
+        }
     }
 
     fn words(&self) -> String {

@@ -53,7 +53,12 @@ impl Maker<'_> {
             let first = files.iter().take(at).position(|other| {
                 (file.is_named() || other.is_named()) && other.name().eq_ignore_ascii_case(file.name())
             })?;
-            Some((at, format!("units {} and {} are both named {}", first + 1, at + 1, file.name())))
+            let (other, own) = (files.get(first)?.name(), file.name());
+            let names = match own == other {
+                true => format!("both named {own}"),
+                false => format!("named {other} and {own}, and upper and lower case are the same"),
+            };
+            Some((at, format!("units {} and {} are {names}", first + 1, at + 1)))
         };
         let twins: Vec<_> = files.iter().enumerate().filter_map(|(at, file)| twin(at, file)).collect();
         for (at, message) in twins {

@@ -18,6 +18,7 @@ use read::{
     fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
     requested, state, times, transition, user_error,
 };
+pub(crate) use units::NOT_NAMES;
 use units::{fitting_unit, fitting_units, unit, units};
 
 /// The place that is a sentence of the table of quantities.

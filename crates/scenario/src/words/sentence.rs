@@ -5,7 +5,7 @@
 
 use core::fmt;
 
-use super::place::{Place, QUANTITY, TIMES_PLACE};
+use super::place::{NOT_NAMES, Place, QUANTITY, TIMES_PLACE};
 use super::value::Value;
 use crate::model::{Quantity, UnitSet};
 
@@ -216,8 +216,9 @@ impl<T> Misfit<'_, T> {
                     Problem::Place(_) | Problem::More(_) => problem.to_string(),
                 },
                 help: format!(
-                    "the sentence is `{pattern}`, such as `{example}`{}",
-                    each_unit(&problem, words.get(reached..))
+                    "the sentence is `{pattern}`, such as `{example}`{}{}",
+                    each_unit(&problem, words.get(reached..)),
+                    word_as_name(words.get(reached.saturating_sub(1)..))
                 ),
             },
             None => self.nearest(),
@@ -285,6 +286,18 @@ fn each_unit(problem: &Problem<'_>, found: Option<&[&str]>) -> &'static str {
             "; for several units, a group has a step for each: `{ for.unit = [2, 3], steps = [ … unit {unit} … ] }`"
         }
         _ => "",
+    }
+}
+
+/// The way out for a unit whose name is a word of the sentences.
+fn word_as_name(found: Option<&[&str]>) -> String {
+    match found {
+        Some(["unit", name, ..]) if NOT_NAMES.contains(name) => {
+            format!(
+                "; `{name}` is a word of the sentences: a unit with this name has its number, such as `unit 1`"
+            )
+        }
+        _ => String::new(),
     }
 }
 
