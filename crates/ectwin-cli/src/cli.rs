@@ -62,7 +62,7 @@ pub(crate) enum Command {
     Import(ImportArgs),
     /// Add random steps, seed after seed, until an expectation fails; then reduce the steps
     Search(SearchArgs),
-    /// Merge the results of all parts of a campaign; none may be missing
+    /// Merge the results of all parts of a campaign or of a search; none may be missing
     Merge(MergeArgs),
     /// Structured Text, the language of user programs
     #[command(subcommand)]
@@ -247,7 +247,7 @@ pub(crate) struct ReplayArgs {
     /// Replay each scenario with all of these seeds: 1..100, or 100 for the same
     #[arg(long, value_name = "A..B")]
     pub(crate) seeds: Option<SeedRange>,
-    /// Replay only the case with these values of the file's parameters, such as "loss = 1, state = OP"
+    /// Replay only the case with these values of the file's parameters, such as "loss = 1, state = OP", in any order
     #[arg(long, value_name = "VALUES")]
     pub(crate) case: Option<String>,
     /// Write the golden traces beside the files that have one, and beside those that are named, and exit
@@ -274,8 +274,8 @@ pub(crate) struct ReplayArgs {
     /// Replay only the files whose path contains this text; if given several times, one of the texts
     #[arg(long, value_name = "TEXT")]
     pub(crate) filter: Vec<String>,
-    /// Print the files, titles and numbers of cases, and exit
-    #[arg(long, conflicts_with_all = ["bless", "json", "junit", "pcap", "trace", "on_failure", "fail_fast"])]
+    /// Print the files, titles and numbers of cases, and exit; with --json a line for each case
+    #[arg(long, conflicts_with_all = ["bless", "junit", "pcap", "trace", "on_failure", "fail_fast"])]
     pub(crate) list: bool,
     /// Print the expectations that test nothing: the case passes with the contrary of one too
     #[arg(long, conflicts_with_all = ["bless", "junit", "pcap", "trace", "on_failure", "fail_fast", "list"])]
@@ -332,9 +332,9 @@ pub(crate) struct SearchArgs {
     #[arg(long, conflicts_with = "output")]
     pub(crate) all: bool,
     /// End after this time, such as 600s: with the next result
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", value_parser = count::budget)]
     pub(crate) budget: Option<time::Duration>,
-    /// Write one JSON line for each different failure, for other programs
+    /// Write one JSON line for each different failure and one for the end, for other programs and for `ectwin merge`
     #[arg(long, value_name = "OUT")]
     pub(crate) json: Option<PathBuf>,
     /// Write a JUnit file, for CI systems: a failed case for each different failure, a passed one if nothing is found
@@ -357,7 +357,7 @@ impl SearchArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// The files that the parts have written with `ectwin replay --json`
+    /// The files that the parts have written with `ectwin replay --json` or `ectwin search --json`
     #[arg(required = true, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
     /// Write a JUnit file of all cases

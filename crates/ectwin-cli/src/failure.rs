@@ -12,6 +12,7 @@ use link::OpenError;
 use user_file::escaped;
 
 use crate::descriptors;
+use crate::ending_signal::Signal;
 use crate::file_problem::{FileProblem, FileProblems};
 
 /// The exit code of `exec` for what is not its command's result, as with env(1) and timeout(1).
@@ -29,6 +30,8 @@ pub(crate) enum Failure {
     ProgramWrong(FileProblems),
     /// A case of a campaign failed. This has already been printed.
     CasesFailed,
+    /// A signal has ended a campaign or a search.
+    Interrupted { signal: Signal, message: String, help: String },
     /// The arguments contradict each other, or the existing files.
     Refused { message: String, help: String },
     /// A file cannot be read.
@@ -120,6 +123,7 @@ impl Failure {
             Self::Command(code) | Self::NotStarted { code, .. } => *code,
             // Whatever the reason was: the units have run.
             Self::ChangesLost(_) => 2,
+            Self::Interrupted { signal, .. } => signal.exit_code(),
             _ if self.source().is_some_and(descriptors::are_exhausted) => 3,
             Self::Unexplained(_)
             | Self::ProgramWrong(_)
@@ -176,7 +180,9 @@ impl Failure {
             Self::BadFile(problems) | Self::ProgramWrong(problems) => (problems.pictures(), None),
             Self::RulesBroken | Self::CasesFailed | Self::Command(_) => (String::new(), None),
             Self::Exec(cause) => cause.message_and_help(),
-            Self::Refused { message, help } => (message.clone(), Some(help.clone())),
+            Self::Refused { message, help } | Self::Interrupted { message, help, .. } => {
+                (message.clone(), Some(help.clone()))
+            }
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(source.help()))
             }

@@ -7,7 +7,7 @@ use link::Medium;
 
 use crate::failure::Failure;
 use crate::output::is_stdout;
-use crate::output_file::{BegunFile, OutputFile};
+use crate::output_file::{BegunFile, OutputFile, ReplacedFile};
 
 /// The output of a command that can be stdout too.
 pub(crate) enum LaterOutput {
@@ -19,6 +19,19 @@ impl LaterOutput {
     /// Opens the file, or makes it.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         if is_stdout(path) { Ok(Self::Stdout) } else { OutputFile::open(path).map(Self::File) }
+    }
+
+    /// Checks that the file can be written. Until it is written as a whole, it is not there, or keeps its old contents.
+    pub(crate) fn open_whole(path: &Path) -> Result<Self, Failure> {
+        if is_stdout(path) { Ok(Self::Stdout) } else { Ok(Self::File(OutputFile::open(path)?.unmade())) }
+    }
+
+    /// The new contents follow, and take the place of the old ones when they are complete.
+    pub(crate) fn begin_whole(self) -> io::Result<WholeOut> {
+        match self {
+            Self::Stdout => Ok(WholeOut::Stdout),
+            Self::File(file) => file.begin_whole().map(WholeOut::File),
+        }
     }
 
     /// The new contents follow.
@@ -50,6 +63,38 @@ impl ResultOut {
         match self {
             Self::Stdout => Ok(()),
             Self::File(file) => file.complete(),
+        }
+    }
+}
+
+/// The target of a result that is there as a whole or not at all.
+pub(crate) enum WholeOut {
+    Stdout,
+    File(ReplacedFile),
+}
+
+impl WholeOut {
+    /// The result is complete.
+    pub(crate) fn complete(self) -> io::Result<()> {
+        match self {
+            Self::Stdout => Ok(()),
+            Self::File(file) => file.complete(),
+        }
+    }
+}
+
+impl Write for WholeOut {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),
+            Self::File(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Stdout => unless_closed(io::stdout().flush(), ()),
+            Self::File(file) => file.flush(),
         }
     }
 }

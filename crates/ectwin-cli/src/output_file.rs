@@ -1,8 +1,9 @@
 //! A file that a command writes later: it is opened at the start, and what is in it stays until the first new bytes are
-//! written. If none are, a file that was made here is removed.
+//! written, or all of them. If none are, a file that was made here is removed.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use link::Medium;
@@ -10,6 +11,7 @@ use rustix::fs::{FlockOperation, flock};
 use rustix::io::Errno;
 
 use crate::failure::Failure;
+use crate::whole_file::WholeFile;
 
 /// A file that is open and not written yet.
 pub(crate) struct OutputFile {
@@ -56,12 +58,74 @@ impl OutputFile {
         BegunFile { file: self.file, made: self.made, is_replaced: false }
     }
 
+    /// A file that is to be written as a whole: it is not there until then, unless it was there before.
+    pub(crate) fn unmade(self) -> Self {
+        let Self { path, file, made } = self;
+        drop(made);
+        Self { path, file, made: Made(None) }
+    }
+
+    /// The new contents follow, and take the place of the old ones when they are complete.
+    pub(crate) fn begin_whole(self) -> io::Result<ReplacedFile> {
+        if !is_regular(&self.file) {
+            return Ok(ReplacedFile::InPlace(self.begin()));
+        }
+        let is_there = self.file.metadata()?.nlink() > 0;
+        match WholeFile::beside(&self.path, Some(&self.file).filter(|_| is_there)) {
+            // A file that may be written, in a folder that may not.
+            Err(error) if is_there && error.kind() == io::ErrorKind::PermissionDenied => {
+                Ok(ReplacedFile::InPlace(self.begin()))
+            }
+            whole => Ok(ReplacedFile::Whole(whole?, self)),
+        }
+    }
+
     /// Writes all the new contents.
     pub(crate) fn write(self, contents: &[u8]) -> Result<(), Failure> {
         let path = self.path.clone();
-        let mut file = self.begin();
-        let written = file.write_all(contents).and_then(|()| file.complete());
+        let written = self.begin_whole().and_then(|mut file| {
+            file.write_all(contents)?;
+            file.complete()
+        });
         written.map_err(|source| Failure::Unwritable { path, source })
+    }
+}
+
+/// A file that is replaced as a whole, if that is possible.
+pub(crate) enum ReplacedFile {
+    /// The contents beside the file, which stays locked.
+    Whole(WholeFile, OutputFile),
+    /// A device, a pipe, or a file in a folder that may not be written.
+    InPlace(BegunFile),
+}
+
+impl ReplacedFile {
+    /// The new contents are complete.
+    pub(crate) fn complete(self) -> io::Result<()> {
+        match self {
+            Self::Whole(whole, mut file) => {
+                whole.complete()?;
+                file.made.0 = None;
+                Ok(())
+            }
+            Self::InPlace(mut file) => file.complete(),
+        }
+    }
+}
+
+impl Write for ReplacedFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Whole(whole, _) => whole.write(bytes),
+            Self::InPlace(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Whole(whole, _) => whole.flush(),
+            Self::InPlace(file) => file.flush(),
+        }
     }
 }
 

@@ -170,8 +170,15 @@ fn searched(name: &str, options: &[&str]) -> (String, String, String, Vec<(Strin
     (ended.stdout, bench.text("f.jsonl"), bench.text("f.xml"), files)
 }
 
-fn lines(text: &str) -> Vec<serde_json::Value> {
-    text.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+/// The failures, without what differs in parts and in searches with and without `--all`.
+fn failures(text: &str) -> Vec<serde_json::Value> {
+    let mut lines: Vec<serde_json::Value> =
+        text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    assert!(lines.pop().unwrap()["ended_by"].is_string(), "{text}");
+    for line in lines.iter_mut().filter_map(serde_json::Value::as_object_mut) {
+        assert!(line.remove("search").is_some() && line.remove("partition").is_some(), "{text}");
+    }
+    lines
 }
 
 #[test]
@@ -179,7 +186,7 @@ fn all_finds_two_different_failures_and_one_search_the_first() {
     let (stdout, json, junit, files) = searched("search-all", &["--all"]);
     assert_eq!(stdout.matches("FAILED  two.toml: neither of two errors\n").count(), 2, "{stdout}");
     assert!(stdout.contains("two.toml: 2 different failures in 30 runs from seed 1 on, "), "{stdout}");
-    let found = lines(&json);
+    let found = failures(&json);
     let mut steps: Vec<_> = found.iter().map(|line| line["failure"]["step"].as_str().unwrap()).collect();
     steps.sort_unstable();
     assert_eq!(
@@ -201,7 +208,7 @@ fn all_finds_two_different_failures_and_one_search_the_first() {
     assert!(junit.contains("failures=\"2\"") && junit.contains("file=\"two-"), "{junit}");
 
     let (stdout, json, junit, files) = searched("search-first", &[]);
-    assert_eq!((lines(&json), files.len()), (found[..1].to_vec(), 1), "{stdout}");
+    assert_eq!((failures(&json), files.len()), (found[..1].to_vec(), 1), "{stdout}");
     assert!(junit.contains("tests=\"1\"") && !stdout.contains("different failures"), "{stdout}");
 }
 
@@ -223,11 +230,11 @@ fn parts_find_together_what_the_whole_search_finds() {
     let parts = [part("1/2", "1"), part("2/2", "4")];
     assert_eq!(parts, [part("1/2", "4"), part("2/2", "1")]);
     assert!(parts[1].0.contains(" in 15 runs (part 2/2 of 30 runs) from seed 1 on, "), "{}", parts[1].0);
-    let mut found: Vec<_> = parts.iter().flat_map(|(_, json, _, _)| lines(json)).collect();
+    let mut found: Vec<_> = parts.iter().flat_map(|(_, json, _, _)| failures(json)).collect();
     found.sort_by_key(|line| line["seed"].as_u64());
     let mut steps = std::collections::BTreeSet::new();
     found.retain(|line| steps.insert(line["failure"]["step"].to_string()));
-    assert_eq!(found, lines(&json));
+    assert_eq!(found, failures(&json));
     let of_parts: Vec<_> = parts.iter().flat_map(|(_, _, _, files)| files).collect();
     assert!(files.iter().all(|file| of_parts.contains(&file)), "{of_parts:?}");
 }
@@ -241,7 +248,7 @@ fn a_part_is_that_of_the_ci_system_too() {
         &variables,
         &["search", "holds.toml", "--runs", "5", "--partition", "auto", "--json", "-"],
     );
-    assert_eq!((ended.code, ended.stdout.as_str()), (Some(0), ""), "{}", ended.stderr);
+    assert_eq!((ended.code, failures(&ended.stdout).len()), (Some(0), 0), "{}", ended.stderr);
     assert!(
         ended.stderr.contains("nothing found in 1 run (part 3/3 of 5 runs) from seed 1 on"),
         "{}",
@@ -250,13 +257,15 @@ fn a_part_is_that_of_the_ci_system_too() {
 }
 
 #[test]
-fn a_search_that_finds_nothing_is_a_passed_case_of_junit_and_no_line() {
+fn a_search_that_finds_nothing_is_a_passed_case_of_junit_and_only_the_last_line() {
     let bench = Bench::new("search-passed");
     bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
     bench.put("f.jsonl", "from an earlier search\n");
     let ended =
         bench.ectwin(&["search", "holds.toml", "--runs", "2", "--json", "f.jsonl", "--junit", "f.xml"]);
-    assert_eq!((ended.code, bench.text("f.jsonl").as_str()), (Some(0), ""), "{}", ended.stderr);
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let lines = bench.json_lines("f.jsonl");
+    assert_eq!((lines.len(), &lines[0]["ended_by"], &lines[0]["tried"]), (1, &"seeds".into(), &2.into()));
     let junit = bench.text("f.xml");
     assert!(junit.contains("tests=\"1\"") && junit.contains("failures=\"0\""), "{junit}");
     assert!(
@@ -392,10 +401,90 @@ fn the_cases_of_a_file_are_searched_one_after_the_other() {
         "{}",
         all.stdout
     );
-    let lines = lines(&bench.text("all.jsonl"));
-    let parameters: Vec<_> = lines.iter().map(|line| line["parameters"].as_str()).collect();
+    let lines = bench.json_lines("all.jsonl");
+    let parameters: Vec<_> = lines[..lines.len() - 1].iter().map(|line| line["parameters"].as_str()).collect();
     assert_eq!(parameters, [Some("code = 40200000, id = 2"), Some("code = 40200000, id = 3")]);
     assert!(bench.text("all.xml").contains("code = 40200000, id = 3, seed "), "{}", bench.text("all.xml"));
     let parts = bench.ectwin(&["search", "cases.toml", "--runs", "3", "--all", "--partition", "2/3"]);
     assert!(parts.stdout.contains(" in 4 runs of 4 cases (part 2/3 of 12 runs)"), "{}", parts.stdout);
+    for part in ["1", "2"] {
+        let (partition, file) = (format!("{part}/2"), format!("{part}.jsonl"));
+        let search = ["search", "cases.toml", "--runs", "3", "--all"];
+        bench.ectwin(&[&search[..], &["--partition", &partition, "--json", &file]].concat());
+    }
+    let merged = bench.ectwin(&["merge", "2.jsonl", "1.jsonl", "--junit", "merged.xml"]);
+    assert_eq!((merged.code, merged.stderr.as_str()), (Some(1), ""));
+    assert_eq!(merged.stdout, all.stdout);
+    assert_eq!(bench.text("merged.xml"), bench.text("all.xml"));
+}
+
+#[test]
+fn the_parts_of_a_search_merge_to_the_whole() {
+    let bench = Bench::new("search-merged");
+    bench.put("two.toml", TWO_ERRORS);
+    let search = &["search", "two.toml", "--all", "--runs", "9"][..];
+    let whole = bench.ectwin(&[search, &["--json", "whole.jsonl", "--junit", "whole.xml"]].concat());
+    assert_eq!(whole.code, Some(1), "{}", whole.stderr);
+    for part in ["1", "2", "3"] {
+        let (partition, file) = (format!("{part}/3"), format!("{part}.jsonl"));
+        bench.ectwin(&[search, &["--partition", &partition, "--json", &file]].concat());
+    }
+    let merged = bench.ectwin(&["merge", "2.jsonl", "1.jsonl", "3.jsonl", "--junit", "merged.xml"]);
+    assert_eq!((merged.code, merged.stderr.as_str()), (Some(1), ""));
+    assert_eq!(merged.stdout, whole.stdout);
+    assert_eq!(bench.text("merged.xml"), bench.text("whole.xml"));
+
+    bench.ectwin(&["search", "two.toml", "--all", "--runs", "8", "--partition", "3/3", "--json", "8.jsonl"]);
+    let second = bench.text("2.jsonl");
+    let (found, end) = second.trim_end().rsplit_once('\n').unwrap();
+    bench.put("torn.jsonl", &format!("{found}\n"));
+    bench.put("short.jsonl", &format!("{end}\n"));
+    bench.put("tried.jsonl", &second.replace("\"tried\":3", "\"tried\":2"));
+    for (files, told) in [
+        (&["1.jsonl", "3.jsonl"][..], "the end of part 2/3 is missing"),
+        (&["1.jsonl", "torn.jsonl", "3.jsonl"], "the end of part 2/3 is missing"),
+        (&["1.jsonl", "short.jsonl", "3.jsonl"], "part 2/3 has 0 failures, and its last line says"),
+        (&["1.jsonl", "2.jsonl", "2.jsonl", "3.jsonl"], "part 2/3 is there twice"),
+        (&["1.jsonl", "tried.jsonl", "3.jsonl"], "2 of 3 runs were tried"),
+        (&["1.jsonl", "2.jsonl", "8.jsonl"], "of another search"),
+    ] {
+        let refused = bench.ectwin(&[&["merge"], files].concat());
+        assert_eq!(refused.code, Some(2), "{files:?}: {}", refused.stdout);
+        assert!(refused.stderr.contains(told), "`{told}` is not in:\n{}", refused.stderr);
+    }
+}
+
+#[test]
+fn a_budget_that_ends_a_search_is_named_in_every_output() {
+    let bench = Bench::new("search-budget-named");
+    bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
+    let outputs = ["--budget", "1ns", "--json", "b.jsonl", "--junit", "b.xml"];
+    let ended = bench.ectwin(&[&["search", "holds.toml", "--runs", "50", "--jobs", "1"], &outputs[..]].concat());
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert!(ended.stdout.ends_with("; --budget has ended it after 1 of 50 runs\n"), "{}", ended.stdout);
+    assert_eq!(bench.json_lines("b.jsonl")[0]["ended_by"], "budget");
+    let junit = bench.text("b.xml");
+    assert!(junit.contains("<skipped message=\"--budget has ended it after 1 of 50 runs\"/>"), "{junit}");
+    let merged = bench.ectwin(&["merge", "b.jsonl"]).stdout;
+    assert!(merged.ends_with("part 1/1: --budget has ended it after 1 of 50 runs\n"), "{merged}");
+    assert_eq!(bench.ectwin(&["search", "holds.toml", "--budget", "0s"]).code, Some(2));
+}
+
+#[test]
+fn a_step_of_which_only_the_pause_is_needed_leaves_it_to_the_next_one() {
+    let bench = Bench::new("search-pause");
+    bench.put(
+        "pause.toml",
+        r#"title = "no error after 30 ms"
+cycle_phase = "0s"
+steps = [
+  { random = { steps = 12, from = ["wink", "break Processing of unit #"], weights = [8, 1] }, within = "300ms" },
+  { expect = "unit 1 has recorded 40200000 0 times" },
+]
+"#
+        .replace("\"wink\"", "\"read SDO 1018:01 of unit #\"")
+        .as_str(),
+    );
+    let ended = bench.ectwin(&["search", "pause.toml", "-o", "found.toml"]);
+    assert!(ended.stdout.contains("steps   1 of 12 are left"), "{}{}", ended.stdout, ended.stderr);
 }

@@ -33,7 +33,12 @@ impl RandomStep {
     /// The step in the notation of a file.
     pub(crate) fn toml(&self) -> String {
         let Self { key, text, after, .. } = self;
-        format!("{{ after = \"{after}\", {key} = \"{text}\" }}")
+        format!("{{ after = \"{after}\", {key} = {} }}", quoted(text))
+    }
+
+    /// The same step after the pause of another one too.
+    pub(crate) fn later(&self, other: &Self) -> Self {
+        Self { after: self.after + other.after, ..self.clone() }
     }
 
     fn step(&self, line: usize, names: &UnitNames<'_>) -> PlayedStep {
@@ -48,6 +53,16 @@ impl RandomStep {
             Err(problem) => panic!("`{}` of the pool: {}", self.text, problem.message),
         }
     }
+}
+
+/// A string of TOML: an own sentence can have any character.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|letter| match letter {
+        '"' | '\\' => format!("\\{letter}"),
+        _ if letter.is_control() => format!("\\u{:04X}", u32::from(letter)),
+        _ => letter.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
 }
 
 /// The order of a sentence of this key.
@@ -113,7 +128,21 @@ impl Scenario {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+
+    proptest! {
+        #[test]
+        fn a_step_that_is_written_is_read_again_whatever_is_in_its_sentence(text in any::<String>(), ms in 0..100_000_u64) {
+            let step = RandomStep { part: 0, key: "line", text, after: Duration::from_millis(ms) };
+            let written: toml::Table = format!("steps = [{}]", step.toml()).parse().unwrap();
+            let read = &written["steps"][0];
+            prop_assert_eq!(read["line"].as_str(), Some(step.text.as_str()));
+            let after = read["after"].as_str().and_then(|after| after.parse().ok());
+            prop_assert_eq!(after, Some(step.after));
+        }
+    }
 
     #[test]
     fn every_sentence_of_the_everyday_pool_is_one() {

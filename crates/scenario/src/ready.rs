@@ -26,6 +26,7 @@ mod reports;
 mod resolve;
 mod standing;
 mod steps;
+mod times;
 mod unit_files;
 mod unit_names;
 mod units;
@@ -42,6 +43,7 @@ pub use known_line::{KnownLine, ReadyOrder};
 use maker::Maker;
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
+pub(crate) use times::LIMIT_MAX;
 pub(crate) use unit_names::UnitNames;
 pub(crate) use units::is_unit;
 pub(crate) use written::{Written, group_words};
@@ -94,19 +96,7 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
         maker.master = script.master.as_ref().and_then(|master| maker.master_program(master, &script.steps));
     }
     let ground = if is_whole && maker.problems.is_empty() { Ground::Firm } else { Ground::Missing };
-    if script.limit.is_zero() {
-        maker.refuse(
-            Part::Limit,
-            "a limit of 0 ends the scenario at its beginning",
-            "such as `limit = \"60s\"`",
-        );
-    }
-    if script.cycle.is_zero() {
-        maker.refuse(Part::Cycle, "a cycle of 0 never ends", "such as `cycle = \"1ms\"`");
-    } else if let Some(phase) = script.cycle_phase.filter(|phase| *phase >= script.cycle) {
-        let message = format!("a phase of {phase} is beyond the cycle of {}", script.cycle);
-        maker.refuse(Part::CyclePhase, message, "`cycle_phase` is less than `cycle`");
-    }
+    times::check(&mut maker, &script);
     // A step may put another unit into a place.
     let units = maker.units.clone();
     let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);

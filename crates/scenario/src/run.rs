@@ -17,6 +17,7 @@ mod recording;
 mod records;
 mod report;
 mod scenario;
+mod stack_codes;
 mod stage;
 mod virtual_stage;
 mod world;

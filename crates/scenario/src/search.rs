@@ -80,7 +80,7 @@ impl Scenario {
     }
 
     /// Removes steps that the failure does not need: halves first, then single steps, until no more can be
-    /// removed; then pauses. The failure remains the same: the failed expectation, or the place of a panic.
+    /// removed; a step of which only the pause is needed leaves it to the next one. Then pauses are shortened. The failure remains the same: the failed expectation, or the place of a panic.
     fn shrink(&self, text: &str, seed: u64, mut steps: Vec<RandomStep>) -> Found {
         let steps_before = steps.len();
         let kind_of = |steps: &[RandomStep]| self.fails(steps, seed).map(|failure| failure.kind());
@@ -91,13 +91,13 @@ impl Scenario {
             let mut place = 0;
             let mut left_out = false;
             while place < steps.len() {
-                let mut fewer = steps.clone();
-                fewer.drain(place..(place + chunk).min(steps.len()));
-                if still_fails(&fewer) {
-                    steps = fewer;
-                    left_out = true;
-                } else {
-                    place += chunk;
+                let fewer = [Some(without(&steps, place, chunk)), without_but_pause(&steps, place, chunk)];
+                match fewer.into_iter().flatten().find(|fewer| still_fails(fewer)) {
+                    Some(fewer) => {
+                        steps = fewer;
+                        left_out = true;
+                    }
+                    None => place += chunk,
                 }
             }
             chunk = if chunk == 1 && left_out { 1 } else { chunk / 2 };
@@ -211,6 +211,23 @@ impl Search<'_> {
 
 fn met(report: &Report) -> Met {
     report.recording.met().cloned().unwrap_or_default()
+}
+
+/// All but some steps from a place on.
+fn without(steps: &[RandomStep], place: usize, count: usize) -> Vec<RandomStep> {
+    let kept = steps.iter().enumerate().filter(|(at, _)| !(place..place + count).contains(at));
+    kept.map(|(_, step)| step.clone()).collect()
+}
+
+/// All but one step, whose pause goes to the next one; none if it has no pause, or if no step of its `random` follows.
+fn without_but_pause(steps: &[RandomStep], place: usize, count: usize) -> Option<Vec<RandomStep>> {
+    let (step, next) = (steps.get(place)?, steps.get(place + 1)?);
+    if count != 1 || step.part != next.part || step.sooner().is_none() {
+        return None;
+    }
+    let mut fewer = without(steps, place, 1);
+    fewer[place] = next.later(step);
+    Some(fewer)
 }
 
 /// The text with another step in this place.

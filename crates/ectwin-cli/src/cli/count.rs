@@ -1,7 +1,9 @@
-//! Numbers of runs and threads, from 1.
+//! Numbers of runs and threads, from 1, and the time of a search, above 0.
 
 use std::num::{NonZeroU64, NonZeroUsize};
 use std::str::FromStr;
+
+use time::Duration;
 
 /// The number of runs of a search.
 pub(super) fn runs(text: &str) -> Result<NonZeroU64, String> {
@@ -13,6 +15,16 @@ pub(super) fn jobs(text: &str) -> Result<NonZeroUsize, String> {
     from_one(text, "threads", "4; without --jobs it is as many as the machine runs at once")
 }
 
+/// The time after which a search ends.
+pub(super) fn budget(text: &str) -> Result<Duration, String> {
+    match text.parse::<Duration>() {
+        Ok(budget) if budget.is_zero() => {
+            Err("a search without time finds nothing: expected a time above 0, such as 600s".to_owned())
+        }
+        budget => budget.map_err(|error| error.to_string()),
+    }
+}
+
 fn from_one<N: FromStr>(text: &str, what: &str, example: &str) -> Result<N, String> {
     text.parse()
         .map_err(|_| format!("{text:?} is not a number of {what}: expected 1 or more, such as {example}"))
@@ -21,6 +33,14 @@ fn from_one<N: FromStr>(text: &str, what: &str, example: &str) -> Result<N, Stri
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_search_has_time() {
+        assert_eq!(budget("600s"), Ok(Duration::from_secs(600)));
+        for wrong in ["0s", "0ms", "-1s", "10", ""] {
+            assert!(budget(wrong).is_err_and(|message| message.contains("such as")), "{wrong}");
+        }
+    }
 
     #[test]
     fn a_number_begins_at_1() {

@@ -1,26 +1,31 @@
-//! `ectwin merge RESULT.jsonl…`: merges the parts of a campaign, if none of its cases is missing or duplicate.
+//! `ectwin merge RESULT.jsonl…`: merges the parts of a campaign, if none of its cases is missing or duplicate, or those of
+//! a search.
 
 mod again;
+mod contradiction;
 mod place;
+mod refused;
+mod searches;
 
 use std::collections::BTreeMap;
 use std::mem;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{Lines, Unreadable, Wanted};
-use user_file::on_one_line;
 
 use super::replay::{
-    CASES_MAX, CaseResult, FailedCases, JunitReport, Partition, Totals, Verdict, case_count, failure_story,
+    CASES_MAX, CaseResult, FailedCases, JunitReport, Partition, Totals, Verdict, case_count, failed_case,
 };
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
 use crate::file_problem::{FileProblem, FileProblems};
-use crate::later_output::LaterOutput;
+use crate::later_output::{LaterOutput, WholeOut};
 use crate::output::People;
 use crate::overwrite::{self, Output};
 use again::ResultsAgain;
+use contradiction::Seeds;
 use place::Place;
+use refused::refused;
 
 /// Maximum number of cases in one line of a message.
 const NAMED_CASES: usize = 8;
@@ -29,6 +34,9 @@ const NAMED_CASES: usize = 8;
 pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
     if let Some(path) = &args.junit {
         overwrite::refuse(&[Output { option: "--junit", path }], &args.results)?;
+    }
+    if searches::are_searches(&args.results) {
+        return searches::run(args);
     }
     let found = read_all(&args.results)?.complete()?;
     let people = People::beside(args.junit.as_deref());
@@ -57,14 +65,14 @@ fn report(
     people: People,
 ) -> Result<(), Failure> {
     let unwritable = |source| Failure::Unwritable { path: path.to_owned(), source };
-    let file = LaterOutput::open(path)?.begin();
+    let file = LaterOutput::open_whole(path)?.begin_whole().map_err(unwritable)?;
     let mut report = JunitReport::begin(file, "ectwin replay", found.totals).map_err(unwritable)?;
     for place in &found.places {
         let result = again.read(place)?;
         report.take(&result).map_err(unwritable)?;
         print(&result, failed_cases, people)?;
     }
-    report.end().map_err(unwritable)
+    report.end().and_then(WholeOut::complete).map_err(unwritable)
 }
 
 /// Prints a failed result; of very many only the first ones.
@@ -72,14 +80,7 @@ fn print(result: &CaseResult, failed_cases: &mut FailedCases, people: People) ->
     match result.verdict {
         Verdict::Passed => Ok(()),
         Verdict::Failed if !failed_cases.is_in_full(result) => Ok(()),
-        Verdict::Failed => {
-            let story = failure_story(result);
-            people.print_cases(&format!(
-                "FAILED  {}: {}\n{story}",
-                result.named(),
-                on_one_line(&result.title)
-            ))
-        }
+        Verdict::Failed => people.print_cases(&failed_case(result)),
     }
 }
 
@@ -87,8 +88,9 @@ fn print(result: &CaseResult, failed_cases: &mut FailedCases, people: People) ->
 /// reading.
 fn read_all(paths: &[PathBuf]) -> Result<Merged<'_>, Failure> {
     let (mut merged, mut problems) = (Merged::new(paths), FileProblems::default());
+    let mut seeds = Seeds::default();
     for (file, path) in paths.iter().enumerate() {
-        let read = read_file(path, |result, start| merged.take(result, file, start), &mut problems);
+        let read = read_file(path, |result, start| merged.take(result, file, start), &mut seeds, &mut problems);
         match read {
             Ok(()) => {}
             Err(NotMerged::Unreadable(error)) => {
@@ -118,11 +120,12 @@ enum NotMerged {
 fn read_file(
     path: &Path,
     mut take: impl FnMut(CaseResult, u64) -> Result<(), Failure>,
+    seeds: &mut Seeds,
     problems: &mut FileProblems,
 ) -> Result<(), NotMerged> {
     let mut lines = Lines::open(path, Wanted::Results).map_err(NotMerged::Unreadable)?;
     while let Some(line) = lines.next_line().map_err(NotMerged::Unreadable)? {
-        match result_of(line.bytes) {
+        match result_of(line.bytes, seeds) {
             Ok(result) => take(result, line.start).map_err(NotMerged::Contrary)?,
             Err(_) if problems.is_full() => return Err(NotMerged::TooManyProblems),
             Err(reason) => problems.push(no_result(path, line.number, line.bytes, &reason)),
@@ -131,20 +134,37 @@ fn read_file(
     Ok(())
 }
 
-fn result_of(line: &[u8]) -> Result<CaseResult, String> {
-    let result: CaseResult = serde_json::from_slice(line).map_err(|error| error.to_string())?;
-    let is_case = (1..=result.cases).contains(&result.case) && result.cases <= CASES_MAX;
-    if is_case && result.partition.has(result.case) {
-        Ok(result)
-    } else {
-        Err(format!("case {} of {} in part {} cannot be", result.case, result.cases, result.partition))
+/// Why a line is not taken.
+enum Wrong {
+    NoResult(String),
+    Contradiction(String),
+}
+
+fn result_of(line: &[u8], seeds: &mut Seeds) -> Result<CaseResult, Wrong> {
+    let result: CaseResult =
+        serde_json::from_slice(line).map_err(|error| Wrong::NoResult(error.to_string()))?;
+    let CaseResult { case, cases, partition, .. } = &result;
+    let is_case = (1..=*cases).contains(case) && *cases <= CASES_MAX;
+    if !is_case || !partition.has(*case) {
+        return Err(Wrong::NoResult(format!("case {case} of {cases} in part {partition} cannot be")));
+    }
+    match contradiction::of(&result).or_else(|| seeds.contradiction(&result)) {
+        None => Ok(result),
+        Some(words) => Err(Wrong::Contradiction(words)),
     }
 }
 
-fn no_result(path: &Path, number: usize, line: &[u8], reason: &str) -> FileProblem {
-    let help =
-        "each line must be written by `ectwin replay --json`; a killed job may have left an incomplete line";
-    let message = format!("this line is not a result: {reason}");
+fn no_result(path: &Path, number: usize, line: &[u8], wrong: &Wrong) -> FileProblem {
+    let (message, help) = match wrong {
+        Wrong::NoResult(reason) => (
+            format!("this line is not a result: {reason}"),
+            "each line must be written by `ectwin replay --json`; a killed job may have left an incomplete line",
+        ),
+        Wrong::Contradiction(reason) => (
+            format!("this line was changed after it was written: {reason}"),
+            "run the part again with its `--partition`",
+        ),
+    };
     FileProblem::in_line(path, number, &String::from_utf8_lossy(line), &message, help)
 }
 
@@ -258,8 +278,4 @@ fn of_part(part: Partition, lacks: &[u64], cases: u64) -> String {
         names.push("…".to_owned());
     }
     format!("part {part} lacks {} of its {has} cases: {}", lacks.len(), names.join(", "))
-}
-
-fn refused(message: &str, help: &str) -> Failure {
-    Failure::Refused { message: message.to_owned(), help: help.to_owned() }
 }

@@ -7,10 +7,14 @@ mod bless;
 mod campaign;
 mod captures;
 mod case;
+mod case_choice;
+mod case_files;
 mod coverage;
 mod failed_cases;
 mod files;
+mod fingerprint;
 mod golden;
+mod interrupted;
 mod junit;
 mod list;
 mod on_failure;
@@ -26,8 +30,11 @@ mod story;
 mod threads;
 mod vacuous;
 
+use std::sync::Arc;
+
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::output::{self, People};
 use crate::overwrite::{self, Output};
 
@@ -38,17 +45,17 @@ use results::Results;
 use threads::{Outputs, Wanted};
 
 pub(crate) use campaign::{read_cases, scenario_in};
-pub(crate) use case::{CASES_MAX, named};
+pub(crate) use case::{CASES_MAX, named, title};
 pub(crate) use failed_cases::FailedCases;
-pub(crate) use junit::{JunitReport, Totals};
+pub(crate) use junit::{JunitReport, NotEnded, NotEndedBy, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};
 pub(crate) use progress::{Counted, Progress};
-pub(crate) use result::{CaseResult, FailedStep, Verdict, title};
+pub(crate) use result::{CaseResult, FailedStep, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use shard::chosen as chosen_part;
 pub(crate) use spool::Spool;
-pub(crate) use story::{cases as case_count, failure as failure_story, quoted};
-pub(crate) use threads::replay as on_threads;
+pub(crate) use story::{cases as case_count, failed_case, quoted};
+pub(crate) use threads::{Interrupted, replay as on_threads};
 
 /// Replays all cases of the selected part.
 pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
@@ -59,10 +66,10 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     }
     let cases: Vec<u64> = campaign.cases_of(partition).collect();
     if args.list {
-        return list::print(&campaign, partition);
+        return list::print(&campaign, partition, args.json.as_deref());
     }
     if args.vacuous {
-        return vacuous::run(&campaign, partition, args);
+        return vacuous::run(campaign, partition, args);
     }
     overwrite::refuse(&outputs(args), campaign.inputs())?;
     let people = People::beside(outputs(args).iter().map(|output| output.path));
@@ -76,11 +83,15 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
         people.print_line(format_args!("seed {seed}, drawn at random"))?;
     }
     let printed = Printed::new(people, shown(args), args.trace, cases.len() as u64);
-    let mut results = Results::open(args, captures, printed, campaign.inputs())?;
+    let mut results = Results::open(args, captures, printed, &campaign, partition)?;
     let wanted = wanted(args);
-    let replay = |case: u64| threads::Ended::replay(&campaign.case(case), partition, wanted);
-    threads::replay(&cases, args.jobs(), replay, |ended| results.take(ended))?;
-    results.close(partition, cases.len() as u64, &campaign)
+    let interrupt = Interrupt::watch()?;
+    let (of_part, campaign) = (cases.len() as u64, Arc::new(campaign));
+    let of_threads = Arc::clone(&campaign);
+    let replay = move |case: u64| threads::Ended::replay(&of_threads.case(case), partition, wanted);
+    let interrupted =
+        threads::replay(cases, args.jobs(), &interrupt, replay, |ended| results.take(ended))?;
+    results.close(partition, of_part, &campaign, interrupted.as_ref())
 }
 
 /// The outputs of replays: a failed case has a trace in files of results, and a capture in the folder for failures.

@@ -5,7 +5,6 @@ mod frame_log;
 mod observers;
 mod servers;
 mod show;
-mod signals;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -23,7 +22,7 @@ use crate::output::People;
 use crate::output_file::{BegunFile, OutputFile};
 use crate::overwrite::Output;
 use crate::privileges::{self, LaterUse};
-use crate::{descriptors, output, overwrite, unit_files};
+use crate::{descriptors, output, overwrite, signals, unit_files};
 use events_file::EventsFile;
 use frame_log::FrameLog;
 use observers::Observers;

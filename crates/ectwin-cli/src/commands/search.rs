@@ -1,6 +1,7 @@
 //! `ectwin search FILE`: seeds and their variations, until a replay fails; the result is a scenario file of a few steps.
 
 mod found_file;
+mod lines;
 mod results;
 
 use std::collections::BTreeSet;
@@ -13,53 +14,82 @@ use scenario::{FailureKind, Found, Recording, Scenario, Search, Trial};
 use time::Duration;
 use user_file::on_one_line;
 
-use super::replay::{Partition, chosen_part, on_threads, read_cases, scenario_in, title};
+use super::replay::{Interrupted, Partition, chosen_part, named, on_threads, read_cases, scenario_in, title};
 use crate::cli::SearchArgs;
 use crate::failure::Failure;
-use crate::output::{self, shown};
+use crate::interrupt::Interrupt;
+use crate::output;
 use crate::overwrite::{self, Output};
 use found_file::{free_beside, refuse_elsewhere, write_unless_equal};
 use results::Results;
 
+pub(super) use lines::{EndLine, EndedBy, FoundLine, SearchId, SearchLine};
 pub(super) use found_file::{folder_of, refuse_existing, write_new};
 
 /// Replays seed after seed; the first one that fails is reduced and written.
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
     let path = &args.scenario;
     let partition = chosen_part(args.partition)?;
-    let (scenarios, inputs) = read_cases(path)?;
+    let (scenarios, inputs, mut fingerprint) = read_cases(path)?;
     let text = user_files::text(path, Wanted::Scenario)
         .map_err(|source| Failure::Unreadable { path: path.clone(), source })?;
-    let cases = cases(args, &scenarios, &text)?;
+    // Threads that are not waited for use them until the process ends.
+    let scenarios: &'static [Scenario] = Box::leak(scenarios.into_boxed_slice());
+    let cases = cases(args, scenarios, &text)?;
     overwrite::refuse(&outputs(args), &inputs)?;
     if let Some(output) = &args.output {
         output::refuse_stdout("-o", output, "a scenario refers to its files from a folder")?;
         refuse_existing(output)?;
         cases.iter().try_for_each(|case| refuse_elsewhere(path, &case.text, output))?;
     }
-    let seeds = partition.cases_of(args.runs.get()).saturating_mul(cases.len() as u64);
-    let results = Results::open(args, (partition, seeds))?;
+    let interrupt = Interrupt::watch()?;
+    for number in [args.seed, args.runs.get(), u64::from(args.all)] {
+        fingerprint.add(&number.to_le_bytes());
+    }
+    let search_id = SearchId {
+        search: fingerprint.to_string(),
+        partition,
+        file: path.display().to_string(),
+        title: cases.first().map_or_else(String::new, |case| title(case.scenario)),
+    };
+    let count = cases.len() as u64;
+    let results = Results::open(args, search_id, partition.cases_of(args.runs.get()).saturating_mul(count))?;
     let mut hunt = Hunt::new(args, partition, &cases, results);
-    hunt.run()?;
-    hunt.end()
+    match hunt.run(&interrupt)? {
+        Over::By(ended_by) => hunt.end(ended_by),
+        Over::Interrupted(by, case) => {
+            // The signal is the reason for the end, also if something was found.
+            match hunt.end(EndedBy::Signal) {
+                Ok(()) | Err(Failure::CasesFailed) => Err(interrupted(args, &by, case)),
+                Err(failure) => Err(failure),
+            }
+        }
+    }
+}
+
+/// Why a search is over.
+enum Over {
+    By(EndedBy),
+    /// While it tried this case, if the file has parameters.
+    Interrupted(Interrupted, Option<&'static str>),
 }
 
 /// A case of the file, and the text of a file that is this case only.
-struct SearchedCase<'a> {
-    scenario: &'a Scenario,
-    search: Search<'a>,
+struct SearchedCase {
+    scenario: &'static Scenario,
+    search: Search<'static>,
     text: String,
 }
 
 /// The cases of a file, each of which can be searched.
-fn cases<'a>(
+fn cases(
     args: &SearchArgs,
-    scenarios: &'a [Scenario],
+    scenarios: &'static [Scenario],
     text: &str,
-) -> Result<Vec<SearchedCase<'a>>, Failure> {
+) -> Result<Vec<SearchedCase>, Failure> {
     // Its parameters were read before.
     let texts = Scenario::texts_of_cases(text).unwrap_or_default();
-    let case = |(scenario, text): (&'a Scenario, String)| {
+    let case = |(scenario, text): (&'static Scenario, String)| {
         if scenario.random.is_empty() {
             return Err(without_dice(&args.scenario));
         }
@@ -82,85 +112,94 @@ const SEEDS_AT_ONCE: usize = 10_000;
 struct Hunt<'a> {
     args: &'a SearchArgs,
     partition: Partition,
-    cases: &'a [SearchedCase<'a>],
+    cases: &'a [SearchedCase],
     results: Results,
     started: Instant,
     /// The failures that have been reduced, of each case.
-    known: BTreeSet<(Option<&'a str>, FailureKind)>,
+    known: BTreeSet<(u64, FailureKind)>,
     runs: u64,
     variations: u64,
     lasted: Duration,
 }
 
 impl<'a> Hunt<'a> {
-    fn new(
-        args: &'a SearchArgs,
-        partition: Partition,
-        cases: &'a [SearchedCase<'a>],
-        results: Results,
-    ) -> Self {
+    fn new(args: &'a SearchArgs, partition: Partition, cases: &'a [SearchedCase], results: Results) -> Self {
         let (known, started, lasted) = (BTreeSet::new(), Instant::now(), Duration::ZERO);
         Self { args, partition, cases, results, started, known, runs: 0, variations: 0, lasted }
     }
 
     /// Searches the cases one after the other.
-    fn run(&mut self) -> Result<(), Failure> {
-        for case in self.cases {
-            if self.run_case(case)?.is_break() {
-                break;
+    fn run(&mut self, interrupt: &Interrupt) -> Result<Over, Failure> {
+        for (number, case) in (1..).zip(self.cases) {
+            match self.run_case(number, case, interrupt)? {
+                Over::By(EndedBy::Seeds) => {}
+                over @ (Over::By(_) | Over::Interrupted(..)) => return Ok(over),
             }
         }
-        Ok(())
+        Ok(Over::By(EndedBy::Seeds))
     }
 
     /// Tries the seeds of the part on all threads, and takes their results in the order of the seeds.
-    fn run_case(&mut self, case: &'a SearchedCase<'a>) -> Result<ControlFlow<()>, Failure> {
-        let (args, search) = (self.args, &case.search);
+    fn run_case(&mut self, number: u64, case: &SearchedCase, interrupt: &Interrupt) -> Result<Over, Failure> {
+        let args = self.args;
         let mut numbers = self.partition.cases(args.runs.get());
-        let try_seed = |number: u64| search.seed(args.seed.wrapping_add(number - 1));
         loop {
             let seeds: Vec<u64> = numbers.by_ref().take(SEEDS_AT_ONCE).collect();
             if seeds.is_empty() {
-                return Ok(ControlFlow::Continue(()));
+                return Ok(Over::By(EndedBy::Seeds));
             }
-            let mut is_over = false;
-            on_threads(&seeds, args.jobs(), try_seed, |trial| {
-                let flow = self.take(case, &trial)?;
-                is_over = flow.is_break();
-                Ok(flow)
+            let (search, first, mut over) = (case.search.clone(), args.seed, None);
+            let try_seed = move |number: u64| search.seed(first.wrapping_add(number - 1));
+            let interrupted = on_threads(seeds, args.jobs(), interrupt, try_seed, |trial| {
+                over = self.take((number, case), &trial)?;
+                Ok(if over.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
             })?;
-            if is_over {
-                return Ok(ControlFlow::Break(()));
+            if let Some(interrupted) = interrupted {
+                return Ok(Over::Interrupted(interrupted, case.scenario.case.as_deref()));
+            }
+            if let Some(ended_by) = over {
+                return Ok(Over::By(ended_by));
             }
         }
     }
 
     /// The result of the next seed. A failure that is not known yet is reduced, printed and written.
-    fn take(&mut self, case: &'a SearchedCase<'a>, trial: &Trial) -> Result<ControlFlow<()>, Failure> {
+    ///
+    /// Returns why it is the last one, if it is.
+    fn take(
+        &mut self,
+        (number, case): (u64, &SearchedCase),
+        trial: &Trial,
+    ) -> Result<Option<EndedBy>, Failure> {
         self.runs += 1;
         self.variations += trial.variation;
         self.lasted = self.lasted + trial.lasted;
-        let name = case.scenario.case.as_deref();
-        let kind = trial.failure.as_ref().map(|failure| (name, failure.kind()));
+        let kind = trial.failure.as_ref().map(|failure| (number, failure.kind()));
         let is_new = kind.is_some_and(|kind| self.known.insert(kind));
         if is_new && let Some(found) = case.search.reduce(&case.text, trial) {
-            self.take_found(case, &found)?;
+            self.take_found((number, case), &found)?;
         }
         self.results.ended();
         let spent =
             Duration::from_nanos(u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX));
-        let is_over = (is_new && !self.args.all) || self.args.budget.is_some_and(|budget| spent >= budget);
-        Ok(if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        if is_new && !self.args.all {
+            return Ok(Some(EndedBy::Failure));
+        }
+        let is_spent = self.args.budget.is_some_and(|budget| spent >= budget);
+        let of_case = self.partition.cases_of(self.args.runs.get());
+        let is_last = self.runs == of_case.saturating_mul(self.cases.len() as u64);
+        Ok((is_spent && !is_last).then_some(EndedBy::Budget))
     }
 
     /// The failure with the line numbers of the written file, which differ from those of the file with random steps. It
     /// is printed before the file is written: whatever is wrong with the file, the failure of a long search is known.
-    fn take_found(&mut self, case: &SearchedCase<'_>, found: &Found) -> Result<(), Failure> {
+    fn take_found(&mut self, (number, case): (u64, &SearchedCase), found: &Found) -> Result<(), Failure> {
         let args = self.args;
         let output = args.output.clone().unwrap_or_else(|| free_beside(&args.scenario, found));
         let written = scenario_in(&output, &found.text);
         let failure = written.ok().and_then(|it| it.replay(found.seed, Recording::new(false, false)).failure);
-        self.results.take(case.scenario, found, &output, failure.as_ref().unwrap_or(&found.failure))?;
+        let failure = failure.as_ref().unwrap_or(&found.failure);
+        self.results.take((number, case.scenario), found, &output, failure)?;
         if let Err(failure) = write_unless_equal(&output, &found.text) {
             let (message, _) = failure.words();
             let again = format!("--seed {} --runs 1 -o OUT", found.seed);
@@ -169,45 +208,41 @@ impl<'a> Hunt<'a> {
         Ok(())
     }
 
-    fn end(self) -> Result<(), Failure> {
-        let is_told = self.known.is_empty() || self.args.all;
-        let totals = is_told.then(|| self.totals());
-        let titles = self.cases.first().map_or_else(String::new, |case| title(case.scenario));
-        self.results.close(totals.as_deref(), (self.args.seed, titles), self.lasted)
-    }
-
-    fn totals(&self) -> String {
-        let Self { args, known, runs, variations, lasted, .. } = self;
-        let all = args.runs.get().saturating_mul(self.cases.len() as u64);
-        let part = match self.partition.count() {
-            1 => String::new(),
-            _ => format!(" (part {} of {})", self.partition, counted(all, "run")),
+    /// What is there is written, whatever has ended the search.
+    fn end(self, ended_by: EndedBy) -> Result<(), Failure> {
+        let Self { args, cases, runs, variations, lasted, results, .. } = self;
+        let end = EndLine {
+            of: results.of().clone(),
+            ended_by,
+            first_seed: args.seed,
+            runs: args.runs.get(),
+            cases: cases.len() as u64,
+            tried: runs,
+            variations,
+            failures: results.failures(),
+            virtual_ns: lasted.as_nanos(),
         };
-        let cases = match self.cases.len() as u64 {
-            1 => String::new(),
-            count => format!(" of {}", counted(count, "case")),
-        };
-        let variations = match variations {
-            0 => String::new(),
-            count => format!(", {}", counted(*count, "variation")),
-        };
-        let found = match known.len() {
-            0 => "nothing found".to_owned(),
-            1 => "1 failure".to_owned(),
-            count => format!("{count} different failures"),
-        };
-        format!(
-            "{}: {found} in {}{cases}{part} from seed {} on{variations}, {lasted} of virtual time",
-            shown(&args.scenario),
-            counted(*runs, "run"),
-            args.seed
-        )
+        results.close(end)
     }
 }
 
-/// `1 run`, `2 runs`.
-fn counted(count: u64, noun: &str) -> String {
-    if count == 1 { format!("1 {noun}") } else { format!("{count} {noun}s") }
+/// A search that a signal has ended.
+fn interrupted(args: &SearchArgs, interrupted: &Interrupted, case: Option<&str>) -> Failure {
+    let Interrupted { signal, running } = interrupted;
+    let seed = |number: &u64| args.seed.wrapping_add(number - 1);
+    let seeds: Vec<String> = running.iter().map(|number| seed(number).to_string()).collect();
+    let path = named(&args.scenario.to_string_lossy(), case);
+    let message = format!("{} has ended the search of {path} while it tried {}", signal.name(), match seeds.as_slice() {
+        [] => "no seed".to_owned(),
+        [one] => format!("seed {one}"),
+        several => format!("the seeds {}", several.join(", ")),
+    });
+    let from = running.first().map_or(args.seed, seed);
+    let help = match case {
+        None => format!("what was found is written; `--seed {from}` continues from there"),
+        Some(_) => format!("what was found is written; `--seed {from}` continues this case from there"),
+    };
+    Failure::Interrupted { signal: *signal, message, help }
 }
 
 fn without_dice(path: &Path) -> Failure {

@@ -136,6 +136,7 @@ fn large_results(bench: &Bench, file: &str, cases: usize) {
         let mut line = one.clone();
         line["case"] = json!(case);
         line["cases"] = json!(cases);
+        line["seed"] = json!(case);
         line["title"] = json!("t".repeat(MIB - 1_000));
         writeln!(large, "{line}").unwrap();
     }
@@ -289,4 +290,23 @@ fn an_array_of_slurm_that_may_be_a_part_of_a_larger_one_is_warned_about_unless_t
     let known = bench.ectwin_with(&[&repeated[..], &[("ECTWIN_SHARDS", "64")]].concat(), &replay);
     assert!(known.stdout.starts_with("1 case (part 7/64 of 64 cases): 1 ok"), "{}", known.stdout);
     assert!(!known.stderr.contains("warning"), "{}", known.stderr);
+}
+
+#[test]
+fn merge_tells_lines_that_were_changed() {
+    let bench = campaign("changed-lines");
+    bench.ectwin(&["replay", "s", "--seeds", "3", "--json", "out.jsonl"]);
+    let right = bench.text("out.jsonl");
+    for (from, to, told) in [
+        ("\"verdict\":\"failed\"", "\"verdict\":\"passed\"", "it has passed, and line 6 has failed"),
+        ("\"seed\":3,", "\"seed\":9,", "case 6 of s/2-wrong.toml has the seed 9, and case 4 the seed 1"),
+        ("\"at_ns\":", "\"at_ns\":9", "ns, and has ended at"),
+    ] {
+        bench.put("changed.jsonl", &right.replace(from, to));
+        let ended = bench.ectwin(&["merge", "changed.jsonl"]);
+        assert_eq!(ended.code, Some(2), "{}", ended.stdout);
+        for fragment in ["this line was changed after it was written", told, "changed.jsonl:"] {
+            assert!(ended.stderr.contains(fragment), "`{fragment}` is not in:\n{}", ended.stderr);
+        }
+    }
 }

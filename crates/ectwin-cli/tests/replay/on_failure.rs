@@ -89,3 +89,37 @@ fn of_a_long_trace_the_last_lines_are_in_the_results_and_all_in_the_folder() {
     assert_eq!((head, kept), (format!("… {} lines before this one", count - 1_000).as_str(), 1_000));
     assert!(all.ends_with(last));
 }
+
+#[test]
+fn files_of_an_earlier_run_are_removed_and_those_of_another_campaign_are_told() {
+    let bench = Bench::new("on-failure-again");
+    bench.put("wrong.toml", &wrong());
+    bench.put("right.toml", WATCHDOG);
+    let replay = |files: &[&str]| bench.ectwin(&[&["replay"], files, &["--on-failure", "kept"]].concat());
+    assert_eq!(replay(&["right.toml", "wrong.toml"]).code, Some(1));
+    bench.put("kept/notes.txt", "mine");
+    bench.put("kept/0001-gone-seed-1.txt", "of another campaign");
+    bench.put("wrong.toml", WATCHDOG);
+    let ended = replay(&["right.toml", "wrong.toml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let told = "warning: kept has files of another campaign: 1, such as 0001-gone-seed-1.txt";
+    assert!(ended.stderr.contains(told), "{}", ended.stderr);
+    let mut left: Vec<_> =
+        fs::read_dir(bench.folder.join("kept")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["0001-gone-seed-1.txt", "notes.txt"]);
+}
+
+#[test]
+fn the_names_have_the_parameters_and_no_line_end() {
+    let bench = Bench::new("on-failure-names");
+    let two = wrong().replace("steps = [", "with = { loss = [1, 2] }\nsteps = [").replace("lose all", "lose {loss} % of the");
+    bench.put("two\nlines.toml", &two.replace("{loss} % of the process data frames", "all process data frames").replace("title = \"outputs", "title = \"{loss} outputs"));
+    let ended = bench.ectwin(&["replay", "two\nlines.toml", "--on-failure", "kept", "--pcap", "all/"]);
+    assert_eq!(ended.code, Some(1), "{}", ended.stderr);
+    for stem in ["0001-two-lines-loss-1-seed-1", "0002-two-lines-loss-2-seed-1"] {
+        for file in [format!("kept/{stem}.txt"), format!("kept/{stem}.pcapng"), format!("all/{stem}.pcapng")] {
+            assert!(bench.folder.join(&file).exists(), "{file}");
+        }
+    }
+}

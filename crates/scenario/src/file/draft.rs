@@ -12,7 +12,7 @@ use super::places::MasterPlaces;
 use super::reader::{FileReader, span_of};
 use super::values;
 use crate::model::{FileWithProgram, Script, ScriptMaster, ScriptUnit};
-use crate::ready::{Draft, STEPS_WAY_OUT, empty_list, is_unit};
+use crate::ready::{Draft, LIMIT_MAX, STEPS_WAY_OUT, empty_list, is_unit};
 
 /// The key of the title, a text.
 const TITLE: &str = "title";
@@ -62,7 +62,7 @@ impl FileReader<'_, '_> {
 
     /// A limit that cannot be read is not applied.
     fn limit(&mut self, file: &Section<'_, '_>, default: Duration) -> Duration {
-        let absent = if file.get("limit").is_none() { default } else { Duration::from_nanos(u64::MAX) };
+        let absent = if file.get("limit").is_none() { default } else { LIMIT_MAX };
         self.value(file, "limit", values::duration).unwrap_or(absent)
     }
 

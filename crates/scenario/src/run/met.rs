@@ -6,10 +6,11 @@ use std::collections::BTreeSet;
 
 use device::TRANSITIONS;
 use esc::REGISTERS;
-use unit_model::{EventCode, Model, UnitSection};
+use unit_model::{EventCode, Model, PowerOn, UnitSection};
 use wire::{AlState, AlStatus, AlStatusCode, Command, SdoAbort, datagrams};
 
 use super::scenario::Scenario;
+use super::stack_codes::al_status_codes;
 use crate::model::StateName;
 
 /// Something that a run can meet.
@@ -147,8 +148,8 @@ impl Met {
         self.0.contains(&fact)
     }
 
-    /// Everything that the units of a scenario could meet, whatever its steps: by the tables of the standard and of their
-    /// models.
+    /// Everything that the units of a scenario could meet: by the tables of the standard and of their models, and by what
+    /// their slave stack checks. An AL status code that only a step makes a unit show is not in it.
     #[must_use]
     pub fn possible(scenario: &Scenario) -> Self {
         let mut all = Self::default();
@@ -165,16 +166,25 @@ impl Met {
         // A request for the present state changes nothing that is seen.
         let rows = TRANSITIONS.iter().filter(|row| row.from != row.to && (has_boot || !row.needs_boot()));
         self.0.extend(rows.map(|row| Fact::Transition(row.letters)));
-        let codes = AlStatusCode::TABLE.iter().map(|row| row.code).filter(|code| code.0 != 0);
-        self.0.extend(codes.map(|code| Fact::AlStatusCode(code.0)));
+        let of_stack = al_status_codes(&unit.power_on(&PowerOn::default()).config);
+        self.0.extend(of_stack.into_iter().map(|code| Fact::AlStatusCode(code.0)));
         self.0.extend(REGISTERS.iter().map(|register| Fact::Register(register.offset)));
         if unit.shape().mailbox {
             self.0.extend(SdoAbort::TABLE.iter().map(|row| Fact::AbortCode(row.code.0)));
         }
         let tables = unit.model().tables();
-        self.0.extend(tables.al_status_codes.iter().map(|row| Fact::AlStatusCode(row.code.0)));
+        let of_vendor = tables.al_status_codes.iter().map(|row| row.code);
+        let of_events = tables.events.iter().filter_map(|row| row.al_status_code);
+        let of_notes = tables.al_status_notes.iter().map(|row| row.code);
+        let of_model = of_vendor.chain(of_events).chain(of_notes).filter(|code| code.0 != 0);
+        self.0.extend(of_model.map(|code| Fact::AlStatusCode(code.0)));
         self.0.extend(tables.events.iter().map(|row| Fact::Event(row.code.0)));
         self.0.extend(tables.rules.iter().map(|row| Fact::Rule(row.id)));
+    }
+
+    /// Units begin in INIT.
+    pub(super) fn begins(&mut self) {
+        self.0.insert(Fact::State(AlState::Init.bits(), false));
     }
 
     /// A unit shows another state or another code.

@@ -15,6 +15,7 @@ use unit_model::{Model, ModelUnit};
 use super::bench::{Bench, Masters, state_words};
 use super::dice::dice_of_phases;
 use super::master::{Master, Sent, Ticket};
+use super::met::Met;
 use super::recorded::Recorded;
 use super::recording::Recording;
 use super::records::Records;
@@ -74,6 +75,7 @@ impl World {
             supply: SeededSupply { seed, calendar_ns },
             recording,
         };
+        world.recording.meets(Met::begins);
         world.happen();
         world
     }

@@ -1,12 +1,15 @@
 //! The cases to be replayed: scenario files, read and checked, times seeds.
 
+use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
 use scenario::{Met, Scenario};
 
 use super::case::{CASES_MAX, Case};
+use super::case_choice;
 use super::files::Files;
+use super::fingerprint::Fingerprint;
 use super::golden::{self, GoldenTraces};
 use super::partition::Partition;
 use super::seeds::SeedChoice;
@@ -79,8 +82,7 @@ impl Campaign {
     /// All mistakes in any of them.
     pub(super) fn read(args: &ReplayArgs) -> Result<Self, Failure> {
         let seeds = Seeds::wanted(args);
-        let mut fingerprint = Fingerprint::new();
-        fingerprint.add(env!("CARGO_PKG_VERSION").as_bytes());
+        let mut fingerprint = Fingerprint::of_version();
         let golden = if args.bless { GoldenTraces::Written } else { GoldenTraces::Compared };
         let (mut scenarios, mut inputs, mut problems) = (Vec::new(), Vec::new(), FileProblems::default());
         let Files { scenarios: files, unit_files } = Files::find(args)?;
@@ -98,16 +100,18 @@ impl Campaign {
             return Err(Failure::BadFile(problems));
         }
         if let Some(wanted) = &args.case {
-            fingerprint.add(wanted.as_bytes());
             keep_case(&mut scenarios, wanted)?;
+            // However the values were written.
+            let names = scenarios.iter().filter_map(|loaded| loaded.scenario.case.as_deref());
+            names.for_each(|name| fingerprint.add(name.as_bytes()));
         }
         if let Seeds::These(seeds) = &seeds {
             seeds.iter().for_each(|seed| fingerprint.add(&seed.to_le_bytes()));
         }
         let is_drawn = matches!(args.seed, Some(SeedChoice::Random));
         let ends = seeds.ends(&scenarios);
-        let campaign =
-            Self { scenarios, inputs, unit_files, seeds, ends, is_drawn, fingerprint: fingerprint.0 };
+        let fingerprint = fingerprint.number();
+        let campaign = Self { scenarios, inputs, unit_files, seeds, ends, is_drawn, fingerprint };
         match campaign.count() {
             0..=CASES_MAX => Ok(campaign),
             count => Err(Failure::Refused {
@@ -135,6 +139,11 @@ impl Campaign {
     /// Number of cases in all parts.
     pub(super) fn count(&self) -> u64 {
         self.ends.last().copied().unwrap_or_default()
+    }
+
+    /// The numbers of all cases.
+    pub(super) fn numbers(&self) -> RangeInclusive<u64> {
+        1..=self.count()
     }
 
     /// What the units of all scenarios could meet.
@@ -176,7 +185,10 @@ impl Campaign {
 /// Removes all cases but those with these values of their parameters.
 fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
     let names: Vec<String> = scenarios.iter().filter_map(|loaded| loaded.scenario.case.clone()).collect();
-    scenarios.retain(|loaded| loaded.scenario.case.as_deref() == Some(wanted));
+    let of_each: Vec<_> = scenarios.iter().map(|loaded| loaded.scenario.case.as_deref()).collect();
+    let chosen = case_choice::chosen(&of_each, wanted);
+    let mut place = 0..;
+    scenarios.retain(|_| place.next().is_some_and(|place| chosen.contains(&place)));
     if !scenarios.is_empty() {
         return Ok(());
     }
@@ -193,11 +205,11 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
 }
 
 /// Reads the cases of one scenario file, and its files, relative to its folder. Also returns the paths of all files that
-/// were read, and of the memories of the units.
-pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Scenario>, Vec<PathBuf>), Failure> {
-    let mut inputs = Vec::new();
-    let cases = load(path, GoldenTraces::Compared, &mut Fingerprint::new(), &mut inputs);
-    Ok((cases.map_err(Failure::BadFile)?, inputs))
+/// were read, and of the memories of the units, and the fingerprint of version and files.
+pub(crate) fn read_cases(path: &Path) -> Result<(Vec<Scenario>, Vec<PathBuf>, Fingerprint), Failure> {
+    let (mut inputs, mut fingerprint) = (Vec::new(), Fingerprint::of_version());
+    let cases = load(path, GoldenTraces::Compared, &mut fingerprint, &mut inputs);
+    Ok((cases.map_err(Failure::BadFile)?, inputs, fingerprint))
 }
 
 /// The scenario that a file at this path would be, with this text.
@@ -289,20 +301,4 @@ fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerpr
 
 fn unreadable(path: &Path, error: &Unreadable) -> FileProblem {
     FileProblem::of_file(&format!("cannot read {}: {error}", path.display()), &error.help())
-}
-
-/// Distinguishes campaigns, so that results of two are not mixed (FNV-1a, 64 bits).
-struct Fingerprint(u64);
-
-impl Fingerprint {
-    const fn new() -> Self {
-        Self(0xCBF2_9CE4_8422_2325)
-    }
-
-    fn add(&mut self, bytes: &[u8]) {
-        let length = (bytes.len() as u64).to_le_bytes();
-        for byte in length.iter().chain(bytes) {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01B3);
-        }
-    }
 }

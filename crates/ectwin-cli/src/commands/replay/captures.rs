@@ -16,7 +16,8 @@ pub(super) enum Captures {
     None,
     /// The one case. The file is open until its capture is written, and keeps its old contents until then.
     File { path: PathBuf, file: Option<LaterOutput> },
-    /// Each case to a separate file, named after its number, scenario and seed. A scenario may replay one of them.
+    /// Each case to a separate file, named after its number, scenario, parameters and seed. A scenario may replay one of
+    /// them.
     Folder { folder: PathBuf, inputs: Vec<PathBuf> },
 }
 
@@ -33,7 +34,7 @@ impl Captures {
             let help = "end it with `/` to write each case to a separate file in that folder".to_owned();
             return Err(Failure::Refused { message, help });
         }
-        Ok(Self::File { path: path.to_owned(), file: Some(LaterOutput::open(path)?) })
+        Ok(Self::File { path: path.to_owned(), file: Some(LaterOutput::open_whole(path)?) })
     }
 
     /// Makes the folder, if they go to one.
@@ -48,21 +49,17 @@ impl Captures {
             Self::None => Ok(()),
             Self::File { path, file } => {
                 let Some(file) = file.take() else { return Ok(()) };
-                let mut to = file.begin();
-                let written = to.write_all(capture).and_then(|()| to.flush());
+                let written = file.begin_whole().and_then(|mut to| {
+                    to.write_all(capture)?;
+                    to.complete()
+                });
                 written.map_err(|source| Failure::Unwritable { path: path.clone(), source })
             }
             Self::Folder { folder, inputs } => {
-                let path = folder.join(format!("{}.pcapng", file_stem(result)));
+                let path = folder.join(format!("{}.pcapng", result.file_stem()));
                 overwrite::refuse(&[Output { option: "--pcap", path: &path }], inputs.iter())?;
                 output::write(Some(&path), capture)
             }
         }
     }
-}
-
-/// The name of the files of a case without its ending: its number, scenario and seed.
-pub(super) fn file_stem(result: &CaseResult) -> String {
-    let stem = Path::new(&result.file).file_stem().unwrap_or_default().display().to_string();
-    format!("{:04}-{stem}-seed-{}", result.case, result.seed)
 }

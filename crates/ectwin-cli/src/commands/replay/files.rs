@@ -52,7 +52,7 @@ impl Files {
         Ok(())
     }
 
-    /// Keeps the scenarios whose path contains one of these texts, if there are any texts.
+    /// Keeps the files whose path contains one of these texts, if there are any texts.
     fn filter(&mut self, texts: &[String]) -> Result<(), Failure> {
         if texts.is_empty() {
             return Ok(());
@@ -60,6 +60,7 @@ impl Files {
         let is_wanted =
             |path: &PathBuf| texts.iter().any(|text| path.to_string_lossy().contains(text.as_str()));
         self.scenarios.retain(is_wanted);
+        self.unit_files.retain(is_wanted);
         if self.scenarios.is_empty() {
             let message = format!("--filter: no path of a scenario contains {}", quoted(texts));
             let help = "`ectwin replay FILE… --list` prints the paths".to_owned();

@@ -9,6 +9,7 @@ use quick_xml::escape::escape;
 use quick_xml::events::attributes::Attr;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 
+use super::case::test_name;
 use super::result::{CaseResult, FailedStep, Verdict};
 use super::story;
 
@@ -24,7 +25,28 @@ const INDENT: usize = 4;
 pub(crate) struct Totals {
     pub(crate) cases: u64,
     pub(crate) failed: u64,
+    /// Test cases that are not results: those that a signal has ended, and those that were not begun.
+    interrupted: u64,
+    skipped: u64,
     lasted_ns: u64,
+}
+
+/// A test case without a result.
+pub(crate) struct NotEnded {
+    pub(crate) name: String,
+    /// The scenario file.
+    pub(crate) file: String,
+    pub(crate) why: NotEndedBy,
+    pub(crate) message: String,
+}
+
+/// Why a test case has no result.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NotEndedBy {
+    /// A signal while it ran: an error.
+    Signal,
+    /// It was not begun: it is skipped.
+    Skipped,
 }
 
 impl Totals {
@@ -33,6 +55,14 @@ impl Totals {
         self.cases += 1;
         self.failed += u64::from(result.verdict == Verdict::Failed);
         self.lasted_ns = self.lasted_ns.saturating_add(result.virtual_ns);
+    }
+
+    /// Counts a test case without a result.
+    pub(super) fn add_not_ended(&mut self, why: NotEndedBy) {
+        match why {
+            NotEndedBy::Signal => self.interrupted += 1,
+            NotEndedBy::Skipped => self.skipped += 1,
+        }
     }
 }
 
@@ -47,25 +77,26 @@ impl<W: Write> JunitReport<W> {
     /// `command` is the name of the report, such as `ectwin replay`.
     pub(crate) fn begin(to: W, command: &str, totals: Totals) -> io::Result<Self> {
         let mut writer = Writer::new_with_indent(BufWriter::new(to), b' ', INDENT);
-        let (tests, failures) = (totals.cases.to_string(), totals.failed.to_string());
+        let count = totals.cases + totals.interrupted + totals.skipped;
+        let (tests, failures) = (count.to_string(), totals.failed.to_string());
+        let (skipped, errors) = (totals.skipped.to_string(), totals.interrupted.to_string());
         let time = seconds(totals.lasted_ns);
         writer.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
         let (tests, failures) = (("tests", tests.as_str()), ("failures", failures.as_str()));
-        let (none_skipped, no_errors, time) = (("skipped", "0"), ("errors", "0"), ("time", time.as_str()));
-        let report = [("name", command), tests, none_skipped, failures, no_errors, time];
+        let (skipped, errors) = (("skipped", skipped.as_str()), ("errors", errors.as_str()));
+        let time = ("time", time.as_str());
+        let report = [("name", command), tests, skipped, failures, errors, time];
         writer.write_event(Event::Start(BytesStart::new(REPORT).with_attributes(report)))?;
-        let suite = [("name", "scenarios"), tests, none_skipped, no_errors, failures, time];
+        let suite = [("name", "scenarios"), tests, skipped, errors, failures, time];
         let suite = BytesStart::new(SUITE).with_attributes(suite);
-        let has_cases = totals.cases > 0;
+        let has_cases = count > 0;
         writer.write_event(if has_cases { Event::Start(suite) } else { Event::Empty(suite) })?;
         Ok(Self { writer, has_cases })
     }
 
     /// Writes the next result.
     pub(crate) fn take(&mut self, result: &CaseResult) -> io::Result<()> {
-        let parameters = result.parameters.iter().map(|parameters| format!("{parameters}, "));
-        let parameters: String = parameters.collect();
-        let name = xml(format!("{} ({parameters}seed {})", result.title, result.seed));
+        let name = xml(test_name(&result.title, result.parameters.as_deref(), result.seed));
         let file = xml(&result.file);
         let time = seconds(result.virtual_ns);
         let mut case = BytesStart::new(CASE);
@@ -79,6 +110,20 @@ impl<W: Write> JunitReport<W> {
         if let Some(trace) = &result.trace {
             self.text(SYSTEM_OUT, trace)?;
         }
+        self.writer.write_event(Event::End(BytesEnd::new(CASE)))
+    }
+
+    /// Writes a test case without a result.
+    pub(super) fn not_ended(&mut self, case: &NotEnded) -> io::Result<()> {
+        let (name, file, message) = (xml(&case.name), xml(&case.file), xml(&case.message));
+        let attributes = [("name", name.as_str()), ("classname", file.as_str()), ("file", file.as_str())];
+        self.writer.write_event(Event::Start(BytesStart::new(CASE).with_attributes(attributes)))?;
+        let element = match case.why {
+            NotEndedBy::Signal => BytesStart::new("error").with_attributes([("type", "interrupted")]),
+            NotEndedBy::Skipped => BytesStart::new("skipped"),
+        };
+        let element = element.with_attributes([("message", message.as_str())]);
+        self.writer.write_event(Event::Empty(element))?;
         self.writer.write_event(Event::End(BytesEnd::new(CASE)))
     }
 
@@ -103,14 +148,14 @@ impl<W: Write> JunitReport<W> {
         self.writer.write_event(Event::End(BytesEnd::new(element)))
     }
 
-    /// Ends the report behind its last result.
-    pub(crate) fn end(mut self) -> io::Result<()> {
+    /// Ends the report behind its last result, and returns where it went.
+    pub(crate) fn end(mut self) -> io::Result<W> {
         if self.has_cases {
             self.writer.write_event(Event::End(BytesEnd::new(SUITE)))?;
         }
         self.writer.write_event(Event::End(BytesEnd::new(REPORT)))?;
         self.writer.write_indent()?;
-        self.writer.into_inner().flush()
+        self.writer.into_inner().into_inner().map_err(io::IntoInnerError::into_error)
     }
 }
 

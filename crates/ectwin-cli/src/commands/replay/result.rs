@@ -1,8 +1,11 @@
 //! The result of a case, as a line of JSON: the file that `merge` reads.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
-use super::case::{Case, named};
+use super::case::{Case, named, title};
+use super::case_files::file_stem;
 use super::partition::Partition;
 
 /// Most lines of a trace that a result keeps.
@@ -101,6 +104,11 @@ impl CaseResult {
         named(&self.file, self.parameters.as_deref())
     }
 
+    /// The name of its files without its ending.
+    pub(super) fn file_stem(&self) -> String {
+        file_stem(self.case, Path::new(&self.file), self.parameters.as_deref(), self.seed)
+    }
+
     /// From a report.
     pub(super) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
         let failure = report.failure.as_ref().map(FailedStep::of);
@@ -133,11 +141,6 @@ impl CaseResult {
             count => format!("… {count} lines before this one\n{last}"),
         });
     }
-}
-
-/// The title of a scenario, in one line.
-pub(crate) fn title(scenario: &scenario::Scenario) -> String {
-    scenario.title.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 impl FailedStep {

@@ -10,13 +10,14 @@ use time::Duration;
 use super::campaign::Campaign;
 use super::captures::Captures;
 use super::coverage;
+use super::interrupted;
 use super::on_failure::OnFailure;
 use super::partition::Partition;
 use super::printed::Printed;
 use super::result::{CaseResult, Verdict};
 use super::spool::Spool;
 use super::story;
-use super::threads::Ended;
+use super::threads::{Ended, Interrupted};
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
 use crate::later_output::{LaterOutput, ResultOut};
@@ -43,12 +44,14 @@ impl Results {
         args: &ReplayArgs,
         captures: Captures,
         printed: Printed,
-        inputs: &[PathBuf],
+        campaign: &Campaign,
+        partition: Partition,
     ) -> Result<Self, Failure> {
         let lines = args.json.as_deref().map(LaterOutput::open).transpose()?;
         let junit = args.junit.as_deref().map(|path| Spool::open(path, "ectwin replay")).transpose()?;
         captures.make_folder()?;
-        let on_failure = args.on_failure.clone().map(|folder| OnFailure::make(folder, inputs)).transpose()?;
+        let on_failure = args.on_failure.clone();
+        let on_failure = on_failure.map(|folder| OnFailure::make(folder, campaign, partition)).transpose()?;
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
         let fails_fast = args.fail_fast;
         let (passed, failed, lasted) = (0, 0, Duration::ZERO);
@@ -91,19 +94,20 @@ impl Results {
         self.lasted = self.lasted + Duration::from_nanos(result.virtual_ns);
     }
 
-    /// All results of this part, which has `of_part` cases, are complete.
+    /// All results of this part, which has `of_part` cases, are complete, or a signal has ended it.
     pub(super) fn close(
         mut self,
         partition: Partition,
         of_part: u64,
         campaign: &Campaign,
+        interrupted: Option<&Interrupted>,
     ) -> Result<(), Failure> {
         if let Some((path, lines)) = &mut self.lines {
             // A part without cases has no lines.
             lines.complete().map_err(|source| Failure::Unwritable { path: path.clone(), source })?;
         }
         if let Some(junit) = self.junit {
-            junit.close()?;
+            junit.close(&interrupted.map(|it| interrupted::test_cases(it, campaign)).unwrap_or_default())?;
         }
         let part = match partition.count() {
             1 => String::new(),
@@ -121,6 +125,10 @@ impl Results {
             totals.push_str(&coverage::text(met, &campaign.possible()));
         }
         self.printed.end(&totals, ended, self.lasted)?;
-        if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
+        match interrupted {
+            Some(interrupted) => Err(interrupted::failure(interrupted, campaign)),
+            None if failed == 0 => Ok(()),
+            None => Err(Failure::CasesFailed),
+        }
     }
 }

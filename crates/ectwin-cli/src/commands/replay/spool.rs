@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-use super::junit::{JunitReport, Totals};
+use super::junit::{JunitReport, NotEnded, Totals};
 use super::result::CaseResult;
 use crate::failure::Failure;
-use crate::later_output::{LaterOutput, ResultOut};
+use crate::later_output::LaterOutput;
 
 /// A report that is written when the last result is there.
 pub(crate) struct Spool {
@@ -20,9 +20,10 @@ pub(crate) struct Spool {
 }
 
 impl Spool {
-    /// Of the report of a command in this file, which is changed at the end only.
+    /// Of the report of a command in this file, which is changed at the end only: a command that is killed leaves the old
+    /// report or none.
     pub(crate) fn open(path: &Path, command: &'static str) -> Result<Self, Failure> {
-        let report = LaterOutput::open(path)?;
+        let report = LaterOutput::open_whole(path)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         // The folder of the report has room for it; that of a device may take no files.
         let file = tempfile::tempfile_in(folder).or_else(|_| tempfile::tempfile());
@@ -39,25 +40,33 @@ impl Spool {
         written.map_err(unwritable(&self.path))
     }
 
-    /// Writes the report.
-    pub(crate) fn close(self) -> Result<(), Failure> {
-        let Self { path, command, report, results, totals } = self;
+    /// Writes the report, with these test cases behind the results.
+    pub(crate) fn close(self, not_ended: &[NotEnded]) -> Result<(), Failure> {
+        let Self { path, command, report, results, mut totals } = self;
+        not_ended.iter().for_each(|case| totals.add_not_ended(case.why));
         let spooled = results.into_inner().map_err(io::IntoInnerError::into_error);
         let spooled = spooled.map_err(unwritable(&path))?;
-        write_report(report.begin(), command, totals, spooled).map_err(unwritable(&path))
+        write_report(report, command, totals, spooled, not_ended).map_err(unwritable(&path))
     }
 }
 
-fn write_report(to: ResultOut, command: &str, totals: Totals, mut spooled: File) -> io::Result<()> {
+fn write_report(
+    to: LaterOutput,
+    command: &str,
+    totals: Totals,
+    mut spooled: File,
+    not_ended: &[NotEnded],
+) -> io::Result<()> {
     spooled.rewind()?;
-    let mut report = JunitReport::begin(to, command, totals)?;
+    let mut report = JunitReport::begin(to.begin_whole()?, command, totals)?;
     let mut lines = BufReader::new(spooled);
     let mut line = Vec::new();
     while lines.read_until(b'\n', &mut line)? > 0 {
         report.take(&serde_json::from_slice(&line)?)?;
         line.clear();
     }
-    report.end()
+    not_ended.iter().try_for_each(|case| report.not_ended(case))?;
+    report.end()?.complete()
 }
 
 fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> Failure {

@@ -18,17 +18,17 @@ pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
 }
 
 /// A failed case: the place, the actual state, and the command to repeat it.
-pub(super) fn failed_case(result: &CaseResult) -> String {
+pub(crate) fn failed_case(result: &CaseResult) -> String {
     format!("FAILED  {}{}", title_line(result), failure(result))
 }
 
 fn title_line(result: &CaseResult) -> String {
     let lasted = Duration::from_nanos(result.virtual_ns);
-    format!("{}: {} ({lasted})\n", result.named(), result.title)
+    format!("{}: {} ({lasted})\n", result.named(), on_one_line(&result.title))
 }
 
 /// The failure; empty if there is none.
-pub(crate) fn failure(result: &CaseResult) -> String {
+pub(super) fn failure(result: &CaseResult) -> String {
     let Some(failed) = &result.failure else { return String::new() };
     let at = Duration::from_nanos(failed.at_ns);
     let told = format!(
@@ -65,9 +65,13 @@ fn differences(result: &CaseResult) -> String {
 
 /// The single command that repeats it.
 fn repeat(result: &CaseResult) -> String {
-    let file = quoted(&on_one_line(&result.file));
-    let case = result.parameters.as_ref().map(|parameters| format!(" --case {}", quoted(parameters)));
-    format!("ectwin replay {file}{} --seed {}", case.unwrap_or_default(), result.seed)
+    command(&on_one_line(&result.file), result.parameters.as_deref(), result.seed)
+}
+
+/// The command that replays a case of this file.
+pub(super) fn command(file: &str, parameters: Option<&str>, seed: u64) -> String {
+    let case = parameters.map(|parameters| format!(" --case {}", quoted(parameters)));
+    format!("ectwin replay {}{} --seed {seed}", quoted(file), case.unwrap_or_default())
 }
 
 /// A path quoted for a shell.

@@ -3,9 +3,12 @@
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc;
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
+use std::time::Duration;
 
 use scenario::{Met, Recording};
 
@@ -13,7 +16,9 @@ use super::case::Case;
 use super::coverage;
 use super::partition::Partition;
 use super::result::CaseResult;
+use crate::ending_signal::Signal;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 
 /// The outputs that a replay must produce.
 #[derive(Clone, Copy)]
@@ -78,52 +83,112 @@ impl Ended {
     }
 }
 
-/// Replays all cases, and passes their results on in order. Ends early if `take` fails or wants no more.
-pub(crate) fn replay<T: Send>(
-    cases: &[u64],
+/// How often the main thread looks for a signal.
+const LOOK: Duration = Duration::from_millis(100);
+
+/// What a signal has ended.
+pub(crate) struct Interrupted {
+    pub(crate) signal: Signal,
+    /// The cases that were running.
+    pub(crate) running: Vec<u64>,
+}
+
+/// The cases, and how far the threads are.
+struct Work<R> {
+    cases: Vec<u64>,
+    next: AtomicUsize,
+    is_over: AtomicBool,
+    replay: R,
+}
+
+/// Replays all cases, and passes their results on in order. Ends early if `take` fails or wants no more, or by a signal;
+/// cases that are running then are not waited for, and end with the process.
+pub(crate) fn replay<T: Send + 'static>(
+    cases: Vec<u64>,
     threads: NonZeroUsize,
-    replay: impl Fn(u64) -> T + Sync,
+    interrupt: &Interrupt,
+    replay: impl Fn(u64) -> T + Send + Sync + 'static,
     mut take: impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
-) -> Result<(), Failure> {
-    let (next, is_over) = (AtomicUsize::new(0), AtomicBool::new(false));
+) -> Result<Option<Interrupted>, Failure> {
+    let threads = threads.get().min(cases.len());
+    let work =
+        Arc::new(Work { cases, next: AtomicUsize::new(0), is_over: AtomicBool::new(false), replay });
     let (sender, receiver) = mpsc::channel();
-    thread::scope(|scope| {
-        for _ in 0..threads.get().min(cases.len()) {
-            let sender = sender.clone();
-            let (next, is_over, replay) = (&next, &is_over, &replay);
-            scope.spawn(move || {
-                while !is_over.load(Ordering::Relaxed) {
-                    let place = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(&case) = cases.get(place) else { return };
-                    if sender.send((place, replay(case))).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
-        drop(sender);
-        let taken = in_order(receiver.iter(), &mut take);
-        is_over.store(true, Ordering::Relaxed);
-        taken
+    let start = |_| {
+        let (work, sender) = (Arc::clone(&work), sender.clone());
+        thread::spawn(move || work.run(&sender))
+    };
+    let workers: Vec<_> = (0..threads).map(start).collect();
+    drop(sender);
+    let ended = in_order(&receiver, &work, interrupt, &mut take);
+    work.is_over.store(true, Ordering::Relaxed);
+    if let Ok(Over::All) = ended {
+        workers.into_iter().for_each(|worker| worker.join().unwrap_or_else(|panic| resume_unwind(panic)));
+    }
+    Ok(match ended? {
+        Over::All | Over::NoMoreWanted => None,
+        Over::Interrupted(interrupted) => Some(interrupted),
     })
 }
 
-/// Keeps results that are early.
-fn in_order<T>(
-    ended: impl Iterator<Item = (usize, T)>,
-    take: &mut impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
-) -> Result<(), Failure> {
-    let (mut early, mut due) = (BTreeMap::new(), 0);
-    for (place, ended) in ended {
-        early.insert(place, ended);
-        while let Some(ended) = early.remove(&due) {
-            if take(ended)?.is_break() {
-                return Ok(());
+impl<T, R: Fn(u64) -> T> Work<R> {
+    /// Replays the next cases, until there are no more.
+    fn run(&self, results: &Sender<(usize, T)>) {
+        while !self.is_over.load(Ordering::Relaxed) {
+            let place = self.next.fetch_add(1, Ordering::Relaxed);
+            let Some(&case) = self.cases.get(place) else { return };
+            if results.send((place, (self.replay)(case))).is_err() {
+                return;
             }
-            due += 1;
         }
     }
-    Ok(())
+}
+
+/// Why no more results are taken.
+enum Over {
+    All,
+    NoMoreWanted,
+    Interrupted(Interrupted),
+}
+
+/// Keeps results that are early.
+fn in_order<T, R>(
+    results: &Receiver<(usize, T)>,
+    work: &Work<R>,
+    interrupt: &Interrupt,
+    take: &mut impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
+) -> Result<Over, Failure> {
+    let (mut early, mut due) = (BTreeMap::new(), 0);
+    while due < work.cases.len() {
+        let signal = interrupt.signal();
+        match results.recv_timeout(LOOK) {
+            Ok((place, ended)) => early.extend([(place, ended)]),
+            // A thread that has panicked is the reason.
+            Err(RecvTimeoutError::Disconnected) => return Ok(Over::All),
+            Err(RecvTimeoutError::Timeout) => {}
+        }
+        while let Some(ended) = early.remove(&due) {
+            due += 1;
+            if take(ended)?.is_break() {
+                return Ok(Over::NoMoreWanted);
+            }
+        }
+        if let Some(signal) = signal {
+            work.is_over.store(true, Ordering::Relaxed);
+            early.extend(results.try_iter());
+            let running = running(work, due, &early);
+            early.into_values().try_for_each(|ended| take(ended).map(drop))?;
+            return Ok(Over::Interrupted(Interrupted { signal, running }));
+        }
+    }
+    Ok(Over::All)
+}
+
+/// The cases that have begun and have no result yet. All before `due` have one.
+fn running<T, R>(work: &Work<R>, due: usize, early: &BTreeMap<usize, T>) -> Vec<u64> {
+    let begun = work.next.load(Ordering::Relaxed).min(work.cases.len());
+    let places = (due..begun).filter(|place| !early.contains_key(place));
+    places.filter_map(|place| work.cases.get(place).copied()).collect()
 }
 
 #[cfg(test)]
@@ -160,14 +225,16 @@ mod tests {
             (panicking, "no program", "panics.toml:1: `the units get power`"),
             (scanning, "no scan", "panics.toml:2: `unit 1 is in INIT`"),
         ] {
-            let scenarios = [right.clone(), wrong];
+            let scenarios = Arc::new([right.clone(), wrong]);
             let stories = |threads| {
                 let mut stories = Vec::new();
                 let threads = NonZeroUsize::new(threads).unwrap();
+                let scenarios = Arc::clone(&scenarios);
                 replay(
-                    &[1, 2, 3, 4, 5, 6],
+                    vec![1, 2, 3, 4, 5, 6],
                     threads,
-                    |case| ended(case, &scenarios),
+                    &Interrupt::default(),
+                    move |case| ended(case, &scenarios),
                     |ended| {
                         stories.push(story::case(&ended.result, ended.trace.as_deref()));
                         Ok(ControlFlow::Continue(()))

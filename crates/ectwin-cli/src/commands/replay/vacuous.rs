@@ -2,6 +2,7 @@
 
 use std::io::Write;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use scenario::{Recording, Vacuity, VacuousStep};
 use serde::Serialize;
@@ -11,9 +12,10 @@ use super::campaign::Campaign;
 use super::case::Case;
 use super::partition::Partition;
 use super::result::{CaseResult, Verdict};
-use super::{story, threads};
+use super::{interrupted, story, threads};
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
+use crate::interrupt::Interrupt;
 use crate::later_output::LaterOutput;
 use crate::output::{self, People};
 use crate::overwrite::{self, Output};
@@ -63,7 +65,7 @@ impl Checked {
 }
 
 /// Prints the expectations of a part that test nothing; none may, and all cases must pass.
-pub(super) fn run(campaign: &Campaign, partition: Partition, args: &ReplayArgs) -> Result<(), Failure> {
+pub(super) fn run(campaign: Campaign, partition: Partition, args: &ReplayArgs) -> Result<(), Failure> {
     let json = args.json.as_deref();
     let outputs: Vec<_> = json.map(|path| Output { option: "--json", path }).into_iter().collect();
     overwrite::refuse(&outputs, campaign.inputs())?;
@@ -73,8 +75,10 @@ pub(super) fn run(campaign: &Campaign, partition: Partition, args: &ReplayArgs) 
     let (mut expectations, mut vacuous, mut failed) = (0, 0, 0);
     let unwritable =
         |source| Failure::Unwritable { path: json.unwrap_or(std::path::Path::new("-")).to_owned(), source };
-    let check = |number: u64| Checked::of(&campaign.case(number), partition);
-    threads::replay(&cases, args.jobs(), check, |checked| {
+    let (of_part, campaign, interrupt) = (cases.len() as u64, Arc::new(campaign), Interrupt::watch()?);
+    let of_threads = Arc::clone(&campaign);
+    let check = move |number: u64| Checked::of(&of_threads.case(number), partition);
+    let interrupted = threads::replay(cases, args.jobs(), &interrupt, check, |checked| {
         expectations += checked.expectations;
         vacuous += checked.vacuous.len();
         failed += u64::from(checked.result.verdict == Verdict::Failed);
@@ -88,7 +92,10 @@ pub(super) fn run(campaign: &Campaign, partition: Partition, args: &ReplayArgs) 
     if let Some(lines) = &mut lines {
         lines.complete().map_err(unwritable)?;
     }
-    let of_cases = story::cases(cases.len() as u64);
+    if let Some(interrupted) = &interrupted {
+        return Err(interrupted::failure(interrupted, &campaign));
+    }
+    let of_cases = story::cases(of_part);
     let failed_words = if failed == 0 { String::new() } else { format!(", {failed} failed") };
     let expectations = counted(expectations, "expectation");
     let verb = if vacuous == 1 { "tests" } else { "test" };

@@ -10,7 +10,7 @@ use ectwin::Handle;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
 
 /// Set when the command has to end. A closed terminal (SIGHUP) ends it too, but not if `nohup` has started it.
-pub(super) fn stop() -> io::Result<Arc<AtomicBool>> {
+pub(crate) fn stop() -> io::Result<Arc<AtomicBool>> {
     let signals = [SIGINT, SIGTERM, SIGHUP];
     flag_of(signals.into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP)))
 }
@@ -27,7 +27,7 @@ pub(super) fn stop_when_stdin_closes(units: Handle) -> io::Result<()> {
 }
 
 /// Set when the errors of all CPU Units have to be reset.
-pub(super) fn reset_errors() -> io::Result<Arc<AtomicBool>> {
+pub(crate) fn reset_errors() -> io::Result<Arc<AtomicBool>> {
     flag_of([SIGUSR1])
 }
 
@@ -41,7 +41,7 @@ fn flag_of(signals: impl IntoIterator<Item = i32>) -> io::Result<Arc<AtomicBool>
 }
 
 /// Whether this process was started with the signal ignored. On a system that does not show this, it was not.
-fn is_ignored(signal: i32) -> bool {
+pub(crate) fn is_ignored(signal: i32) -> bool {
     fs::read_to_string("/proc/self/status").is_ok_and(|status| ignores(&status, signal))
 }
 
