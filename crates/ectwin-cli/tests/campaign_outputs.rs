@@ -39,7 +39,8 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         if path.is_dir() {
-            files.extend(contents(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+            files
+                .extend(contents(&path).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
         } else {
             files.insert(name, fs::read(path).unwrap());
         }
@@ -81,7 +82,9 @@ fn on_a_full_disk_an_output_is_the_old_one() {
     // A link stays one, and permissions stay.
     std::os::unix::fs::symlink("old.xml", folder.join("link.xml")).unwrap();
     assert_eq!(ended(&folder, "", &["merge", "out.jsonl", "--junit", "link.xml"]).code, Some(1));
-    assert!(folder.join("link.xml").is_symlink() && fs::metadata(folder.join("old.xml")).unwrap().len() > 512);
+    assert!(
+        folder.join("link.xml").is_symlink() && fs::metadata(folder.join("old.xml")).unwrap().len() > 512
+    );
 }
 
 /// Waits until the first case has ended: its line is in the file.

@@ -402,7 +402,8 @@ fn the_cases_of_a_file_are_searched_one_after_the_other() {
         all.stdout
     );
     let lines = bench.json_lines("all.jsonl");
-    let parameters: Vec<_> = lines[..lines.len() - 1].iter().map(|line| line["parameters"].as_str()).collect();
+    let parameters: Vec<_> =
+        lines[..lines.len() - 1].iter().map(|line| line["parameters"].as_str()).collect();
     assert_eq!(parameters, [Some("code = 40200000, id = 2"), Some("code = 40200000, id = 3")]);
     assert!(bench.text("all.xml").contains("code = 40200000, id = 3, seed "), "{}", bench.text("all.xml"));
     let parts = bench.ectwin(&["search", "cases.toml", "--runs", "3", "--all", "--partition", "2/3"]);
@@ -459,7 +460,8 @@ fn a_budget_that_ends_a_search_is_named_in_every_output() {
     let bench = Bench::new("search-budget-named");
     bench.put("holds.toml", &NEVER_AN_ERROR.replace("40200000", "00200000"));
     let outputs = ["--budget", "1ns", "--json", "b.jsonl", "--junit", "b.xml"];
-    let ended = bench.ectwin(&[&["search", "holds.toml", "--runs", "50", "--jobs", "1"], &outputs[..]].concat());
+    let ended =
+        bench.ectwin(&[&["search", "holds.toml", "--runs", "50", "--jobs", "1"], &outputs[..]].concat());
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
     assert!(ended.stdout.ends_with("; --budget has ended it after 1 of 50 runs\n"), "{}", ended.stdout);
     assert_eq!(bench.json_lines("b.jsonl")[0]["ended_by"], "budget");

@@ -90,7 +90,8 @@ fn read_all(paths: &[PathBuf]) -> Result<Merged<'_>, Failure> {
     let (mut merged, mut problems) = (Merged::new(paths), FileProblems::default());
     let mut seeds = Seeds::default();
     for (file, path) in paths.iter().enumerate() {
-        let read = read_file(path, |result, start| merged.take(result, file, start), &mut seeds, &mut problems);
+        let read =
+            read_file(path, |result, start| merged.take(result, file, start), &mut seeds, &mut problems);
         match read {
             Ok(()) => {}
             Err(NotMerged::Unreadable(error)) => {

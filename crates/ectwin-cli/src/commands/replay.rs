@@ -89,8 +89,7 @@ pub(crate) fn run(args: &ReplayArgs) -> Result<(), Failure> {
     let (of_part, campaign) = (cases.len() as u64, Arc::new(campaign));
     let of_threads = Arc::clone(&campaign);
     let replay = move |case: u64| threads::Ended::replay(&of_threads.case(case), partition, wanted);
-    let interrupted =
-        threads::replay(cases, args.jobs(), &interrupt, replay, |ended| results.take(ended))?;
+    let interrupted = threads::replay(cases, args.jobs(), &interrupt, replay, |ended| results.take(ended))?;
     results.close(partition, of_part, &campaign, interrupted.as_ref())
 }
 

@@ -23,8 +23,8 @@ use crate::overwrite::{self, Output};
 use found_file::{free_beside, refuse_elsewhere, write_unless_equal};
 use results::Results;
 
-pub(super) use lines::{EndLine, EndedBy, FoundLine, SearchId, SearchLine};
 pub(super) use found_file::{folder_of, refuse_existing, write_new};
+pub(super) use lines::{EndLine, EndedBy, FoundLine, SearchId, SearchLine};
 
 /// Replays seed after seed; the first one that fails is reduced and written.
 pub(crate) fn run(args: &SearchArgs) -> Result<(), Failure> {
@@ -232,11 +232,15 @@ fn interrupted(args: &SearchArgs, interrupted: &Interrupted, case: Option<&str>)
     let seed = |number: &u64| args.seed.wrapping_add(number - 1);
     let seeds: Vec<String> = running.iter().map(|number| seed(number).to_string()).collect();
     let path = named(&args.scenario.to_string_lossy(), case);
-    let message = format!("{} has ended the search of {path} while it tried {}", signal.name(), match seeds.as_slice() {
-        [] => "no seed".to_owned(),
-        [one] => format!("seed {one}"),
-        several => format!("the seeds {}", several.join(", ")),
-    });
+    let message = format!(
+        "{} has ended the search of {path} while it tried {}",
+        signal.name(),
+        match seeds.as_slice() {
+            [] => "no seed".to_owned(),
+            [one] => format!("seed {one}"),
+            several => format!("the seeds {}", several.join(", ")),
+        }
+    );
     let from = running.first().map_or(args.seed, seed);
     let help = match case {
         None => format!("what was found is written; `--seed {from}` continues from there"),

@@ -113,12 +113,19 @@ fn files_of_an_earlier_run_are_removed_and_those_of_another_campaign_are_told() 
 #[test]
 fn the_names_have_the_parameters_and_no_line_end() {
     let bench = Bench::new("on-failure-names");
-    let two = wrong().replace("steps = [", "with = { loss = [1, 2] }\nsteps = [").replace("lose all", "lose {loss} % of the");
-    bench.put("two\nlines.toml", &two.replace("{loss} % of the process data frames", "all process data frames").replace("title = \"outputs", "title = \"{loss} outputs"));
+    let two = wrong()
+        .replace("steps = [", "with = { loss = [1, 2] }\nsteps = [")
+        .replace("lose all", "lose {loss} % of the");
+    bench.put(
+        "two\nlines.toml",
+        &two.replace("{loss} % of the process data frames", "all process data frames")
+            .replace("title = \"outputs", "title = \"{loss} outputs"),
+    );
     let ended = bench.ectwin(&["replay", "two\nlines.toml", "--on-failure", "kept", "--pcap", "all/"]);
     assert_eq!(ended.code, Some(1), "{}", ended.stderr);
     for stem in ["0001-two-lines-loss-1-seed-1", "0002-two-lines-loss-2-seed-1"] {
-        for file in [format!("kept/{stem}.txt"), format!("kept/{stem}.pcapng"), format!("all/{stem}.pcapng")] {
+        for file in [format!("kept/{stem}.txt"), format!("kept/{stem}.pcapng"), format!("all/{stem}.pcapng")]
+        {
             assert!(bench.folder.join(&file).exists(), "{file}");
         }
     }

@@ -115,23 +115,33 @@ fn the_list_counts_the_cases_of_parameters_and_has_a_line_of_json_for_each() {
     bench.put("states.toml", STATES);
     let ended = bench.ectwin(&["replay", "states.toml", "--list", "--json", "-"]);
     assert_eq!(ended.code, Some(0), "{}", ended.stderr);
-    assert!(ended.stderr.starts_with("states.toml: a state is reached at once (4 cases)\n"), "{}", ended.stderr);
+    assert!(
+        ended.stderr.starts_with("states.toml: a state is reached at once (4 cases)\n"),
+        "{}",
+        ended.stderr
+    );
     assert!(ended.stderr.ends_with("        state = OP, loss = 2 (1 case)\n4 cases\n"), "{}", ended.stderr);
     let lines: Vec<&str> = ended.stdout.lines().collect();
     assert_eq!(lines.len(), 4);
     assert!(lines[1].starts_with("{\"case\":2,\"cases\":4,"), "{}", lines[1]);
-    assert!(lines[1].contains("\"parameters\":\"state = PRE-OP, loss = 2\"") && lines[1].ends_with("\"seed\":1}"));
+    assert!(
+        lines[1].contains("\"parameters\":\"state = PRE-OP, loss = 2\"") && lines[1].ends_with("\"seed\":1}")
+    );
 }
 
 #[test]
 fn parts_with_parameters_and_failures_give_the_bytes_of_the_whole_for_any_number_of_threads() {
     let bench = Bench::new("parameters-parts");
     bench.put("s/states.toml", STATES);
-    bench.put("s/dice.toml", &STATES.replace("lose the next {loss} mailbox frames", "lose {loss}0 % of the frames"));
+    bench.put(
+        "s/dice.toml",
+        &STATES.replace("lose the next {loss} mailbox frames", "lose {loss}0 % of the frames"),
+    );
     let whole = |jobs: &str| {
         let outputs = ["--jobs", jobs, "--json", "w.jsonl", "--junit", "w.xml", "--pcap", "w/"];
         let ended = bench.ectwin(&[&["replay", "s", "--seeds", "3"], &outputs[..]].concat());
-        let capture = std::fs::read(bench.folder.join("w/0004-dice-state-PRE-OP-loss-2-seed-1.pcapng")).unwrap();
+        let capture =
+            std::fs::read(bench.folder.join("w/0004-dice-state-PRE-OP-loss-2-seed-1.pcapng")).unwrap();
         (ended.code, ended.stdout, bench.text("w.jsonl"), bench.text("w.xml"), capture)
     };
     let one = whole("1");

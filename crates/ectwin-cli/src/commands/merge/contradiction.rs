@@ -23,9 +23,8 @@ pub(super) fn of(result: &CaseResult) -> Option<String> {
     if failure.line == 0 {
         return Some("the failed line is 0, and lines are counted from 1".to_owned());
     }
-    (failure.at_ns > result.virtual_ns).then(|| {
-        format!("it has failed at {} ns, and has ended at {} ns", failure.at_ns, result.virtual_ns)
-    })
+    (failure.at_ns > result.virtual_ns)
+        .then(|| format!("it has failed at {} ns, and has ended at {} ns", failure.at_ns, result.virtual_ns))
 }
 
 /// A file of a campaign, with the values of its parameters.

@@ -116,7 +116,9 @@ impl Read {
         let (SearchLine::Found(FoundLine { of, .. }) | SearchLine::End(EndLine { of, .. })) = &line;
         let first = self.of.get_or_insert_with(|| of.clone());
         if (&first.search, first.partition.count()) != (&of.search, of.partition.count()) {
-            return Err("it is of another search, by version, files, seeds, --all or number of parts".to_owned());
+            return Err(
+                "it is of another search, by version, files, seeds, --all or number of parts".to_owned()
+            );
         }
         match line {
             SearchLine::Found(_) if self.found.len() == FAILURES_MAX => {
@@ -139,11 +141,18 @@ impl Read {
     fn complete(self) -> Result<Searched, Failure> {
         let Self { of, mut found, ends } = self;
         let Some(of) = of else {
-            return Err(refused("there is no result in these files", "each part writes its results with `--json`"));
+            return Err(refused(
+                "there is no result in these files",
+                "each part writes its results with `--json`",
+            ));
         };
-        let parts = (1..=of.partition.count()).filter_map(|number| Partition::new(number, of.partition.count()));
-        let missing: Vec<String> =
-            parts.filter(|part| !ends.contains_key(part)).take(8).map(|part| format!("part {part}")).collect();
+        let parts =
+            (1..=of.partition.count()).filter_map(|number| Partition::new(number, of.partition.count()));
+        let missing: Vec<String> = parts
+            .filter(|part| !ends.contains_key(part))
+            .take(8)
+            .map(|part| format!("part {part}"))
+            .collect();
         if !missing.is_empty() {
             let message = format!("the search is not complete: the end of {} is missing", missing.join(", "));
             return Err(refused(&message, "run these parts again, each with its `--partition`"));
@@ -196,7 +205,8 @@ fn check_part(end: &EndLine, found: &[FoundLine]) -> Result<(), Failure> {
     }
     let own: Vec<&FoundLine> = found.iter().filter(|line| line.of.partition == part).collect();
     if own.len() as u64 != end.failures {
-        let message = format!("part {part} has {} failures, and its last line says {}", own.len(), end.failures);
+        let message =
+            format!("part {part} has {} failures, and its last line says {}", own.len(), end.failures);
         return Err(refused(&message, "run this part again with its `--partition`"));
     }
     let number = |line: &FoundLine| line.seed.wrapping_sub(end.first_seed).wrapping_add(1);

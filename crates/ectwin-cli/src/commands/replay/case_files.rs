@@ -51,7 +51,10 @@ mod tests {
     fn a_name_has_number_scenario_parameters_and_seed() {
         let stem = |file: &str, parameters| file_stem(3, Path::new(file), parameters, 7);
         assert_eq!(stem("s/line.toml", None), "0003-line-seed-7");
-        assert_eq!(stem("it's.toml", Some("loss = 1, state = PRE-OP")), "0003-it's-loss-1-state-PRE-OP-seed-7");
+        assert_eq!(
+            stem("it's.toml", Some("loss = 1, state = PRE-OP")),
+            "0003-it's-loss-1-state-PRE-OP-seed-7"
+        );
         assert_eq!(stem("a\nb.toml", Some("text = a/../b")), "0003-a-b-text-a-..-b-seed-7");
         let long = "ä".repeat(300);
         let stem = file_stem(u64::MAX / 2, Path::new(&long), Some(&long), u64::MAX);
@@ -62,7 +65,15 @@ mod tests {
     fn the_number_of_a_name_is_found_again_and_other_names_are_not_ours() {
         assert_eq!(case_of(&file_stem(12, Path::new("a-seed-b.toml"), Some("x = 1"), 7)), Some(12));
         assert_eq!(case_of(&file_stem(123_456, Path::new("a.toml"), None, 7)), Some(123_456));
-        for other in ["notes", "0001-notes", "1-a-seed-1", "0001-a-seed-", "0001-a-seed-x", "x0001-a-seed-1", "-a-seed-1"] {
+        for other in [
+            "notes",
+            "0001-notes",
+            "1-a-seed-1",
+            "0001-a-seed-",
+            "0001-a-seed-x",
+            "x0001-a-seed-1",
+            "-a-seed-1",
+        ] {
             assert_eq!(case_of(other), None, "{other}");
         }
     }

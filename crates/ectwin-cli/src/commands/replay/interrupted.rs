@@ -29,7 +29,9 @@ pub(super) fn failure(interrupted: &Interrupted, campaign: &Campaign) -> Failure
         Some(&number) => {
             let case = campaign.case(number);
             let repeat = story::command(&shown(case.path), case.scenario.case.as_deref(), case.seed);
-            format!("the outputs have the cases that had ended; `{repeat} --trace` replays the first of these")
+            format!(
+                "the outputs have the cases that had ended; `{repeat} --trace` replays the first of these"
+            )
         }
     };
     let message = format!("{} has ended the campaign {while_running}", signal.name());

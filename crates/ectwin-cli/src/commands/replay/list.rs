@@ -52,7 +52,11 @@ pub(super) fn print(campaign: &Campaign, partition: Partition, json: Option<&Pat
     for Listed { file, title, cases, by_parameters } in &listed {
         people.print_line(format_args!("{}: {title} ({})", named(file, None), story::cases(*cases)))?;
         for (parameters, cases) in by_parameters {
-            people.print_line(format_args!("        {} ({})", on_one_line(parameters), story::cases(*cases)))?;
+            people.print_line(format_args!(
+                "        {} ({})",
+                on_one_line(parameters),
+                story::cases(*cases)
+            ))?;
         }
     }
     people.print_line(story::cases(listed.iter().map(|file| file.cases).sum()))

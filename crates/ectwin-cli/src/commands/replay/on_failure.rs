@@ -32,8 +32,7 @@ impl OnFailure {
     /// have left stays, and is told.
     pub(super) fn make(folder: PathBuf, campaign: &Campaign, partition: Partition) -> Result<Self, Failure> {
         let inputs = campaign.inputs().to_vec();
-        let cleared =
-            fs::create_dir_all(&folder).and_then(|()| remove_earlier(&folder, campaign, partition));
+        let cleared = fs::create_dir_all(&folder).and_then(|()| remove_earlier(&folder, campaign, partition));
         match cleared.map_err(|source| Failure::Unwritable { path: folder.clone(), source })? {
             Others { count: 0, .. } => {}
             Others { count, first } => People::Stderr.print_line(format_args!(

@@ -111,8 +111,7 @@ pub(crate) fn replay<T: Send + 'static>(
     mut take: impl FnMut(T) -> Result<ControlFlow<()>, Failure>,
 ) -> Result<Option<Interrupted>, Failure> {
     let threads = threads.get().min(cases.len());
-    let work =
-        Arc::new(Work { cases, next: AtomicUsize::new(0), is_over: AtomicBool::new(false), replay });
+    let work = Arc::new(Work { cases, next: AtomicUsize::new(0), is_over: AtomicBool::new(false), replay });
     let (sender, receiver) = mpsc::channel();
     let start = |_| {
         let (work, sender) = (Arc::clone(&work), sender.clone());
