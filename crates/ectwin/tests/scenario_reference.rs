@@ -21,8 +21,8 @@ Every key of a scenario file and of a step. To start, read [write a scenario](wr
 |---|---|---|
 | `title` | what the scenario shows, as a sentence | none: every file needs it |
 | `seed` | seed of the random generator, a number | 1 |
-| `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure; above 0 | `"60s"` |
-| `cycle` | period of the process data | `"1ms"` |
+| `limit` | the latest time at which the scenario ends; a step that has not ended by then is a failure; above 0, at most 48 hours | `"60s"` |
+| `cycle` | period of the process data, at least 10us | `"1ms"` |
 | `cycle_phase` | phase of the cycle in its period, from the beginning | the seed decides |
 | `calendar` | date and time at the beginning, UTC, 1970 to 2078: object 10F8, time stamps, times in captures | `"2026-01-01T00:00:00"` |
 | `units` | list of units, the one next to the master first: the path of a [unit file](unit-file.md), or its keys as a table; or a table of `file` and `program` (a path, or a list of paths), to run another program than that of the unit file. Two units cannot have the same `name`; without names, no step can name a variable that two of them have | one unit at its factory setting |
