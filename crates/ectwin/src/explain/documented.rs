@@ -38,9 +38,9 @@ const SOURCES: &[Source] = &[
     },
     Source {
         kind: DocumentedKind::Variable,
-        text: include_str!("../../../../docs/user/write-a-scenario.md"),
-        page: "docs/user/write-a-scenario.md",
-        heading: "A user program of the master", header: &["variable", "element n is TRUE"],
+        text: include_str!("../../../../docs/user/scenario-programs.md"),
+        page: "docs/user/scenario-programs.md",
+        heading: "The user program of the master", header: &["variable", "element n is TRUE"],
         meaning: (1, "element n is TRUE "),
     },
     Source {
