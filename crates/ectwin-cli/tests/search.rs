@@ -391,7 +391,7 @@ fn the_cases_of_a_file_are_searched_one_after_the_other() {
     assert_eq!((first.code, first.stderr.as_str()), (Some(1), ""), "{}", first.stdout);
     assert!(first.stdout.starts_with("FAILED  cases.toml (code = 40200000, id = 2): "), "{}", first.stdout);
     let found = bench.text("found.toml");
-    assert!(found.contains("[with]\ncode = [\"40200000\"]\nid = [\"2\"]\n"), "{found}");
+    assert!(found.contains("[with]\ncode = [\"40200000\"]\nid = [2]\n"), "{found}");
     assert_eq!(bench.ectwin(&["replay", "found.toml"]).code, Some(1));
     let all = ["search", "cases.toml", "--runs", "3", "--all", "--json", "all.jsonl", "--junit", "all.xml"];
     let all = bench.ectwin(&all);
