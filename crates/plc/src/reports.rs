@@ -7,8 +7,11 @@ use crate::program_event::{ProgramEvent, ProgramTrouble};
 /// Number of errors of programs that are kept.
 const ERRORS_MAX: usize = 256;
 
+/// Room for the reports of one task period, and for different user-defined errors; more need memory once.
+const ROOM: usize = 64;
+
 /// The reports of the programs of one controller. They are kept when they are taken from its event log.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Reports {
     /// Those of the task period before the last one; one that occurs again is not new.
     before: Vec<ProgramEvent>,
@@ -27,6 +30,13 @@ struct Alarm {
     times: u64,
     /// It has not been reset.
     stands: bool,
+}
+
+impl Default for Reports {
+    fn default() -> Self {
+        let [before, present] = [(); 2].map(|()| Vec::with_capacity(ROOM));
+        Self { before, present, alarms: Vec::with_capacity(ROOM), overruns: 0, errors: VecDeque::new() }
+    }
 }
 
 impl Reports {
