@@ -114,11 +114,6 @@ impl CpuEventLog {
         Self { records: VecDeque::with_capacity(CPU_EVENTS_MAX), lost: 0, powered_on: Instant::ZERO }
     }
 
-    /// One that gets its room with its first record.
-    pub(crate) const fn without_room() -> Self {
-        Self { records: VecDeque::new(), lost: 0, powered_on: Instant::ZERO }
-    }
-
     /// Records an event. One that repeats takes one record; if there is no room, the oldest is lost.
     pub(crate) fn add(&mut self, now: Instant, event: CpuEvent) {
         let mut since_turn = self.records.iter_mut().rev().take_while(|record| !record.event.is_turn());

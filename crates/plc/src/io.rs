@@ -54,7 +54,7 @@ impl Io {
             variables,
             events: CpuEventLog::new(),
             observed: None,
-            program_reports: CpuEventLog::without_room(),
+            program_reports: CpuEventLog::new(),
             now: Instant::ZERO,
             system_time_ns: None,
             nx_bus_reset: NxBusReset::None,
