@@ -89,7 +89,7 @@ fn has_two_states(parts: &[Condition]) -> bool {
     states().any(|(units, state)| states().any(|(others, other)| units == others && state != other))
 }
 
-/// Whether neither the condition nor `not` of it may hold, as for a value of a unit without power.
+/// Whether `any of` a condition and `not` of it is accepted: neither may hold, as for a value of a unit without power.
 fn can_be_neither(condition: &Condition) -> bool {
     match condition {
         Condition::Not(_) | Condition::AllOf(_) | Condition::AnyOf(_) => {
@@ -100,6 +100,8 @@ fn can_be_neither(condition: &Condition) -> bool {
         | Condition::VariableBytes { .. }
         | Condition::VariableValue { .. }
         | Condition::ProgramVariable { .. } => true,
+        // A search writes it as the step that does nothing, where none of the random steps is left.
+        Condition::MasterIdle => true,
         _ => false,
     }
 }
