@@ -200,7 +200,7 @@ impl Master {
     }
 
     /// The same for a caller that keeps no tickets: a frame is identified by the indexes of its datagrams,
-    /// which must be [`Indexes::Running`]. A frame that has not passed a slave, and a frame that is not an
+    /// which must be [`Indexes::Running`](crate::Indexes::Running). A frame that has not passed a slave, and a frame that is not an
     /// answer, are ignored.
     pub fn receive_frame(&mut self, now: Instant, frame: &[u8]) {
         let has_passed = frame.get(6).is_some_and(|first| first & 0x02 != 0);
