@@ -11,7 +11,8 @@ use crate::run::{DICE_OF_STEPS, Dice, Failure, Met, Recording, Report, Scenario,
 
 /// Maximum number of variations of a seed.
 const VARIATIONS_MAX: u64 = 4;
-/// A step that checks nothing and does nothing.
+/// A step that checks nothing and does nothing, for a group in whose place no random step is left: without the group, a step
+/// behind it that undoes what random steps do would be refused, because it does nothing.
 const NOTHING: &str =
     "{ expect = \"any of (the master has nothing to do; not (the master has nothing to do))\" }";
 /// Makes different dice for the variations of a seed.
@@ -80,7 +81,8 @@ impl Scenario {
     }
 
     /// Removes steps that the failure does not need: halves first, then single steps, until no more can be
-    /// removed; a step of which only the pause is needed leaves it to the next one. Then pauses are shortened. The failure remains the same: the failed expectation, or the place of a panic.
+    /// removed; a step of which only the pause is needed leaves it to the next one. Then pauses are shortened. The failure
+    /// remains the same: the failed expectation, or the place of a panic.
     fn shrink(&self, text: &str, seed: u64, mut steps: Vec<RandomStep>) -> Found {
         let steps_before = steps.len();
         let kind_of = |steps: &[RandomStep]| self.fails(steps, seed).map(|failure| failure.kind());

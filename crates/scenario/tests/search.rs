@@ -78,6 +78,20 @@ fn a_planted_bug_is_found_and_cut_down() {
 }
 
 #[test]
+fn a_failure_without_random_steps_is_written_as_a_scenario() {
+    // The cable is plugged at the end: without the group in the place of the random steps, that would be refused.
+    let text = "title = \"t\"\nsteps = [\n  { random = 3, within = \"1s\" },\n  { line = \"plug cable 1\" },\n  \
+                { expect = \"unit 1 is in OP\" },\n]\n";
+    let scenario = Scenario::parse(text, |_| Err(String::new())).expect("a right scenario");
+    let found = scenario.search(text, 1, 1).expect("a unit in INIT");
+    assert_eq!(found.steps, 0);
+    let written = Scenario::parse(&found.text, |_| Err(String::new()));
+    let written = written.unwrap_or_else(|errors| panic!("{errors:?}\n{}", found.text));
+    let again = written.replay(written.seed, Recording::new(false, false)).failure.expect("the failure");
+    assert_eq!(again.text, found.failure.text, "{}", found.text);
+}
+
+#[test]
 fn without_the_bug_nothing_is_found() {
     let found = scenario(|| Box::new(Echoing)).search(INVARIANT, 1, 50);
     assert!(

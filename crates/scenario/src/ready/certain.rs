@@ -89,7 +89,8 @@ fn has_two_states(parts: &[Condition]) -> bool {
     states().any(|(units, state)| states().any(|(others, other)| units == others && state != other))
 }
 
-/// Whether `any of` a condition and `not` of it is accepted: neither may hold, as for a value of a unit without power.
+/// Whether `any of` a condition and `not` of it is accepted: neither may hold, as for a value of a unit without power, or a
+/// search has written it.
 fn can_be_neither(condition: &Condition) -> bool {
     match condition {
         Condition::Not(_) | Condition::AllOf(_) | Condition::AnyOf(_) => {
