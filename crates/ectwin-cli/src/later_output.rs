@@ -44,10 +44,16 @@ impl LaterOutput {
 }
 
 /// The target of a result that is written in pieces.
-pub(crate) enum ResultOut {
+pub(crate) enum Out<F> {
     Stdout,
-    File(BegunFile),
+    File(F),
 }
+
+/// A file is written from its beginning on.
+pub(crate) type ResultOut = Out<BegunFile>;
+
+/// A file is there as a whole or not at all.
+pub(crate) type WholeOut = Out<ReplacedFile>;
 
 impl ResultOut {
     /// Cuts off everything after the first `length_bytes`, if that is possible.
@@ -67,12 +73,6 @@ impl ResultOut {
     }
 }
 
-/// The target of a result that is there as a whole or not at all.
-pub(crate) enum WholeOut {
-    Stdout,
-    File(ReplacedFile),
-}
-
 impl WholeOut {
     /// The result is complete.
     pub(crate) fn complete(self) -> io::Result<()> {
@@ -83,23 +83,7 @@ impl WholeOut {
     }
 }
 
-impl Write for WholeOut {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),
-            Self::File(file) => file.write(bytes),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Stdout => unless_closed(io::stdout().flush(), ()),
-            Self::File(file) => file.flush(),
-        }
-    }
-}
-
-impl Write for ResultOut {
+impl<F: Write> Write for Out<F> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Self::Stdout => unless_closed(io::stdout().write(bytes), bytes.len()),

@@ -23,7 +23,7 @@ use crate::output;
 use kept::Kept;
 use namespaces::Namespaces;
 use signals::{Signals, rustix_signal};
-use spawned::{End, Spawned, itself};
+use spawned::{Spawned, itself};
 
 pub(crate) use command::run as run_command;
 pub(crate) use inside::run as run_inside;
@@ -70,10 +70,8 @@ fn run_and_wait(args: &ExecArgs, verbose: u8) -> Result<u8, Failure> {
     let inside = Spawned::start(inside.args(args.arguments())).map_err(Failure::System)?;
     loop {
         let received = signals.wait().map_err(Failure::System)?;
-        match inside.take_end() {
-            Some(End::Exit(code)) => return Ok(code),
-            Some(End::Killed(signal)) => return Ok(128 + signal),
-            None => {}
+        if let Some(end) = inside.take_end() {
+            return Ok(end.code());
         }
         if received.is_parents_end() {
             if parent.is_gone() {

@@ -26,7 +26,7 @@ pub(super) fn end() {
     }
 }
 
-/// Takes the ends of all children that have ended, except of `known` ones, which others wait for.
+/// The children of this process, also those that have ended and wait to be taken.
 fn children() -> Vec<Pid> {
     let id = getpid().as_raw_pid();
     let listed = fs::read_to_string(format!("/proc/{id}/task/{id}/children")).unwrap_or_default();
