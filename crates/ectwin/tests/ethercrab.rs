@@ -148,9 +148,9 @@ async fn a_unit_over_udp() {
     drop(live);
 }
 
-#[test]
-fn two_units_over_a_raw_link() {
-    in_network_namespace("two_units_over_a_raw_link", || {
+/// Lets a master carry out this with two units at the other end of a cable.
+fn over_a_raw_link(test: &str, carry_out: impl AsyncFnOnce(PduLoop<'static>, &Live)) {
+    in_network_namespace(test, || {
         add_veth_pair("veth0", "veth1");
         let (tx, rx, pdu_loop) = patient_master::frames();
         let live = units(2).serve(link::open(&"raw:veth1".parse().unwrap()).unwrap()).unwrap();
@@ -159,7 +159,7 @@ fn two_units_over_a_raw_link() {
             let frames = ethercrab::std::tx_rx_task("veth0", tx, rx).unwrap();
             tokio::select! {
                 ended = frames => panic!("the master's link ended: {:?}", ended.is_ok()),
-                () = exchange(pdu_loop, 2) => {}
+                () = carry_out(pdu_loop, &live) => {}
             }
         });
         live.stop().unwrap();
@@ -167,21 +167,13 @@ fn two_units_over_a_raw_link() {
 }
 
 #[test]
+fn two_units_over_a_raw_link() {
+    over_a_raw_link("two_units_over_a_raw_link", async |pdu_loop, _| exchange(pdu_loop, 2).await);
+}
+
+#[test]
 fn a_master_on_a_raw_link_meets_faults_of_frames() {
-    in_network_namespace("a_master_on_a_raw_link_meets_faults_of_frames", || {
-        add_veth_pair("veth0", "veth1");
-        let (tx, rx, pdu_loop) = patient_master::frames();
-        let live = units(2).serve(link::open(&"raw:veth1".parse().unwrap()).unwrap()).unwrap();
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
-        runtime.block_on(async {
-            let frames = ethercrab::std::tx_rx_task("veth0", tx, rx).unwrap();
-            tokio::select! {
-                ended = frames => panic!("the master's link ended: {:?}", ended.is_ok()),
-                () = meet_faults(pdu_loop, &live) => {}
-            }
-        });
-        live.stop().unwrap();
-    });
+    over_a_raw_link("a_master_on_a_raw_link_meets_faults_of_frames", meet_faults);
 }
 
 /// Takes two units to OP; then three cycles meet each fault, and the next one meets none.

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 /// Shortest time from one look to the next, so that the frames do not wait too often.
 const LOOK_AGAIN: Duration = Duration::from_millis(1);
 
-/// Tells those who wait that something may have changed.
+/// Wakes threads that wait for a change.
 #[derive(Debug, Default)]
 pub(super) struct Changes {
     waiting: AtomicUsize,
@@ -19,7 +19,8 @@ pub(super) struct Changes {
 impl Changes {
     /// Something may have changed.
     pub(super) fn announce(&self) {
-        // Who has begun to wait looks once more after that.
+        // Relaxed is enough: a waiter that is not counted here yet has not looked yet, and its look borrows the line or the
+        // CPU Units from the calling thread, so that it sees this change.
         if self.waiting.load(Ordering::Relaxed) > 0 {
             *self.lock() += 1;
             self.changed.notify_all();
