@@ -75,6 +75,7 @@ const FLOORS: &[Row] = &[
     row("wasm", 9, Only(&["time", "plc"])),
     row("modbus", 10, Only(&["plc"])),
     row("opcua", 10, Only(&["plc"])),
+    row("control", 10, Only(&["time", "user-file"])),
     row("link", 10, Only(&["time", "wire", "capture", "segment"])),
     row("storage", 10, Only(&[])),
     row("ectwin", 11, AnyFloorBelow),

@@ -1,0 +1,24 @@
+//! The lines of the channel: one JSON object each. Server and client share these types.
+
+mod answer;
+mod content;
+mod incoming;
+mod members;
+mod refusal;
+mod request;
+#[cfg(test)]
+mod tests;
+mod verbs;
+
+pub use answer::Answer;
+pub use content::{
+    AboutSentence, ActiveFault, Faults, Held, SentenceRow, Sentences, Status, UnitError, UnitReport,
+    VariableReport, Variables,
+};
+pub use incoming::Incoming;
+pub use refusal::Refusal;
+pub use request::{Request, Unread, Verb};
+pub use verbs::{VERBS, VerbRow};
+
+/// Maximum length of a request in bytes, without its end of line.
+pub const LINE_BYTES_MAX: usize = 1 << 16;

@@ -1,0 +1,192 @@
+//! A request: an `id` of the client's choice, and one verb.
+
+use serde_json::{Map, Value, json};
+use time::Duration;
+
+use super::LINE_BYTES_MAX;
+use super::members::Members;
+use super::refusal::{Refusal, shortened};
+use super::verbs::{self, VERBS};
+
+const ID: &str = "id";
+const WITHIN: &str = "within";
+
+/// A request.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Any JSON value; the answer has the same one.
+    pub id: Value,
+    /// What is to be done.
+    pub verb: Verb,
+}
+
+/// What is to be done.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verb {
+    /// An order.
+    Do(String),
+    /// A condition.
+    Expect {
+        /// Its sentence.
+        condition: String,
+        /// The time in which it has to become true; none: now.
+        within: Option<Duration>,
+    },
+    /// What the units show.
+    Status,
+    /// Variables are read.
+    Read(Vec<String>),
+    /// Variables are written once.
+    Write(Vec<(String, Value)>),
+    /// Variables get a value until they are released.
+    Force(Vec<(String, Value)>),
+    /// Variables are released.
+    Release(Vec<String>),
+    /// An object is read: unit and entry.
+    Object(String),
+    /// Records of these kinds are sent.
+    Subscribe(Vec<String>),
+    /// Records of these kinds are not sent any more.
+    Unsubscribe(Vec<String>),
+    /// The faults at work.
+    Faults,
+    /// A fault, or `all`, ends.
+    Clear(String),
+    /// All sentences.
+    Sentences,
+}
+
+/// A line that is no request, with its `id` as far as it can be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unread {
+    /// The `id` of the answer; null if the line has none.
+    pub id: Value,
+    /// Why.
+    pub refusal: Refusal,
+}
+
+impl Request {
+    /// Reads a line, with or without its end.
+    ///
+    /// # Errors
+    /// [`Unread`].
+    pub fn read(line: &[u8]) -> Result<Self, Unread> {
+        let members = members(line).map_err(|refusal| Unread { id: Value::Null, refusal })?;
+        let id = members.iter().find(|(name, _)| name == ID).map_or(Value::Null, |(_, id)| id.clone());
+        match verb(members) {
+            Ok(verb) => Ok(Self { id, verb }),
+            Err(refusal) => Err(Unread { id, refusal }),
+        }
+    }
+
+    /// The line of the request, with its end.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let (name, value, within) = self.verb.member();
+        let mut members = Map::new();
+        members.insert(ID.to_owned(), self.id.clone());
+        members.insert(name.to_owned(), value);
+        members.extend(within.map(|within| (WITHIN.to_owned(), Value::String(within.to_string()))));
+        format!("{}\n", Value::Object(members))
+    }
+}
+
+impl Verb {
+    /// The name of the verb, its value, and the value of `within`.
+    fn member(&self) -> (&'static str, Value, Option<Duration>) {
+        let object = |values: &[(String, Value)]| Value::Object(values.iter().cloned().collect());
+        match self {
+            Self::Do(order) => ("do", json!(order), None),
+            Self::Expect { condition, within } => ("expect", json!(condition), *within),
+            Self::Status => ("status", json!(true), None),
+            Self::Read(names) => ("read", json!(names), None),
+            Self::Write(values) => ("write", object(values), None),
+            Self::Force(values) => ("force", object(values), None),
+            Self::Release(names) => ("release", json!(names), None),
+            Self::Object(object) => ("object", json!(object), None),
+            Self::Subscribe(kinds) => ("subscribe", json!(kinds), None),
+            Self::Unsubscribe(kinds) => ("unsubscribe", json!(kinds), None),
+            Self::Faults => ("faults", json!(true), None),
+            Self::Clear(name) => ("clear", json!(name), None),
+            Self::Sentences => ("sentences", json!(true), None),
+        }
+    }
+}
+
+/// The members of a line, none of them twice.
+fn members(line: &[u8]) -> Result<Vec<(String, Value)>, Refusal> {
+    if line.len() > LINE_BYTES_MAX {
+        return Err(Refusal::new(
+            format!("a request of {} bytes, and at most {LINE_BYTES_MAX} are read", line.len()),
+            "send several requests",
+        ));
+    }
+    let text = core::str::from_utf8(line).map_err(|error| {
+        let message = format!("the line is not UTF-8: byte {}", error.valid_up_to() + 1);
+        Refusal::new(message, "send JSON in UTF-8")
+    })?;
+    let Members(members) = serde_json::from_str(text).map_err(|error| no_object(&error))?;
+    let mut names: Vec<&str> = members.iter().map(|(name, _)| name.as_str()).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| matches!(pair, [a, b] if a == b)) {
+        Some(doubled) => {
+            let name = shortened(doubled.first().copied().unwrap_or_default());
+            Err(Refusal::new(format!("the request has `{name}` twice"), "send two requests"))
+        }
+        None => Ok(members),
+    }
+}
+
+fn no_object(error: &serde_json::Error) -> Refusal {
+    let help = format!("a request is one JSON object in one line, such as {}", example());
+    // The position is in this line, whatever the number of the line is.
+    let words = error.to_string();
+    let reason = words.split(" at line ").next().unwrap_or_default();
+    Refusal::new(format!("no request: {reason} (column {})", error.column()), help)
+}
+
+fn example() -> &'static str {
+    VERBS.first().map_or("", |row| row.example)
+}
+
+fn verb(members: Vec<(String, Value)>) -> Result<Verb, Refusal> {
+    let mut verb = None;
+    let mut within = None;
+    for (name, value) in members {
+        match (name.as_str(), verbs::row(&name)) {
+            (_, Some(row)) => {
+                if let Some((before, _)) = verb.replace((row.name, row.with(value))) {
+                    let message = format!("a request has one verb, and this one has `{before}` and `{name}`");
+                    return Err(Refusal::new(message, "send two requests"));
+                }
+            }
+            (ID, None) => {}
+            (WITHIN, None) => within = Some(duration(&value)?),
+            (_, None) => return Err(Refusal::unknown("key", &name, &keys())),
+        }
+    }
+    match (verb, within) {
+        (None, _) => {
+            let names: Vec<_> = VERBS.iter().map(|row| row.name).collect();
+            let message = format!("the request has no verb: one of {}", names.join(", "));
+            Err(Refusal::new(message, format!("such as {}", example())))
+        }
+        (Some((_, verb)), None) => verb,
+        (Some((name, verb)), Some(_)) => match verb? {
+            Verb::Expect { condition, .. } => Ok(Verb::Expect { condition, within }),
+            _ => Err(Refusal::new(format!("`{name}` has no `{WITHIN}`"), "only `expect` has it")),
+        },
+    }
+}
+
+fn keys() -> Vec<&'static str> {
+    VERBS.iter().map(|row| row.name).chain([ID, WITHIN]).collect()
+}
+
+fn duration(value: &Value) -> Result<Duration, Refusal> {
+    let read = value.as_str().and_then(|text| text.parse().ok());
+    read.ok_or_else(|| {
+        let message = format!("`{WITHIN}` takes a duration, and not {}", verbs::kind(value));
+        Refusal::new(message, "a number and ns, us, ms, s, min or h, such as \"5s\" or \"100ms\"")
+    })
+}
