@@ -12,11 +12,12 @@ mod verbs;
 
 pub use answer::Answer;
 pub use content::{
-    AboutSentence, ActiveFault, Faults, Held, SentenceRow, Sentences, Status, UnitError, UnitReport,
-    VariableReport, Variables,
+    AboutSentence, ActiveFault, Faults, Held, ObjectReport, SentenceRow, Sentences, Status, Subscribed,
+    UnitError, UnitReport, VariableReport, Variables,
 };
 pub use incoming::Incoming;
 pub use refusal::Refusal;
+pub(crate) use request::too_long;
 pub use request::{Request, Unread, Verb};
 pub use verbs::{VERBS, VerbRow};
 

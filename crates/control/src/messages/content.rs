@@ -88,6 +88,27 @@ pub struct VariableReport {
     pub forced: bool,
 }
 
+/// Of `object`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ObjectReport {
+    /// Unit and entry, as in `N1 1018:04`.
+    pub object: String,
+    /// Its data type, such as `U32`.
+    #[serde(rename = "type")]
+    pub data_type: String,
+    /// A number, true or false, a text; the bytes of another type as text, such as `0A 00`.
+    pub value: Value,
+    /// Its bytes, in the order of the wire.
+    pub bytes: String,
+}
+
+/// Of `subscribe` and `unsubscribe`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Subscribed {
+    /// Everything that is subscribed now: kinds of records, and `variable:NAME`.
+    pub subscribed: Vec<String>,
+}
+
 /// Of `faults` and `clear`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Faults {

@@ -116,10 +116,7 @@ impl Verb {
 /// The members of a line, none of them twice.
 fn members(line: &[u8]) -> Result<Vec<(String, Value)>, Refusal> {
     if line.len() > LINE_BYTES_MAX {
-        return Err(Refusal::new(
-            format!("a request of {} bytes, and at most {LINE_BYTES_MAX} are read", line.len()),
-            "send several requests",
-        ));
+        return Err(too_long());
     }
     let text = core::str::from_utf8(line).map_err(|error| {
         let message = format!("the line is not UTF-8: byte {}", error.valid_up_to() + 1);
@@ -135,6 +132,11 @@ fn members(line: &[u8]) -> Result<Vec<(String, Value)>, Refusal> {
         }
         None => Ok(members),
     }
+}
+
+/// A line that is too long to be a request.
+pub(crate) fn too_long() -> Refusal {
+    Refusal::new(format!("a request has more than {LINE_BYTES_MAX} bytes"), "send several requests")
 }
 
 fn no_object(error: &serde_json::Error) -> Refusal {
@@ -187,6 +189,6 @@ fn duration(value: &Value) -> Result<Duration, Refusal> {
     let read = value.as_str().and_then(|text| text.parse().ok());
     read.ok_or_else(|| {
         let message = format!("`{WITHIN}` takes a duration, and not {}", verbs::kind(value));
-        Refusal::new(message, "a number and ns, us, ms, s, min or h, such as \"5s\" or \"100ms\"")
+        Refusal::new(message, "a number and ns, us, ms or s, such as \"5s\" or \"100ms\"")
     })
 }

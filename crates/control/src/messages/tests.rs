@@ -89,7 +89,7 @@ fn a_line_that_is_no_object_is_refused_with_its_place() {
     let deep = format!("{{\"id\":{}", "[".repeat(60_000));
     assert!(refused(&deep).message.contains("recursion limit exceeded"));
     let long = refused(&format!("{{\"do\":\"{}\"}}", "x".repeat(LINE_BYTES_MAX)));
-    assert_eq!(long.message, "a request of 65545 bytes, and at most 65536 are read");
+    assert_eq!(long.message, "a request has more than 65536 bytes");
     let unread = Request::read(b"{\"do\":\"\xFF\"}").unwrap_err();
     assert_eq!(unread.refusal.message, "the line is not UTF-8: byte 8");
 }

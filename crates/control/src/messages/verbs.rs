@@ -85,7 +85,7 @@ pub const VERBS: &[VerbRow] = &[
         value: "a unit and an entry",
         example: r#"{"id":8,"object":"N1 1018:04"}"#,
         meaning: "the value of an object, read from the side of the unit: no mailbox is used",
-        answer: &["object", "type", "value"],
+        answer: &["object", "type", "value", "bytes"],
         build: |value| text(value).map(Verb::Object),
     },
     VerbRow {

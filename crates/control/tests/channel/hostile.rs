@@ -1,0 +1,119 @@
+//! Clients that send what is no request, too much, or nothing.
+
+use std::io::Write;
+use std::thread;
+
+use control::CLIENTS_MAX;
+use control::messages::LINE_BYTES_MAX;
+use serde_json::json;
+
+use crate::bench::Bench;
+
+#[test]
+fn lines_that_are_no_requests_are_answered_and_the_next_one_is_read() {
+    let bench = Bench::new("no_requests");
+    let mut client = bench.client();
+    let deep = format!("{{\"id\":1,\"do\":{}\n", "[".repeat(50_000));
+    let lines: [(&[u8], &str); 5] = [
+        (b"{\"do\":\"\xFF\xFE\"}\n", "not UTF-8"),
+        (b"hello\n", "expected value"),
+        (deep.as_bytes(), "recursion limit"),
+        (b"{\"id\":1}\n", "has no verb"),
+        (b"\0\0\0\n", "expected value"),
+    ];
+    for (line, words) in lines {
+        client.say(line);
+        let answer = client.line();
+        assert_eq!(answer["ok"], false);
+        assert!(answer["error"]["message"].as_str().unwrap().contains(words), "{answer}");
+    }
+    client.say("\n\r\n  \n");
+    assert_eq!(client.answer(&json!({ "id": 7, "do": "make it" }))["id"], 7);
+}
+
+#[test]
+fn a_half_line_waits_and_delays_nobody() {
+    let bench = Bench::new("half_line");
+    let mut half = bench.client();
+    half.say("{\"id\":1,\"do\":\"ma");
+    assert_eq!(bench.client().answer(&json!({ "id": 2, "do": "make it" }))["id"], 2);
+    half.say("ke it\"}\n");
+    assert_eq!(half.line(), json!({ "id": 1, "ok": true, "at_ns": half_at(&bench) }));
+}
+
+fn half_at(bench: &Bench) -> u64 {
+    bench.table.lock().unwrap().now
+}
+
+#[test]
+fn a_line_of_ten_megabytes_is_refused_once_and_the_next_one_is_read() {
+    let bench = Bench::new("long_line");
+    let mut client = bench.client();
+    let mut stream = client.stream.try_clone().unwrap();
+    let writing = thread::spawn(move || {
+        (0..100).for_each(|_| stream.write_all(&[b'x'; 100_000]).unwrap());
+        stream.write_all(b"\n{\"id\":2,\"do\":\"make it\"}\n").unwrap();
+    });
+    let message = format!("a request has more than {LINE_BYTES_MAX} bytes");
+    assert_eq!(client.line()["error"]["message"], message);
+    assert_eq!(client.line()["id"], 2);
+    writing.join().unwrap();
+}
+
+/// A client that never reads its answers is not asked for further requests: it waits in its own `write`.
+#[test]
+fn a_flood_of_requests_delays_no_other_client_and_takes_no_room() {
+    let bench = Bench::new("flood");
+    let flood = bench.client();
+    flood.stream.set_nonblocking(true).unwrap();
+    let request = b"{\"id\":1,\"sentences\":true}\n".repeat(1_000);
+    let mut other = bench.client();
+    let mut refused = 0;
+    for number in 0..500 {
+        // The socket is full, and stays so, as nobody reads the answers.
+        while (&flood.stream).write(&request).is_ok() {}
+        refused += 1;
+        assert_eq!(other.answer(&json!({ "id": number, "do": "make it" }))["id"], number);
+    }
+    assert_eq!(refused, 500);
+}
+
+#[test]
+fn there_is_room_for_so_many_clients_and_the_next_one_is_told() {
+    let bench = Bench::new("clients");
+    let mut clients: Vec<_> = (0..CLIENTS_MAX).map(|_| bench.client()).collect();
+    for (number, client) in clients.iter_mut().enumerate() {
+        assert_eq!(client.answer(&json!({ "id": number, "do": "make it" }))["id"], number);
+    }
+    let mut one_more = bench.client();
+    let refused = one_more.line();
+    assert_eq!(refused["error"]["message"], "256 clients are connected already");
+    assert!(one_more.is_closed());
+    clients.pop();
+    // The next one is admitted when the server has noticed that one has left.
+    loop {
+        let mut next = bench.client();
+        if next.stream.write_all(b"{\"id\":1,\"do\":\"make it\"}\n").is_ok() && next.line()["ok"] == true {
+            return;
+        }
+    }
+}
+
+#[test]
+fn there_is_room_for_so_many_expectations_and_those_of_a_client_that_has_left_are_forgotten() {
+    let bench = Bench::new("expectations");
+    let mut client = bench.client();
+    for id in 0..64 {
+        client.request(&json!({ "id": id, "expect": "x", "within": "1000s" }));
+    }
+    let refused = client.answer(&json!({ "id": 64, "expect": "x", "within": "1000s" }));
+    assert_eq!(refused["error"]["message"], "64 expectations of this client wait already");
+    assert_eq!(client.answer(&json!({ "id": 65, "expect": "x" }))["held"], false);
+    drop(client);
+
+    let mut other = bench.client();
+    other.request(&json!({ "id": 1, "expect": "y", "within": "1000s" }));
+    other.request(&json!({ "id": 2, "do": "make y" }));
+    let ids = [other.line()["id"].clone(), other.line()["id"].clone()];
+    assert!(ids.contains(&json!(1)) && ids.contains(&json!(2)), "{ids:?}");
+}

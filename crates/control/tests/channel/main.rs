@@ -1,0 +1,9 @@
+//! The channel from a client's side, with a twin that is a table.
+
+#![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
+
+mod bench;
+mod hostile;
+mod records;
+mod sockets;
+mod verbs;
