@@ -81,8 +81,8 @@ pub(crate) enum Command {
 
 #[derive(Debug, Args)]
 pub(crate) struct RunArgs {
-    /// Unit files, in chain order from the master
-    #[arg(required = true, value_name = "FILE")]
+    /// Unit files, in chain order from the master; default with --scenario: the units of the scenario
+    #[arg(required_unless_present = "scenario", value_name = "FILE")]
     pub(crate) units: Vec<PathBuf>,
     /// raw:IFNAME, udp:ADDR[:PORT] or tap:NAME
     #[arg(long)]
@@ -106,6 +106,16 @@ pub(crate) struct RunArgs {
     /// Skip the simulated times of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
+    /// Play this scenario against the master that is there, and end with its verdict: exit code 0, or 1 if an expectation
+    /// is not fulfilled
+    #[arg(long, value_name = "SCENARIO")]
+    pub(crate) scenario: Option<PathBuf>,
+    /// Write the verdict of the scenario as a JUnit file, for CI systems
+    #[arg(long, value_name = "OUT", requires = "scenario")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Write the verdict of the scenario as one JSON line, with the fields of `ectwin replay --json`
+    #[arg(long, value_name = "OUT", requires = "scenario")]
+    pub(crate) json: Option<PathBuf>,
     /// End when stdin is closed too, for a program that starts the units: they end with it, whatever ended it
     #[arg(long)]
     pub(crate) until_stdin_closes: bool,

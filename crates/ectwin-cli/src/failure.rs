@@ -30,6 +30,8 @@ pub(crate) enum Failure {
     ProgramWrong(FileProblems),
     /// A case of a campaign failed. This has already been printed.
     CasesFailed,
+    /// A run has ended before its scenario.
+    NoVerdict { message: String, help: String },
     /// A signal has ended a campaign or a search.
     Interrupted { signal: Signal, message: String, help: String },
     /// The arguments contradict each other, or the existing files.
@@ -129,6 +131,7 @@ impl Failure {
             | Self::ProgramWrong(_)
             | Self::RulesBroken
             | Self::CasesFailed
+            | Self::NoVerdict { .. }
             | Self::LinkLost(_)
             | Self::System(_) => 1,
             #[cfg(feature = "ethercrab")]
@@ -180,9 +183,9 @@ impl Failure {
             Self::BadFile(problems) | Self::ProgramWrong(problems) => (problems.pictures(), None),
             Self::RulesBroken | Self::CasesFailed | Self::Command(_) => (String::new(), None),
             Self::Exec(cause) => cause.message_and_help(),
-            Self::Refused { message, help } | Self::Interrupted { message, help, .. } => {
-                (message.clone(), Some(help.clone()))
-            }
+            Self::Refused { message, help }
+            | Self::NoVerdict { message, help }
+            | Self::Interrupted { message, help, .. } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {
                 (format!("cannot read {}: {source}", path.display()), Some(source.help()))
             }

@@ -1,6 +1,6 @@
 //! What a line needs to be lent to orders, in both times.
 
-use plant::line::LineRefusal;
+use plant::line::{ActiveFault, LineRefusal};
 use scenario::model::{LineOrder, Order, UnitOrder};
 use scenario::{LineHands, Notes};
 use time::Instant;
@@ -19,6 +19,10 @@ pub(crate) fn replaced_place(order: &Order) -> Option<usize> {
 impl LineHands for Disturbed {
     fn order(&mut self, now: Instant, order: &LineOrder, network: &mut Units) -> Result<(), LineRefusal> {
         self.order(now, order, network)
+    }
+
+    fn each_active(&self, now: Instant, show: &mut dyn FnMut(ActiveFault<'_>)) {
+        self.active(now).for_each(show);
     }
 }
 

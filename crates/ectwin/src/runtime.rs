@@ -4,6 +4,8 @@ mod changes;
 mod frames;
 mod handle;
 mod handover;
+mod lent;
+mod play;
 mod program_changes;
 mod reports;
 mod shared;

@@ -74,6 +74,14 @@ impl Setup {
         Self::without_program(file).with_program_of_file(None)
     }
 
+    /// Takes a unit of a scenario, with its program, which is not read again when its files change. Its memory is not stored.
+    #[must_use]
+    pub fn from_source(source: UnitSource) -> Self {
+        let UnitSource { file, program } = source;
+        let started = program.start();
+        Self { program: started, known_program: program, ..Self::without_program(file) }
+    }
+
     /// Reads the text of a unit file, and the user program in these files and folders instead of the one in the text.
     ///
     /// # Errors
@@ -206,8 +214,9 @@ impl Setup {
         self.program_files.as_ref().map_or(&[][..], |files| &files.paths)
     }
 
-    /// What orders to the unit and conditions are checked against.
-    pub(crate) fn source(&self) -> UnitSource {
+    /// The unit as scenarios know it: what orders to it and conditions are checked against.
+    #[must_use]
+    pub fn source(&self) -> UnitSource {
         UnitSource { file: self.file.clone(), program: self.known_program.clone() }
     }
 

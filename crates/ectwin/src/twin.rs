@@ -11,7 +11,7 @@ use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
 use scenario::model::Order;
-use scenario::{Bench, Brought, KnownLine, Lent, Records, Refused};
+use scenario::{Bench, Brought, KnownLine, Lent, Notes, Records, Refused};
 use storage::ChangesLost;
 use time::{Duration, Instant};
 use unit_model::ModelUnit;
@@ -148,7 +148,7 @@ impl Twin {
     /// Carries out an order that has been checked.
     pub(crate) fn carry_out(&mut self, order: &Order, brought: &Brought) -> Result<(), Refused> {
         let Self { line, cpus, supply, now, .. } = self;
-        line.carry_out(cpus, order, brought, supply, *now)
+        line.carry_out(cpus, order, brought, supply, &mut NoNotes, *now)
     }
 
     /// Another unit takes this place: it has no memory file, and its program no watched files.
@@ -278,7 +278,7 @@ impl Line {
         cpus: &'a mut CpuUnits,
         brought: &'a Brought,
         supply: &'a Supply,
-        notes: &'a mut NoNotes,
+        notes: &'a mut dyn Notes,
         now: Instant,
     ) -> Bench<'a> {
         self.is_lent(now);
@@ -322,9 +322,10 @@ impl Line {
         order: &Order,
         brought: &Brought,
         supply: &Supply,
+        notes: &mut dyn Notes,
         now: Instant,
     ) -> Result<(), Refused> {
-        self.bench(cpus, brought, supply, &mut NoNotes, now).carry_out(order)?;
+        self.bench(cpus, brought, supply, notes, now).carry_out(order)?;
         let replacement =
             replaced_place(order).and_then(|position| Some((position, brought.unit_at(position)?)));
         if let (Some((position, source)), Some(observed)) = (replacement, &mut self.observed) {

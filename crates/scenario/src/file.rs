@@ -18,8 +18,10 @@ use std::collections::BTreeSet;
 use user_file::{Problem, Reader, Section, Wanted, read_toml};
 
 use crate::model::Script;
-use crate::ready::{Draft, Files, Problem as Mistake, Remembered, ScenarioErrors, Texts, ready};
-use crate::run::Scenario;
+use crate::ready::{
+    Draft, Files, Problem as Mistake, Remembered, ScenarioErrors, Texts, ready, ready_for_line,
+};
+use crate::run::{Scenario, UnitSource};
 use names::{Named, Names};
 use parameters::{CASES_MAX, Parameters, USE};
 use preludes::{Here, Whole, read_whole};
@@ -61,6 +63,26 @@ impl Scenario {
             cases((text, reader), file, Number::Any, &mut files, scenario)
         });
         all.map_err(ScenarioErrors::of_file)
+    }
+
+    /// Reads the text of a scenario file that is one case, for a line with another master than those of scenarios: what only
+    /// those do or know is refused. `units` are those of the line; without them it has the units of the scenario.
+    ///
+    /// # Errors
+    /// As [`Scenario::parse`]; orders to the scripted master, and conditions about it; units that are not those of the line.
+    pub fn parse_for_line(
+        text: &str,
+        files: &mut dyn Files,
+        units: Option<Vec<UnitSource>>,
+    ) -> Result<Self, ScenarioErrors> {
+        let one = read_toml(text, Wanted::Scenario, |reader, file| {
+            let make = |draft: Draft, case: Option<String>, files: &mut dyn Files| {
+                let (scenario, problems) = ready_for_line(draft, files, units.clone());
+                (Self { case, ..scenario }, problems)
+            };
+            cases((text, reader), file, Number::One, files, make)?.pop()
+        });
+        one.map_err(ScenarioErrors::of_file)
     }
 
     /// The text of each case of a scenario file, in the order of [`Scenario::cases`]: its parameters have one value there.

@@ -24,8 +24,9 @@ pub use ready::{ErrorPlace, Files, KnownLine, ReadyOrder, ScenarioError, Scenari
 pub use refused::{Reason, Refused};
 pub use run::{
     Aspect, Bench, Brought, DifferenceKind, Fact, FactKind, Failure, FailureKind, Lent, LineHands, Look,
-    MasterProgram, Met, NotReplayable, Notes, PlayedStep, ProgramFile, RandomPart, RecordedFrames, Recording,
-    Records, Report, Scenario, Supply, UnitSource, UserProgram, WrittenGroup, WrittenStep,
+    MasterProgram, Met, NotReplayable, Notes, Play, PlayedStep, ProgramFile, RandomPart, RecordedFrames,
+    Recording, Records, Report, RunningLine, Scenario, Supply, Turn, UnitSource, UserProgram, WrittenGroup,
+    WrittenStep,
 };
 pub use search::{Found, Search, Trial};
 pub use trace_difference::{TraceDifference, trace_differences};

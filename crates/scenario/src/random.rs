@@ -108,8 +108,9 @@ impl Scenario {
         (row.key, text)
     }
 
-    /// All steps, with the random ones in their places.
-    pub(crate) fn all_steps(&self, seed: u64) -> Vec<PlayedStep> {
+    /// All steps, with the random ones of a seed in their places.
+    #[must_use]
+    pub fn all_steps(&self, seed: u64) -> Vec<PlayedStep> {
         self.steps_with(&self.random_steps(seed))
     }
 

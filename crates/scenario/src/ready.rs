@@ -14,6 +14,7 @@ mod masters_words;
 mod model_words;
 mod nodes;
 mod ordered;
+mod other_master;
 mod possible;
 mod problem;
 mod process_data;
@@ -34,13 +35,13 @@ mod values;
 mod written;
 
 use crate::model::{Script, in_order};
-use crate::run::{Brought, RecordedFrames, Scenario};
+use crate::run::{Brought, RecordedFrames, Scenario, UnitSource};
 pub use error::{ErrorPlace, ScenarioError, ScenarioErrors};
 pub use files::Files;
 pub(crate) use files::{Remembered, Texts};
 pub(crate) use groups::DEPTH_MAX;
 pub use known_line::{KnownLine, ReadyOrder};
-use maker::Maker;
+use maker::{Maker, MasterOfLine};
 pub(crate) use problem::{Part, Problem, StepPart};
 use steps::{Ground, ReadySteps};
 pub(crate) use times::LIMIT_MAX;
@@ -85,9 +86,29 @@ impl Scenario {
 
 /// A scenario, and its mistakes: it is executable if there are none.
 pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Problem>) {
+    let mut maker = Maker::new(files, draft.script.capture.is_some());
+    maker.units(&draft.script.units);
+    made(maker, draft)
+}
+
+/// The same for a line with another master. Without `units` those of the scenario are on the line.
+pub(crate) fn ready_for_line(
+    draft: Draft,
+    files: &mut dyn Files,
+    units: Option<Vec<UnitSource>>,
+) -> (Scenario, Vec<Problem>) {
+    let mut maker = Maker::new(files, false);
+    maker.master_of_line = MasterOfLine::Other;
+    match units {
+        Some(units) => maker.units_of_line(units, &draft.script),
+        None => maker.units(&draft.script.units),
+    }
+    made(maker, draft)
+}
+
+/// The scenario, and all mistakes, of a maker that knows the units.
+fn made(mut maker: Maker<'_>, draft: Draft) -> (Scenario, Vec<Problem>) {
     let Draft { mut script, written, is_whole } = draft;
-    let mut maker = Maker::new(files, script.capture.is_some());
-    maker.units(&script.units);
     if is_whole && maker.problems.is_empty() {
         maker.number_units(&mut script.steps);
     }
@@ -100,6 +121,7 @@ pub(crate) fn ready(draft: Draft, files: &mut dyn Files) -> (Scenario, Vec<Probl
     // A step may put another unit into a place.
     let units = maker.units.clone();
     let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);
+    maker.check_keys_of_masters(script.capture.is_some(), script.master.is_some());
     let Maker { master, programs, images, replacements, problems, .. } = maker;
     let scenario = Scenario {
         title: script.title,

@@ -44,8 +44,8 @@ use printed::{Printed, Shown};
 use results::Results;
 use threads::{Outputs, Wanted};
 
-pub(crate) use campaign::{read_cases, scenario_in};
-pub(crate) use case::{CASES_MAX, named, title};
+pub(crate) use campaign::{read_cases, scenario_for_line, scenario_in};
+pub(crate) use case::{CASES_MAX, Case, named, title};
 pub(crate) use failed_cases::FailedCases;
 pub(crate) use junit::{JunitReport, NotEnded, NotEndedBy, Totals};
 pub(crate) use partition::{Partition, PartitionChoice};
@@ -54,7 +54,7 @@ pub(crate) use result::{CaseResult, FailedStep, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use shard::chosen as chosen_part;
 pub(crate) use spool::Spool;
-pub(crate) use story::{cases as case_count, failed_case, quoted};
+pub(crate) use story::{case as case_story, cases as case_count, failed_case, quoted};
 pub(crate) use threads::{Interrupted, replay as on_threads};
 
 /// Replays all cases of the selected part.

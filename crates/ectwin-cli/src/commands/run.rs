@@ -2,6 +2,7 @@
 
 mod events_file;
 mod frame_log;
+mod judged;
 mod observers;
 mod servers;
 mod show;
@@ -25,6 +26,7 @@ use crate::privileges::{self, LaterUse};
 use crate::{descriptors, output, overwrite, signals, unit_files};
 use events_file::EventsFile;
 use frame_log::FrameLog;
+use judged::{Judged, Judging, VerdictFiles};
 use observers::Observers;
 use show::{Show, Showing};
 
@@ -36,7 +38,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
         output::refuse_stdout("--pcap", path, "the line `ready` is there")?;
     }
     let setups = setups(args)?;
-    refuse_overwriting(args, &setups)?;
+    let judged = Judged::read(args, &setups)?;
+    let setups = if args.units.is_empty() { of_scenario(args, judged.as_ref()) } else { setups };
+    refuse_overwriting(args, &setups, judged.as_ref())?;
     let units = setups.len();
     // First everything that needs a privilege, then the privileges are dropped, then the threads are started,
     // which inherit this.
@@ -47,6 +51,7 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let opcua_listener = args.opcua.map(servers::listen_for_opcua).transpose()?;
     let capture = args.pcap.as_deref().map(OutputFile::open).transpose()?;
     let events = args.events.as_deref().map(LaterOutput::open).transpose()?;
+    let verdict_files = VerdictFiles::open(args)?;
     privileges::give_up(&files(args, &setups));
 
     // What is open from here on is closed in order. Until then a signal ends the command: it may wait for the
@@ -74,13 +79,16 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     if args.until_stdin_closes {
         signals::stop_when_stdin_closes(runtime.handle()).map_err(Failure::LinkLost)?;
     }
+    let judging =
+        judged.map(|judged| judged.start(args, &link, verdict_files, runtime.handle())).transpose()?;
     let ended = runtime.answer(&mut port, observer);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));
     let shown = showing.map_or(Ok(()), |showing| showing.end(args.events.as_deref()));
+    let verdict = judging.map_or(Ok(()), Judging::end);
     let Ended { statistics, lost } = ended.map_err(Failure::LinkLost)?;
     tell(statistics);
-    recorded.and(shown).and_then(|()| refuse_loss(lost))
+    recorded.and(shown).and_then(|()| refuse_loss(lost)).and(verdict)
 }
 
 /// Each loss has already been logged.
@@ -123,17 +131,32 @@ fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
     unit_files::all(args.units.iter().map(read))
 }
 
+/// The units of the scenario, in place of unit files.
+fn of_scenario(args: &RunArgs, judged: Option<&Judged>) -> Vec<Setup> {
+    let units = judged.iter().flat_map(|judged| judged.units());
+    units.map(|setup| if args.fast { setup.fast() } else { setup }).collect()
+}
+
 fn with_storage(args: &RunArgs, setups: Vec<Setup>) -> Result<Vec<Setup>, Failure> {
+    if args.units.is_empty() {
+        return Ok(setups);
+    }
     let pairs = args.units.iter().zip(setups);
     unit_files::all(pairs.map(|(path, setup)| unit_files::with_storage(path, setup)))
 }
 
-fn refuse_overwriting(args: &RunArgs, setups: &[Setup]) -> Result<(), Failure> {
-    let outputs = [("--pcap", &args.pcap), ("--events", &args.events)];
+fn refuse_overwriting(args: &RunArgs, setups: &[Setup], judged: Option<&Judged>) -> Result<(), Failure> {
+    let outputs = [
+        ("--pcap", &args.pcap),
+        ("--events", &args.events),
+        ("--junit", &args.junit),
+        ("--json", &args.json),
+    ];
     let outputs = outputs.iter().filter_map(|(option, path)| Some(Output { option, path: path.as_deref()? }));
     let outputs: Vec<Output<'_>> = outputs.filter(|output| !output::is_stdout(output.path)).collect();
     let programs = setups.iter().flat_map(Setup::program_paths);
-    let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups));
+    let of_scenario = judged.iter().flat_map(|judged| judged.inputs()).cloned();
+    let files = args.units.iter().cloned().chain(programs).chain(memories(args, setups)).chain(of_scenario);
     overwrite::refuse(&outputs, files)
 }
 
@@ -148,7 +171,8 @@ fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
     let units = args.units.iter().cloned().map(LaterUse::Read);
     let programs: BTreeSet<_> = setups.iter().map(|setup| setup.named_program_paths().to_vec()).collect();
     let programs = programs.into_iter().map(LaterUse::Program);
-    memories(args, setups).map(LaterUse::Written).chain(units).chain(programs).collect()
+    let memories = memories(args, setups).map(LaterUse::Written);
+    memories.chain(units).chain(programs).chain(VerdictFiles::later_use(args)).collect()
 }
 
 fn record(capture: BegunFile, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {

@@ -1,5 +1,6 @@
 //! Waiting until something on the line may have changed. As long as nobody waits, its threads take no lock.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -37,18 +38,30 @@ impl Changes {
         mut look: impl FnMut() -> Result<(), E>,
     ) -> Result<(), E> {
         let end = Instant::now().checked_add(within);
-        let _waiting = Waiting::begin(self);
-        loop {
-            let (before, began) = (*self.lock(), Instant::now());
+        self.follow(|| {
             let looked = look();
             let rest = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
             if looked.is_ok() || rest.is_zero() {
-                return looked;
+                ControlFlow::Break(looked)
+            } else {
+                ControlFlow::Continue(rest)
             }
-            std::thread::sleep(LOOK_AGAIN.saturating_sub(began.elapsed()).min(rest));
-            let rest = end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+        })
+    }
+
+    /// Looks until a look breaks: after each change, and when the time has passed that the last look has returned.
+    pub(super) fn follow<T>(&self, mut look: impl FnMut() -> ControlFlow<T, Duration>) -> T {
+        let _waiting = Waiting::begin(self);
+        loop {
+            let (before, began) = (*self.lock(), Instant::now());
+            let end = match look() {
+                ControlFlow::Break(result) => return result,
+                ControlFlow::Continue(wait) => Instant::now().checked_add(wait),
+            };
+            let rest = || end.map_or(Duration::MAX, |end| end.saturating_duration_since(Instant::now()));
+            std::thread::sleep(LOOK_AGAIN.saturating_sub(began.elapsed()).min(rest()));
             let is_same = |count: &mut u64| *count == before;
-            drop(self.changed.wait_timeout_while(self.lock(), rest, is_same));
+            drop(self.changed.wait_timeout_while(self.lock(), rest(), is_same));
         }
     }
 

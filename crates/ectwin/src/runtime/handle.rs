@@ -1,17 +1,16 @@
 //! Access to a line that runs in real time.
 
-use std::sync::atomic::Ordering;
 use std::sync::{Arc, MutexGuard, PoisonError};
 
 use link::Clock;
 use scenario::model::Order;
-use scenario::{Bench, Brought, KnownLine, Refused};
+use scenario::{Bench, Brought, KnownLine, Refused, RunningLine};
 use time::{Duration, Instant};
 
 use super::shared::{Shared, wake};
 use super::status::UnitStatus;
-use crate::lending::{NoNotes, replaced_place};
-use crate::twin::{Line, finish_replaced};
+use crate::lending::NoNotes;
+use crate::twin::Line;
 use crate::unit_side::UnitSide;
 
 /// Access from any thread to the units of a [`crate::Runtime`]; clones access the same units, also after its end.
@@ -38,34 +37,12 @@ impl Handle {
 
     /// Lends everything that orders act on and conditions look at. Frames and tasks wait until `act` returns.
     pub(crate) fn with_bench<T>(&self, brought: &Brought, act: impl FnOnce(&mut Bench<'_>) -> T) -> T {
-        let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
-        let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
-        let done =
-            act(&mut line.bench(&mut cpus, brought, &self.shared.supply, &mut NoNotes, self.clock.now()));
-        self.publish_changed(&mut line);
-        done
+        self.shared.lend(&self.clock, brought, |line| act(&mut line.bench(&mut NoNotes)))
     }
 
     /// Carries out an order that has been checked. The units react before it returns.
     pub(crate) fn carry_out(&self, order: &Order, brought: &Brought) -> Result<(), Refused> {
-        let replaced = replaced_place(order);
-        if let Some(place) = replaced.and_then(|position| self.shared.replaced.get(position)) {
-            place.store(true, Ordering::Relaxed);
-        }
-        let keeper = self.look_at_line(|line, _| {
-            self.publish_changed(line);
-            replaced.and_then(|position| line.take_keeper(position))
-        });
-        finish_replaced(keeper);
-        {
-            let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
-            let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
-            let done = line.carry_out(&mut cpus, order, brought, &self.shared.supply, self.clock.now());
-            self.publish_changed(&mut line);
-            done?;
-        }
-        self.look_at_line(Line::react);
-        Ok(())
+        self.shared.lend(&self.clock, brought, |line| line.carry_out(order, &mut NoNotes))
     }
 
     /// What orders and conditions are checked against.

@@ -11,6 +11,16 @@ use super::program_values::LastingValue;
 use super::standing::Standing;
 use crate::run::{LoadedProgram, MasterProgram, Replacement, SiiImage, UnitSource};
 
+/// The master of a scenario.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum MasterOfLine {
+    /// The scripted one.
+    #[default]
+    Scripted,
+    /// Another one, which acts by itself.
+    Other,
+}
+
 /// Makes a scenario ready.
 pub(super) struct Maker<'f> {
     /// Returns the texts of files.
@@ -20,6 +30,8 @@ pub(super) struct Maker<'f> {
     pub(super) variables: Vec<DeviceVariables>,
     /// The master's own program.
     pub(super) master: Option<MasterProgram>,
+    /// Who sends frames to the units.
+    pub(super) master_of_line: MasterOfLine,
     /// It refers to a capture.
     pub(super) has_capture: bool,
     /// Programs that steps load.
@@ -57,6 +69,7 @@ impl<'f> Maker<'f> {
             units: Vec::new(),
             variables: Vec::new(),
             master: None,
+            master_of_line: MasterOfLine::default(),
             programs: Vec::new(),
             images: Vec::new(),
             replacements: Vec::new(),

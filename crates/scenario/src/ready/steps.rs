@@ -202,7 +202,10 @@ impl Maker<'_> {
 
     pub(super) fn order(&mut self, order: &mut Order, part: Part, ground: Ground) -> Option<()> {
         match order {
-            Order::Master(order) => self.said(order, part)?,
+            Order::Master(order) => {
+                self.said(order, part)?;
+                self.check_addressee(order, part)?;
+            }
             Order::Unit(order) => self.said(order, part)?,
             Order::Cpu(order) => self.said(order, part)?,
             Order::Line(order) => {
@@ -255,6 +258,7 @@ impl Maker<'_> {
     ) -> Option<()> {
         self.check_depth(condition, part)?;
         self.said(condition, part)?;
+        self.check_master_is_there(condition, part)?;
         if ground == Ground::Missing {
             return None;
         }

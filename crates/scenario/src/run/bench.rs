@@ -3,11 +3,12 @@
 mod looks;
 mod orders;
 mod plugged;
+mod settled;
 mod variables;
 
 use device::Network;
 use plant::Powered;
-use plant::line::{LineFaults, LineOrder, LineRefusal};
+use plant::line::{ActiveFault, LineFaults, LineOrder, LineRefusal};
 use plc::CpuUnits;
 use time::Instant;
 use unit_model::ModelUnit;
@@ -114,6 +115,9 @@ pub trait LineHands {
         order: &LineOrder,
         network: &mut Network<Box<dyn ModelUnit>>,
     ) -> Result<(), LineRefusal>;
+
+    /// Shows each fault of frames that is at work.
+    fn each_active(&self, now: Instant, show: &mut dyn FnMut(ActiveFault<'_>));
 }
 
 impl<T: Copy> LineHands for LineFaults<T> {
@@ -124,6 +128,10 @@ impl<T: Copy> LineHands for LineFaults<T> {
         network: &mut Network<Box<dyn ModelUnit>>,
     ) -> Result<(), LineRefusal> {
         self.order(now, order, network)
+    }
+
+    fn each_active(&self, now: Instant, show: &mut dyn FnMut(ActiveFault<'_>)) {
+        self.active(now).for_each(show);
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) use change::ends;
 use rest::Rest;
 use sequence::Sequence;
 use shared::Shared;
-use verdict::{Progress, Verdict};
+use verdict::{Origin, Progress, Verdict, Waits};
 
 /// Replays these steps with the units of a scenario. A panic of what it runs is a failure of the step.
 pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recording: Recording) -> Report {
@@ -58,7 +58,7 @@ pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recordi
 }
 
 /// Plays the steps of a scenario on a stage.
-struct Player<'a> {
+pub(crate) struct Player<'a> {
     steps: Sequence<'a>,
     /// All steps are done.
     rest: Option<Rest<'a>>,
@@ -66,16 +66,21 @@ struct Player<'a> {
 }
 
 /// What a player needs next.
-enum Next {
+pub(crate) enum Next<'a> {
     /// To be called again after each event, and at this time at the latest.
-    Wait { until: Instant },
+    Wait {
+        until: Instant,
+        /// The step or the group that waits, by its line and its words.
+        line: usize,
+        text: &'a str,
+    },
     /// Nothing: all steps are done, and all expectations are fulfilled.
     End,
 }
 
 impl<'a> Player<'a> {
     /// Plays these steps, until `limit` at the latest.
-    fn new(steps: &'a [PlayedStep], seed: u64, limit: Instant) -> Self {
+    pub(crate) fn new(steps: &'a [PlayedStep], seed: u64, limit: Instant) -> Self {
         let dice = Dice::new(seed ^ DICE_OF_STEPS);
         Self { steps: Sequence::of(steps), rest: None, shared: Shared::new(dice, limit) }
     }
@@ -84,7 +89,7 @@ impl<'a> Player<'a> {
     fn play(&mut self, world: &mut World) -> Verdict {
         loop {
             match self.advance(world)? {
-                Next::Wait { until } => advance(world, until),
+                Next::Wait { until, .. } => advance(world, until),
                 Next::End => return Ok(()),
             }
         }
@@ -94,13 +99,14 @@ impl<'a> Player<'a> {
     ///
     /// # Errors
     /// The first expectation that is not fulfilled.
-    fn advance(&mut self, stage: &mut impl Stage) -> Verdict<Next> {
+    pub(crate) fn advance(&mut self, stage: &mut impl Stage) -> Verdict<Next<'a>> {
         self.shared.look(stage)?;
         match self.poll(stage)? {
             Progress::Done => Ok(Next::End),
             Progress::Waits(waits) => {
                 self.shared.check_limit(&waits, stage)?;
-                Ok(Next::Wait { until: waits.until })
+                let Waits { origin: Origin { line, text }, until } = waits;
+                Ok(Next::Wait { until, line, text })
             }
         }
     }

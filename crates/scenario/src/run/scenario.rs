@@ -55,6 +55,12 @@ impl Scenario {
         each_step(&self.steps)
     }
 
+    /// What its steps bring to the places of the line.
+    #[must_use]
+    pub const fn brought(&self) -> &Brought {
+        &self.brought
+    }
+
     /// Stores the bytes of the capture in the file. Without them none of its frames are sent.
     ///
     /// # Errors

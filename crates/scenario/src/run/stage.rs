@@ -40,10 +40,10 @@ pub(crate) trait Stage {
     fn is_unsettled(&mut self) -> bool;
 
     /// The number of frames that faults of the line have to see until they have met all that they select.
-    fn frames_to_come(&self) -> u64;
+    fn frames_to_come(&mut self) -> u64;
 
     /// The time after which what has happened by now has shown its effects: a watchdog expires.
-    fn shows_until(&self) -> Instant;
+    fn shows_until(&mut self) -> Instant;
 
     /// Adds a line about a step to the trace.
     fn note_step(&mut self, words: &str);

@@ -45,15 +45,15 @@ impl Stage for World {
     }
 
     fn is_unsettled(&mut self) -> bool {
-        self.is_unsettled()
+        self.bench().is_unsettled()
     }
 
-    fn frames_to_come(&self) -> u64 {
-        self.frames_to_come()
+    fn frames_to_come(&mut self) -> u64 {
+        self.bench().frames_to_come()
     }
 
-    fn shows_until(&self) -> Instant {
-        self.shows_until()
+    fn shows_until(&mut self) -> Instant {
+        self.bench().shows_until()
     }
 
     fn note_step(&mut self, words: &str) {

@@ -2,7 +2,6 @@
 
 mod frames;
 mod indicators;
-mod settled;
 mod supply;
 
 use device::Network;

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use ectwin::user_files::{self, Beside, Unreadable, Wanted};
-use scenario::{Met, Scenario};
+use scenario::{Met, Scenario, ScenarioErrors, UnitSource};
 
 use super::case::{CASES_MAX, Case};
 use super::case_choice;
@@ -217,6 +217,22 @@ pub(crate) fn scenario_in(path: &Path, text: &str) -> Result<Scenario, Failure> 
     only(path, parse(path, text, &mut Fingerprint::new(), &mut Vec::new()).map_err(Failure::BadFile)?)
 }
 
+/// Reads a scenario file for a line with another master, as [`Scenario::parse_for_line`], with its files; also what
+/// [`read_cases`] returns.
+pub(crate) fn scenario_for_line(
+    path: &Path,
+    units: Option<Vec<UnitSource>>,
+) -> Result<(Scenario, Vec<PathBuf>, Fingerprint), Failure> {
+    let (mut inputs, mut fingerprint) = (vec![path.to_owned()], Fingerprint::of_version());
+    let text = user_files::text(path, Wanted::Scenario);
+    let text = text.map_err(|error| Failure::BadFile(unreadable(path, &error).into()))?;
+    fingerprint.add(path.display().to_string().as_bytes());
+    fingerprint.add(text.as_bytes());
+    let parse = |files: &mut dyn scenario::Files| Scenario::parse_for_line(&text, files, units);
+    let read = parse_beside(path, &text, &mut fingerprint, &mut inputs, parse);
+    Ok((read.map_err(Failure::BadFile)?, inputs, fingerprint))
+}
+
 /// The case of a file that has one.
 fn only(path: &Path, mut cases: Vec<Scenario>) -> Result<Scenario, Failure> {
     match (cases.len(), cases.pop()) {
@@ -262,23 +278,7 @@ fn parse(
     inputs: &mut Vec<PathBuf>,
 ) -> Result<Vec<Scenario>, FileProblems> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    let mut named = Beside::new(folder, |name, wanted, text| {
-        let path = folder.join(name);
-        if wanted == Wanted::UnitFile {
-            // Not read, but must not be replaced: the memory of the unit.
-            let file = plant::UnitFile::parse(text).ok();
-            inputs.extend(file.and_then(|file| unit_files::storage_path(&path, &file)));
-        }
-        inputs.push(path);
-        fingerprint.add(text.as_bytes());
-    });
-    let parsed = Scenario::cases(text, &mut named);
-    let mut cases = parsed.map_err(|errors| {
-        let problem = |error: &scenario::ScenarioError| {
-            FileProblem::in_text(path, text, error.span(), &error.message, &error.help)
-        };
-        FileProblems::new(errors.iter().map(problem), errors.more())
-    })?;
+    let mut cases = parse_beside(path, text, fingerprint, inputs, |files| Scenario::cases(text, files))?;
     for scenario in &mut cases {
         let Some(name) = scenario.capture.clone() else { continue };
         inputs.push(folder.join(&name));
@@ -290,6 +290,33 @@ fn parse(
         })?;
     }
     Ok(cases)
+}
+
+/// What `parse` makes of a text with the files beside it; the paths of the files are added to `inputs`.
+fn parse_beside<T>(
+    path: &Path,
+    text: &str,
+    fingerprint: &mut Fingerprint,
+    inputs: &mut Vec<PathBuf>,
+    parse: impl FnOnce(&mut dyn scenario::Files) -> Result<T, ScenarioErrors>,
+) -> Result<T, FileProblems> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let mut named = Beside::new(folder, |name, wanted, text| {
+        let path = folder.join(name);
+        if wanted == Wanted::UnitFile {
+            // Not read, but must not be replaced: the memory of the unit.
+            let file = plant::UnitFile::parse(text).ok();
+            inputs.extend(file.and_then(|file| unit_files::storage_path(&path, &file)));
+        }
+        inputs.push(path);
+        fingerprint.add(text.as_bytes());
+    });
+    parse(&mut named).map_err(|errors| {
+        let problem = |error: &scenario::ScenarioError| {
+            FileProblem::in_text(path, text, error.span(), &error.message, &error.help)
+        };
+        FileProblems::new(errors.iter().map(problem), errors.more())
+    })
 }
 
 fn load_capture(scenario: &mut Scenario, path: &Path, fingerprint: &mut Fingerprint) -> Result<(), String> {

@@ -11,19 +11,19 @@ use super::case_files::file_stem;
 pub(crate) const CASES_MAX: u64 = 10_000_000;
 
 /// One scenario with one seed.
-pub(super) struct Case<'a> {
+pub(crate) struct Case<'a> {
     /// Its number, from 1.
-    pub(super) number: u64,
+    pub(crate) number: u64,
     /// The number of cases in all parts.
-    pub(super) count: u64,
+    pub(crate) count: u64,
     /// The campaign.
-    pub(super) fingerprint: u64,
+    pub(crate) fingerprint: u64,
     /// The file.
-    pub(super) path: &'a Path,
+    pub(crate) path: &'a Path,
     /// Its contents.
-    pub(super) scenario: &'a Scenario,
+    pub(crate) scenario: &'a Scenario,
     /// The seed of its random generator.
-    pub(super) seed: u64,
+    pub(crate) seed: u64,
 }
 
 impl Case<'_> {
@@ -33,7 +33,7 @@ impl Case<'_> {
     }
 
     /// Its name in a report for CI systems.
-    pub(super) fn test_name(&self) -> String {
+    pub(crate) fn test_name(&self) -> String {
         test_name(&title(self.scenario), self.scenario.case.as_deref(), self.seed)
     }
 

@@ -98,6 +98,7 @@ mod tests {
             campaign: String::new(),
             file: file.to_owned(),
             parameters: None,
+            command: None,
             met: None,
             title: String::new(),
             seed,

@@ -27,7 +27,7 @@ impl Fingerprint {
     }
 
     /// As a number.
-    pub(super) const fn number(&self) -> u64 {
+    pub(crate) const fn number(&self) -> u64 {
         self.0
     }
 }

@@ -200,6 +200,7 @@ mod tests {
             differences: Vec::new(),
             trace_differences: Vec::new(),
             trace: failure_trace,
+            command: None,
             met: None,
         }
     }

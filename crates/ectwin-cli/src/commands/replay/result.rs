@@ -36,7 +36,7 @@ pub(crate) struct CaseResult {
     pub(crate) verdict: Verdict,
     /// The failed expectation.
     pub(crate) failure: Option<FailedStep>,
-    /// Elapsed virtual time.
+    /// Elapsed virtual time; real time if another master than those of scenarios was on the line.
     pub(crate) virtual_ns: u64,
     /// Process data cycles of the master.
     pub(crate) cycles: u64,
@@ -50,6 +50,9 @@ pub(crate) struct CaseResult {
     /// The last lines of the trace of a failed case; left out if it passed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) trace: Option<String>,
+    /// The command that repeats it, unless it is `ectwin replay`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) command: Option<String>,
     /// What the case has met; left out unless the coverage is asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) met: Option<Vec<String>>,
@@ -110,7 +113,7 @@ impl CaseResult {
     }
 
     /// From a report.
-    pub(super) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
+    pub(crate) fn new(case: &Case<'_>, partition: Partition, report: &scenario::Report) -> Self {
         let failure = report.failure.as_ref().map(FailedStep::of);
         Self {
             case: case.number,
@@ -128,12 +131,13 @@ impl CaseResult {
             differences: report.differences.iter().map(Difference::of).collect(),
             trace_differences: report.trace_differences.iter().map(ToString::to_string).collect(),
             trace: None,
+            command: None,
             met: None,
         }
     }
 
     /// Keeps the last lines of the trace.
-    pub(super) fn keep_trace(&mut self, trace: &str) {
+    pub(crate) fn keep_trace(&mut self, trace: &str) {
         let left_out = trace.lines().count().saturating_sub(TRACE_LINES_MAX);
         let last: String = trace.split_inclusive('\n').skip(left_out).collect();
         self.trace = Some(match left_out {

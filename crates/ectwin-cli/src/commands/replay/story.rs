@@ -9,7 +9,7 @@ use super::result::{CaseResult, Difference, Verdict};
 const TRACE_LINES_MAX: usize = 100;
 
 /// A case, and then its trace, if requested.
-pub(super) fn case(result: &CaseResult, trace: Option<&str>) -> String {
+pub(crate) fn case(result: &CaseResult, trace: Option<&str>) -> String {
     let story = match result.verdict {
         Verdict::Passed => format!("ok      {}{}", title_line(result), differences(result)),
         Verdict::Failed => failed_case(result),
@@ -65,6 +65,9 @@ fn differences(result: &CaseResult) -> String {
 
 /// The single command that repeats it.
 fn repeat(result: &CaseResult) -> String {
+    if let Some(command) = &result.command {
+        return command.clone();
+    }
     command(&on_one_line(&result.file), result.parameters.as_deref(), result.seed)
 }
 

@@ -149,6 +149,7 @@ fn test_case(
         differences: Vec::new(),
         trace_differences: Vec::new(),
         trace: None,
+        command: None,
         met: None,
     }
 }

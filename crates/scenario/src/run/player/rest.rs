@@ -29,7 +29,7 @@ pub(super) struct Rest<'a> {
 
 impl<'a> Rest<'a> {
     /// All steps are done now, and this was the last one.
-    pub(super) fn after(last: &'a WrittenStep, stage: &impl Stage, shared: &Shared<'a>) -> Self {
+    pub(super) fn after(last: &'a WrittenStep, stage: &mut impl Stage, shared: &Shared<'a>) -> Self {
         let now = stage.now();
         let is_order = !matches!(last.step.order, Order::Expect(_));
         let needs_time = is_order || shared.has_begun_at(now);

@@ -52,11 +52,11 @@ impl Stage for Desk {
         false
     }
 
-    fn frames_to_come(&self) -> u64 {
+    fn frames_to_come(&mut self) -> u64 {
         0
     }
 
-    fn shows_until(&self) -> Instant {
+    fn shows_until(&mut self) -> Instant {
         self.now()
     }
 
@@ -81,7 +81,7 @@ fn steps(text: &str) -> Vec<PlayedStep> {
 /// The time until which the player waits, in milliseconds; none at the end.
 fn waits(player: &mut Player<'_>, desk: &mut Desk) -> Option<u64> {
     match player.advance(desk) {
-        Ok(Next::Wait { until }) => Some(until.as_nanos() / 1_000_000),
+        Ok(Next::Wait { until, .. }) => Some(until.as_nanos() / 1_000_000),
         Ok(Next::End) => None,
         Err(failure) => panic!("{failure}"),
     }

@@ -4,18 +4,17 @@ use plant::line::Choice;
 use time::Instant;
 use wire::AlState;
 
-use super::World;
+use super::Bench;
 
 /// The request of the master.
 const AL_CONTROL: u16 = 0x0120;
 
-impl World {
+impl Bench<'_> {
     /// Whether a unit has not taken a request, or a fault of frames will end by itself.
-    pub(crate) fn is_unsettled(&mut self) -> bool {
-        let now = self.now;
-        let ends_by_itself = self.line.active(now).any(|fault| fault.until != Instant::NEVER);
-        let waits = (0..self.network.len()).any(|at| self.has_request(at));
-        ends_by_itself || waits
+    pub(crate) fn is_unsettled(&self) -> bool {
+        let mut ends_by_itself = false;
+        self.line.each_active(self.now, &mut |fault| ends_by_itself |= fault.until != Instant::NEVER);
+        ends_by_itself || (0..self.count()).any(|at| self.has_request(at))
     }
 
     /// Whether a request for a state waits in AL control.
@@ -35,13 +34,16 @@ impl World {
             Choice::Behind { skip, count } => skip.saturating_add(count).saturating_sub(seen),
             Choice::All | Choice::Percent(_) | Choice::PerMille(_) | Choice::Every(_) => 0,
         };
-        let faults = self.line.active(self.now);
-        faults.map(|fault| to_come(fault.disturbance.frames.choice, fault.frames_seen)).max().unwrap_or(0)
+        let mut most = 0;
+        self.line.each_active(self.now, &mut |fault| {
+            most = most.max(to_come(fault.disturbance.frames.choice, fault.frames_seen));
+        });
+        most
     }
 
     /// When the watchdogs that run now have expired.
     pub(crate) fn shows_until(&self) -> Instant {
-        let deadlines = (0..self.network.len()).filter_map(|at| self.network.esc(at)).map(esc::Esc::deadline);
+        let deadlines = (0..self.count()).filter_map(|at| self.network.esc(at)).map(esc::Esc::deadline);
         deadlines.filter(|deadline| *deadline != Instant::NEVER).max().unwrap_or(self.now)
     }
 }
