@@ -70,6 +70,9 @@ pub(crate) enum Command {
     /// Print a table of the model
     #[command(subcommand)]
     List(List),
+    /// Print the JSON Schema of what ectwin writes for other programs
+    #[command(subcommand)]
+    Schema(Schema),
     /// Explain a code, an object, a register, an indicator or a word
     Explain {
         /// Code, object or register in hexadecimal, such as 391E0000, 0x001B, 0x0602_0000, 0x1018, 10F3:05; indicator
@@ -406,6 +409,12 @@ pub(crate) enum List {
     Indicators(ListArgs),
     /// The setting rules with their events, in the order in which they are checked
     Rules(ListArgs),
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Schema {
+    /// A line of `ectwin run --events`: every kind of event with its fields
+    Events,
 }
 
 #[derive(Debug, Args)]

@@ -20,8 +20,11 @@ mod run;
 mod search;
 mod st_check;
 
-use crate::cli::{Command, List, St};
+use ectwin::happenings;
+
+use crate::cli::{Command, List, Schema, St};
 use crate::failure::Failure;
+use crate::output;
 
 /// Executes the command; `verbose` is the number of `-v`.
 pub(crate) fn run(command: Command, verbose: u8) -> Result<(), Failure> {
@@ -43,6 +46,7 @@ pub(crate) fn run(command: Command, verbose: u8) -> Result<(), Failure> {
         Command::List(List::NxObjects(args)) => list_nx_objects::run(&args),
         Command::List(List::Indicators(args)) => list_indicators::run(&args),
         Command::List(List::Rules(args)) => list_rules::run(&args),
+        Command::Schema(Schema::Events) => output::print(happenings::schema().as_bytes()),
         Command::Replay(args) => replay::run(&args),
         Command::Import(args) => import::run(&args),
         Command::Search(args) => search::run(&args),

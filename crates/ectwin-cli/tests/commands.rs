@@ -79,3 +79,13 @@ fn a_file_that_cannot_be_written_is_named() {
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("/no-such-folder/unit.bin"));
 }
+
+#[test]
+fn the_schema_of_events_is_one_json_document_with_a_definition_for_each_kind() {
+    let output = ectwin(&["schema", "events"]);
+    assert!(output.status.success());
+    let schema: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let definitions = schema["$defs"].as_object().unwrap();
+    assert_eq!(definitions.len(), ectwin::happenings::KINDS.len());
+    assert_eq!(definitions["state"]["properties"]["al_status_code"]["pattern"], "^0x[0-9A-F]{4}$");
+}

@@ -12,6 +12,7 @@ mod names;
 mod observed;
 mod queue;
 mod record;
+mod schema;
 mod start;
 
 use std::collections::BTreeMap;
@@ -28,7 +29,8 @@ pub use kinds::{COMMON, FieldRow, Form, KINDS, KindRow, Presence};
 pub(crate) use names::UnitName;
 pub(crate) use observed::Observed;
 pub(crate) use queue::Reporter;
-pub use record::{Detail, Record};
+pub use record::{Detail, Record, log_line, time_words};
+pub use schema::schema;
 pub use start::{findings, ready};
 
 use observed::Queue;

@@ -134,12 +134,8 @@ fn recorded(at: Instant, event: &RecordedEvent, model: Option<&'static dyn Model
 }
 
 /// The level as in lists for programs.
-pub(super) const fn level_id(level: EventLevel) -> &'static str {
-    match level {
-        EventLevel::MinorFault => "minor_fault",
-        EventLevel::Observation => "observation",
-        EventLevel::Information => "information",
-    }
+pub(super) fn level_id(level: EventLevel) -> String {
+    level.words().replace(' ', "_")
 }
 
 fn mapping(at: Instant, mapping: &Mapping) -> Record {

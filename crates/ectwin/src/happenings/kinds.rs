@@ -9,7 +9,7 @@ pub struct KindRow {
     pub shown_by: &'static str,
     /// What such a record says.
     pub meaning: &'static str,
-    /// Its fields, after `at_ns`, `unit`, `name` and `kind`.
+    /// Its fields, after the common ones.
     pub fields: &'static [FieldRow],
 }
 
@@ -33,6 +33,10 @@ pub enum Form {
     Number,
     /// A text.
     Text,
+    /// One of these texts.
+    Word(&'static [&'static str]),
+    /// `0x` and this number of hexadecimal digits.
+    Hex(u8),
     /// true or false.
     Flag,
     /// A list of whole numbers from 0.
@@ -40,12 +44,12 @@ pub enum Form {
 }
 
 impl Form {
-    /// Its name in JSON Schema.
+    /// Its type in JSON, in words.
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
             Self::Number => "integer",
-            Self::Text => "string",
+            Self::Text | Self::Word(_) | Self::Hex(_) => "string",
             Self::Flag => "boolean",
             Self::Numbers => "array of integers",
         }
@@ -78,6 +82,14 @@ const fn text(name: &'static str, meaning: &'static str) -> FieldRow {
     FieldRow { name, form: Form::Text, presence: Presence::Always, meaning }
 }
 
+const fn word(name: &'static str, words: &'static [&'static str], meaning: &'static str) -> FieldRow {
+    FieldRow { name, form: Form::Word(words), presence: Presence::Always, meaning }
+}
+
+const fn hex(name: &'static str, digits: u8, meaning: &'static str) -> FieldRow {
+    FieldRow { name, form: Form::Hex(digits), presence: Presence::Always, meaning }
+}
+
 const fn flag(name: &'static str, meaning: &'static str) -> FieldRow {
     FieldRow { name, form: Form::Flag, presence: Presence::Always, meaning }
 }
@@ -96,6 +108,7 @@ pub const COMMON: &[FieldRow] = &[
     optional(number("unit", "number of the unit in the line, from 1; left out for the whole line")),
     optional(text("name", "name of the unit in its unit file")),
     text("kind", "one of the kinds below"),
+    text("text", "what has happened, in words, as in the log"),
 ];
 
 /// All kinds.
@@ -123,7 +136,7 @@ pub const KINDS: &[KindRow] = &[
         &[
             text("rule", "the rule, as in `ectwin list rules`"),
             text("event", "code of its event"),
-            text("level", "`minor_fault` or `observation`"),
+            word("level", &["minor_fault", "observation"], "`minor_fault` or `observation`"),
             text("message", "place, value and limit"),
             text("correction", "the correction"),
         ],
@@ -136,7 +149,7 @@ pub const KINDS: &[KindRow] = &[
             text("from", "the state before"),
             text("to", "the state"),
             flag("error", "the error indication of AL status"),
-            text("al_status_code", "AL status code, such as `0x001B`"),
+            hex("al_status_code", 4, "AL status code, such as `0x001B`"),
             optional(text("al_status_name", "its published meaning, unless it is 0")),
         ],
     ),
@@ -148,7 +161,11 @@ pub const KINDS: &[KindRow] = &[
         &[
             text("event", "its code, such as `85000000`"),
             text("event_name", "its name"),
-            text("level", "`minor_fault`, `observation` or `information`"),
+            word(
+                "level",
+                &["minor_fault", "observation", "information"],
+                "`minor_fault`, `observation` or `information`",
+            ),
             numbers("attached", "attached information 1 to 4, as many as it has"),
         ],
     ),
@@ -157,8 +174,8 @@ pub const KINDS: &[KindRow] = &[
         "-v",
         "an emergency is in the mailbox of the unit, for the master to read",
         &[
-            text("error_code", "emergency error code, such as `0xFF20`"),
-            text("error_register", "error register, such as `0x00`"),
+            hex("error_code", 4, "emergency error code, such as `0xFF20`"),
+            hex("error_register", 2, "error register, such as `0x00`"),
             text("data", "the five bytes of the maker"),
             optional(text("event", "code of the event, if only one has this error code")),
         ],
@@ -174,16 +191,20 @@ pub const KINDS: &[KindRow] = &[
         "-vv; -v if aborted",
         "an SDO has ended, in one message or in several",
         &[
-            text("direction", "`upload` (the master reads), `download` (it writes) or `unknown`"),
-            text("index", "index of the object, such as `0x1C12`"),
+            word(
+                "direction",
+                &["upload", "download", "unknown"],
+                "`upload` (the master reads), `download` (it writes) or `unknown`",
+            ),
+            hex("index", 4, "index of the object, such as `0x1C12`"),
             number("sub", "subindex"),
             flag("complete_access", "whether it is for all entries of the object"),
             optional(text("object", "name of the entry, if the unit has it")),
             number("length_bytes", "length of the value; 0 if it was aborted"),
             text("value", "its first eight bytes"),
-            optional(text("abort_code", "abort code, if it was aborted")),
+            optional(hex("abort_code", 8, "abort code, if it was aborted")),
             optional(text("abort_name", "the published meaning of the abort code")),
-            optional(text("aborted_by", "`unit` or `master`")),
+            optional(word("aborted_by", &["unit", "master"], "`unit` or `master`")),
         ],
     ),
     row(
@@ -191,7 +212,7 @@ pub const KINDS: &[KindRow] = &[
         "-vv",
         "a mailbox message",
         &[
-            text("direction", "`from_master` or `to_master`"),
+            word("direction", &["from_master", "to_master"], "`from_master` or `to_master`"),
             text("service", "the service, such as `SDO request`"),
             number("counter", "mailbox counter, 0 to 7"),
             number("length_bytes", "length after the mailbox header"),
@@ -204,17 +225,17 @@ pub const KINDS: &[KindRow] = &[
         "process data of a SyncManager, when the unit has left PRE-OP for SAFE-OP",
         &[
             number("sync_manager", "number of the SyncManager"),
-            text("direction", "`outputs` or `inputs`"),
-            text("physical_start", "first byte in the memory of the ESC"),
+            word("direction", &["outputs", "inputs"], "`outputs` or `inputs`"),
+            hex("physical_start", 4, "first byte in the memory of the ESC"),
             number("length_bytes", "length"),
-            optional(text("logical_start", "first logical byte, if an FMMU maps it")),
+            optional(hex("logical_start", 8, "first logical byte, if an FMMU maps it")),
         ],
     ),
     row(
         "link",
         "-v",
         "a port of a unit has a link, or has lost it",
-        &[text("port", "`IN` or `OUT`"), flag("present", "whether there is a link")],
+        &[word("port", &["IN", "OUT"], "`IN` or `OUT`"), flag("present", "whether there is a link")],
     ),
     row(
         "indicator",
@@ -258,14 +279,26 @@ pub const KINDS: &[KindRow] = &[
         "-v",
         "a report of a CPU Unit",
         &[
-            text(
+            word(
                 "report",
+                &[
+                    "mode",
+                    "program_loaded",
+                    "task_period_exceeded",
+                    "program_stopped",
+                    "program_error",
+                    "task_overrun",
+                    "user_defined_error",
+                    "user_defined_errors_reset",
+                    "io_refreshing_stopped",
+                    "io_refreshing_resumed",
+                ],
                 "`mode`, `program_loaded`, `task_period_exceeded`, `program_stopped`, `program_error`, `task_overrun`, \
              `user_defined_error`, `user_defined_errors_reset`, `io_refreshing_stopped`, `io_refreshing_resumed`",
             ),
             text("message", "the report in words"),
             number("count", "how often it has occurred since the report before"),
-            optional(text("mode", "`RUN` or `PROGRAM`, for `mode`")),
+            optional(word("mode", &["RUN", "PROGRAM"], "`RUN` or `PROGRAM`, for `mode`")),
             optional(number("missed_periods", "number of task periods that were left out")),
             optional(text("file", "file of the program, if it has several")),
             optional(number("line", "line in the program, from 1")),

@@ -68,7 +68,7 @@ impl Record {
         if let Some((number, name)) = &self.unit {
             json.push_str(&format!(",\"unit\":{number},\"name\":{}", Quoted(name)));
         }
-        json.push_str(&format!(",\"kind\":\"{}\"", self.kind));
+        json.push_str(&format!(",\"kind\":\"{}\",\"text\":{}", self.kind, Quoted(&self.text)));
         for (name, value) in &self.fields {
             json.push_str(&format!(",\"{name}\":{value}"));
         }
@@ -80,13 +80,25 @@ impl Record {
 /// A line of a log: time, unit, words.
 impl fmt::Display for Record {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (seconds, micros) = (self.at.as_nanos() / 1_000_000_000, self.at.as_nanos() / 1_000 % 1_000_000);
-        write!(formatter, "{seconds}.{micros:06} s ")?;
-        match &self.unit {
-            Some((number, name)) => write!(formatter, "unit {number} {name}: {}", self.text),
-            None => formatter.write_str(&self.text),
-        }
+        let unit = self.unit.as_ref().map(|(number, name)| (*number as u64, name.as_str()));
+        formatter.write_str(&log_line(self.at, unit, &self.text))
     }
+}
+
+/// A line of a log: time, number and name of the unit, words.
+#[must_use]
+pub fn log_line(at: Instant, unit: Option<(u64, &str)>, words: &str) -> String {
+    let time = time_words(at.as_nanos());
+    match unit {
+        Some((number, name)) => format!("{time} unit {number} {name}: {words}"),
+        None => format!("{time} {words}"),
+    }
+}
+
+/// A time since power-on, as in a log.
+#[must_use]
+pub fn time_words(at_ns: u64) -> String {
+    format!("{}.{:06} s", at_ns / 1_000_000_000, at_ns / 1_000 % 1_000_000)
 }
 
 impl fmt::Display for Value {
@@ -104,7 +116,7 @@ impl fmt::Display for Value {
 }
 
 /// A JSON string (RFC 8259, section 7).
-struct Quoted<'a>(&'a str);
+pub(super) struct Quoted<'a>(pub(super) &'a str);
 
 impl fmt::Display for Quoted<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -75,9 +75,9 @@ fn log(unit: usize, record: &CpuRecord) {
         CpuEvent::Program(ProgramEvent::UserDefinedErrorsReset { .. }) => {
             tracing::info!("CPU Unit of unit {unit}: {event}");
         }
-        // A machine that is briefly busy with other work causes this in every real-time program.
+        // No warning: a machine that is briefly busy with other work causes this in every real-time program.
         CpuEvent::TaskPeriodExceeded { .. } => {
-            tracing::debug!("CPU Unit of unit {unit}: {event} ({count} times)")
+            tracing::info!("CPU Unit of unit {unit}: {event} ({count} times)")
         }
         _ => tracing::warn!("CPU Unit of unit {unit}: {event} ({count} times)"),
     }
