@@ -208,7 +208,8 @@ impl Failure {
             #[cfg(feature = "ethercrab")]
             Self::Demo(reason) => (reason.clone(), None),
             Self::NotStarted { program, source, .. } => {
-                (format!("cannot run {}: {source}", program.display()), None)
+                let quote = if program.as_os_str().is_empty() { "\"" } else { "" };
+                (format!("cannot run {quote}{}{quote}: {source}", program.display()), None)
             }
             Self::System(source) => (format!("the system refuses a process or a signal: {source}"), None),
         }

@@ -6,7 +6,7 @@ use std::path::Path;
 use link::Medium;
 
 use crate::failure::Failure;
-use crate::output::is_stdout;
+use crate::output::{self, is_stdout};
 use crate::output_file::{BegunFile, OutputFile, ReplacedFile};
 
 /// The output of a command that can be stdout too.
@@ -18,12 +18,17 @@ pub(crate) enum LaterOutput {
 impl LaterOutput {
     /// Opens the file, or makes it.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        if is_stdout(path) { Ok(Self::Stdout) } else { OutputFile::open(path).map(Self::File) }
+        if is_stdout(path) { Ok(Self::stdout()) } else { OutputFile::open(path).map(Self::File) }
+    }
+
+    fn stdout() -> Self {
+        output::warn_of_closed_stdout();
+        Self::Stdout
     }
 
     /// Checks that the file can be written. Until it is written as a whole, it is not there, or keeps its old contents.
     pub(crate) fn open_whole(path: &Path) -> Result<Self, Failure> {
-        if is_stdout(path) { Ok(Self::Stdout) } else { Ok(Self::File(OutputFile::open(path)?.unmade())) }
+        if is_stdout(path) { Ok(Self::stdout()) } else { Ok(Self::File(OutputFile::open(path)?.unmade())) }
     }
 
     /// The new contents follow, and take the place of the old ones when they are complete.

@@ -3,6 +3,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use rustix::fs::{OFlags, fcntl_getfl, fstat, stat};
 use tracing_subscriber::EnvFilter;
 use user_file::{escaped, on_one_line};
 
@@ -107,6 +108,18 @@ pub(crate) fn write(path: Option<&Path>, result: &[u8]) -> Result<(), Failure> {
 /// Whether an output of the command line is stdout.
 pub(crate) fn is_stdout(path: &Path) -> bool {
     path == Path::new("-")
+}
+
+/// Warns if this process was started without a stdout (`>&-`): the runtime of Rust has put /dev/null in its place, opened
+/// for reading and writing. A program that does the same, such as Python with DEVNULL, reads the output no more than a
+/// closed one.
+pub(crate) fn warn_of_closed_stdout() {
+    let stdout = io::stdout();
+    let is_closed = fcntl_getfl(&stdout).is_ok_and(|flags| flags.contains(OFlags::RDWR))
+        && fstat(&stdout).is_ok_and(|own| stat("/dev/null").is_ok_and(|null| own.st_rdev == null.st_rdev));
+    if is_closed {
+        tracing::warn!("stdout is closed: nobody can read the output `-`");
+    }
 }
 
 /// Refuses stdout as an output that cannot go there.

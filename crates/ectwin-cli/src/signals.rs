@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::thread;
 
+use crate::failure::Failure;
 use ectwin::Handle;
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
 
@@ -13,6 +14,18 @@ use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGUSR1};
 pub(crate) fn stop() -> io::Result<Arc<AtomicBool>> {
     let signals = [SIGINT, SIGTERM, SIGHUP];
     flag_of(signals.into_iter().filter(|signal| *signal != SIGHUP || !is_ignored(SIGHUP)))
+}
+
+/// Refuses a stdin that never ends: a folder.
+pub(crate) fn refuse_endless_stdin() -> Result<(), Failure> {
+    let is_folder = fs::metadata("/dev/stdin").is_ok_and(|stdin| stdin.is_dir());
+    if !is_folder {
+        return Ok(());
+    }
+    Err(Failure::Refused {
+        message: "--until-stdin-closes: stdin is a folder, which cannot be read to its end".to_owned(),
+        help: "start the command with a pipe or a terminal as its stdin".to_owned(),
+    })
 }
 
 /// Stops the units at the end of stdin; what comes before is ignored.

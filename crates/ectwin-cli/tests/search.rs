@@ -48,6 +48,20 @@ fn after_the_last_seed_the_search_continues_with_seed_0() {
 }
 
 #[test]
+fn results_that_cannot_be_written_do_not_cost_the_steps() {
+    let bench = Bench::new("search-full-disk");
+    bench.put("never.toml", NEVER_AN_ERROR);
+    let ended = bench.ectwin(&["search", "never.toml", "-o", "found.toml", "--json", "/dev/full"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+    assert!(
+        ended.stderr.contains("error: cannot write /dev/full: No space left on device"),
+        "{}",
+        ended.stderr
+    );
+    assert_eq!(bench.ectwin(&["replay", "found.toml"]).code, Some(1));
+}
+
+#[test]
 fn a_failure_is_cut_down_to_a_file_that_replay_repeats() {
     let bench = Bench::new("search-finds");
     bench.put("never.toml", NEVER_AN_ERROR);

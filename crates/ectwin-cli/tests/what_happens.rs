@@ -105,6 +105,20 @@ fn events_go_to_stdout_and_the_ready_line_to_stderr() {
 }
 
 #[test]
+fn events_that_go_to_a_closed_stdout_are_not_lost_in_silence() {
+    let folder = folder_with_unit("closed");
+    let arguments =
+        ["run", "unit.toml", "--link", "udp:127.0.0.1:0", "--events", "-", "--until-stdin-closes"];
+    for (limits, words) in [("exec >&- </dev/null;", "stdout is closed"), ("exec >/dev/null </dev/null;", "")]
+    {
+        let ended = ended(&folder, limits, &arguments);
+        assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+        assert_eq!(ended.stderr.contains("nobody can read"), !words.is_empty(), "{}", ended.stderr);
+        assert!(ended.stderr.contains(words), "{}", ended.stderr);
+    }
+}
+
+#[test]
 fn a_full_disk_is_reported_and_the_twin_goes_on() {
     let folder = folder_with_unit("full");
     let link = free_link();

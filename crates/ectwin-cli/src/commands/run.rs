@@ -37,6 +37,9 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     if let Some(path) = &args.pcap {
         output::refuse_stdout("--pcap", path, "the line `ready` is there")?;
     }
+    if args.until_stdin_closes {
+        signals::refuse_endless_stdin()?;
+    }
     let setups = setups(args)?;
     let judged = Judged::read(args, &setups)?;
     let setups = if args.units.is_empty() { of_scenario(args, judged.as_ref()) } else { setups };

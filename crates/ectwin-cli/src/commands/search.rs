@@ -199,13 +199,14 @@ impl<'a> Hunt<'a> {
         let written = scenario_in(&output, &found.text);
         let failure = written.ok().and_then(|it| it.replay(found.seed, Recording::new(false, false)).failure);
         let failure = failure.as_ref().unwrap_or(&found.failure);
-        self.results.take((number, case.scenario), found, &output, failure)?;
+        // A file of results that cannot be written must not cost the steps.
+        let taken = self.results.take((number, case.scenario), found, &output, failure);
         if let Err(failure) = write_unless_equal(&output, &found.text) {
             let (message, _) = failure.words();
             let again = format!("--seed {} --runs 1 -o OUT", found.seed);
             tracing::error!("{}; `ectwin search` with {again} finds the steps again", on_one_line(&message));
         }
-        Ok(())
+        taken
     }
 
     /// What is there is written, whatever has ended the search.

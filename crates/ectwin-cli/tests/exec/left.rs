@@ -106,6 +106,19 @@ fn units_that_are_killed_end_the_command() {
 }
 
 #[test]
+fn a_stdin_that_never_closes_is_refused() {
+    let mut run = Command::new(env!("CARGO_BIN_EXE_ectwin"));
+    run.args(["run", UNIT, "--link", "udp:127.0.0.1:0", "--until-stdin-closes"]);
+    let ended = run.stdin(std::fs::File::open("/").unwrap()).output().unwrap();
+    let stderr = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(2), "{stderr}");
+    assert!(
+        stderr.contains("stdin is a folder") && stderr.contains("help: start the command with a pipe"),
+        "{stderr}"
+    );
+}
+
+#[test]
 fn a_run_ends_when_its_stdin_closes() {
     let mut run = Command::new(env!("CARGO_BIN_EXE_ectwin"));
     run.args(["run", UNIT, "--link", "udp:127.0.0.1:0", "--until-stdin-closes"]).stdin(Stdio::piped());

@@ -58,6 +58,9 @@ fn a_command_that_cannot_run_has_the_exit_code_of_a_shell() {
     let (code, _, stderr) = ended(&[UNIT, "--link", "udp", "--", "no-such-program"]);
     assert_eq!(code, Some(127), "{stderr}");
     assert!(stderr.starts_with("error: cannot run no-such-program: No such file or directory"), "{stderr}");
+    let (code, _, stderr) = ended(&[UNIT, "--link", "udp", "--", ""]);
+    assert_eq!(code, Some(127), "{stderr}");
+    assert!(stderr.starts_with("error: cannot run \"\": "), "{stderr}");
     let (code, _, stderr) = ended(&[UNIT, "--link", "udp", "--", UNIT]);
     assert_eq!(code, Some(126), "{stderr}");
 }

@@ -8,13 +8,13 @@ use serde_json::Value;
 
 /// The schema, closed: a field that its kind does not have is a mistake here, and for users one of a later version.
 static CLOSED: LazyLock<(Schemas, SchemaIndex)> = LazyLock::new(|| {
-    let mut document: Value = serde_json::from_str(&schema()).expect("the schema is JSON");
-    let definitions = document["$defs"].as_object_mut().expect("it has definitions");
+    let mut document: Value = serde_json::from_str(&schema()).unwrap();
+    let definitions = document["$defs"].as_object_mut().unwrap();
     for definition in definitions.values_mut() {
         definition["additionalProperties"] = Value::Bool(false);
     }
     let mut compiler = Compiler::new();
-    compiler.add_resource("events.json", document).expect("the schema is added");
+    compiler.add_resource("events.json", document).unwrap();
     let mut schemas = Schemas::new();
     let index = compiler.compile("events.json", &mut schemas);
     let index = index.unwrap_or_else(|error| panic!("the schema is none: {error}"));
