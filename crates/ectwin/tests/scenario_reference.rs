@@ -127,8 +127,10 @@ order, a `never` or a `while` is the last step, 200 ms later at the earliest. If
 run also waits, at most until `limit`, for what is pending: a transition that takes its time, a watchdog that runs, faults of frames that will end by
 themselves or whose frames are still to come.
 
-If an order changes what the next expectation is about, the state before the order does not fulfil it: after `request OP of unit 1`, the
-condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts. `for` checks that a state stays as it is.
+If an order changes what an expectation behind it is about, the state before the order does not fulfil it: after `request OP of unit 1`, the
+condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts. Such orders are requests, writes, faults of units, what ends process
+data (`stop process data`, a pulled cable, power off, lost frames), and the I/O refreshing and the task of a CPU Unit. This applies to expectations
+that follow at once, with or without other orders between them, in groups and behind groups. `for` checks that a state stays as it is.
 
 ### Groups
 A group is a step with steps of its own. `at`, `after` and `when` say when it begins. Groups can be in groups, up to 16 deep.

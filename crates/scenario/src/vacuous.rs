@@ -187,7 +187,8 @@ mod tests {
             vacuous.iter().map(|step| step.line).collect::<Vec<_>>()
         };
         let within = "{ expect = \"unit 1 is in OP\", within = \"50ms\" }";
-        assert_eq!(lines(&format!("{{ line = \"unplug cable 1\" }},\n{within}")), [7]);
+        let lose = "{ line = \"lose 1 % of the frames for 10ms\" }";
+        assert_eq!(lines(&format!("{lose},\n{within}")), [7]);
         assert_eq!(
             lines(&format!(
                 "{{ after = \"1ms\", line = \"be quiet\" }},\n{{ unit = \"reset the errors of unit 1\" }},\n{within}"

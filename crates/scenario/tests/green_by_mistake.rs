@@ -63,10 +63,61 @@ fn the_same_holds_behind_other_orders_and_for_outputs_objects_registers_and_erro
             r#"{ unit = "power off unit 1" }, { master = "request OP of unit 1" }, { unit = "power on unit 1" }"#,
             "unit 1 is in SAFE-OP",
         ),
+        (r#"{ master = "request OP of unit 1" }"#, "not (unit 1 is in OP)"),
+        (r#"{ master = "request OP of unit 1" }"#, "RUN of unit 1 is single_flash"),
+        (r#"{ master = "request OP of unit 1" }"#, "the data M to C of unit 1 is not valid"),
+        (r#"{ master = "write register 0x0310 of unit 1 as 05" }"#, "register 0x0310 of unit 1 is below 5"),
+        (
+            r#"{ master = "write SDO 10F3:05 of unit 1 by complete access as 01 00" }"#,
+            "object 10F3:05 of unit 1 is 00 00",
+        ),
+        (r#"{ unit = "break Processing of unit 1" }"#, "unit 1 has no new messages"),
     ] {
         let text = in_safe_op(&format!("{order}, {{ expect = \"{expectation}\", within = \"20ms\" }}"));
         assert!(replay(&text).failure.is_some(), "{text}");
     }
+}
+
+#[test]
+fn the_state_before_process_data_end_does_not_fulfil_what_is_expected_after_it() {
+    let op = r#"title = "t"
+steps = [
+  { master = "take unit 1 to OP" },
+  { expect = "unit 1 is in OP", within = "1s" },"#;
+    for order in [
+        r#"{ master = "stop process data" }"#,
+        r#"{ master = "restart" }"#,
+        r#"{ line = "unplug cable 1" }"#,
+        r#"{ line = "lose all process data frames" }"#,
+    ] {
+        let before =
+            failure(&format!("{op} {order}, {{ expect = \"unit 1 is in OP\", within = \"20ms\" }}]"));
+        assert!(before.seen.contains("and has not been false since"), "{order}: {before}");
+        let after = "{ expect = \"unit 1 is in SAFE-OP with AL status code 0x001B\", within = \"101ms\" }";
+        assert_eq!(replay(&format!("{op} {order}, {after}]")).failure, None, "{order}");
+    }
+}
+
+#[test]
+fn orders_in_groups_and_expectations_in_groups_and_behind_others_follow_each_other_too() {
+    let request = r#"{ master = "request OP of unit 1" }"#;
+    let quiet = r#"{ line = "be quiet" }"#;
+    let expect = r#"{ expect = "unit 1 is in SAFE-OP", within = "20ms" }"#;
+    for steps in [
+        format!("{{ steps = [{request}] }}, {expect}"),
+        format!("{{ together = [[{request}], [{quiet}]] }}, {expect}"),
+        format!("{{ together = [[{quiet}], [{{ steps = [{request}] }}, {quiet}]] }}, {expect}"),
+        format!("{{ repeat = 2, every = \"10ms\", steps = [{request}] }}, {expect}"),
+        format!("{request}, {{ together = [[{quiet}], [{expect}]] }}"),
+        format!("{request}, {{ expect = \"unit 1 has no error\" }}, {expect}"),
+    ] {
+        let failure = failure(&in_safe_op(&steps));
+        assert!(failure.seen.contains("before the order `request OP of unit 1`"), "{steps}: {failure}");
+    }
+    let later = format!(
+        "{{ steps = [{request}] }}, {{ after = \"1ms\", expect = \"unit 1 is in SAFE-OP\", within = \"20ms\" }}"
+    );
+    assert_eq!(replay(&in_safe_op(&later)).failure, None, "it does not follow at once");
 }
 
 #[test]

@@ -69,7 +69,16 @@ impl UnitSet {
         }
     }
 
-    fn has(&self, at: usize) -> bool {
+    /// The position of the unit that is the first one of them in the line.
+    pub(crate) fn first(&self) -> usize {
+        match self {
+            Self::All => 0,
+            Self::One(unit) => unit.position(),
+            Self::Several(_) => self.positions(usize::MAX).min().unwrap_or(usize::MAX),
+        }
+    }
+
+    pub(crate) fn has(&self, at: usize) -> bool {
         self.positions(at.saturating_add(1)).any(|position| position == at)
     }
 

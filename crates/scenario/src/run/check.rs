@@ -20,6 +20,7 @@ use super::observed::Observed;
 use crate::model::{Condition, UnitSet, WhichUnit};
 
 pub(super) use seen::Seen;
+pub(super) use value::passes;
 pub(crate) use value::{is_signed, register_bytes};
 
 /// Whether a condition is true now; otherwise the actual state. `observed` has the values at the beginning of its step.

@@ -5,6 +5,7 @@
 //! once, and the same player can follow a world that runs in real time.
 
 mod change;
+mod following;
 mod rest;
 mod sequence;
 mod shared;
@@ -82,7 +83,7 @@ impl<'a> Player<'a> {
     /// Plays these steps, until `limit` at the latest.
     pub(crate) fn new(steps: &'a [PlayedStep], seed: u64, limit: Instant) -> Self {
         let dice = Dice::new(seed ^ DICE_OF_STEPS);
-        Self { steps: Sequence::of(steps), rest: None, shared: Shared::new(dice, limit) }
+        Self { steps: Sequence::of(steps, Vec::new()), rest: None, shared: Shared::new(dice, limit) }
     }
 
     /// Plays all steps in virtual time.

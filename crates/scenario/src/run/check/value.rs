@@ -28,27 +28,33 @@ pub(super) fn value(
     holds_now: CheckFn,
 ) -> Check {
     let reading = read(of, world)?;
-    match test {
-        Test::IsNot(text) => is_not(of, text, &reading, |condition| holds_now(condition, observed, world)),
-        Test::AtLeast(amount) => compares(&reading, amount, &[Ordering::Greater, Ordering::Equal]),
-        Test::AtMost(amount) => compares(&reading, amount, &[Ordering::Less, Ordering::Equal]),
-        Test::Above(amount) => compares(&reading, amount, &[Ordering::Greater]),
-        Test::Below(amount) => compares(&reading, amount, &[Ordering::Less]),
-        Test::Between { from, to } => {
-            compares(&reading, from, &[Ordering::Greater, Ordering::Equal])?;
-            compares(&reading, to, &[Ordering::Less, Ordering::Equal])
-        }
+    if let Some(passed) = passes(test, &reading) {
+        return passed;
+    }
+    if let Test::IsNot(text) = test {
+        return is_not(of, text, &reading, |condition| holds_now(condition, observed, world));
+    }
+    let before = observed.since_the_beginning(of, &reading);
+    holds(*before != reading, || format!("it is still {}", reading.words))
+}
+
+/// Whether a value passes a test; none: the test compares with another condition or with an earlier value.
+pub(in crate::run) fn passes(test: &Test, reading: &Reading) -> Option<Check> {
+    Some(match test {
+        Test::AtLeast(amount) => compares(reading, amount, &[Ordering::Greater, Ordering::Equal]),
+        Test::AtMost(amount) => compares(reading, amount, &[Ordering::Less, Ordering::Equal]),
+        Test::Above(amount) => compares(reading, amount, &[Ordering::Greater]),
+        Test::Below(amount) => compares(reading, amount, &[Ordering::Less]),
+        Test::Between { from, to } => compares(reading, from, &[Ordering::Greater, Ordering::Equal])
+            .and_then(|()| compares(reading, to, &[Ordering::Less, Ordering::Equal])),
         Test::BeginsWith(bytes) => lie_at(&reading.bytes, 0, bytes),
         Test::HasBits(Hex(bits)) => holds(reading.bits() & bits == *bits, || reading.as_it_is()),
         Test::HasNoBits(Hex(bits)) => holds(reading.bits() & bits == 0, || reading.as_it_is()),
         Test::Is(wanted) => {
             holds(reading.bytes.iter().any(|byte| *byte != 0) == *wanted, || reading.as_it_is())
         }
-        Test::Changes => {
-            let before = observed.since_the_beginning(of, &reading);
-            holds(*before != reading, || format!("it is still {}", reading.words))
-        }
-    }
+        Test::IsNot(_) | Test::Changes => return None,
+    })
 }
 
 fn is_not(
@@ -199,7 +205,7 @@ fn unsigned(bytes: &[u8]) -> Option<u64> {
 }
 
 impl Reading {
-    fn unsigned(bytes: Vec<u8>) -> Self {
+    pub(in crate::run) fn unsigned(bytes: Vec<u8>) -> Self {
         let number = unsigned(&bytes).map(|number| Number::Whole(number.into()));
         Self::bytes(bytes, number)
     }

@@ -4,11 +4,12 @@ use core::slice::Iter;
 
 use time::Instant;
 
+use super::following::following;
 use super::shared::Shared;
 use super::step::StepPlay;
 use super::verdict::{Origin, Progress, Verdict, Waits, failure};
 use super::wait::Wait;
-use crate::model::{Members, Order, Repetition, Trigger};
+use crate::model::{Members, Repetition};
 use crate::run::observed::Observed;
 use crate::run::scenario::{PlayedStep, WrittenGroup, WrittenStep};
 use crate::run::stage::Stage;
@@ -18,6 +19,8 @@ pub(super) struct Sequence<'a> {
     /// The steps and groups that have not begun.
     rest: Iter<'a, PlayedStep>,
     current: Option<Play<'a>>,
+    /// The expectations that follow at once behind the last of its steps.
+    behind: Vec<&'a WrittenStep>,
 }
 
 /// A step or a group that is being played.
@@ -27,8 +30,8 @@ enum Play<'a> {
 }
 
 impl<'a> Sequence<'a> {
-    pub(super) fn of(steps: &'a [PlayedStep]) -> Self {
-        Self { rest: steps.iter(), current: None }
+    pub(super) fn of(steps: &'a [PlayedStep], behind: Vec<&'a WrittenStep>) -> Self {
+        Self { rest: steps.iter(), current: None, behind }
     }
 
     /// Takes all steps that are due.
@@ -38,8 +41,8 @@ impl<'a> Sequence<'a> {
                 Some(play) => play,
                 None => match self.rest.next() {
                     Some(next) => {
-                        let expectation = expectation_at_once(self.rest.as_slice());
-                        self.current.insert(Play::of(next, expectation, stage.now()))
+                        let following = following(self.rest.as_slice(), &self.behind);
+                        self.current.insert(Play::of(next, following, stage.now()))
                     }
                     None => return Ok(Progress::Done),
                 },
@@ -57,27 +60,20 @@ impl<'a> Sequence<'a> {
 }
 
 impl<'a> Play<'a> {
-    fn of(entry: &'a PlayedStep, expectation: Option<&'a WrittenStep>, now: Instant) -> Self {
+    fn of(entry: &'a PlayedStep, following: Vec<&'a WrittenStep>, now: Instant) -> Self {
         match entry {
-            PlayedStep::Step(step) => Self::Step(StepPlay::of(step, expectation, now)),
-            PlayedStep::Group(group) => Self::Group(GroupPlay::of(group, now)),
+            PlayedStep::Step(step) => Self::Step(StepPlay::of(step, following, now)),
+            PlayedStep::Group(group) => Self::Group(GroupPlay::of(group, following, now)),
         }
     }
-}
-
-/// The expectation that follows at once, behind other orders of the same time.
-fn expectation_at_once<'a>(rest: &'a [PlayedStep]) -> Option<&'a WrittenStep> {
-    let at_once = |entry: &'a PlayedStep| match entry {
-        PlayedStep::Step(step) if step.step.trigger == Trigger::AtOnce => Some(step),
-        PlayedStep::Step(_) | PlayedStep::Group(_) => None,
-    };
-    rest.iter().map_while(at_once).find(|next| matches!(next.step.order, Order::Expect(_)))
 }
 
 /// A group that is being played.
 struct GroupPlay<'a> {
     group: &'a WrittenGroup,
     state: State<'a>,
+    /// The expectations that follow at once.
+    following: Vec<&'a WrittenStep>,
 }
 
 /// How far a group has come.
@@ -93,8 +89,9 @@ enum State<'a> {
 }
 
 impl<'a> GroupPlay<'a> {
-    fn of(group: &'a WrittenGroup, now: Instant) -> Self {
-        Self { group, state: State::Due(Wait::for_trigger(&group.trigger, now), Observed::default()) }
+    fn of(group: &'a WrittenGroup, following: Vec<&'a WrittenStep>, now: Instant) -> Self {
+        let state = State::Due(Wait::for_trigger(&group.trigger, now), Observed::default());
+        Self { group, state, following }
     }
 
     fn poll(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Progress<'a>> {
@@ -103,7 +100,8 @@ impl<'a> GroupPlay<'a> {
             if let Some(until) = wait.look(origin, stage, shared.limit, observed)? {
                 return Ok(Progress::Waits(Waits { origin, until }));
             }
-            self.state = State::begin(self.group, stage, shared);
+            let following = core::mem::take(&mut self.following);
+            self.state = State::begin(self.group, following, stage, shared);
         }
         match &mut self.state {
             State::Due(..) => Ok(Progress::Done),
@@ -115,14 +113,20 @@ impl<'a> GroupPlay<'a> {
 }
 
 impl<'a> State<'a> {
-    fn begin(group: &'a WrittenGroup, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Self {
+    fn begin(
+        group: &'a WrittenGroup,
+        following: Vec<&'a WrittenStep>,
+        stage: &mut impl Stage,
+        shared: &mut Shared<'a>,
+    ) -> Self {
         match &group.members {
-            Members::Sequence(steps) => Self::Sequence(Box::new(Sequence::of(steps))),
+            Members::Sequence(steps) => Self::Sequence(Box::new(Sequence::of(steps, following))),
             Members::Repeat { repetition, steps } => {
-                Self::Rounds(Box::new(Rounds::begin(group, *repetition, steps, stage, shared)))
+                Self::Rounds(Box::new(Rounds::begin(group, *repetition, steps, following, stage, shared)))
             }
             Members::Together(sequences) => {
-                Self::Together(sequences.iter().map(|steps| Sequence::of(steps)).collect())
+                let sequence = |steps: &'a Vec<PlayedStep>| Sequence::of(steps, following.clone());
+                Self::Together(sequences.iter().map(sequence).collect())
             }
         }
     }
@@ -158,6 +162,8 @@ struct Rounds<'a> {
     group: &'a WrittenGroup,
     repetition: Repetition,
     steps: &'a [PlayedStep],
+    /// The expectations that follow at once behind the last round.
+    following: Vec<&'a WrittenStep>,
     begun: Instant,
     /// The number of the present round, from 1.
     number: u64,
@@ -174,12 +180,22 @@ impl<'a> Rounds<'a> {
         group: &'a WrittenGroup,
         repetition: Repetition,
         steps: &'a [PlayedStep],
+        following: Vec<&'a WrittenStep>,
         stage: &mut impl Stage,
         shared: &mut Shared<'a>,
     ) -> Self {
         let begun = stage.now();
-        let mut rounds =
-            Self { group, repetition, steps, begun, number: 0, round_begun: begun, round: None, next: begun };
+        let mut rounds = Self {
+            group,
+            repetition,
+            steps,
+            following,
+            begun,
+            number: 0,
+            round_begun: begun,
+            round: None,
+            next: begun,
+        };
         rounds.next_round(stage, shared);
         rounds
     }
@@ -188,7 +204,9 @@ impl<'a> Rounds<'a> {
         self.number += 1;
         self.round_begun = stage.now();
         stage.note_step(&format!("round {} of {}", self.number, self.repetition.times));
-        self.round = Some(Sequence::of(self.steps));
+        let is_last = self.number >= self.repetition.times;
+        let behind = if is_last { self.following.clone() } else { Vec::new() };
+        self.round = Some(Sequence::of(self.steps, behind));
         self.next = self.begun + shared.begin_of_round(self.repetition, self.number);
     }
 

@@ -21,8 +21,8 @@ pub(super) struct Shared<'a> {
     pub(super) last: Option<&'a WrittenStep>,
     /// How many steps were carried out.
     pub(super) performed: u64,
-    /// An expectation whose condition was true before an order that ends it.
-    pub(super) change: Option<Change<'a>>,
+    /// The expectations whose conditions were true before orders that end them.
+    changes: Vec<Change<'a>>,
     /// The time at which the play must have ended.
     pub(super) limit: Instant,
 }
@@ -36,7 +36,27 @@ pub(super) struct Change<'a> {
 
 impl<'a> Shared<'a> {
     pub(super) const fn new(dice: Dice, limit: Instant) -> Self {
-        Self { dice, watches: Vec::new(), current: None, last: None, performed: 0, change: None, limit }
+        Self {
+            dice,
+            watches: Vec::new(),
+            current: None,
+            last: None,
+            performed: 0,
+            changes: Vec::new(),
+            limit,
+        }
+    }
+
+    /// Notes a change, in place of an earlier one for the same expectation.
+    pub(super) fn note_change(&mut self, change: Change<'a>) {
+        let _ = self.take_change(change.expectation);
+        self.changes.push(change);
+    }
+
+    /// The change that an expectation has to wait for.
+    pub(super) fn take_change(&mut self, expectation: &WrittenStep) -> Option<Change<'a>> {
+        let place = self.changes.iter().position(|change| core::ptr::eq(change.expectation, expectation))?;
+        Some(self.changes.swap_remove(place))
     }
 
     /// Opens a watch. One to the end that is open is not opened again.

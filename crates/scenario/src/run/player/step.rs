@@ -19,8 +19,8 @@ pub(super) struct StepPlay<'a> {
     phase: Phase,
     /// Further executions after this one.
     more: u64,
-    /// The expectation that follows at once.
-    next: Option<&'a WrittenStep>,
+    /// The expectations that follow at once.
+    following: Vec<&'a WrittenStep>,
     /// The values at the beginning of its present wait.
     observed: Observed,
 }
@@ -35,7 +35,7 @@ enum Phase {
 }
 
 impl<'a> StepPlay<'a> {
-    pub(super) fn of(step: &'a WrittenStep, next: Option<&'a WrittenStep>, now: Instant) -> Self {
+    pub(super) fn of(step: &'a WrittenStep, following: Vec<&'a WrittenStep>, now: Instant) -> Self {
         let times = step.step.repetition.map_or(1, |repetition| repetition.times);
         let wait = Wait::for_trigger(&step.step.trigger, now);
         Self {
@@ -43,7 +43,7 @@ impl<'a> StepPlay<'a> {
             wait,
             phase: Phase::Due,
             more: times.saturating_sub(1),
-            next,
+            following,
             observed: Observed::default(),
         }
     }
@@ -72,7 +72,7 @@ impl<'a> StepPlay<'a> {
 
     /// Carries the step out once, and returns what it waits for then.
     fn perform(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
-        self.note_change(stage, shared);
+        self.note_changes(stage, shared);
         shared.performed += 1;
         shared.last = Some(self.step);
         match &self.step.step.order {
@@ -92,15 +92,15 @@ impl<'a> StepPlay<'a> {
         }
     }
 
-    /// Notes whether the condition of the expectation that follows is true, although an order before it ends it.
-    fn note_change(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
-        let Some((condition, expectation)) = self.next.and_then(|next| Some((within(next)?, next))) else {
-            return;
-        };
-        if stage.check(condition, &mut Observed::default()).is_err() {
-            shared.change = None;
-        } else if ends(&self.step.step.order, condition) {
-            shared.change = Some(Change { order: self.step, expectation });
+    /// Notes which conditions of the expectations that follow are true, although an order before them ends them.
+    fn note_changes(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
+        for expectation in &self.following {
+            let Some(condition) = within(expectation) else { continue };
+            if stage.check(condition, &mut Observed::default()).is_err() {
+                let _ = shared.take_change(expectation);
+            } else if ends(&self.step.step.order, condition) {
+                shared.note_change(Change { order: self.step, expectation });
+            }
         }
     }
 
@@ -131,13 +131,10 @@ impl<'a> StepPlay<'a> {
                 stage.check(condition, &mut self.observed).map_err(|seen| failure(step, now, seen))?;
                 Ok(Wait::Over)
             }
-            Mode::Within(limit) => {
-                let change = shared.change.take_if(|change| core::ptr::eq(change.expectation, step));
-                Ok(match change {
-                    Some(change) => Wait::AfterChange(condition, now + *limit, &change.order.text),
-                    None => Wait::Within(condition, now + *limit),
-                })
-            }
+            Mode::Within(limit) => Ok(match shared.take_change(step) {
+                Some(change) => Wait::AfterChange(condition, now + *limit, &change.order.text),
+                None => Wait::Within(condition, now + *limit),
+            }),
             Mode::For(span) => {
                 stage.check(condition, &mut self.observed).map_err(|seen| failure(step, now, seen))?;
                 let until = now + *span;
