@@ -8,6 +8,7 @@ mod refusal;
 mod request;
 #[cfg(test)]
 mod tests;
+mod verb;
 mod verbs;
 
 pub use answer::Answer;
@@ -18,7 +19,8 @@ pub use content::{
 pub use incoming::Incoming;
 pub use refusal::Refusal;
 pub(crate) use request::too_long;
-pub use request::{Request, Unread, Verb};
+pub use request::{Request, Unread};
+pub use verb::Verb;
 pub use verbs::{VERBS, VerbRow};
 
 /// Maximum length of a request in bytes, without its end of line.

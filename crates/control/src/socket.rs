@@ -2,24 +2,23 @@
 
 mod error;
 mod folder;
+mod there;
 
 use std::fs;
 use std::io;
-use std::os::unix::fs::{FileTypeExt, MetadataExt};
+use std::os::unix::fs::MetadataExt;
 use std::os::unix::net::UnixListener;
 use std::path::{Path, PathBuf};
 
 use rustix::fs::{Mode, fchmod};
-use rustix::io::Errno;
-use rustix::net::{
-    AddressFamily, SocketAddrUnix, SocketFlags, SocketType, bind, connect, listen, socket_with,
-};
+use rustix::net::{AddressFamily, SocketAddrUnix, SocketFlags, SocketType, bind, listen, socket_with};
 
 pub use error::BindError;
 pub use folder::{default_folder, running};
 
 use error::Why;
 use folder::Locked;
+use there::{There, there};
 
 /// Longest path of a socket: `sun_path` without its last zero.
 const PATH_BYTES_MAX: usize = 107;
@@ -33,17 +32,6 @@ pub struct Socket {
     path: PathBuf,
     /// Device and inode of the file, so that the one of another twin is never removed.
     file: (u64, u64),
-}
-
-/// What there is at a path.
-enum There {
-    Nothing,
-    /// A socket of a process that accepts clients.
-    Alive,
-    /// A socket of a process that has ended.
-    Dead,
-    /// Something else.
-    Other,
 }
 
 impl Socket {
@@ -113,27 +101,4 @@ fn listener(path: &Path) -> io::Result<UnixListener> {
     bind(&socket, &SocketAddrUnix::new(path)?)?;
     listen(&socket, BACKLOG)?;
     Ok(socket.into())
-}
-
-fn there(path: &Path) -> io::Result<There> {
-    let file = match fs::symlink_metadata(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(There::Nothing),
-        Err(error) => return Err(error),
-    };
-    if !file.file_type().is_socket() {
-        return Ok(There::Other);
-    }
-    Ok(if is_alive(path)? { There::Alive } else { There::Dead })
-}
-
-/// Whether a process accepts clients at this socket. This does not wait, however many wait there.
-fn is_alive(path: &Path) -> io::Result<bool> {
-    let flags = SocketFlags::CLOEXEC | SocketFlags::NONBLOCK;
-    let socket = socket_with(AddressFamily::UNIX, SocketType::STREAM, flags, None)?;
-    match connect(&socket, &SocketAddrUnix::new(path)?) {
-        Ok(()) | Err(Errno::AGAIN) => Ok(true),
-        Err(Errno::CONNREFUSED | Errno::NOENT) => Ok(false),
-        Err(error) => Err(error.into()),
-    }
 }

@@ -106,6 +106,11 @@ pub(crate) struct RunArgs {
     /// The same for OPC UA clients, if the feature `opcua` is built in
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = address::opcua)]
     pub(crate) opcua: Option<SocketAddr>,
+    /// Let programs and `ectwin ctl` see and steer the units by JSON lines on this Unix socket; without PATH on one in
+    /// $XDG_RUNTIME_DIR/ectwin
+    #[arg(long, value_name = "PATH", num_args = 0..=1)]
+    #[expect(clippy::option_option, reason = "the option, and its value, which can be left out")]
+    pub(crate) control: Option<Option<PathBuf>>,
     /// Skip the simulated times of the unit, such as 2 ms before each SDO response
     #[arg(long)]
     pub(crate) fast: bool,
@@ -202,6 +207,9 @@ pub(crate) struct ExecInsideArgs {
     /// It is the first process of a namespace: the kernel ends all others with it
     #[arg(long)]
     pub(crate) first: bool,
+    /// The folder in which the units make their control socket; it is removed at the end
+    #[arg(long)]
+    pub(crate) control_folder: PathBuf,
     #[command(flatten)]
     pub(crate) exec: ExecArgs,
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use ectwin::ChangesLost;
+use ectwin::control::BindError;
 use ectwin::explain::Unexplained;
 use ectwin::user_files::Unreadable;
 use link::OpenError;
@@ -51,6 +52,8 @@ pub(crate) enum Failure {
     /// OPC UA cannot be served there.
     #[cfg(feature = "opcua")]
     OpcUa { address: SocketAddr, source: io::Error },
+    /// The control socket cannot be made.
+    Control(BindError),
     /// The link was lost while it was in use.
     LinkLost(io::Error),
     /// A step of the demo failed.
@@ -141,7 +144,7 @@ impl Failure {
             | Self::Unreadable { .. }
             | Self::FolderUnreadable { .. }
             | Self::Unwritable { .. } => 2,
-            Self::Link(_) | Self::Modbus { .. } => 3,
+            Self::Link(_) | Self::Modbus { .. } | Self::Control(_) => 3,
             #[cfg(feature = "opcua")]
             Self::OpcUa { .. } => 3,
         }
@@ -204,6 +207,7 @@ impl Failure {
             Self::OpcUa { address, source } => {
                 (format!("OPC UA cannot be served at {address}: {source}"), help_to_listen(source))
             }
+            Self::Control(error) => (error.to_string(), Some(error.help())),
             Self::LinkLost(error) => (format!("the link is lost: {error}"), None),
             #[cfg(feature = "ethercrab")]
             Self::Demo(reason) => (reason.clone(), None),

@@ -25,6 +25,8 @@ use plant::{Happening, HappeningKind, Observer};
 use scenario::words::Spoken;
 use time::Instant;
 
+#[cfg(feature = "control")]
+pub(crate) use describe::{al_status_name, level_id};
 pub use kinds::{COMMON, FieldRow, Form, KINDS, KindRow, Presence};
 pub(crate) use names::UnitName;
 pub(crate) use observed::Observed;

@@ -42,6 +42,8 @@ mod orders;
 mod program_file;
 mod runtime;
 mod setup;
+#[cfg(feature = "control")]
+mod steered;
 mod supply;
 mod twin;
 mod unit_side;
@@ -49,6 +51,8 @@ pub mod user_files;
 mod watched_program;
 
 pub use coe_kit::indicators::Pattern;
+#[cfg(feature = "control")]
+pub use control;
 pub use esi;
 #[cfg(feature = "ethercrab")]
 pub use ethercrab_port::EthercrabPort;
@@ -72,6 +76,8 @@ pub use runtime::{Ended, Handle, Runtime, UnitStatus};
 pub use scenario::{self, Reason, Refused};
 pub use setup::{Setup, SetupError};
 pub use st;
+#[cfg(feature = "control")]
+pub use steered::Steered;
 pub use storage::ChangesLost;
 pub use time::{Duration, Instant};
 pub use twin::Twin;

@@ -111,7 +111,7 @@ impl Handle {
     pub fn apply(&self, order: impl Say<Order>) -> Result<(), Refused> {
         let mut known = self.known();
         let ReadyOrder { order, brought } = known.order(order, &mut FilesHere)?;
-        self.carry_out(&order, &brought)
+        self.carry_out(&order, &brought).map(drop)
     }
 
     /// Whether a condition is true now, such as `unit 1 is in OP`.

@@ -54,6 +54,27 @@ impl<'a> UnitSide<'a> {
         }
     }
 
+    /// The model of the unit.
+    #[cfg(feature = "control")]
+    pub(crate) fn model(&self) -> &'static dyn unit_model::Model {
+        self.unit().model()
+    }
+
+    /// Whether the unit is switched on.
+    #[cfg(feature = "control")]
+    pub(crate) fn has_power(&self) -> bool {
+        !self.device().is_off()
+    }
+
+    /// A register of one byte, read without the side effects of an access.
+    #[cfg(feature = "control")]
+    pub(crate) fn register(&self, offset: u16) -> u8 {
+        let mut byte = [0];
+        self.network.esc(self.position).into_iter().for_each(|esc| esc.look(offset, &mut byte, self.now));
+        let [byte] = byte;
+        byte
+    }
+
     /// State of the EtherCAT state machine.
     #[must_use]
     pub fn state(&self) -> AlState {
@@ -194,12 +215,18 @@ impl UnitSide<'_> {
         self.unit().indicator(name, &self.slave_view())
     }
 
+    /// What an indicator shows: no light without power.
+    #[cfg(feature = "control")]
+    pub(crate) fn pattern(&self, name: &str) -> Pattern {
+        if self.device().is_off() { Pattern::NotLit } else { self.indicator(name).unwrap_or_default() }
+    }
+
     fn slave_view(&self) -> SlaveView {
         let [in_port, out_port] = [Port::In, Port::Out].map(|port| self.port(port));
         SlaveView { al_status: self.al_status(), al_status_code: self.al_status_code(), in_port, out_port }
     }
 
-    fn port(&self, port: Port) -> PortCondition {
+    pub(crate) fn port(&self, port: Port) -> PortCondition {
         plant::port_condition(self.network, self.position, port, self.now)
     }
 }

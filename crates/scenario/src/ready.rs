@@ -7,6 +7,7 @@ mod files;
 mod groups;
 mod idle_orders;
 mod known_line;
+mod known_parts;
 mod line;
 mod maker;
 mod master;

@@ -54,6 +54,11 @@ impl Process {
         assert!(matches!(said, Some(Ok(()))), "could not say `{line}`: {said:?}");
     }
 
+    /// Closes its standard input.
+    pub fn close_stdin(&mut self) {
+        drop(self.child.stdin.take());
+    }
+
     /// Sends SIGINT, as Ctrl-C does.
     ///
     /// # Panics

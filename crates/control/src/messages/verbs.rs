@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::refusal::Refusal;
-use super::request::Verb;
+use super::verb::Verb;
 
 /// A verb: the member of a request that says what to do.
 #[derive(Clone, Copy)]

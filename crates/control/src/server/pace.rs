@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 const ONE_IN: u32 = 100;
 /// Requests of so much time are carried out at once, so that people and scripts do not notice any of this.
 const AT_ONCE: Duration = Duration::from_millis(2);
-/// The longest pause: requests of a line of many units can take long.
-const PAUSE_MAX: Duration = Duration::from_millis(100);
+/// The longest pause: a machine that is busy makes short requests take long.
+const PAUSE_MAX: Duration = Duration::from_millis(20);
 
 /// The time that requests may take. What they take more is made up by a pause.
 #[derive(Debug)]

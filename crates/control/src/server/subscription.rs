@@ -8,7 +8,7 @@ const ALL: &str = "all";
 const VARIABLE: &str = "variable:";
 /// Kinds that belong to another one: whoever wants that one wants these too.
 const BELONG: &[(&str, &str)] =
-    &[("frame_fault", "fault"), ("carrier", "link"), ("emergencies_lost", "emergency"), ("power", "state")];
+    &[("frame_fault", "fault"), ("carrier", "link"), ("emergencies_lost", "emergency")];
 
 /// A set of kinds, a bit for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

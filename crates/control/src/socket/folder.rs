@@ -14,7 +14,7 @@ use rustix::io::Errno;
 use rustix::process::geteuid;
 
 use super::error::{BindError, Why};
-use super::{There, there};
+use super::there::{There, there};
 
 /// How long another program may hold the lock.
 const PATIENCE: Duration = Duration::from_secs(5);

@@ -5,6 +5,7 @@
 //! reason, the kernel ends everything in its namespaces.
 
 mod command;
+mod control_folder;
 mod descendants;
 mod inside;
 mod kept;
@@ -20,6 +21,7 @@ use rustix::process::kill_process;
 use crate::cli::{Cable, ExecArgs};
 use crate::failure::{Failure, OWN_FAILURE};
 use crate::output;
+use control_folder::ControlFolder;
 use kept::Kept;
 use namespaces::Namespaces;
 use signals::{Signals, rustix_signal};
@@ -59,8 +61,10 @@ fn run_and_wait(args: &ExecArgs, verbose: u8) -> Result<u8, Failure> {
         Cable::Veth => Namespaces::enter_with_network()?,
         Cable::Udp => Namespaces::enter(),
     };
+    let control = ControlFolder::make()?;
     let mut inside = itself(verbose)?;
-    inside.arg("exec-inside").arg("--outside").arg(std::process::id().to_string());
+    inside.arg("exec-inside").arg("--control-folder").arg(control.path());
+    inside.arg("--outside").arg(std::process::id().to_string());
     if args.on_failure.is_some() {
         inside.arg("--kept");
     }

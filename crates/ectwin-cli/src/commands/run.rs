@@ -10,7 +10,8 @@ mod show;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use ectwin::happenings::{self, Record};
+use ectwin::control::Socket;
+use ectwin::happenings;
 use ectwin::{ChangesLost, Ended, ModbusServer, Runtime, Setup, Twin};
 use link::{Clock, FramePort, LinkSpec, Recorder, Statistics};
 use time::Instant;
@@ -28,7 +29,7 @@ use events_file::EventsFile;
 use frame_log::FrameLog;
 use judged::{Judged, Judging, VerdictFiles};
 use observers::Observers;
-use show::{Show, Showing};
+use show::Show;
 
 /// Emulates the units until SIGINT, SIGTERM, SIGHUP, the end of the link, or that of stdin if this is asked for.
 pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
@@ -55,7 +56,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let capture = args.pcap.as_deref().map(OutputFile::open).transpose()?;
     let events = args.events.as_deref().map(LaterOutput::open).transpose()?;
     let verdict_files = VerdictFiles::open(args)?;
-    privileges::give_up(&files(args, &setups));
+    // The last one: a signal that ends the command while it waits for another file leaves no socket.
+    let socket =
+        args.control.as_ref().map(|path| servers::listen_for_control(path.as_deref())).transpose()?;
+    privileges::give_up(&files(args, &setups, socket.as_ref()));
 
     // What is open from here on is closed in order. Until then a signal ends the command: it may wait for the
     // reader of a pipe.
@@ -70,15 +74,19 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     #[cfg(feature = "opcua")]
     let _opcua = opcua_listener.map(|listener| servers::serve_opcua(&mut twin, listener)).transpose()?;
     let mut recorder = capture.map(|capture| record(capture.begin(), args, &link, &clock)).transpose()?;
-    let (mut frame_log, showing) = show(args, &mut twin, events, first)?;
+    let (mut frame_log, mut show) = show(args, &mut twin, events).unzip();
     // The port is open: a frame that arrives from now on waits in it and is answered.
     People::beside(args.events.as_deref())
-        .print_text(&format!("{}\n", ready(&link, units, modbus.as_ref())))?;
+        .print_text(&format!("{}\n", ready(&link, units, socket.as_ref(), modbus.as_ref())))?;
     let mut observers = Observers::default();
     observers.add(recorder.as_mut());
-    observers.add(frame_log.as_mut());
+    observers.add(frame_log.as_mut().and_then(Option::as_mut));
     let observer = observers.as_one();
     let runtime = Runtime::start(twin, clock, stop).map_err(Failure::LinkLost)?;
+    let serve = |socket| servers::serve_control(socket, &runtime.handle(), link.to_string());
+    let (control, publisher) = socket.map(serve).transpose()?.unzip();
+    show.iter_mut().for_each(|show| show.publisher = publisher.clone());
+    let showing = show.map(|show| show.start(first)).transpose().map_err(Failure::LinkLost)?;
     if args.until_stdin_closes {
         signals::stop_when_stdin_closes(runtime.handle()).map_err(Failure::LinkLost)?;
     }
@@ -89,6 +97,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));
     let shown = showing.map_or(Ok(()), |showing| showing.end(args.events.as_deref()));
     let verdict = judging.map_or(Ok(()), Judging::end);
+    // After the last records, which its clients get.
+    drop(control);
     let Ended { statistics, lost } = ended.map_err(Failure::LinkLost)?;
     tell(statistics);
     recorded.and(shown).and_then(|()| refuse_loss(lost)).and(verdict)
@@ -102,27 +112,22 @@ fn refuse_loss(lost: Vec<ChangesLost>) -> Result<(), Failure> {
     }
 }
 
-/// Shows what happens, if it is to be shown: in the log, in a file.
-fn show(
-    args: &RunArgs,
-    twin: &mut Twin,
-    events: Option<LaterOutput>,
-    first: Vec<Record>,
-) -> Result<(Option<FrameLog>, Option<Showing>), Failure> {
+/// Shows what happens, if it is to be shown: in the log, in a file, to clients. The frames too, if the log shows them.
+fn show(args: &RunArgs, twin: &mut Twin, events: Option<LaterOutput>) -> Option<(Option<FrameLog>, Show)> {
     let level = LevelFilter::current();
-    if events.is_none() && level < LevelFilter::INFO {
-        return Ok((None, None));
+    if events.is_none() && args.control.is_none() && level < LevelFilter::INFO {
+        return None;
     }
     let (frame_log, frames) = (level == LevelFilter::TRACE).then(frame_log::frame_log).unzip();
     let file = args.events.as_deref().zip(events).map(|(path, out)| EventsFile::begin(path, out));
-    let showing = Show { happenings: twin.observe(), frames, file }.start(first);
-    Ok((frame_log, Some(showing.map_err(Failure::LinkLost)?)))
+    Some((frame_log, Show { happenings: twin.observe(), frames, file, publisher: None }))
 }
 
 /// One line for programs: what is ready, with the actual ports.
-fn ready(link: &LinkSpec, units: usize, modbus: Option<&ModbusServer>) -> String {
+fn ready(link: &LinkSpec, units: usize, control: Option<&Socket>, modbus: Option<&ModbusServer>) -> String {
+    let control = control.map(|socket| format!(" control={}", socket.path().display())).unwrap_or_default();
     let modbus = modbus.map(|server| format!(" modbus={}", server.address())).unwrap_or_default();
-    format!("ready link={link} units={units}{modbus}")
+    format!("ready link={link} units={units}{control}{modbus}")
 }
 
 fn setups(args: &RunArgs) -> Result<Vec<Setup>, Failure> {
@@ -170,12 +175,13 @@ fn memories<'a>(args: &'a RunArgs, setups: &'a [Setup]) -> impl Iterator<Item = 
 }
 
 /// The files that are read or written while the units run.
-fn files(args: &RunArgs, setups: &[Setup]) -> Vec<LaterUse> {
+fn files(args: &RunArgs, setups: &[Setup], socket: Option<&Socket>) -> Vec<LaterUse> {
     let units = args.units.iter().cloned().map(LaterUse::Read);
     let programs: BTreeSet<_> = setups.iter().map(|setup| setup.named_program_paths().to_vec()).collect();
     let programs = programs.into_iter().map(LaterUse::Program);
     let memories = memories(args, setups).map(LaterUse::Written);
-    memories.chain(units).chain(programs).chain(VerdictFiles::later_use(args)).collect()
+    let socket = socket.map(|socket| LaterUse::Written(socket.path().to_owned()));
+    memories.chain(units).chain(programs).chain(VerdictFiles::later_use(args)).chain(socket).collect()
 }
 
 fn record(capture: BegunFile, args: &RunArgs, link: &LinkSpec, clock: &Clock) -> Result<Recorder, Failure> {

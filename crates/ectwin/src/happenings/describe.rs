@@ -110,7 +110,7 @@ fn state(
 }
 
 /// The name of an AL status code: of the standard, or of the maker.
-fn al_status_name(code: AlStatusCode, model: Option<&'static dyn Model>) -> Option<&'static str> {
+pub(crate) fn al_status_name(code: AlStatusCode, model: Option<&'static dyn Model>) -> Option<&'static str> {
     let of_maker = model.and_then(|model| {
         let mut rows = model.tables().al_status_codes.iter();
         rows.find(|row| row.code == code).map(|row| row.name)
@@ -134,7 +134,7 @@ fn recorded(at: Instant, event: &RecordedEvent, model: Option<&'static dyn Model
 }
 
 /// The level as in lists for programs.
-pub(super) fn level_id(level: EventLevel) -> String {
+pub(crate) fn level_id(level: EventLevel) -> String {
     level.words().replace(' ', "_")
 }
 

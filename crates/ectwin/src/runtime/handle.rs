@@ -3,6 +3,7 @@
 use std::sync::{Arc, MutexGuard, PoisonError};
 
 use link::Clock;
+use plc::CpuUnits;
 use scenario::model::Order;
 use scenario::{Bench, Brought, KnownLine, Refused, RunningLine};
 use time::{Duration, Instant};
@@ -27,12 +28,36 @@ impl Handle {
     /// # Panics
     /// If there is no such unit.
     pub fn look<T>(&self, position: usize, look: impl FnOnce(&mut UnitSide<'_>) -> T) -> T {
+        self.with_units(|line, cpus, now| look(&mut line.unit(cpus, position, now)))
+    }
+
+    /// Lends the units and their CPU Units. Frames and tasks wait until `act` returns.
+    pub(crate) fn with_units<T>(&self, act: impl FnOnce(&mut Line, &mut CpuUnits, Instant) -> T) -> T {
         // First the CPU Units: a program that does not return does not stop the frames.
         let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
         let mut line = self.shared.line.borrow(|| wake(&self.shared.frames));
-        let seen = look(&mut line.unit(&mut cpus, position, self.clock.now()));
+        let done = act(&mut line, &mut cpus, self.clock.now());
         self.publish_changed(&mut line);
-        seen
+        done
+    }
+
+    /// Lends the CPU Units. Only tasks wait until `act` returns.
+    #[cfg(feature = "control")]
+    pub(crate) fn with_cpus<T>(&self, act: impl FnOnce(&mut CpuUnits, Instant) -> T) -> T {
+        let mut cpus = self.shared.cpus.borrow(|| wake(&self.shared.tasks));
+        act(&mut cpus, self.clock.now())
+    }
+
+    /// The present time.
+    #[cfg(feature = "control")]
+    pub(crate) fn now(&self) -> Instant {
+        self.clock.now()
+    }
+
+    /// The time for which frames and tasks may have waited for handles so far, in all.
+    #[cfg(feature = "control")]
+    pub(crate) fn lent(&self) -> Duration {
+        Duration::from_nanos(self.shared.line.lent_ns() + self.shared.cpus.lent_ns())
     }
 
     /// Lends everything that orders act on and conditions look at. Frames and tasks wait until `act` returns.
@@ -40,9 +65,21 @@ impl Handle {
         self.shared.lend(&self.clock, brought, |line| act(&mut line.bench(&mut NoNotes)))
     }
 
-    /// Carries out an order that has been checked. The units react before it returns.
-    pub(crate) fn carry_out(&self, order: &Order, brought: &Brought) -> Result<(), Refused> {
-        self.shared.lend(&self.clock, brought, |line| line.carry_out(order, &mut NoNotes))
+    /// Carries out an order that has been checked, and returns when. The units react before it returns.
+    pub(crate) fn carry_out(&self, order: &Order, brought: &Brought) -> Result<Instant, Refused> {
+        self.shared.lend(&self.clock, brought, |line| {
+            line.carry_out(order, &mut NoNotes)?;
+            Ok(line.now())
+        })
+    }
+
+    /// Carries out orders that bring nothing to the line and have been checked, all in the same task period.
+    #[cfg(feature = "control")]
+    pub(crate) fn carry_out_together(&self, orders: &[Order]) -> Result<Instant, Refused> {
+        self.shared.lend(&self.clock, &Brought::default(), |line| {
+            orders.iter().try_for_each(|order| line.carry_out(order, &mut NoNotes))?;
+            Ok(line.now())
+        })
     }
 
     /// What orders and conditions are checked against.

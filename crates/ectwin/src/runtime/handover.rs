@@ -2,8 +2,9 @@
 
 use std::fmt;
 use std::ops::{Deref, DerefMut};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
 
 /// The place where owner and borrowers meet.
 pub(super) struct Handover<T> {
@@ -12,6 +13,8 @@ pub(super) struct Handover<T> {
     place: Mutex<Place<T>>,
     lent: Condvar,
     returned: Condvar,
+    /// The time for which borrowers had the value, in all.
+    lent_ns: AtomicU64,
 }
 
 struct Place<T> {
@@ -26,7 +29,8 @@ impl<T> Handover<T> {
     pub(super) fn new(value: T) -> Self {
         let place = Mutex::new(Place { value, has_owner: false, granted: 0 });
         let borrowers = AtomicUsize::new(0);
-        Self { borrowers, place, lent: Condvar::new(), returned: Condvar::new() }
+        let (lent, returned) = (Condvar::new(), Condvar::new());
+        Self { borrowers, place, lent, returned, lent_ns: AtomicU64::new(0) }
     }
 
     /// Makes the calling thread the owner, until the result is dropped.
@@ -43,7 +47,12 @@ impl<T> Handover<T> {
         wake();
         let is_kept = |place: &mut Place<T>| place.has_owner && place.granted == 0;
         let place = self.lent.wait_while(self.lock(), is_kept).unwrap_or_else(PoisonError::into_inner);
-        Borrowed { handover: self, place }
+        Borrowed { handover: self, place, since: Instant::now() }
+    }
+
+    /// The time for which borrowers had the value, in all.
+    pub(super) fn lent_ns(&self) -> u64 {
+        self.lent_ns.load(Ordering::Relaxed)
     }
 
     /// A thread that panicked has already reported it; the value is still accessible.
@@ -116,6 +125,7 @@ impl<T> DerefMut for Owned<'_, T> {
 pub(super) struct Borrowed<'a, T> {
     handover: &'a Handover<T>,
     place: MutexGuard<'a, Place<T>>,
+    since: Instant,
 }
 
 impl<T> Deref for Borrowed<'_, T> {
@@ -134,6 +144,8 @@ impl<T> DerefMut for Borrowed<'_, T> {
 
 impl<T> Drop for Borrowed<'_, T> {
     fn drop(&mut self) {
+        let lent_ns = u64::try_from(self.since.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.handover.lent_ns.fetch_add(lent_ns, Ordering::Relaxed);
         self.place.granted = self.place.granted.saturating_sub(1);
         self.handover.borrowers.fetch_sub(1, Ordering::Relaxed);
         self.handover.returned.notify_one();

@@ -19,9 +19,9 @@ use crate::words::{Say, nearest_conditions, nearest_orders};
 #[derive(Clone, Debug)]
 pub struct KnownLine {
     units: Vec<UnitSource>,
-    variables: Vec<DeviceVariables>,
+    pub(super) variables: Vec<DeviceVariables>,
     /// The names of the units at the beginning: a name means a place, also after another unit was put there.
-    names: Vec<String>,
+    pub(super) names: Vec<String>,
 }
 
 /// An order that the line can carry out, with the contents of the files that it names.
@@ -33,7 +33,7 @@ pub struct ReadyOrder {
     pub brought: Brought,
 }
 
-const PART: Part = Part::Step(0, StepPart::Order);
+pub(super) const PART: Part = Part::Step(0, StepPart::Order);
 
 impl KnownLine {
     /// A line of these units, the one next to the master first.
@@ -103,7 +103,7 @@ impl KnownLine {
     }
 
     /// Replaces names of units by their numbers.
-    fn number(&self, words: Option<UnitWords<'_>>) -> Result<(), Refused> {
+    pub(super) fn number(&self, words: Option<UnitWords<'_>>) -> Result<(), Refused> {
         let numbered = UnitNames::named(&self.names).number(words);
         numbered.map_err(|(message, help)| Refused::new(Reason::NotThere, message, help))
     }
@@ -114,7 +114,7 @@ impl KnownLine {
     }
 
     /// Lets a maker check something, and takes what it has read.
-    fn check(
+    pub(super) fn check(
         &mut self,
         files: &mut dyn Files,
         check: impl FnOnce(&mut Maker<'_>),
@@ -147,7 +147,7 @@ fn unknown() -> Box<dyn Program + Send> {
 }
 
 /// Conditions name no files.
-struct NoFiles;
+pub(super) struct NoFiles;
 
 impl Files for NoFiles {
     fn text(&mut self, path: &str, _: user_file::Wanted) -> Result<String, String> {

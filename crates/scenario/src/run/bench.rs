@@ -69,6 +69,12 @@ impl<'a> From<Lent<'a>> for Bench<'a> {
 }
 
 impl Bench<'_> {
+    /// The present time.
+    #[must_use]
+    pub const fn now(&self) -> Instant {
+        self.now
+    }
+
     /// Carries out an order that has been checked for this line.
     ///
     /// # Errors

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 
 use rustix::process::{Signal, WaitOptions, kill_process, wait};
 
+use super::control_folder::ControlFolder;
 use super::signals::{Signals, rustix_signal};
 use super::spawned::{End, Spawned, itself};
 use super::units::{Said, Units};
@@ -35,6 +36,7 @@ pub(crate) fn run(inside: &ExecInsideArgs, verbose: u8) -> Result<(), Failure> {
 fn run_command(inside: &ExecInsideArgs, verbose: u8) -> Result<u8, Failure> {
     let signals = Signals::block().map_err(Failure::System)?;
     let _parent = parent::watch();
+    let control = ControlFolder::made_outside(inside.control_folder.clone());
     if !Path::new(&format!("/proc/{}", inside.outside)).exists() {
         return Ok(OWN_FAILURE);
     }
@@ -51,9 +53,13 @@ fn run_command(inside: &ExecInsideArgs, verbose: u8) -> Result<u8, Failure> {
         }
         Cable::Udp => "udp:127.0.0.1:0".to_owned(),
     };
-    let mut run = Run { signals, units: Units::start(args, &link, verbose)?, ended: Ended::default() };
+    let mut run = Run {
+        signals,
+        units: Units::start(args, &link, &control.socket(), verbose)?,
+        ended: Ended::default(),
+    };
     let ended = run.wait_for_ready().and_then(|ready| match ready {
-        Ok(link) => run.command(args, &link, verbose),
+        Ok(link) => run.command(args, &link, &control.socket(), verbose),
         Err(code) => Ok(code),
     });
     let units = run.end_units();
@@ -106,9 +112,10 @@ impl Run {
     }
 
     /// Runs the command to its end.
-    fn command(&mut self, args: &ExecArgs, link: &str, verbose: u8) -> Result<u8, Failure> {
+    fn command(&mut self, args: &ExecArgs, link: &str, control: &Path, verbose: u8) -> Result<u8, Failure> {
         let mut command = itself(verbose)?;
         command.arg("exec-command").arg("--").args(&args.command);
+        command.env("ECTWIN_CONTROL", control);
         match args.link {
             Cable::Veth => command.env("ECTWIN_INTERFACE", veth::MASTER_SIDE).env_remove("ECTWIN_UDP"),
             Cable::Udp => {

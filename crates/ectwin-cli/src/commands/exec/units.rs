@@ -3,6 +3,7 @@
 use std::io::Read;
 use std::os::fd::AsFd;
 use std::os::unix::process::CommandExt;
+use std::path::Path;
 use std::process::{ChildStdout, Stdio};
 
 use super::spawned::{Spawned, itself};
@@ -27,10 +28,11 @@ pub(super) enum Said {
 }
 
 impl Units {
-    /// Starts them on a link.
-    pub(super) fn start(args: &ExecArgs, link: &str, verbose: u8) -> Result<Self, Failure> {
+    /// Starts them on a link, with a control socket at this path.
+    pub(super) fn start(args: &ExecArgs, link: &str, control: &Path, verbose: u8) -> Result<Self, Failure> {
         let mut run = itself(verbose)?;
-        run.arg("run").args(&args.units).args(["--link", link, "--until-stdin-closes"]).args(args.of_units());
+        run.arg("run").args(&args.units).args(["--link", link, "--until-stdin-closes"]);
+        run.arg("--control").arg(control).args(args.of_units());
         // Ctrl-C is for the command; the units run until the command has ended.
         run.process_group(0).stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut process = Spawned::start(&mut run).map_err(Failure::System)?;

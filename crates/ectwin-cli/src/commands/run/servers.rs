@@ -1,10 +1,13 @@
 //! The servers of `run`: their ports are opened with the initial privileges, and served later.
 
 use std::net::{SocketAddr, TcpListener};
+use std::path::Path;
 
 #[cfg(feature = "opcua")]
 use ectwin::OpcUaServer;
-use ectwin::{ModbusServer, Twin};
+use ectwin::control::{self, Publisher, Server, Socket};
+use ectwin::happenings::KINDS;
+use ectwin::{Handle, ModbusServer, Twin};
 
 use crate::failure::Failure;
 
@@ -20,6 +23,22 @@ pub(super) fn serve_modbus(twin: &mut Twin, (address, listener): Listener) -> Re
     let server = twin.serve_modbus(listener).map_err(|source| Failure::Modbus { address, source })?;
     tracing::info!("Modbus TCP is served at {}", server.address());
     Ok(server)
+}
+
+/// The socket of the control channel, at this path or at the default one.
+pub(super) fn listen_for_control(path: Option<&Path>) -> Result<Socket, Failure> {
+    path.map_or_else(Socket::bind_default, Socket::bind).map_err(Failure::Control)
+}
+
+pub(super) fn serve_control(
+    socket: Socket,
+    units: &Handle,
+    link: String,
+) -> Result<(Server, Publisher), Failure> {
+    let served = control::serve(socket, units.steered(link), KINDS.iter().map(|kind| kind.name));
+    let (server, publisher) = served.map_err(Failure::LinkLost)?;
+    tracing::info!("the control channel is served at {}", server.path().display());
+    Ok((server, publisher))
 }
 
 #[cfg(feature = "opcua")]

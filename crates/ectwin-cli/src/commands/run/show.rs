@@ -1,4 +1,4 @@
-//! The thread that shows what happens: in the log, and as JSON lines. No thread of the twin waits for it.
+//! The thread that shows what happens: in the log, as JSON lines, and to clients of the control channel. No thread of the twin waits for it.
 
 use std::io;
 use std::path::Path;
@@ -8,6 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
+use ectwin::control::Publisher;
 use ectwin::happenings::{Detail, Happenings, Record};
 
 use super::events_file::EventsFile;
@@ -24,6 +25,7 @@ pub(crate) struct Show {
     pub(crate) happenings: Happenings,
     pub(crate) frames: Option<FrameLines>,
     pub(crate) file: Option<EventsFile>,
+    pub(crate) publisher: Option<Publisher>,
 }
 
 /// The thread.
@@ -61,6 +63,9 @@ impl Show {
             self.file.iter_mut().for_each(|file| file.add(record));
         }
         self.file.iter_mut().for_each(EventsFile::write);
+        if let Some(publisher) = self.publisher.as_ref().filter(|_| !records.is_empty()) {
+            publisher.publish(records.iter().map(|record| (record.kind, record.json())));
+        }
         match &mut self.frames {
             Some(frames) => log_with_frames(&records, frames),
             None => records.iter().for_each(log),

@@ -116,12 +116,11 @@ impl Bench<'_> {
         if errors.is_empty() { "no error".to_owned() } else { codes(&errors) }
     }
 
-    pub(crate) fn object(
-        &mut self,
-        at: usize,
-        index: ObjectIndex,
-        sub: SubIndex,
-    ) -> Result<Vec<u8>, SdoAbort> {
+    /// The bytes of an entry of an object, read from the side of the unit.
+    ///
+    /// # Errors
+    /// The unit does not have it, or refuses to read it.
+    pub fn object(&mut self, at: usize, index: ObjectIndex, sub: SubIndex) -> Result<Vec<u8>, SdoAbort> {
         let missing = SdoAbort::OBJECT_DOES_NOT_EXIST;
         let objects =
             self.network.device_mut(at).and_then(|device| device.unit_mut().objects()).ok_or(missing)?;
@@ -131,7 +130,7 @@ impl Bench<'_> {
     }
 
     /// The data type of an entry; none if the unit does not have it.
-    pub(crate) fn object_type(&mut self, at: usize, index: ObjectIndex, sub: SubIndex) -> Option<DataType> {
+    pub fn object_type(&mut self, at: usize, index: ObjectIndex, sub: SubIndex) -> Option<DataType> {
         let objects = self.network.device_mut(at).and_then(|device| device.unit_mut().objects())?;
         objects.table().entry(index, sub).map(|entry| entry.data_type)
     }
