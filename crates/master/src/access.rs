@@ -1,6 +1,6 @@
 //! Accesses: the memory access of one datagram, and its result.
 
-use wire::{Command, FrameBuilder};
+use wire::{Command, DatagramView, FrameBuilder};
 
 /// Maximum number of data bytes of one datagram, which is then alone in its frame.
 pub(crate) const DATAGRAM_BYTES_MAX: usize = 1_486;
@@ -90,6 +90,10 @@ pub struct Answer<'a> {
 }
 
 impl<'a> Answer<'a> {
+    pub(crate) const fn of(datagram: &DatagramView<'a>) -> Self {
+        Self { working_counter: datagram.working_counter, data: datagram.data }
+    }
+
     /// The data, if a slave has accepted the access.
     #[must_use]
     pub const fn taken(self) -> Option<&'a [u8]> {

@@ -12,6 +12,7 @@
 //! for the frames, [`ProcessData`] for the cycle, [`Habits`] for what masters do differently.
 
 mod access;
+mod arrival;
 mod channels;
 mod connected;
 mod direct_access;
@@ -42,6 +43,7 @@ mod state;
 mod walk;
 
 pub use access::{Access, Address, Answer, Dialogue, Patience, Progress, Wait};
+pub use arrival::Arrival;
 pub use channels::{FmmuSettings, SyncManagerSettings};
 pub use connected::{Connected, Line};
 pub use direct_access::DirectAccess;

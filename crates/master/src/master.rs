@@ -8,9 +8,10 @@ use std::collections::VecDeque;
 
 use esi::Timeouts;
 use time::Instant;
-use wire::{Command, datagrams};
+use wire::Command;
 
 use crate::access::Address;
+use crate::arrival::Arrival;
 use crate::event::{Event, RequestId};
 use crate::flight::{Flights, Ticket};
 use crate::habits::Habits;
@@ -191,11 +192,8 @@ impl Master {
 
     /// A frame returns for a ticket. Late, duplicate and invalid answers are ignored.
     pub fn receive(&mut self, now: Instant, ticket: Ticket, frame: &[u8]) {
-        if let Some(parts) = self.flights.arrive(ticket, frame) {
-            for (part, datagram) in parts.iter().zip(datagrams(frame)) {
-                self.answer(now, part.sender, Some(datagram));
-            }
-            self.flights.recycle(parts);
+        if let Some(arrival) = self.flights.arrive(ticket, frame) {
+            self.take(now, arrival);
         }
     }
 
@@ -204,9 +202,16 @@ impl Master {
     /// answer, are ignored.
     pub fn receive_frame(&mut self, now: Instant, frame: &[u8]) {
         let has_passed = frame.get(6).is_some_and(|first| first & 0x02 != 0);
-        if let Some(ticket) = self.flights.recognize(frame).filter(|_| has_passed) {
-            self.receive(now, ticket, frame);
+        if has_passed && let Some(arrival) = self.flights.recognize(frame) {
+            self.take(now, arrival);
         }
+    }
+
+    fn take(&mut self, now: Instant, arrival: Arrival<'_, Sender>) {
+        for (sender, answer) in arrival.answers() {
+            self.answer(now, *sender, Some(answer));
+        }
+        self.flights.recycle(arrival);
     }
 
     /// Frames without an answer in time are lost.
@@ -215,7 +220,7 @@ impl Master {
             for part in &parts {
                 self.answer(now, part.sender, None);
             }
-            self.flights.recycle(parts);
+            self.flights.recycle_parts(parts);
         }
     }
 }

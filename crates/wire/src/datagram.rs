@@ -140,6 +140,7 @@ pub struct DatagramView<'a> {
 
 impl<'a> DatagramView<'a> {
     /// The datagram at the start of `bytes`, and the bytes after it. None if it does not fit.
+    #[inline]
     pub(crate) fn of(bytes: &'a [u8]) -> Option<(Self, &'a [u8])> {
         let (head, rest) = bytes.split_first_chunk::<DATAGRAM_HEADER_BYTES>()?;
         let header = DatagramHeader::unpack(head);

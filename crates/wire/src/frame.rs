@@ -120,16 +120,30 @@ impl<'a> Iterator for Datagrams<'a> {
 }
 
 /// The datagrams of a frame in order, for reading; empty if the frame holds none or is broken.
-pub fn datagrams(frame: &[u8]) -> impl Iterator<Item = DatagramView<'_>> {
-    let mut rest = match FrameKind::of(frame) {
+#[must_use]
+pub fn datagrams(frame: &[u8]) -> DatagramViews<'_> {
+    let rest = match FrameKind::of(frame) {
         FrameKind::Datagrams(layout) => frame.get(layout.start..layout.end),
         FrameKind::OtherType | FrameKind::NotEtherCat | FrameKind::Defective(_) => None,
     };
-    core::iter::from_fn(move || {
-        let (datagram, behind) = DatagramView::of(rest.take()?)?;
-        rest = datagram.header.more_follow.then_some(behind);
+    DatagramViews { rest }
+}
+
+/// The datagrams of a checked frame, in order, for reading. A clone begins where the original is.
+#[derive(Clone, Debug)]
+pub struct DatagramViews<'a> {
+    rest: Option<&'a [u8]>,
+}
+
+impl<'a> Iterator for DatagramViews<'a> {
+    type Item = DatagramView<'a>;
+
+    #[inline]
+    fn next(&mut self) -> Option<DatagramView<'a>> {
+        let (datagram, rest) = DatagramView::of(self.rest.take()?)?;
+        self.rest = datagram.header.more_follow.then_some(rest);
         Some(datagram)
-    })
+    }
 }
 
 /// The position of the EtherCAT header, before its length is checked.

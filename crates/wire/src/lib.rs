@@ -30,8 +30,8 @@ pub use datagram::{
 };
 pub use emergency::Emergency;
 pub use frame::{
-    Datagrams, Defect, ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT, FRAME_BYTES_MAX, FrameKind, Layout,
-    UDP_PORT_ETHERCAT, datagrams, mark_source_address,
+    DatagramViews, Datagrams, Defect, ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT, FRAME_BYTES_MAX, FrameKind,
+    Layout, UDP_PORT_ETHERCAT, datagrams, mark_source_address,
 };
 pub use mailbox::{MailboxErrorCode, MailboxErrorReply, MailboxHeader, MailboxType};
 pub use object::{DataType, EntryAddress, ObjectIndex, SubIndex};

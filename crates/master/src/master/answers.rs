@@ -1,7 +1,7 @@
 //! Answers: the job to which an answer belongs, what it completes, and what follows.
 
 use time::Instant;
-use wire::{AlState, DatagramView};
+use wire::AlState;
 
 use super::{EVERYBODYS, Master, NOBODYS};
 use crate::access::{Address, Answer, word};
@@ -17,9 +17,7 @@ const EVENTS_MAX: usize = 4_096;
 
 impl Master {
     /// Processes the answer to a datagram; none: its frame is lost.
-    pub(super) fn answer(&mut self, now: Instant, sender: Sender, datagram: Option<DatagramView<'_>>) {
-        let answer = datagram
-            .map(|datagram| Answer { working_counter: datagram.working_counter, data: datagram.data });
+    pub(super) fn answer(&mut self, now: Instant, sender: Sender, answer: Option<Answer<'_>>) {
         match sender {
             Sender::Everybody(number) => {
                 let pace = Pace { now, habits: &self.habits, timeouts: &EVERYBODYS };

@@ -25,7 +25,7 @@ use ::master::{Address, Answer, Flights, Habits, Load, MailboxConduct, Pace, Pro
 use esi::KnownDevice;
 use plc::{ProgramEvent, Reports};
 use time::{Duration, Instant};
-use wire::{FRAME_BYTES_MAX, datagrams};
+use wire::FRAME_BYTES_MAX;
 
 use crate::model::WhichUnit;
 
@@ -254,22 +254,21 @@ impl Master {
                     self.answer(number, None, now);
                 }
             }
-            self.flights.recycle(parts);
+            self.flights.recycle_parts(parts);
         }
     }
 
     /// A frame returns. Frames that are no longer expected are ignored, as by a real master.
     pub(crate) fn receive(&mut self, ticket: ::master::Ticket, frame: Vec<u8>, now: Instant) {
-        if let Some(parts) = self.flights.arrive(ticket, &frame) {
-            for (part, datagram) in parts.iter().zip(datagrams(&frame)) {
-                let answer = Answer { working_counter: datagram.working_counter, data: datagram.data };
-                match part.sender {
+        if let Some(arrival) = self.flights.arrive(ticket, &frame) {
+            for (sender, answer) in arrival.answers() {
+                match *sender {
                     Sender::Operation(number) => self.answer(number, Some(answer), now),
                     Sender::Cycle(number) => self.process_data.answer(number, answer),
                     Sender::State(unit) => self.states.answer(unit, answer),
                 }
             }
-            self.flights.recycle(parts);
+            self.flights.recycle(arrival);
         }
         self.reuse(frame);
     }
