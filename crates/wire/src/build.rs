@@ -1,9 +1,32 @@
 //! Building frames: what a master sends. For tests, scripted masters and benchmarks.
 
-use crate::datagram::{DATAGRAM_OVERHEAD_BYTES, DatagramHeader};
+use crate::datagram::{DATAGRAM_OVERHEAD_BYTES, DatagramHeader, WORKING_COUNTER_BYTES};
 use crate::frame::{ETHERCAT_HEADER_BYTES, ETHERTYPE_ETHERCAT, datagrams};
 use crate::{Command, DatagramView, FRAME_BYTES_MAX};
 
+/// The bytes before the datagrams: broadcast destination, source 10:10:10:10:10:10, and an EtherCAT header whose length
+/// is filled in at the end.
+const HEAD: [u8; 14 + ETHERCAT_HEADER_BYTES] = {
+    let [ethertype_high, ethertype_low] = ETHERTYPE_ETHERCAT.to_be_bytes();
+    [
+        0xFF,
+        0xFF,
+        0xFF,
+        0xFF,
+        0xFF,
+        0xFF,
+        0x10,
+        0x10,
+        0x10,
+        0x10,
+        0x10,
+        0x10,
+        ethertype_high,
+        ethertype_low,
+        0,
+        0,
+    ]
+};
 /// Longest frame that a master sends, without VLAN tag and FCS.
 const SENT_BYTES_MAX: usize = 1514;
 
@@ -33,10 +56,7 @@ impl FrameBuilder {
     #[must_use]
     pub fn reusing(mut bytes: Vec<u8>) -> Self {
         bytes.clear();
-        bytes.extend([0xFF; 6]);
-        bytes.extend([0x10; 6]);
-        bytes.extend(ETHERTYPE_ETHERCAT.to_be_bytes());
-        bytes.extend([0; ETHERCAT_HEADER_BYTES]);
+        bytes.extend_from_slice(&HEAD);
         Self { bytes, last_at: None, index: 0 }
     }
 
@@ -71,7 +91,7 @@ impl FrameBuilder {
     pub fn add(&mut self, command: Command, address: u16, offset: u16, data: &[u8]) {
         self.add_header(command, address, offset, data.len());
         self.bytes.extend_from_slice(data);
-        self.bytes.extend([0, 0]);
+        self.bytes.extend_from_slice(&[0; WORKING_COUNTER_BYTES]);
     }
 
     /// Adds a datagram whose data are zeros: a read, or data that the caller fills in now.
@@ -100,7 +120,7 @@ impl FrameBuilder {
             events: 0,
         };
         self.index = self.index.wrapping_add(1);
-        self.bytes.extend(header.pack());
+        self.bytes.extend_from_slice(&header.pack());
     }
 
     /// The frame, its EtherCAT length filled in.

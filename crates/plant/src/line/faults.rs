@@ -261,8 +261,12 @@ impl<T: Copy> LineFaults<T> {
     }
 
     /// Passes on the frames that wait and are due, one after the other.
+    #[inline]
     pub fn poll<U: Unit>(&mut self, now: Instant, units: &mut Network<U>, ends: &mut impl LineEnds<T>) {
-        while let Some(flight) = self.kept.take_due(now) {
+        // Mostly no frame waits.
+        while self.deadline() <= now
+            && let Some(flight) = self.kept.take_due(now)
+        {
             self.passing(now, units, ends).resume(flight);
         }
     }

@@ -34,6 +34,9 @@ enum Outward {
 impl<T: Copy, U: Unit, E: LineEnds<T>> Passing<'_, T, U, E> {
     /// A frame leaves its master.
     pub(super) fn begin(&mut self, mut flight: Flight<T>) {
+        if flight.met.is_empty() {
+            return self.pass_without_faults(flight.ticket, flight.frame);
+        }
         let mut wait = None;
         for met in flight.met.iter().filter(|met| met.way.direction == Direction::Outward && met.cable() == 0)
         {
@@ -55,6 +58,17 @@ impl<T: Copy, U: Unit, E: LineEnds<T>> Passing<'_, T, U, E> {
         match wait {
             Some(met) => self.wait(&met, flight),
             None => self.pass(flight),
+        }
+    }
+
+    /// The whole way of a frame that meets no fault, as most.
+    fn pass_without_faults(&mut self, ticket: T, mut frame: Vec<u8>) {
+        self.ends.passes(self.now, &frame, &[]);
+        let fate = self.units.frame(self.now, &mut frame);
+        self.units.poll(self.now);
+        match fate {
+            FrameFate::Returned => self.ends.returns(self.now, ticket, frame, &[]),
+            FrameFate::CrossedOver | FrameFate::Destroyed => {}
         }
     }
 

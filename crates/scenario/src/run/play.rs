@@ -46,7 +46,7 @@ impl<'a> Play<'a> {
         let Self { player, begun, recording, waited, .. } = self;
         let now = Instant::ZERO + line.now().saturating_since(*begun);
         match player.advance(&mut OnLine { line, recording, begun: *begun }) {
-            Ok(Next::Wait { until, line, text }) => {
+            Ok(Next::Wait { until, line, text, .. }) => {
                 if waited.insert(line) {
                     recording.tell(now, "waits", &format!("line {line}: {text}"));
                 }

@@ -22,7 +22,7 @@ use super::recording::Recording;
 use super::report::{Failure, Report};
 use super::scenario::{PlayedStep, Scenario};
 use super::stage::Stage;
-use super::virtual_stage::advance;
+use super::virtual_stage::{advance, pass};
 use super::world::World;
 
 pub(crate) use change::ends;
@@ -30,7 +30,7 @@ pub(crate) use change::ends;
 use rest::Rest;
 use sequence::Sequence;
 use shared::Shared;
-use verdict::{Origin, Progress, Verdict, Waits};
+use verdict::{Looks, Origin, Progress, Verdict, Waits};
 
 /// Replays these steps with the units of a scenario. A panic of what it runs is a failure of the step.
 pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recording: Recording) -> Report {
@@ -68,9 +68,11 @@ pub(crate) struct Player<'a> {
 
 /// What a player needs next.
 pub(crate) enum Next<'a> {
-    /// To be called again after each event, and at this time at the latest.
+    /// To be called again at this time at the latest, and before that after each event if something looks at them. After the
+    /// limit it is to be called in any case.
     Wait {
         until: Instant,
+        looks: Looks,
         /// The step or the group that waits, by its line and its words.
         line: usize,
         text: &'a str,
@@ -90,7 +92,10 @@ impl<'a> Player<'a> {
     fn play(&mut self, world: &mut World) -> Verdict {
         loop {
             match self.advance(world)? {
-                Next::Wait { until, .. } => advance(world, until),
+                Next::Wait { until, looks: Looks::EachEvent, .. } => advance(world, until),
+                Next::Wait { until, looks: Looks::AtItsTime, .. } => {
+                    pass(world, until, self.shared.limit);
+                }
                 Next::End => return Ok(()),
             }
         }
@@ -106,8 +111,8 @@ impl<'a> Player<'a> {
             Progress::Done => Ok(Next::End),
             Progress::Waits(waits) => {
                 self.shared.check_limit(&waits, stage)?;
-                let Waits { origin: Origin { line, text }, until } = waits;
-                Ok(Next::Wait { until, line, text })
+                let Waits { origin: Origin { line, text }, until, looks } = waits;
+                Ok(Next::Wait { until, looks: looks.min(self.shared.looks()), line, text })
             }
         }
     }

@@ -62,6 +62,13 @@ impl Stage for World {
     }
 }
 
+/// Advances the time until everything that is due up to `end` has happened, or the next event after `limit` has.
+pub(super) fn pass(world: &mut World, end: Instant, limit: Instant) {
+    while !world.has_passed(end) && world.now() <= limit {
+        advance(world, end);
+    }
+}
+
 /// Advances the time to the next event, at most to `end`.
 pub(super) fn advance(world: &mut World, end: Instant) {
     let quiet = world.now() + QUIET_STEP;

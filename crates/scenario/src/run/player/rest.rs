@@ -3,7 +3,7 @@
 use time::{Duration, Instant};
 
 use super::shared::Shared;
-use super::verdict::{Progress, Verdict, Waits, failure};
+use super::verdict::{Looks, Progress, Verdict, Waits, failure};
 use crate::model::Order;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
@@ -60,7 +60,7 @@ impl<'a> Rest<'a> {
             let next = if has_passed { self.shown } else { self.until };
             let is_waiting = unfinished.is_some() || is_unsettled || stage.has_passed(next);
             let until = if is_waiting { shared.limit } else { next.min(shared.limit) };
-            return Ok(Progress::Waits(Waits { origin: self.last.into(), until }));
+            return Ok(Progress::Waits(Waits { origin: self.last.into(), until, looks: Looks::EachEvent }));
         }
         let seen = match unfinished {
             Some(words) => format!("the limit has come, and the master is still at: {words}"),

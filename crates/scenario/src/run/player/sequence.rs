@@ -7,7 +7,7 @@ use time::Instant;
 use super::following::following;
 use super::shared::Shared;
 use super::step::StepPlay;
-use super::verdict::{Origin, Progress, Verdict, Waits, failure};
+use super::verdict::{Looks, Origin, Progress, Verdict, Waits, failure};
 use super::wait::Wait;
 use crate::model::{Members, Repetition};
 use crate::run::observed::Observed;
@@ -98,7 +98,7 @@ impl<'a> GroupPlay<'a> {
         if let State::Due(wait, observed) = &mut self.state {
             let origin = Origin::from(self.group);
             if let Some(until) = wait.look(origin, stage, shared.limit, observed)? {
-                return Ok(Progress::Waits(Waits { origin, until }));
+                return Ok(Progress::Waits(Waits { origin, until, looks: wait.looks() }));
             }
             let following = core::mem::take(&mut self.following);
             self.state = State::begin(self.group, following, stage, shared);
@@ -144,8 +144,8 @@ fn poll_all<'a>(
         for sequence in &mut *sequences {
             if let Progress::Waits(waits) = sequence.poll(stage, shared)? {
                 first = Some(match first {
-                    Some(first) if first.until <= waits.until => first,
-                    Some(_) | None => waits,
+                    Some(first) => first.and(waits),
+                    None => waits,
                 });
             }
         }
@@ -231,7 +231,8 @@ impl<'a> Rounds<'a> {
                 None => {
                     self.round = None;
                     let origin = Origin::from(self.group);
-                    return Ok(Progress::Waits(Waits { origin, until: self.next }));
+                    let looks = Looks::AtItsTime;
+                    return Ok(Progress::Waits(Waits { origin, until: self.next, looks }));
                 }
             }
         }

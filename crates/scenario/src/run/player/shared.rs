@@ -2,7 +2,7 @@
 
 use time::{Duration, Instant};
 
-use super::verdict::{Verdict, Waits, failure};
+use super::verdict::{Looks, Verdict, Waits, failure};
 use super::watch::{Watch, Watched};
 use crate::model::Repetition;
 use crate::run::dice::Dice;
@@ -64,6 +64,11 @@ impl<'a> Shared<'a> {
         if !self.watches.iter().any(|open| open.is_of(watch.step)) {
             self.watches.push(watch);
         }
+    }
+
+    /// When the open expectations are checked next, apart from the time.
+    pub(super) const fn looks(&self) -> Looks {
+        if self.watches.is_empty() { Looks::AtItsTime } else { Looks::EachEvent }
     }
 
     /// Checks the open expectations.

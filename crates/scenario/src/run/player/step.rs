@@ -52,7 +52,8 @@ impl<'a> StepPlay<'a> {
         shared.current = Some(self.step);
         loop {
             if let Some(until) = self.wait.look(self.step.into(), stage, shared.limit, &mut self.observed)? {
-                return Ok(Progress::Waits(Waits { origin: self.step.into(), until }));
+                let looks = self.wait.looks();
+                return Ok(Progress::Waits(Waits { origin: self.step.into(), until, looks }));
             }
             match (self.phase, self.step.step.repetition) {
                 (Phase::Due, _) => {

@@ -3,7 +3,7 @@
 use plant::line::LineRefusal;
 use time::{Duration, Instant};
 
-use super::{Next, Player};
+use super::{Looks, Next, Player};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, Step, UnitOrder};
 use crate::run::check::Seen;
 use crate::run::observed::Observed;
@@ -111,4 +111,29 @@ fn the_player_takes_what_is_due_and_returns_until_when_it_waits() {
     assert_eq!(at(29, false), Some(36));
     assert_eq!(at(35, true), None);
     assert_eq!(desk.story, ["0 step 1", "4 step 2", "24 step 3", "29 step 3"]);
+}
+
+#[test]
+fn only_what_waits_for_the_time_alone_is_not_called_after_each_event() {
+    let steps = steps(
+        r#"steps = [
+            { after = "5ms", line = { be_quiet = {} } },
+            { when = { master_idle = {} }, line = { be_quiet = {} } },
+            { expect = { master_idle = {} }, while = { master_idle = {} } },
+            { after = "5ms", line = { be_quiet = {} } },
+        ]"#,
+    );
+    let mut desk = Desk::default();
+    let mut player = Player::new(&steps, 1, Instant::ZERO + Duration::from_secs(1));
+    let mut at = |ms, is_idle| {
+        (desk.now, desk.is_idle) = (Instant::ZERO + Duration::from_millis(ms), is_idle);
+        match player.advance(&mut desk) {
+            Ok(Next::Wait { looks, .. }) => looks,
+            Ok(Next::End) => panic!("the end"),
+            Err(failure) => panic!("{failure}"),
+        }
+    };
+    assert_eq!(at(0, false), Looks::AtItsTime, "the first step waits for its time");
+    assert_eq!(at(5, false), Looks::EachEvent, "the second one for a condition");
+    assert_eq!(at(6, true), Looks::EachEvent, "the last one for its time, but an expectation is open");
 }

@@ -21,8 +21,27 @@ pub(super) enum Progress<'a> {
 pub(super) struct Waits<'a> {
     /// Where it is written.
     pub(super) origin: Origin<'a>,
-    /// It needs another look after each event, and at this time at the latest.
+    /// It needs another look at this time at the latest.
     pub(super) until: Instant,
+    pub(super) looks: Looks,
+}
+
+impl Waits<'_> {
+    /// The one of two that comes first, with the looks that both need.
+    pub(super) fn and(self, other: Self) -> Self {
+        let looks = self.looks.min(other.looks);
+        let first = if self.until <= other.until { self } else { other };
+        Self { looks, ..first }
+    }
+}
+
+/// When something that waits needs another look, the more frequent first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Looks {
+    /// After each event: it looks at the world.
+    EachEvent,
+    /// When everything that is due up to its time has happened: it waits for the time only.
+    AtItsTime,
 }
 
 /// Line and words of a step or a group.

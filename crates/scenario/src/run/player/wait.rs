@@ -2,7 +2,7 @@
 
 use time::Instant;
 
-use super::verdict::{Origin, Verdict, failure};
+use super::verdict::{Looks, Origin, Verdict, failure};
 use super::watch::judge_never;
 use crate::model::{Condition, Trigger};
 use crate::run::check::Seen;
@@ -50,6 +50,14 @@ impl<'a> Wait<'a> {
             Trigger::At(at) => Self::Time(Instant::ZERO + *at),
             Trigger::After(after) => Self::Time(now + *after),
             Trigger::When(condition) => Self::When(condition),
+        }
+    }
+
+    /// When it needs another look, apart from the time.
+    pub(super) const fn looks(&self) -> Looks {
+        match self {
+            Self::Over | Self::Time(_) => Looks::AtItsTime,
+            Self::When(_) | Self::Within(..) | Self::AfterChange(..) | Self::Until { .. } => Looks::EachEvent,
         }
     }
 

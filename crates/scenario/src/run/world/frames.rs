@@ -71,6 +71,6 @@ impl LineEnds<Ticket> for Ends<'_> {
 
 /// The comment of a frame in a capture: all its faults.
 fn comment(met: &[Met]) -> Option<String> {
-    let words: Vec<String> = met.iter().map(Met::to_string).collect();
-    (!words.is_empty()).then(|| words.join("; "))
+    let words = || met.iter().map(Met::to_string).collect::<Vec<_>>().join("; ");
+    (!met.is_empty()).then(words)
 }
