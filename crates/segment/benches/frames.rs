@@ -1,14 +1,20 @@
 //! What a frame costs in process: `cargo bench -p ectwin-segment`. Targets and figures: docs/performance.md.
+//!
+//! `… --bench frames -- once "BRD 2 bytes/100" 300` sends the frames of one row 300 times, to count instructions: the
+//! difference between two numbers is free of the preparation.
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput};
 use esc::{Esc, EscConfig, SmIndex};
 use segment::Segment;
-use std::hint::black_box;
 use time::Instant;
 use wire::{Command, FrameBuilder};
 
 const OUTPUTS: u8 = 0x64;
 const INPUTS: u8 = 0x20;
+/// Units of the lines that show how a cost increases with them.
+const LINES: [usize; 4] = [1, 100, 1_000, 10_000];
 
 /// A line of ESCs, each with this number of bytes of outputs and inputs, mapped one after the other; outputs
 /// and inputs share their logical bytes, as SOEM and ethercrab map them for LRW.
@@ -46,21 +52,57 @@ fn fmmu(logical: u32, length_bytes: u16, physical: u16, kind: u8) -> [u8; 16] {
     bytes
 }
 
+/// What measures the rows.
+trait Meter {
+    /// Measures a round of the row with this name. `prepare` makes the round, and is not measured.
+    fn row<O, R: FnMut() -> O>(&mut self, name: &str, throughput: Throughput, prepare: impl Fn() -> R);
+}
+
+/// In time.
+impl Meter for Criterion {
+    fn row<O, R: FnMut() -> O>(&mut self, name: &str, throughput: Throughput, prepare: impl Fn() -> R) {
+        let Some((group, name)) = name.split_once('/') else {
+            self.bench_function(name, |bencher| bencher.iter(prepare()));
+            return;
+        };
+        let mut group = self.benchmark_group(group);
+        group.throughput(throughput);
+        group.bench_function(name, |bencher| bencher.iter(prepare()));
+        group.finish();
+    }
+}
+
+/// By another program, which counts the instructions of some rounds of one row.
+struct Once<'a> {
+    name: &'a str,
+    rounds: u32,
+    is_found: bool,
+}
+
+impl Meter for Once<'_> {
+    fn row<O, R: FnMut() -> O>(&mut self, name: &str, _: Throughput, prepare: impl Fn() -> R) {
+        if name == self.name {
+            self.is_found = true;
+            let mut round = prepare();
+            (0..self.rounds).for_each(|_| drop(black_box(round())));
+        }
+    }
+}
+
 /// Outputs and inputs of a full unit in two frames; the application takes and provides complete images.
-fn full_unit(criterion: &mut Criterion) {
-    let mut segment = line(1, 1_200, 1_204);
-    let mut outputs = FrameBuilder::new().logical(Command::Lwr, 0, &[0x5A; 1_200]).finish();
-    let mut inputs = FrameBuilder::new().logical(Command::Lrd, 0, &[0; 1_204]).finish();
-    let mut group = criterion.benchmark_group("full unit");
-    group.throughput(Throughput::Bytes(2_404));
-    group.bench_function("LWR 1200 + LRD 1204", |bencher| {
-        bencher.iter(|| {
+fn full_unit(meter: &mut impl Meter) {
+    let outputs = FrameBuilder::new().logical(Command::Lwr, 0, &[0x5A; 1_200]).finish();
+    let inputs = FrameBuilder::new().logical(Command::Lrd, 0, &[0; 1_204]).finish();
+    meter.row("full unit/LWR 1200 + LRD 1204", Throughput::Bytes(2_404), || {
+        let (mut segment, mut outputs, mut inputs) = (line(1, 1_200, 1_204), outputs.clone(), inputs.clone());
+        move || {
             segment.frame(Instant::ZERO, black_box(&mut outputs));
             segment.frame(Instant::ZERO, black_box(&mut inputs));
-        });
+        }
     });
-    group.bench_function("LWR 1200 + LRD 1204 + refresh", |bencher| {
-        bencher.iter(|| {
+    meter.row("full unit/LWR 1200 + LRD 1204 + refresh", Throughput::Bytes(2_404), || {
+        let (mut segment, mut outputs, mut inputs) = (line(1, 1_200, 1_204), outputs.clone(), inputs.clone());
+        move || {
             segment.frame(Instant::ZERO, black_box(&mut outputs));
             if let Some(esc) = segment.esc_mut(0) {
                 esc.pdi().exchange(Some(SmIndex::OUTPUTS), Some(SmIndex::INPUTS), |outputs, inputs| {
@@ -68,92 +110,88 @@ fn full_unit(criterion: &mut Criterion) {
                 });
             }
             segment.frame(Instant::ZERO, black_box(&mut inputs));
-        });
-    });
-    group.finish();
-}
-
-/// One LRW of 1,200 bytes through 100 units of 6 + 6 bytes.
-fn hundred_units(criterion: &mut Criterion) {
-    let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0, &[0; 1_200]).finish();
-    criterion.bench_function("100 units of 6 + 6 bytes: LRW 1200", |bencher| {
-        let mut segment = line(100, 6, 6);
-        bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
+        }
     });
 }
 
-fn broadcast(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("BRD 2 bytes");
-    for units in [1, 100, 1_000, 10_000] {
-        let mut brd = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]).finish();
-        group.throughput(Throughput::Elements(units as u64));
-        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
-            let mut segment = line(units, 6, 6);
-            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut brd)));
-        });
-    }
-    group.finish();
+/// One frame through a line of units with 6 + 6 bytes.
+fn one_frame(meter: &mut impl Meter, name: &str, units: usize, frame: FrameBuilder) {
+    let frame = frame.finish();
+    meter.row(name, Throughput::Elements(units as u64), || {
+        let (mut segment, mut frame) = (line(units, 6, 6), frame.clone());
+        move || segment.frame(Instant::ZERO, black_box(&mut frame))
+    });
+}
+
+/// One LRW of 1,200 bytes through 100 units.
+fn hundred_units(meter: &mut impl Meter) {
+    let lrw = FrameBuilder::new().logical(Command::Lrw, 0, &[0; 1_200]);
+    one_frame(meter, "100 units of 6 + 6 bytes: LRW 1200", 100, lrw);
+}
+
+fn broadcast(meter: &mut impl Meter, units: usize) {
+    let brd = FrameBuilder::new().physical(Command::Brd, 0, 0x0130, &[0; 2]);
+    one_frame(meter, &format!("BRD 2 bytes/{units}"), units, brd);
 }
 
 /// A logical datagram that no unit maps: the cost of a unit that is not addressed.
-fn untouched(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("untouched units, LRW 6 bytes");
-    for units in [1, 100, 1_000, 10_000] {
-        let mut lrw = FrameBuilder::new().logical(Command::Lrw, 0x4000_0000, &[0; 6]).finish();
-        group.throughput(Throughput::Elements(units as u64));
-        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
-            let mut segment = line(units, 6, 6);
-            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut lrw)));
-        });
-    }
-    group.finish();
+fn untouched(meter: &mut impl Meter, units: usize) {
+    let lrw = FrameBuilder::new().logical(Command::Lrw, 0x4000_0000, &[0; 6]);
+    one_frame(meter, &format!("untouched units, LRW 6 bytes/{units}"), units, lrw);
 }
 
 /// One unit of a line, by its station address: the cost of the others.
-fn configured_address(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("FPRD 2 bytes of the last unit");
-    for units in [1, 100, 1_000, 10_000] {
-        let mut fprd = FrameBuilder::new().physical(Command::Fprd, 0x1234, 0x0130, &[0; 2]).finish();
-        group.bench_function(BenchmarkId::from_parameter(units), |bencher| {
-            let mut segment = line(units, 6, 6);
-            let last = (units as u16 - 1).wrapping_neg();
-            let address = FrameBuilder::new().physical(Command::Apwr, last, 0x0010, &[0x34, 0x12]);
-            segment.frame(Instant::ZERO, &mut address.finish());
-            bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut fprd)));
-        });
-    }
-    group.finish();
+fn configured_address(meter: &mut impl Meter, units: usize) {
+    let fprd = FrameBuilder::new().physical(Command::Fprd, 0x1234, 0x0130, &[0; 2]).finish();
+    let last = (units as u16 - 1).wrapping_neg();
+    let address = FrameBuilder::new().physical(Command::Apwr, last, 0x0010, &[0x34, 0x12]).finish();
+    let name = format!("FPRD 2 bytes of the last unit/{units}");
+    meter.row(&name, Throughput::Elements(1), || {
+        let (mut segment, mut fprd) = (line(units, 6, 6), fprd.clone());
+        segment.frame(Instant::ZERO, &mut address.clone());
+        move || segment.frame(Instant::ZERO, black_box(&mut fprd))
+    });
 }
 
 /// What masters send in each cycle to synchronise the clocks: the first unit is read, all others are written.
-fn system_time(criterion: &mut Criterion) {
-    let mut frmw = FrameBuilder::new().physical(Command::Frmw, 0, 0x0910, &[0; 8]).finish();
-    criterion.bench_function("100 units: FRMW 8 of the system time", |bencher| {
-        let mut segment = line(100, 6, 6);
-        bencher.iter(|| segment.frame(Instant::ZERO, black_box(&mut frmw)));
-    });
+fn system_time(meter: &mut impl Meter) {
+    let frmw = FrameBuilder::new().physical(Command::Frmw, 0, 0x0910, &[0; 8]);
+    one_frame(meter, "100 units: FRMW 8 of the system time", 100, frmw);
 }
 
 /// Registers of one unit that are calculated when they are read.
-fn live_registers(criterion: &mut Criterion) {
-    let mut aprd = FrameBuilder::new().physical(Command::Aprd, 0, 0x080D, &[0]).finish();
-    criterion.bench_function("mailbox status: APRD 1", |bencher| {
-        let mut segment = line(1, 6, 6);
-        bencher.iter(|| {
+fn live_registers(meter: &mut impl Meter) {
+    let aprd = FrameBuilder::new().physical(Command::Aprd, 0, 0x080D, &[0]).finish();
+    meter.row("mailbox status: APRD 1", Throughput::Elements(1), || {
+        let (mut segment, mut aprd) = (line(1, 6, 6), aprd.clone());
+        move || {
             aprd[18..20].fill(0);
             segment.frame(Instant::ZERO, black_box(&mut aprd))
-        });
+        }
     });
 }
 
-criterion_group!(
-    benches,
-    full_unit,
-    hundred_units,
-    broadcast,
-    untouched,
-    configured_address,
-    system_time,
-    live_registers
-);
-criterion_main!(benches);
+fn all(meter: &mut impl Meter) {
+    full_unit(meter);
+    hundred_units(meter);
+    LINES.into_iter().for_each(|units| broadcast(meter, units));
+    LINES.into_iter().for_each(|units| untouched(meter, units));
+    LINES.into_iter().for_each(|units| configured_address(meter, units));
+    system_time(meter);
+    live_registers(meter);
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip_while(|argument| argument != "once").collect();
+    if let [_, name, rounds, ..] = arguments.as_slice()
+        && let Ok(rounds) = rounds.parse()
+    {
+        let mut once = Once { name, rounds, is_found: false };
+        all(&mut once);
+        assert!(once.is_found, "there is no row {name}");
+        return;
+    }
+    let mut criterion = Criterion::default().configure_from_args();
+    all(&mut criterion);
+    criterion.final_summary();
+}
