@@ -22,6 +22,9 @@ use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::thread::{self, JoinHandle};
 
+use rustix::process::setpriority_process;
+use rustix::thread::gettid;
+
 use crate::socket::Socket;
 use crate::twin::Twin;
 
@@ -32,6 +35,9 @@ use work::Work;
 
 pub use publisher::Publisher;
 pub use sockets::CLIENTS_MAX;
+
+/// The niceness of both threads.
+const NICE: i32 = 10;
 
 /// The server of a twin. Dropping it closes all connections, removes the socket and ends its threads.
 #[derive(Debug)]
@@ -58,10 +64,23 @@ pub fn serve(
     let mut server = Server { path, postbox: Arc::clone(&postbox), threads: Vec::new() };
 
     let work = Work::new(twin, work, Arc::clone(&postbox), kinds);
-    server.threads.push(thread::Builder::new().name("control-work".to_owned()).spawn(move || work.run())?);
+    server.threads.push(thread::Builder::new().name("control-work".to_owned()).spawn(move || {
+        give_way();
+        work.run();
+    })?);
     let sockets = Sockets::new(socket, jobs, postbox);
-    server.threads.push(thread::Builder::new().name("control".to_owned()).spawn(move || sockets.run())?);
+    server.threads.push(thread::Builder::new().name("control".to_owned()).spawn(move || {
+        give_way();
+        sockets.run();
+    })?);
     Ok((server, publisher))
+}
+
+/// On a machine that is busy the calling thread runs after those that answer frames and run tasks.
+fn give_way() {
+    if let Err(error) = setpriority_process(Some(gettid()), NICE) {
+        tracing::debug!("control: the threads have the priority of the others: {error}");
+    }
 }
 
 impl Server {
