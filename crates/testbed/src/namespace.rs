@@ -74,7 +74,12 @@ fn wait_until_up(interface: &str) {
 /// other side too.
 pub struct MasterSide {
     shell: Process,
+    /// The exit code of the program, once it is known.
+    ended: Option<i32>,
 }
+
+/// The shell around a program prints its exit code.
+const ENDED: &str = "ended ";
 
 impl MasterSide {
     /// Makes the namespace, moves `interface` into it, and starts `program` there once it is up.
@@ -100,7 +105,27 @@ impl MasterSide {
         shell.wait_for_line("in");
         ip(&["link", "set", interface, "netns", &shell.id().to_string()]);
         shell.say("go");
-        Self { shell }
+        Self { shell, ended: None }
+    }
+
+    /// Waits until the program prints a line that begins with `start`, and returns the rest of it; none if the program
+    /// has ended.
+    ///
+    /// # Panics
+    /// If the shell around it has ended.
+    #[must_use]
+    pub fn next_line(&mut self, start: &str) -> Option<String> {
+        let line = self.shell.wait_for_line_of(&[start, ENDED]);
+        self.ended = exit_code(line);
+        if self.ended.is_some() { None } else { line.strip_prefix(start).map(str::to_owned) }
+    }
+
+    /// Writes a line to the standard input of the program.
+    ///
+    /// # Panics
+    /// If it has closed its input.
+    pub fn say(&mut self, line: &str) {
+        self.shell.say(line);
     }
 
     /// Waits until the program has ended, and returns its exit code.
@@ -109,8 +134,12 @@ impl MasterSide {
     /// If the shell around it has ended.
     #[must_use]
     pub fn wait(&mut self) -> i32 {
-        let line = self.shell.wait_for_line("ended ");
-        let code = line.strip_prefix("ended ").and_then(|code| code.parse().ok());
-        code.unwrap_or_else(|| panic!("`{line}` tells no exit code"))
+        let code = self.ended.or_else(|| exit_code(self.shell.wait_for_line(ENDED)));
+        code.unwrap_or_else(|| panic!("the program has no exit code"))
     }
+}
+
+/// The exit code of the program, if the shell prints it in this line.
+fn exit_code(line: &str) -> Option<i32> {
+    line.strip_prefix(ENDED)?.parse().ok()
 }

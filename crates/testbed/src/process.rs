@@ -34,13 +34,23 @@ impl Process {
     /// # Panics
     /// If the output ends before such a line.
     pub fn wait_for_line(&mut self, start: &str) -> &str {
+        self.wait_for_line_of(&[start])
+    }
+
+    /// The same for a line that begins with one of these.
+    ///
+    /// # Panics
+    /// If the output ends before such a line.
+    pub fn wait_for_line_of(&mut self, starts: &[&str]) -> &str {
         loop {
             self.line.clear();
             match self.stdout.read_line(&mut self.line) {
-                Ok(0) => panic!("the output ended before a line `{start}…`: {:?}", self.child.wait()),
-                Ok(_) if self.line.starts_with(start) => return self.line.trim_end(),
+                Ok(0) => panic!("the output ended before a line of {starts:?}: {:?}", self.child.wait()),
+                Ok(_) if starts.iter().any(|start| self.line.starts_with(start)) => {
+                    return self.line.trim_end();
+                }
                 Ok(_) => print!("{}", self.line),
-                Err(error) => panic!("waiting for a line `{start}…`: {error}"),
+                Err(error) => panic!("waiting for a line of {starts:?}: {error}"),
             }
         }
     }
