@@ -206,3 +206,36 @@ impl Client {
 fn is_later(error: &io::Error) -> bool {
     [io::ErrorKind::WouldBlock, io::ErrorKind::Interrupted].contains(&error.kind())
 }
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write;
+
+    use super::*;
+
+    /// As it never reads, its answers fill the outbox, and then its own `write` has to wait.
+    #[test]
+    fn a_client_that_never_reads_is_asked_for_no_further_request() {
+        let (ours, theirs) = UnixStream::pair().unwrap();
+        ours.set_nonblocking(true).unwrap();
+        theirs.set_nonblocking(true).unwrap();
+        let mut client = Client::new(1, ours);
+        let requests = b"{\"status\":true}\n".repeat(4_096);
+        let answer: Arc<str> = format!("{}\n", "x".repeat(1_023)).into();
+        let mut asked = 0;
+        for _ in 0..10_000 {
+            while (&theirs).write(&requests).is_ok() {}
+            if client.awaited().is_some_and(|awaited| awaited.contains(PollFlags::IN)) {
+                client.receive();
+            }
+            let before = asked;
+            client.requests(|_, _| asked += 1);
+            if asked > before {
+                client.answer(Arc::clone(&answer), Ends::Request, None);
+            }
+            client.write();
+        }
+        assert!((256..2_000).contains(&asked), "{asked} requests");
+        assert!(client.lines.waiting_bytes() <= LINE_BYTES_MAX + PIECE_BYTES);
+    }
+}

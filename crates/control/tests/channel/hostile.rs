@@ -116,4 +116,12 @@ fn there_is_room_for_so_many_expectations_and_those_of_a_client_that_has_left_ar
     other.request(&json!({ "id": 2, "do": "make y" }));
     let ids = [other.line()["id"].clone(), other.line()["id"].clone()];
     assert!(ids.contains(&json!(1)) && ids.contains(&json!(2)), "{ids:?}");
+
+    // The twin is not looked at for anybody any more, as soon as the server has noticed that.
+    let mut looks_while_busy = || {
+        let before = bench.table.lock().unwrap().looks;
+        (0..100).for_each(|id| assert_eq!(other.answer(&json!({ "id": id, "do": "make z" }))["ok"], true));
+        bench.table.lock().unwrap().looks - before
+    };
+    assert!((0..100).any(|_| looks_while_busy() == 0), "those of the client that has left are looked at");
 }
