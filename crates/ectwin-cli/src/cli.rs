@@ -298,7 +298,7 @@ pub(crate) struct ReplayArgs {
     /// Print the files, titles and numbers of cases, and exit; with --json a line for each case
     #[arg(long, conflicts_with_all = ["bless", "junit", "pcap", "trace", "on_failure", "fail_fast"])]
     pub(crate) list: bool,
-    /// Print the expectations that test nothing: the case passes with the contrary of one too
+    /// Print the expectations that test nothing, because the case passes with the contrary of one too, and the warnings
     #[arg(long, conflicts_with_all = ["bless", "junit", "pcap", "trace", "on_failure", "fail_fast", "list"])]
     pub(crate) vacuous: bool,
     /// End after the first case that fails, in the order of the cases

@@ -132,6 +132,21 @@ condition `unit 1 is in SAFE-OP` with `within` has to be false before it counts.
 data (`stop process data`, a pulled cable, power off, lost frames), and the I/O refreshing and the task of a CPU Unit. This applies to expectations
 that follow at once, with or without other orders between them, in groups and behind groups. `for` checks that a state stays as it is.
 
+### Warnings
+A file can pass and still test less than it seems to. `ectwin replay` prints a warning for
+
+- an expectation with `within` whose condition was true before the orders directly before it, and still was after them. In rounds it is named only if
+  this is so each time. An event that was recorded once stays recorded: `has recorded … again` and `has given up again` count only what has come since
+  the orders directly before the step;
+- a fault of frames that no frame has met, unless a probability selects them;
+- an order that the master has given up, if no later expectation is about this unit or about the orders of the master;
+- a step with `at` that comes later than its time, because the steps before it have lasted until then;
+- an order that finds nothing to do: `be quiet` without a fault, a mode, a task or I/O refreshing that is so already, `stop process data` twice, `release`
+  of what no step has forced. In groups and after random steps it is not known, and not named;
+- a file without any expectation or `when`, unless it has a golden trace.
+
+Files with random steps have only the warnings of orders. `ectwin replay --vacuous` fails if there is a warning.
+
 ### Groups
 A group is a step with steps of its own. `at`, `after` and `when` say when it begins. Groups can be in groups, up to 16 deep.
 
@@ -140,7 +155,7 @@ A group is a step with steps of its own. `at`, `after` and `when` say when it be
 | `{ steps = [a, b] }` | the steps one after the other |
 | `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the beginning of the one before; a round that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
 | `{ together = [a, [b, c], d] }` | three sequences that begin at the same time; a list is a sequence. The next step waits for the last of them |
-| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers and the name of a unit: `for.unit = [2, { from = 4, to = 6 }, "Conveyor"]`. At most 10,000 steps |
+| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers, the name of a unit and the value of a parameter: `for.unit = [2, { from = 4, to = 6 }, "Conveyor", "{first}"]`. At most 10,000 steps |
 
 ```toml groups.toml
 title = "contacts of two cables are loose at the same time, ten times"

@@ -240,7 +240,7 @@ impl ProcessData {
         self.next_frame = 0;
         self.status = None;
         self.datagrams.iter_mut().for_each(|datagram| datagram.working_counter = None);
-        self.images.iter_mut().for_each(|image| image.counted = 0);
+        self.images.iter_mut().for_each(Image::begin_cycle);
         true
     }
 
@@ -309,9 +309,9 @@ impl ProcessData {
         })
     }
 
-    /// The sum of the working counters of the datagrams that carry the process data of a slave, in the last
-    /// cycle for which one of them returned. If a datagram also carries process data of other slaves, their
-    /// part is included.
+    /// The sum of the working counters of the datagrams that carry the process data of a slave, in the present
+    /// cycle, or before the first of them returns in the cycle before. None if none of them returned there. If a
+    /// datagram also carries process data of other slaves, their part is included.
     #[must_use]
     pub fn working_counter(&self, slave: usize) -> Option<u16> {
         self.images.get(slave)?.working_counter

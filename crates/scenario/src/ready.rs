@@ -6,6 +6,7 @@ mod fault_names;
 mod files;
 mod groups;
 mod idle_orders;
+mod idle_warnings;
 mod known_line;
 mod known_parts;
 mod line;
@@ -123,7 +124,7 @@ fn made(mut maker: Maker<'_>, draft: Draft) -> (Scenario, Vec<Problem>) {
     let units = maker.units.clone();
     let ReadySteps { steps, random, .. } = maker.steps(script.steps, written, script.limit, ground);
     maker.check_keys_of_masters(script.capture.is_some(), script.master.is_some());
-    let Maker { master, programs, images, replacements, problems, .. } = maker;
+    let Maker { master, programs, images, replacements, problems, warnings, .. } = maker;
     let scenario = Scenario {
         title: script.title,
         case: None,
@@ -140,6 +141,7 @@ fn made(mut maker: Maker<'_>, draft: Draft) -> (Scenario, Vec<Problem>) {
         recorded: RecordedFrames::default(),
         golden_trace: None,
         random,
+        warnings,
     };
     (scenario, problems)
 }

@@ -1,5 +1,6 @@
 //! Running a scenario: units, CPU Units, line and masters in virtual time, and checking its expectations.
 
+mod all_warnings;
 mod bench;
 mod caught;
 mod check;
@@ -22,6 +23,7 @@ mod scenario;
 mod stack_codes;
 mod stage;
 mod virtual_stage;
+mod warning;
 mod world;
 
 pub use bench::{Bench, Lent, LineHands, Notes, Supply};
@@ -32,7 +34,7 @@ pub use master::MasterProgram;
 pub(crate) use master::{MasterVariables, NODE_ADDRESS_MAX, Node, changed_settings};
 pub use met::{Fact, FactKind, Met};
 pub use play::{Play, Turn};
-pub(crate) use player::{ends, play};
+pub(crate) use player::{ends, is_work, play};
 pub use programs::ProgramFile;
 pub(crate) use programs::{LoadedProgram, SiiImage};
 pub use recorded::{Aspect, DifferenceKind, NotReplayable, RecordedFrames};
@@ -44,3 +46,4 @@ pub use scenario::{
     Brought, PlayedStep, RandomPart, Scenario, UnitSource, UserProgram, WrittenGroup, WrittenStep,
 };
 pub(crate) use scenario::{Replacement, each_step};
+pub use warning::Warning;

@@ -21,7 +21,7 @@
 use time::Duration;
 
 use crate::model::{Condition, Expectation, Mode, Order, Step, Trigger};
-use crate::run::{PlayedStep, Recording, Scenario, WrittenStep, each_step, ends, play};
+use crate::run::{PlayedStep, Recording, Scenario, WrittenStep, each_step, ends, is_work, play};
 
 /// The expectations of a scenario, and those among them that test nothing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -136,11 +136,6 @@ fn first_order_before(place: usize, steps: &[PlayedStep]) -> Option<usize> {
         first = before;
     }
     (first < place).then_some(first)
-}
-
-/// Whether an order makes a master work that is expected to have nothing to do: it can be done in no virtual time.
-fn is_work(order: &Order, condition: &Condition) -> bool {
-    matches!((order, condition), (Order::Master(_), Condition::MasterIdle))
 }
 
 /// The shortest time.

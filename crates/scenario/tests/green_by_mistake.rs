@@ -187,7 +187,11 @@ steps = [
         ),
     ] {
         let failure = failure(&format!("{op} {steps}, {{ never = \"{condition}\" }}]"));
-        assert_eq!((failure.text.as_str(), failure.seen.as_str()), (condition, "it does hold"), "{steps}");
+        assert_eq!(
+            (failure.text.as_str(), failure.seen.as_str()),
+            (condition, "it holds, and `never` expects that it does not"),
+            "{steps}"
+        );
     }
     // Frames that do not come, and the limit, end the wait.
     let mailbox =

@@ -94,7 +94,7 @@ fn never_is_checked_with_later_programs_too() {
 
     assert_eq!(replay(&[&never("a"), LOAD_KEPT, A_IS_1]).failure, None);
     let failure = replay(&[&never("both"), LOAD_TWO, B_IS_2]).failure.map(|failure| failure.seen);
-    assert_eq!(failure.as_deref(), Some("it does hold"));
+    assert_eq!(failure.as_deref(), Some("it holds, and `never` expects that it does not"));
     let until =
         "never = \"program variable a of unit 1 is 2\", until = \"program variable a of unit 1 is 1\"";
     assert_eq!(replay(&[until, LOAD_TWO, B_IS_2]).failure, None);

@@ -222,7 +222,10 @@ fn a_change_needs_time() {
         "{ expect = \"the number of cycles changes\", within = \"2ms\", repeat = 3, every = \"5ms\" }";
     assert_eq!(failure(&format!("{op}{again}")), None);
     let never = "{ never = \"the number of cycles changes\" }, { after = \"5ms\", line = \"be quiet\" }";
-    assert_eq!(failure(&format!("{op}{never}")), Some("it does hold".to_owned()));
+    assert_eq!(
+        failure(&format!("{op}{never}")),
+        Some("it holds, and `never` expects that it does not".to_owned())
+    );
 }
 
 /// Variables of type BOOL are TRUE or FALSE; others are neither.

@@ -234,3 +234,20 @@ fn the_text_of_a_case_has_one_value_of_each_parameter() {
     assert_eq!(Scenario::texts_of_cases("title = \"t\"\n").ok(), Some(vec!["title = \"t\"\n".to_owned()]));
     assert!(Scenario::texts_of_cases("with = { a = [] }\n").is_err());
 }
+
+#[test]
+fn values_of_for_can_have_the_values_of_parameters() {
+    let text = r#"title = "{first} and 3"
+with.first = [2]
+units = [{ model = "nx-ect101" }, { model = "nx-ect101", name = "B" }, { model = "nx-ect101", name = "C" }]
+steps = [
+  { for.unit = ["{first}", 3], steps = [{ expect = "unit {unit} is in INIT" }] },
+]"#;
+    let scenario = Scenario::parse(text, |_| Err(String::new())).unwrap_or_else(|errors| panic!("{errors}"));
+    let texts: Vec<&str> = scenario.each_step().into_iter().map(|step| step.text.as_str()).collect();
+    assert_eq!(texts, ["unit 2 is in INIT", "unit 3 is in INIT"]);
+    let unknown = text.replace("\"{first}\", 3", "\"{second}\", 3");
+    let errors =
+        Scenario::parse(&unknown, |_| Err(String::new())).map(drop).map_err(|errors| errors.to_string());
+    assert!(errors.as_ref().is_err_and(|errors| errors.contains("second")), "{errors:?}");
+}

@@ -47,7 +47,7 @@ fn an_expectation_that_fails_says_where_when_and_what_was_seen() {
     let wrong = WATCHDOG.replace("85000000 1 times", "85000000 2 times");
     assert_eq!(
         verdict(&wrong),
-        "line 10: `unit 1 has recorded 85000000 2 times` does not hold at 122ms: unit 1 has recorded it once; \
+        "line 10: `unit 1 has recorded 85000000 2 times` fails at 122ms: unit 1 has recorded it once; \
          recorded: 85000000"
     );
 }

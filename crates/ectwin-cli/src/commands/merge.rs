@@ -15,6 +15,7 @@ use ectwin::user_files::{Lines, Unreadable, Wanted};
 
 use super::replay::{
     CASES_MAX, CaseResult, FailedCases, JunitReport, Partition, Totals, Verdict, case_count, failed_case,
+    with_warnings,
 };
 use crate::cli::MergeArgs;
 use crate::failure::Failure;
@@ -51,8 +52,9 @@ pub(crate) fn run(args: &MergeArgs) -> Result<(), Failure> {
         }
     }
     people.print_cases(&failed_cases.others())?;
-    let Totals { cases, failed, .. } = found.totals;
-    people.print_line(format_args!("{}: {} ok, {failed} failed", case_count(cases), cases - failed))?;
+    let Totals { cases, failed, warned, .. } = found.totals;
+    let (ok, warned) = (cases - failed, with_warnings(warned));
+    people.print_line(format_args!("{}: {ok} ok, {failed} failed{warned}", case_count(cases)))?;
     if failed == 0 { Ok(()) } else { Err(Failure::CasesFailed) }
 }
 

@@ -54,7 +54,9 @@ pub(crate) use result::{CaseResult, FailedStep, Verdict};
 pub(crate) use seeds::{SeedChoice, SeedRange};
 pub(crate) use shard::chosen as chosen_part;
 pub(crate) use spool::Spool;
-pub(crate) use story::{case as case_story, cases as case_count, failed_case, quoted};
+pub(crate) use story::{
+    case as case_story, cases as case_count, failed_case, quoted, warned as with_warnings,
+};
 pub(crate) use threads::{Interrupted, replay as on_threads};
 
 /// Replays all cases of the selected part.

@@ -46,7 +46,7 @@ fn one_case_is_replayed_by_its_values() {
     let replay = |case: &str| bench.ectwin(&["replay", "states.toml", "--case", case]);
     let ended = replay("state = PRE-OP, loss = 2");
     assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
-    assert!(ended.stdout.ends_with("1 case: 1 ok, 0 failed\n"), "{}", ended.stdout);
+    assert!(ended.stdout.ends_with("1 case: 1 ok, 0 failed, 1 with warnings\n"), "{}", ended.stdout);
     let refused = replay("state = PREOP, loss = 2");
     assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
     let told = refused.stderr.split_whitespace().collect::<Vec<_>>().join(" ");

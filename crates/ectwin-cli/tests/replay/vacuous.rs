@@ -47,3 +47,32 @@ fn no_expectation_of_the_collection_tests_nothing() {
     let ended = Bench::new("vacuous-collection").ectwin(&["replay", folder.to_str().unwrap(), "--vacuous"]);
     assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
 }
+
+#[test]
+fn warnings_are_printed_and_written_and_with_vacuous_they_fail() {
+    let bench = Bench::new("warnings");
+    bench.put(
+        "idle.toml",
+        r#"title = "idle"
+steps = [
+  { line = "be quiet" },
+  { expect = "unit 1 is in INIT" },
+]
+"#,
+    );
+    let message = "no step has begun a fault of frames, so the order does nothing";
+    let ended = bench.ectwin(&["replay", "idle.toml", "--json", "out.jsonl", "--junit", "out.xml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let expected = format!(
+        "        warning idle.toml:3: `be quiet`: {message}\n1 case: 1 ok, 0 failed, 1 with warnings\n"
+    );
+    assert!(ended.stdout.starts_with("ok ") && ended.stdout.ends_with(&expected), "{}", ended.stdout);
+    let lines = bench.json_lines("out.jsonl");
+    let warning = serde_json::json!([{ "line": 3, "step": "be quiet", "message": message }]);
+    assert_eq!(lines[0]["warnings"], warning);
+    let junit = bench.text("out.xml");
+    assert!(junit.contains(&format!("warning idle.toml:3: `be quiet`: {message}")), "{junit}");
+    let ended = bench.ectwin(&["replay", "idle.toml", "--vacuous"]);
+    let expected = format!("idle.toml:3: `be quiet`: {message}\n1 case, 1 expectation: 1 tests nothing\n");
+    assert_eq!((ended.code, ended.stdout), (Some(1), expected));
+}

@@ -7,9 +7,9 @@ use crate::settings::{Direction, SlaveSettings};
 pub(crate) struct Image {
     pub(crate) outputs: Vec<u8>,
     pub(crate) inputs: Vec<u8>,
-    /// The working counters of this cycle so far, added up.
-    pub(crate) counted: u16,
-    /// The same for the last cycle for which a datagram returned.
+    /// The working counters of this cycle so far, added up; none: no datagram has returned.
+    counted: Option<u16>,
+    /// The same, or that of the cycle before until the first datagram returns.
     pub(crate) working_counter: Option<u16>,
 }
 
@@ -31,10 +31,15 @@ impl Image {
         }
     }
 
+    /// The next cycle begins.
+    pub(crate) const fn begin_cycle(&mut self) {
+        self.working_counter = self.counted.take();
+    }
+
     /// A datagram with its process data has returned.
     pub(crate) fn count(&mut self, working_counter: u16) {
-        self.counted = self.counted.saturating_add(working_counter);
-        self.working_counter = Some(self.counted);
+        self.counted = Some(self.counted.unwrap_or(0).saturating_add(working_counter));
+        self.working_counter = self.counted;
     }
 }
 

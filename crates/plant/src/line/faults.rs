@@ -180,6 +180,12 @@ impl<T: Copy> LineFaults<T> {
             .position(|active| active.is_at_work(now) && active.disturbance.name.as_ref() == Some(name))
     }
 
+    /// The number of the fault that began last; 0: none has begun.
+    #[must_use]
+    pub const fn last_number(&self) -> u32 {
+        self.numbered
+    }
+
     /// The faults at work, in the order in which they began.
     pub fn active(&self, now: Instant) -> impl Iterator<Item = ActiveFault<'_>> {
         self.active.iter().filter(move |active| active.is_at_work(now)).map(Active::view)
@@ -232,7 +238,8 @@ impl<T: Copy> LineFaults<T> {
             if frames.choice.selects(active.seen, dice) && !has_no_effect(*fault, frame) {
                 active.met += 1;
                 let delay = fault.delay().map(|delay| delay.draw(dice));
-                met.push(Met::of(&active.disturbance, delay, frames.addressing(frame, units)));
+                let datagrams = frames.addressing(frame, units);
+                met.push(Met::of(active.number, &active.disturbance, delay, datagrams));
             }
         }
         active.retain(|active| !active.disturbance.frames.choice.is_over(active.seen));

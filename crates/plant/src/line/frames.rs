@@ -152,6 +152,12 @@ impl Choice {
         }
     }
 
+    /// Whether a probability selects frames, also one of 0.
+    #[must_use]
+    pub const fn is_chance(self) -> bool {
+        matches!(self, Self::Percent(_) | Self::PerMille(_))
+    }
+
     /// Whether the random generator decides which frames it selects.
     #[must_use]
     pub const fn is_random(self) -> bool {

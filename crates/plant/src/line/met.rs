@@ -9,6 +9,8 @@ use super::order::{Direction, Disturbance, FrameFault, Way};
 /// A fault that a frame meets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Met {
+    /// The number of the fault on its line, from 1.
+    pub number: u32,
     /// The fault.
     pub fault: FrameFault,
     /// Where.
@@ -20,9 +22,14 @@ pub struct Met {
 }
 
 impl Met {
-    pub(super) const fn of(disturbance: &Disturbance, delay: Option<Duration>, datagrams: u128) -> Self {
+    pub(super) const fn of(
+        number: u32,
+        disturbance: &Disturbance,
+        delay: Option<Duration>,
+        datagrams: u128,
+    ) -> Self {
         let Disturbance { fault, way, .. } = disturbance;
-        Self { fault: *fault, way: *way, delay, datagrams }
+        Self { number, fault: *fault, way: *way, delay, datagrams }
     }
 
     /// Whether it is about the datagram with this number, from 0.

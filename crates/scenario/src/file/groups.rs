@@ -142,7 +142,7 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
         let values = self.values(file)?;
         let (first, refused) = (file.written.len(), file.reader.refused());
         for number in 0..product(&values) {
-            let named = combination(&values, number);
+            let named = self.with_values(file, combination(&values, number))?;
             let names = self.scope.names.with(&named);
             self.sequences(file, &names, &mut form)?;
             if file.reader.refused() > refused {
@@ -157,6 +157,14 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
             }
         }
         Some(form)
+    }
+
+    /// The values of `for` with those of the names around the group; none if one is unknown.
+    fn with_values(&self, file: &mut FileReader<'_, '_>, named: Vec<Named<'i>>) -> Option<Vec<Named<'i>>> {
+        if self.scope.names.are_none() {
+            return Some(named);
+        }
+        named.into_iter().map(|named| named.replaced(self.scope.names, file.reader)).collect()
     }
 
     /// The values of `for`; none if they have a mistake.

@@ -2,6 +2,7 @@
 
 use core::cell::Cell;
 
+use toml::Spanned;
 use user_file::{DeValue, Located, Problem, Reader, Value};
 
 use super::places::Span;
@@ -19,6 +20,12 @@ impl<'i> Named<'i> {
     pub(super) fn new(name: &Located<&str>, value: DeValue<'i>) -> Self {
         let span = name.span.clone().unwrap_or_default();
         Self { name: name.value.to_owned(), span, value, is_used: Cell::new(false) }
+    }
+
+    /// The same with the values of other names in its text; none if it has an unknown one.
+    pub(super) fn replaced(self, names: &Names<'_, 'i>, reader: &mut Reader<'_>) -> Option<Self> {
+        let value = names.replaced(reader, &Spanned::new(self.span.clone(), self.value))?;
+        Some(Self { value: value.into_inner(), ..self })
     }
 
     /// `loss = 5`.

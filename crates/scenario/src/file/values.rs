@@ -25,7 +25,17 @@ pub(super) fn duration(place: &str, value: &DeValue<'_>) -> Result<Duration, Pro
         | DeValue::Table(_) => "a duration such as \"1.5ms\"".to_owned(),
     };
     let text = values::text(place, value, &expected)?;
-    text.parse().map_err(|error| Problem::new(format!("`{}`: {error}", shown(text)), ""))
+    text.parse().map_err(|error| match is_too_long(text) {
+        true => Problem::new(format!("`{}` is longer than any time here", shown(text)), "")
+            .with_help("the longest one is 584 years, 18446744073s"),
+        false => Problem::new(format!("`{}`: {error}", shown(text)), ""),
+    })
+}
+
+/// Whether a text is a duration but for its number, which is too great.
+fn is_too_long(text: &str) -> bool {
+    let digits = text.trim_start_matches(|digit: char| digit.is_ascii_digit());
+    digits.len() < text.len() && format!("1{digits}").parse::<Duration>().is_ok()
 }
 
 pub(super) fn names(place: &str, value: &DeValue<'_>) -> Result<Vec<String>, Problem> {

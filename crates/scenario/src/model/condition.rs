@@ -31,6 +31,11 @@ pub enum Condition {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         times: Option<u64>,
     },
+    /// Since the orders directly before the step.
+    RecordedAgain {
+        units: UnitSet,
+        event: EventCode,
+    },
     RecordedNothing {
         units: UnitSet,
     },
@@ -146,6 +151,9 @@ pub enum Condition {
     MasterIdle,
     #[serde(with = "nothing")]
     MasterGaveUp,
+    /// Since the orders directly before the step.
+    #[serde(with = "nothing")]
+    MasterGaveUpAgain,
     /// Without a unit: of all units, as in the next two.
     SdoRefused {
         #[serde(default, skip_serializing_if = "Option::is_none")]

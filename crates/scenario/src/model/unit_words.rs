@@ -146,6 +146,7 @@ impl Condition {
         match self {
             Self::State { units, .. }
             | Self::Recorded { units, .. }
+            | Self::RecordedAgain { units, .. }
             | Self::RecordedNothing { units }
             | Self::HasError { units, .. }
             | Self::HasNoError { units }
@@ -184,6 +185,7 @@ impl Condition {
             | Self::Cycles { .. }
             | Self::MasterIdle
             | Self::MasterGaveUp
+            | Self::MasterGaveUpAgain
             | Self::RegisterGave { .. }
             | Self::MailboxGave { .. }
             | Self::MailboxSilent

@@ -92,6 +92,8 @@ pub enum Test {
     /// It has a value, and not the one that the sentence with `is` has after it: bytes of objects, registers, process
     /// data and device variables, a value of a variable of a program, a number.
     IsNot(String),
+    /// It is this number: only what is counted.
+    Equals(Amount),
     AtLeast(Amount),
     AtMost(Amount),
     Above(Amount),

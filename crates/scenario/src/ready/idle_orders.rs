@@ -140,7 +140,7 @@ impl Maker<'_> {
             .then(|| format!("there is no cause of {fault} in {units}, so the order does nothing"))
     }
 
-    fn positions(&self, units: &UnitSet) -> Vec<usize> {
+    pub(super) fn positions(&self, units: &UnitSet) -> Vec<usize> {
         units.positions(self.units.len()).collect()
     }
 }

@@ -9,7 +9,7 @@ use super::ordered::Ordered;
 use super::problem::{Part, Problem};
 use super::program_values::LastingValue;
 use super::standing::Standing;
-use crate::run::{LoadedProgram, MasterProgram, Replacement, SiiImage, UnitSource};
+use crate::run::{LoadedProgram, MasterProgram, Replacement, SiiImage, UnitSource, Warning};
 
 /// The master of a scenario.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,6 +59,8 @@ pub(super) struct Maker<'f> {
     /// The latest time at which the scenario ends.
     pub(super) limit: Duration,
     pub(super) problems: Vec<Problem>,
+    /// Steps that are no mistakes and test nothing.
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl<'f> Maker<'f> {
@@ -83,6 +85,7 @@ impl<'f> Maker<'f> {
             entries: 0,
             limit: Duration::ZERO,
             problems: Vec::new(),
+            warnings: Vec::new(),
         }
     }
 

@@ -13,6 +13,7 @@ pub(super) fn is_of_master(condition: &Condition) -> Option<&Condition> {
         | Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp
+        | Condition::MasterGaveUpAgain
         | Condition::SdoRefused { .. }
         | Condition::SdoGave { .. }
         | Condition::SdoTaken { .. }
@@ -35,6 +36,7 @@ pub(super) fn is_of_master(condition: &Condition) -> Option<&Condition> {
         Condition::Value { of, .. } => has_masters_value(of),
         Condition::State { .. }
         | Condition::Recorded { .. }
+        | Condition::RecordedAgain { .. }
         | Condition::RecordedNothing { .. }
         | Condition::HasError { .. }
         | Condition::HasNoError { .. }

@@ -85,6 +85,7 @@ impl Maker<'_> {
             return self.check_words(&Needed { units: units.clone(), words, is_known }, part);
         }
         if let Condition::Recorded { units, event, .. }
+        | Condition::RecordedAgain { units, event }
         | Condition::HasError { units, event }
         | Condition::EventLogHas { units, event, .. } = condition
         {

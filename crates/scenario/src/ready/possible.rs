@@ -93,6 +93,7 @@ impl Maker<'_> {
             Condition::DiagnosisMessage { number: None, .. }
             | Condition::EventLogHas { times: None, .. }
             | Condition::Recorded { .. }
+            | Condition::RecordedAgain { .. }
             | Condition::RecordedNothing { .. }
             | Condition::HasError { .. }
             | Condition::HasNoError { .. }
@@ -119,6 +120,7 @@ impl Maker<'_> {
             | Condition::Cycles { .. }
             | Condition::MasterIdle
             | Condition::MasterGaveUp
+            | Condition::MasterGaveUpAgain
             | Condition::EveryWorkingCounterExpected
             | Condition::Emergency { .. }
             | Condition::EmergenciesLost { .. }

@@ -34,6 +34,7 @@ pub(super) fn subject(condition: &Condition) -> Subject<'_> {
     match condition {
         Condition::State { .. }
         | Condition::Recorded { .. }
+        | Condition::RecordedAgain { .. }
         | Condition::RecordedNothing { .. }
         | Condition::HasError { .. }
         | Condition::HasNoError { .. }
@@ -70,6 +71,7 @@ pub(super) fn subject(condition: &Condition) -> Subject<'_> {
         Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp
+        | Condition::MasterGaveUpAgain
         | Condition::SdoRefused { unit: None, .. }
         | Condition::SdoGave { unit: None, .. }
         | Condition::SdoTaken { unit: None }

@@ -1,6 +1,6 @@
 //! What the orders of steps have changed so far, as far as it is known: cables, power, the causes of faults.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the orders of the steps so far have changed. None: it is not known.
 #[derive(Default)]
@@ -15,6 +15,17 @@ pub(super) struct Standing {
     cpus: BTreeMap<usize, bool>,
     /// The causes of faults; at the beginning there are none.
     pub(super) faults: BTreeMap<(usize, String), bool>,
+    /// CPU Units whose mode steps have changed; at the beginning all are in RUN mode.
+    running: BTreeMap<usize, bool>,
+    /// CPU Units whose I/O refreshing and whose tasks steps have stopped or started.
+    refreshing: BTreeMap<usize, bool>,
+    tasks: BTreeMap<usize, bool>,
+    /// A step has begun a fault of frames since the last `be quiet`.
+    pub(super) has_frame_fault: bool,
+    /// A step has stopped the process data.
+    pub(super) is_stopped: bool,
+    /// The variables that steps have forced.
+    pub(super) forced: BTreeSet<String>,
 }
 
 /// A part of what orders change.
@@ -23,6 +34,9 @@ pub(super) enum Switch {
     Cable,
     Unit,
     Cpu,
+    Run,
+    Refreshing,
+    Task,
 }
 
 impl Standing {
@@ -31,11 +45,19 @@ impl Standing {
         *self = Self { is_blurred: true, ..Self::default() };
     }
 
+    /// Whether all is known that steps have changed.
+    pub(super) const fn is_known(&self) -> bool {
+        !self.is_blurred
+    }
+
     const fn of(&mut self, switch: Switch) -> &mut BTreeMap<usize, bool> {
         match switch {
             Switch::Cable => &mut self.plugged,
             Switch::Unit => &mut self.powered,
             Switch::Cpu => &mut self.cpus,
+            Switch::Run => &mut self.running,
+            Switch::Refreshing => &mut self.refreshing,
+            Switch::Task => &mut self.tasks,
         }
     }
 

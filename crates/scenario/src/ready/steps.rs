@@ -115,6 +115,9 @@ impl Maker<'_> {
                     self.check_does_something(&step.order, Part::Step(at, StepPart::Order));
                 }
                 let Written { line, text, .. } = own;
+                if place.depth == 0 && ground == Ground::Firm {
+                    self.warn_if_idle(&step.order, line, &text);
+                }
                 Some((PlayedStep::Step(WrittenStep { step, line, text }), place.reached))
             }
         }

@@ -77,9 +77,12 @@ impl Maker<'_> {
         let values = self.values(of, part, lasting)?;
         match test {
             Test::IsNot(text) => self.check_is_not(of, text, part, lasting),
-            Test::AtLeast(_) | Test::AtMost(_) | Test::Above(_) | Test::Below(_) | Test::Between { .. } => {
-                self.check_amounts(of, &values, test, part)
-            }
+            Test::Equals(_)
+            | Test::AtLeast(_)
+            | Test::AtMost(_)
+            | Test::Above(_)
+            | Test::Below(_)
+            | Test::Between { .. } => self.check_amounts(of, &values, test, part),
             Test::BeginsWith(bytes) => self.check_first_bytes(of, &values, bytes, part),
             Test::HasBits(bits) | Test::HasNoBits(bits) => self.check_bits(of, &values, *bits, part),
             Test::Is(_) if matches!(values.numbers, Numbers::Truth) => Some(()),
@@ -301,9 +304,11 @@ fn said(of: &Quantity) -> String {
 
 fn amounts(test: &Test) -> Vec<&Amount> {
     match test {
-        Test::AtLeast(amount) | Test::AtMost(amount) | Test::Above(amount) | Test::Below(amount) => {
-            vec![amount]
-        }
+        Test::Equals(amount)
+        | Test::AtLeast(amount)
+        | Test::AtMost(amount)
+        | Test::Above(amount)
+        | Test::Below(amount) => vec![amount],
         Test::Between { from, to } => vec![from, to],
         Test::IsNot(_)
         | Test::BeginsWith(_)
@@ -318,6 +323,7 @@ fn amounts(test: &Test) -> Vec<&Amount> {
 fn passes(test: &Test, number: Number) -> bool {
     let order = |amount: &Amount| number.compare(amount.number());
     match test {
+        Test::Equals(amount) => order(amount).is_some_and(core::cmp::Ordering::is_eq),
         Test::AtLeast(amount) => order(amount).is_some_and(core::cmp::Ordering::is_ge),
         Test::AtMost(amount) => order(amount).is_some_and(core::cmp::Ordering::is_le),
         Test::Above(amount) => order(amount).is_some_and(core::cmp::Ordering::is_gt),

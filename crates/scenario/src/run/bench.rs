@@ -75,12 +75,18 @@ impl Bench<'_> {
         self.now
     }
 
+    /// Orders are given: what is recorded from now on is new.
+    pub(crate) fn mark(&mut self) {
+        self.records.iter_mut().for_each(Records::mark);
+    }
+
     /// Carries out an order that has been checked for this line.
     ///
     /// # Errors
     /// [`Reason::NotNow`], [`Reason::WithoutEffect`]; an order to a master is [`Reason::ScriptedMaster`].
     pub fn carry_out(&mut self, order: &Order) -> Result<(), Refused> {
         self.without_effect.clear();
+        self.mark();
         match order {
             Order::Unit(order) => self.unit_order(order),
             Order::Cpu(order) => self.cpu_order(order),

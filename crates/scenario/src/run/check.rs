@@ -36,6 +36,9 @@ pub(super) fn check(
         Condition::Recorded { units, event, times } => {
             each(units, world, |world, at| unit::recorded(world, at, *event, *times))
         }
+        Condition::RecordedAgain { units, event } => {
+            each(units, world, |world, at| unit::recorded_again(world, at, *event))
+        }
         Condition::RecordedNothing { units } => each(units, world, unit::recorded_nothing),
         Condition::HasError { units, event } => {
             each(units, world, |world, at| unit::has_error(world, at, *event))
@@ -93,6 +96,7 @@ pub(super) fn check(
         Condition::Cycles { at_least } => master::cycles(world, *at_least),
         Condition::MasterIdle => master::is_idle(world),
         Condition::MasterGaveUp => master::gave_up(world),
+        Condition::MasterGaveUpAgain => master::gave_up_again(world),
         Condition::SdoRefused { unit, abort_code } => master::sdo_refused(world, unit.as_ref(), abort_code.0),
         Condition::SdoGave { unit, value } => master::sdo_gave(world, unit.as_ref(), value),
         Condition::SdoTaken { unit } => master::sdo_taken(world, unit.as_ref()),

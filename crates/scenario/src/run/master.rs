@@ -4,6 +4,7 @@
 mod answer;
 mod asked_sdo;
 mod emergencies;
+mod given_up;
 mod habits;
 mod last_sdo;
 mod operation;
@@ -30,6 +31,7 @@ use wire::FRAME_BYTES_MAX;
 use crate::model::WhichUnit;
 
 use answer::{Outcome, Step};
+use given_up::OrdersGivenUp;
 use habits::{LISTEN_PERIOD, habits};
 use last_sdo::{LastSdo, LastSdos};
 use operation::Operation;
@@ -40,6 +42,7 @@ use slave::Slave;
 use states::States;
 
 pub(crate) use emergencies::Received;
+pub(crate) use given_up::{GivenUp, OrderNumber};
 pub use program::MasterProgram;
 pub(crate) use raw::Kind;
 use raw::{Raw, RawNumber};
@@ -74,7 +77,7 @@ pub(crate) struct Master {
     listens: Vec<bool>,
     /// How it handles mailboxes, correctly or not. All units share the counters of its messages.
     mailbox: MailboxConduct,
-    gave_up: Option<String>,
+    given_up: OrdersGivenUp,
     last_sdos: LastSdos,
     raw: Raw,
     emergencies: Vec<Received>,
@@ -103,7 +106,7 @@ impl Master {
             next_listen: Instant::NEVER,
             listens: vec![false; units],
             mailbox: habits.mailbox,
-            gave_up: None,
+            given_up: OrdersGivenUp::default(),
             last_sdos: LastSdos::of(units),
             raw: Raw::default(),
             emergencies: Vec::new(),
@@ -300,7 +303,7 @@ impl Master {
         let outcome = operation.clone().end(&mut self.slaves, &mut self.process_data);
         match outcome {
             Outcome::Done(steps) => {
-                self.take_steps(steps, now);
+                self.take_steps(steps, operation.order, now);
                 self.begin(now);
             }
             Outcome::Failed(reason) => {
@@ -330,10 +333,10 @@ impl Master {
     }
 
     /// The operations that follow from an operation come before all others.
-    fn take_steps(&mut self, steps: Vec<Step>, now: Instant) {
+    fn take_steps(&mut self, steps: Vec<Step>, order: Option<OrderNumber>, now: Instant) {
         for step in steps.into_iter().rev() {
             match step {
-                Step::Do(operation) => self.operations.push_front(operation),
+                Step::Do(operation) => self.operations.push_front(operation.of_order(order)),
                 Step::Exchange(unit) => {
                     self.process_data.open(unit, now);
                     if let (Some(task), Some(slave)) = (&mut self.task, self.slaves.get(unit)) {
@@ -358,15 +361,16 @@ impl Master {
     }
 
     /// Records that an order has failed.
-    fn fail(&mut self, reason: String) {
-        self.story.push(format!("gives up: {reason}"));
-        self.gave_up = Some(reason);
+    fn fail(&mut self, given_up: GivenUp) {
+        self.story.push(format!("gives up: {}", given_up.reason));
+        self.given_up.add(given_up);
     }
 
     /// When an order fails, its remaining operations are dropped and the next order starts.
     fn give_up(&mut self, reason: String, now: Instant) {
-        if !self.operations.front().is_some_and(Operation::is_listening) {
-            self.fail(reason);
+        if let Some(Operation { unit, order, .. }) = self.operations.front().filter(|it| !it.is_listening()) {
+            let given_up = GivenUp { at: now, unit: *unit, order: *order, reason };
+            self.fail(given_up);
         }
         self.keep_counters();
         let parts = self.operations.iter().take_while(|operation| operation.is_part()).count();
@@ -392,8 +396,29 @@ impl Master {
         self.operations.front().map_or_else(frame, Operation::words)
     }
 
-    pub(crate) fn gave_up(&self) -> Option<&str> {
-        self.gave_up.as_deref()
+    /// Whether it has given up an order since its start.
+    pub(crate) const fn has_given_up(&self) -> bool {
+        self.given_up.any()
+    }
+
+    /// Whether it has given up an order since the orders directly before the present step.
+    pub(crate) const fn has_given_up_again(&self) -> bool {
+        self.given_up.any_again()
+    }
+
+    /// The orders that it has given up, also before its last start.
+    pub(crate) fn given_up(&self) -> &[GivenUp] {
+        self.given_up.all()
+    }
+
+    /// The number of the order that a step has given last.
+    pub(crate) fn last_order(&self) -> Option<OrderNumber> {
+        self.given_up.last()
+    }
+
+    /// From now on orders are given: what it gives up later is new.
+    pub(crate) const fn mark(&mut self) {
+        self.given_up.mark();
     }
 
     /// The SDO that was ordered last of a unit, or of all units.

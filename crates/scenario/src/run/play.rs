@@ -9,11 +9,14 @@ use super::recording::Recording;
 use super::report::{Failure, Report};
 use super::running_line::{OnLine, RunningLine};
 use super::scenario::{PlayedStep, Scenario};
+use super::warning::Warning;
 
 /// A scenario that is being played against another master than that of scenarios.
 pub struct Play<'a> {
     player: Player<'a>,
     seed: u64,
+    /// The warnings of the file.
+    warnings: Vec<Warning>,
     /// The time of the line at which it has begun.
     begun: Instant,
     recording: Recording,
@@ -38,7 +41,8 @@ impl<'a> Play<'a> {
     pub fn of(scenario: &Scenario, steps: &'a [PlayedStep], seed: u64, begun: Instant) -> Self {
         let player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
         let recording = Recording::new(true, false);
-        Self { player, seed, begun, recording, waited: BTreeSet::new(), taken: 0 }
+        let warnings = scenario.all_warnings(Vec::new());
+        Self { player, seed, warnings, begun, recording, waited: BTreeSet::new(), taken: 0 }
     }
 
     /// Takes the steps that are due, and checks the expectations. All of it happens at one moment of the line.
@@ -72,7 +76,9 @@ impl<'a> Play<'a> {
             self.recording.tell(Instant::ZERO + lasted, "verdict", &failure.to_string());
         }
         let (differences, trace_differences) = (Vec::new(), Vec::new());
-        let Self { seed, recording, .. } = self;
-        Report { seed, failure, lasted, cycles: 0, differences, trace_differences, recording }
+        let Self { player, seed, mut warnings, recording, .. } = self;
+        // The master and the frames of the line are not known here.
+        warnings.extend(player.findings(|_| true, &[]));
+        Report { seed, failure, warnings, lasted, cycles: 0, differences, trace_differences, recording }
     }
 }

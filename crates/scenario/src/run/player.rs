@@ -5,6 +5,7 @@
 //! once, and the same player can follow a world that runs in real time.
 
 mod change;
+mod findings;
 mod following;
 mod rest;
 mod sequence;
@@ -18,14 +19,16 @@ use time::Instant;
 
 use super::caught::caught;
 use super::dice::{DICE_OF_STEPS, Dice};
+use super::master::GivenUp;
 use super::recording::Recording;
 use super::report::{Failure, Report};
 use super::scenario::{PlayedStep, Scenario};
 use super::stage::Stage;
 use super::virtual_stage::{advance, pass};
+use super::warning::Warning;
 use super::world::World;
 
-pub(crate) use change::ends;
+pub(crate) use change::{ends, is_work};
 
 use rest::Rest;
 use sequence::Sequence;
@@ -54,8 +57,11 @@ pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recordi
     }
     let cycles = world.master().cycles();
     let differences = world.recorded_master().difference_kinds();
+    let given_up = if failure.is_none() { world.master().given_up() } else { &[] };
+    let findings = player.findings(|fault| world.has_met(fault), given_up);
+    let warnings = scenario.all_warnings(findings);
     let (trace_differences, recording) = (Vec::new(), world.into_recording());
-    Report { seed, failure, lasted, cycles, differences, trace_differences, recording }
+    Report { seed, failure, warnings, lasted, cycles, differences, trace_differences, recording }
 }
 
 /// Plays the steps of a scenario on a stage.
@@ -99,6 +105,12 @@ impl<'a> Player<'a> {
                 Next::End => return Ok(()),
             }
         }
+    }
+
+    /// What it has found although no expectation has failed. `has_met` says whether a frame has met a fault; the master has
+    /// given up these orders.
+    pub(crate) fn findings(&self, has_met: impl Fn(u32) -> bool, given_up: &[GivenUp]) -> Vec<Warning> {
+        self.shared.findings.warnings(has_met, given_up)
     }
 
     /// Takes all steps that are due, and checks the expectations.

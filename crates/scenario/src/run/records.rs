@@ -19,6 +19,10 @@ pub struct Records {
     events_max: usize,
     /// Events that are no longer kept one by one, and how many they were.
     older: Vec<(EventCode, u32)>,
+    /// Number of events that are no longer kept one by one.
+    forgotten: u64,
+    /// Number of all events when the orders directly before the present step were given.
+    marked: u64,
     /// Its diagnosis history, as the first of these events say.
     ledger: Ledger,
     /// Number of them. The others follow when the history is looked at, which the path of a frame never does.
@@ -33,6 +37,8 @@ impl Records {
             events: Vec::with_capacity(EVENTS_MAX_IN_REAL_TIME),
             events_max: EVENTS_MAX_IN_REAL_TIME,
             older: Vec::with_capacity(CODES_MAX),
+            forgotten: 0,
+            marked: 0,
             ledger: Ledger::default(),
             in_ledger: 0,
         }
@@ -48,6 +54,7 @@ impl Records {
 
     fn forget_half(&mut self) {
         let count = self.events_max / 2;
+        self.forgotten += count as u64;
         for event in self.events.drain(..count) {
             match self.older.iter_mut().find(|(code, _)| *code == event) {
                 Some((_, times)) => *times = times.saturating_add(1),
@@ -68,6 +75,17 @@ impl Records {
         kept + older.map_or(0, |(_, times)| u64::from(*times))
     }
 
+    /// Orders are given: what it records from now on is new.
+    pub fn mark(&mut self) {
+        self.marked = self.forgotten + self.events.len() as u64;
+    }
+
+    /// Whether it has recorded this event since the mark.
+    pub(crate) fn has_again(&self, event: EventCode) -> bool {
+        let before = self.marked.saturating_sub(self.forgotten) as usize;
+        self.events.iter().skip(before).any(|code| *code == event)
+    }
+
     /// Its events, the oldest first.
     pub(crate) fn events(&self) -> &[EventCode] {
         &self.events
@@ -77,6 +95,7 @@ impl Records {
     pub(crate) fn begin_anew(&mut self) {
         self.events.clear();
         self.older.clear();
+        (self.forgotten, self.marked) = (0, 0);
         (self.ledger, self.in_ledger) = (Ledger::default(), 0);
     }
 
@@ -98,7 +117,9 @@ impl Records {
 impl Default for Records {
     fn default() -> Self {
         let (events, older) = (Vec::new(), Vec::new());
-        Self { events, events_max: EVENTS_MAX, older, ledger: Ledger::default(), in_ledger: 0 }
+        let (forgotten, marked) = (0, 0);
+        let ledger = Ledger::default();
+        Self { events, events_max: EVENTS_MAX, older, forgotten, marked, ledger, in_ledger: 0 }
     }
 }
 

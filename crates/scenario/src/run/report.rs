@@ -6,6 +6,7 @@ use super::caught::Panicked;
 use super::recorded::DifferenceKind;
 use super::recording::Recording;
 use super::scenario::WrittenStep;
+use super::warning::Warning;
 use crate::trace_difference::TraceDifference;
 
 /// The result of a replay.
@@ -14,6 +15,8 @@ pub struct Report {
     pub seed: u64,
     /// The first failed expectation; none: the scenario passes.
     pub failure: Option<Failure>,
+    /// What it says of steps although no expectation has failed there, in the order of the lines.
+    pub warnings: Vec<Warning>,
     /// Elapsed virtual time.
     pub lasted: Duration,
     /// Number of process data cycles of the master.
@@ -49,6 +52,7 @@ impl Report {
         Self {
             seed,
             failure: Some(failure),
+            warnings: Vec::new(),
             lasted: Duration::ZERO,
             cycles: 0,
             differences: Vec::new(),
@@ -108,7 +112,7 @@ const POWER_ON: &str = "the units get power";
 impl core::fmt::Display for Failure {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { line, text, at, seen, panicked_at } = self;
-        let what = if panicked_at.is_some() { "ends" } else { "does not hold" };
+        let what = if panicked_at.is_some() { "ends" } else { "fails" };
         write!(formatter, "line {line}: `{text}` {what} at {at}: {seen}")
     }
 }

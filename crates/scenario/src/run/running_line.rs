@@ -5,6 +5,7 @@ use time::Instant;
 
 use super::bench::{Bench, Notes};
 use super::check::{Seen, check};
+use super::master::OrderNumber;
 use super::observed::Observed;
 use super::recording::Recording;
 use super::stage::Stage;
@@ -100,6 +101,18 @@ impl Stage for OnLine<'_> {
     fn shows_until(&mut self) -> Instant {
         let until = self.bench().shows_until();
         self.since_begin(until)
+    }
+
+    fn mark(&mut self) {
+        self.bench().mark();
+    }
+
+    fn last_order(&self) -> Option<OrderNumber> {
+        None
+    }
+
+    fn last_fault(&self) -> Option<u32> {
+        None
     }
 
     fn note_step(&mut self, words: &str) {

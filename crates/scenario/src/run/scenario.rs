@@ -10,6 +10,7 @@ use time::Duration;
 use super::master::MasterProgram;
 use super::programs::{LoadedProgram, ProgramFile, SiiImage};
 use super::recorded::{NotReplayable, RecordedFrames};
+use super::warning::Warning;
 use crate::model::{Calendar, Members, Step, Trigger};
 use crate::random::ReadyDraws;
 
@@ -46,6 +47,8 @@ pub struct Scenario {
     pub golden_trace: Option<String>,
     /// The positions of random steps, in the order of the steps.
     pub random: Vec<RandomPart>,
+    /// What the file says that is no mistake and tests nothing.
+    pub warnings: Vec<Warning>,
 }
 
 impl Scenario {

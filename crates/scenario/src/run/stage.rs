@@ -5,6 +5,7 @@ use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::Seen;
+use super::master::OrderNumber;
 use super::observed::Observed;
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
 
@@ -44,6 +45,15 @@ pub(crate) trait Stage {
 
     /// The time after which what has happened by now has shown its effects: a watchdog expires.
     fn shows_until(&mut self) -> Instant;
+
+    /// Orders are given: what happens from now on is new for the conditions with `again`.
+    fn mark(&mut self);
+
+    /// The number of the order that was given last to the scripted master.
+    fn last_order(&self) -> Option<OrderNumber>;
+
+    /// The number of the fault of frames that began last, if it is known at the end whether a frame has met it.
+    fn last_fault(&self) -> Option<u32>;
 
     /// Adds a line about a step to the trace.
     fn note_step(&mut self, words: &str);

@@ -4,6 +4,7 @@ use plant::line::LineRefusal;
 use time::Instant;
 
 use super::check::{Seen, check};
+use super::master::OrderNumber;
 use super::observed::Observed;
 use super::stage::Stage;
 use super::world::{QUIET_STEP, World};
@@ -54,6 +55,18 @@ impl Stage for World {
 
     fn shows_until(&mut self) -> Instant {
         self.bench().shows_until()
+    }
+
+    fn mark(&mut self) {
+        self.mark();
+    }
+
+    fn last_order(&self) -> Option<OrderNumber> {
+        self.master().last_order()
+    }
+
+    fn last_fault(&self) -> Option<u32> {
+        Some(self.last_fault())
     }
 
     fn note_step(&mut self, words: &str) {

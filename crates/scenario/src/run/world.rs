@@ -4,6 +4,8 @@ mod frames;
 mod indicators;
 mod supply;
 
+use std::collections::BTreeSet;
+
 use device::Network;
 use plant::line::{LineFaults, LineRefusal};
 use plant::{HappeningKind, Observer, Powered};
@@ -34,6 +36,8 @@ pub(crate) struct World {
     records: Vec<Records>,
     brought: Brought,
     supply: SeededSupply,
+    /// The numbers of the faults that a frame has met.
+    met_faults: BTreeSet<u32>,
     recording: Recording,
 }
 
@@ -72,6 +76,7 @@ impl World {
             records: (0..count).map(|_| Records::default()).collect(),
             brought: scenario.brought.clone(),
             supply: SeededSupply { seed, calendar_ns },
+            met_faults: BTreeSet::new(),
             recording,
         };
         world.recording.meets(Met::begins);
@@ -105,6 +110,22 @@ impl World {
 
     pub(crate) const fn master_mut(&mut self) -> &mut Master {
         &mut self.master
+    }
+
+    /// Orders are given: what is recorded and given up from now on is new.
+    pub(crate) fn mark(&mut self) {
+        self.records.iter_mut().for_each(Records::mark);
+        self.master.mark();
+    }
+
+    /// The number of the fault of frames that began last.
+    pub(crate) const fn last_fault(&self) -> u32 {
+        self.line.last_number()
+    }
+
+    /// Whether a frame has met the fault with this number.
+    pub(crate) fn has_met(&self, fault: u32) -> bool {
+        self.met_faults.contains(&fault)
     }
 
     pub(crate) const fn recorded_master(&self) -> &Recorded {

@@ -110,6 +110,7 @@ mod tests {
                 seen: String::new(),
                 panicked_at: None,
             }),
+            warnings: Vec::new(),
             virtual_ns: 0,
             cycles: 0,
             differences: Vec::new(),

@@ -25,6 +25,7 @@ const INDENT: usize = 4;
 pub(crate) struct Totals {
     pub(crate) cases: u64,
     pub(crate) failed: u64,
+    pub(crate) warned: u64,
     /// Test cases that are not results: those that a signal has ended, and those that were not begun.
     interrupted: u64,
     skipped: u64,
@@ -54,6 +55,7 @@ impl Totals {
     pub(crate) fn add(&mut self, result: &CaseResult) {
         self.cases += 1;
         self.failed += u64::from(result.verdict == Verdict::Failed);
+        self.warned += u64::from(!result.warnings.is_empty());
         self.lasted_ns = self.lasted_ns.saturating_add(result.virtual_ns);
     }
 
@@ -103,7 +105,15 @@ impl<W: Write> JunitReport<W> {
         case.extend_attributes([("name", name.as_str()), ("classname", file.as_str()), ("time", &time)]);
         // GitLab and others link a failure to its place by these.
         case.push_attribute(("file", file.as_str()));
-        let Some(step) = &result.failure else { return self.writer.write_event(Event::Empty(case)) };
+        let warnings = story::warnings(result);
+        let Some(step) = &result.failure else {
+            if warnings.is_empty() {
+                return self.writer.write_event(Event::Empty(case));
+            }
+            self.writer.write_event(Event::Start(case))?;
+            self.text(SYSTEM_OUT, &warnings)?;
+            return self.writer.write_event(Event::End(BytesEnd::new(CASE)));
+        };
         case.push_attribute(("line", step.line.to_string().as_str()));
         self.writer.write_event(Event::Start(case))?;
         self.failure(result, step)?;
@@ -195,6 +205,7 @@ mod tests {
             seed: case,
             verdict: if failure.is_some() { Verdict::Failed } else { Verdict::Passed },
             failure,
+            warnings: Vec::new(),
             virtual_ns: 1_234_567_890 * case,
             cycles: 0,
             differences: Vec::new(),

@@ -36,6 +36,9 @@ pub(crate) struct CaseResult {
     pub(crate) verdict: Verdict,
     /// The failed expectation.
     pub(crate) failure: Option<FailedStep>,
+    /// What is said of steps although no expectation has failed there; left out if there is nothing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) warnings: Vec<WarnedStep>,
     /// Elapsed virtual time; real time if another master than those of scenarios was on the line.
     pub(crate) virtual_ns: u64,
     /// Process data cycles of the master.
@@ -101,6 +104,18 @@ pub(crate) struct FailedStep {
     pub(crate) panicked_at: Option<String>,
 }
 
+/// A step that tests nothing, or has no effect.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct WarnedStep {
+    /// Its line in the file, from 1.
+    pub(crate) line: usize,
+    /// Its text; of the whole file its title.
+    pub(crate) step: String,
+    /// The finding, and the way out.
+    pub(crate) message: String,
+}
+
 impl CaseResult {
     /// The file, with the values of its parameters: `line.toml (loss = 1, state = OP)`.
     pub(crate) fn named(&self) -> String {
@@ -126,6 +141,7 @@ impl CaseResult {
             seed: case.seed,
             verdict: if failure.is_none() { Verdict::Passed } else { Verdict::Failed },
             failure,
+            warnings: report.warnings.iter().map(WarnedStep::of).collect(),
             virtual_ns: report.lasted.as_nanos(),
             cycles: report.cycles,
             differences: report.differences.iter().map(Difference::of).collect(),
@@ -144,6 +160,13 @@ impl CaseResult {
             0 => last,
             count => format!("… {count} lines before this one\n{last}"),
         });
+    }
+}
+
+impl WarnedStep {
+    fn of(warning: &scenario::Warning) -> Self {
+        let scenario::Warning { line, text, message } = warning.clone();
+        Self { line, step: text, message }
     }
 }
 

@@ -33,6 +33,8 @@ pub(super) struct Results {
     fails_fast: bool,
     passed: u64,
     failed: u64,
+    /// Those with warnings.
+    warned: u64,
     lasted: Duration,
     /// What all cases have met; none unless it is asked for.
     met: Option<Met>,
@@ -54,9 +56,21 @@ impl Results {
         let on_failure = on_failure.map(|folder| OnFailure::make(folder, campaign, partition)).transpose()?;
         let lines = args.json.clone().zip(lines.map(LaterOutput::begin));
         let fails_fast = args.fail_fast;
-        let (passed, failed, lasted) = (0, 0, Duration::ZERO);
+        let (passed, failed, warned, lasted) = (0, 0, 0, Duration::ZERO);
         let met = args.coverage.then(Met::default);
-        Ok(Self { printed, lines, captures, on_failure, junit, fails_fast, passed, failed, lasted, met })
+        Ok(Self {
+            printed,
+            lines,
+            captures,
+            on_failure,
+            junit,
+            fails_fast,
+            passed,
+            failed,
+            warned,
+            lasted,
+            met,
+        })
     }
 
     /// The next case. Breaks if no more are wanted.
@@ -91,6 +105,7 @@ impl Results {
             Verdict::Passed => self.passed += 1,
             Verdict::Failed => self.failed += 1,
         }
+        self.warned += u64::from(!result.warnings.is_empty());
         self.lasted = self.lasted + Duration::from_nanos(result.virtual_ns);
     }
 
@@ -119,8 +134,9 @@ impl Results {
             0 => String::new(),
             count => format!(", {count} not replayed"),
         };
+        let warned = story::warned(self.warned);
         let cases = story::cases(ended);
-        let mut totals = format!("{cases}{part}: {passed} ok, {failed} failed{not_replayed}\n");
+        let mut totals = format!("{cases}{part}: {passed} ok, {failed} failed{not_replayed}{warned}\n");
         if let Some(met) = &self.met {
             totals.push_str(&coverage::text(met, &campaign.possible()));
         }

@@ -3,7 +3,7 @@
 use time::Duration;
 use user_file::on_one_line;
 
-use super::result::{CaseResult, Difference, Verdict};
+use super::result::{CaseResult, Difference, Verdict, WarnedStep};
 
 /// Most lines of a trace that are printed for a case.
 const TRACE_LINES_MAX: usize = 100;
@@ -11,7 +11,9 @@ const TRACE_LINES_MAX: usize = 100;
 /// A case, and then its trace, if requested.
 pub(crate) fn case(result: &CaseResult, trace: Option<&str>) -> String {
     let story = match result.verdict {
-        Verdict::Passed => format!("ok      {}{}", title_line(result), differences(result)),
+        Verdict::Passed => {
+            format!("ok      {}{}{}", title_line(result), warnings(result), differences(result))
+        }
         Verdict::Failed => failed_case(result),
     };
     story + trace.unwrap_or_default()
@@ -40,7 +42,21 @@ pub(super) fn failure(result: &CaseResult) -> String {
         result.seed,
         repeat(result)
     );
-    told + &trace_differences(result) + &differences(result)
+    told + &warnings(result) + &trace_differences(result) + &differences(result)
+}
+
+/// The end of the totals, if cases have warnings.
+pub(crate) fn warned(cases: u64) -> String {
+    if cases == 0 { String::new() } else { format!(", {cases} with warnings") }
+}
+
+/// A line for each step that tests nothing, or has no effect.
+pub(super) fn warnings(result: &CaseResult) -> String {
+    let file = on_one_line(&result.file);
+    let line = |WarnedStep { line, step, message }: &WarnedStep| {
+        format!("        warning {file}:{line}: `{}`: {message}\n", on_one_line(step))
+    };
+    result.warnings.iter().map(line).collect()
 }
 
 /// The lines that differ from the golden trace; of very many the first ones, and the number of the others.

@@ -11,7 +11,7 @@ use user_file::{counted, on_one_line};
 use super::campaign::Campaign;
 use super::case::Case;
 use super::partition::Partition;
-use super::result::{CaseResult, Verdict};
+use super::result::{CaseResult, Verdict, WarnedStep};
 use super::{interrupted, story, threads};
 use crate::cli::ReplayArgs;
 use crate::failure::Failure;
@@ -52,13 +52,27 @@ impl Checked {
         Self { result, expectations, vacuous: vacuous.into_iter().map(line).collect() }
     }
 
+    /// The warnings of steps that are not named because of their contraries.
+    fn warnings(&self) -> impl Iterator<Item = &WarnedStep> {
+        let is_named = |warned: &WarnedStep| self.vacuous.iter().any(|vacuous| vacuous.line == warned.line);
+        self.result.warnings.iter().filter(move |warned| !is_named(warned))
+    }
+
+    /// Number of its findings.
+    fn findings(&self) -> usize {
+        self.vacuous.len() + self.warnings().count()
+    }
+
     fn words(&self) -> String {
         let file = on_one_line(&self.result.file);
         let line = |VacuousLine { line, step }: &VacuousLine| {
             format!("{file}:{line}: `{}` tests nothing: its contrary passes too\n", on_one_line(step))
         };
+        let warning = |WarnedStep { line, step, message }: &WarnedStep| {
+            format!("{file}:{line}: `{}`: {message}\n", on_one_line(step))
+        };
         match self.result.verdict {
-            Verdict::Passed => self.vacuous.iter().map(line).collect(),
+            Verdict::Passed => self.vacuous.iter().map(line).chain(self.warnings().map(warning)).collect(),
             Verdict::Failed => story::failed_case(&self.result),
         }
     }
@@ -80,7 +94,7 @@ pub(super) fn run(campaign: Campaign, partition: Partition, args: &ReplayArgs) -
     let check = move |number: u64| Checked::of(&of_threads.case(number), partition);
     let interrupted = threads::replay(cases, args.jobs(), &interrupt, check, |checked| {
         expectations += checked.expectations;
-        vacuous += checked.vacuous.len();
+        vacuous += checked.findings();
         failed += u64::from(checked.result.verdict == Verdict::Failed);
         people.print_cases(&checked.words())?;
         if let Some(lines) = &mut lines {

@@ -144,6 +144,7 @@ fn test_case(
         seed,
         verdict: if failure.is_none() { Verdict::Passed } else { Verdict::Failed },
         failure,
+        warnings: Vec::new(),
         virtual_ns,
         cycles: 0,
         differences: Vec::new(),

@@ -75,6 +75,11 @@ impl Bench<'_> {
         self.records[at].times(event)
     }
 
+    /// Whether a unit has recorded an event since the last mark.
+    pub(crate) fn has_recorded_again(&self, at: usize, event: EventCode) -> bool {
+        self.records[at].has_again(event)
+    }
+
     /// The diagnosis history as the recorded events say.
     pub(crate) fn ledger_mut(&mut self, at: usize) -> &mut Ledger {
         let model = self.unit(at).model();

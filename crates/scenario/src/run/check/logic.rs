@@ -114,9 +114,9 @@ mod tests {
         let [yes, no, open] = TRUTHS;
         let all = AllOf(vec![part(0), part(1), part(2)]);
         assert_eq!(words(&all, &[yes, open, no]), Err("`2 cycles are done`: false".to_owned()));
-        assert_eq!(words(&all, &[yes, open, open]), Err("`1 cycles are done`: not there".to_owned()));
+        assert_eq!(words(&all, &[yes, open, open]), Err("`one cycle is done`: not there".to_owned()));
         let any = AnyOf(vec![part(0), Not(Box::new(part(1)))]);
-        let seen = "`0 cycles are done`: false; `not (1 cycles are done)`: `1 cycles are done` holds";
+        let seen = "`0 cycles are done`: false; `not (one cycle is done)`: `one cycle is done` holds";
         assert_eq!(words(&any, &[no, yes]), Err(seen.to_owned()));
     }
 }

@@ -28,7 +28,15 @@ pub(super) fn is_idle(world: &Bench<'_>) -> Check {
 }
 
 pub(super) fn gave_up(world: &Bench<'_>) -> Check {
-    holds(scripted(world)?.gave_up().is_some(), || "the master has not given up".to_owned())
+    holds(scripted(world)?.has_given_up(), || "the master has not given up".to_owned())
+}
+
+pub(super) fn gave_up_again(world: &Bench<'_>) -> Check {
+    let master = scripted(world)?;
+    holds(master.has_given_up_again(), || match master.has_given_up() {
+        true => "the master has not given up since the order before".to_owned(),
+        false => "the master has not given up".to_owned(),
+    })
 }
 
 pub(super) fn sdo_refused(world: &Bench<'_>, unit: Option<&WhichUnit>, abort_code: u32) -> Check {

@@ -40,6 +40,15 @@ pub(super) fn recorded(world: &mut Bench<'_>, at: usize, event: EventCode, times
     })
 }
 
+pub(super) fn recorded_again(world: &mut Bench<'_>, at: usize, event: EventCode) -> Check {
+    has_power(world, at)?;
+    let event = unit_model::EventCode(event.0);
+    holds(world.has_recorded_again(at, event), || {
+        let times = times_words(world.recorded_times(at, event));
+        format!("{} has recorded it {times}, not since the order before", name(at))
+    })
+}
+
 pub(super) fn recorded_nothing(world: &mut Bench<'_>, at: usize) -> Check {
     has_power(world, at)?;
     holds(world.recorded(at).is_empty(), || format!("{}: {}", name(at), world.recorded_words(at)))
@@ -54,6 +63,10 @@ pub(super) fn has_error(world: &mut Bench<'_>, at: usize, event: EventCode) -> C
 pub(super) fn has_no_error(world: &mut Bench<'_>, at: usize) -> Check {
     has_power(world, at)?;
     let status = world.unit(at).error_status();
+    let (al_status, _) = world.al_status(at);
+    if al_status.error && world.unit(at).model().tables().events.is_empty() {
+        return Err(format!("{} is in {}", name(at), world.state_words(at)).into());
+    }
     holds(status == 0, || {
         format!("{} has {}, error status {status:#04X}", name(at), world.current_error_words(at))
     })

@@ -41,6 +41,7 @@ pub(super) fn value(
 /// Whether a value passes a test; none: the test compares with another condition or with an earlier value.
 pub(in crate::run) fn passes(test: &Test, reading: &Reading) -> Option<Check> {
     Some(match test {
+        Test::Equals(amount) => compares(reading, amount, &[Ordering::Equal]),
         Test::AtLeast(amount) => compares(reading, amount, &[Ordering::Greater, Ordering::Equal]),
         Test::AtMost(amount) => compares(reading, amount, &[Ordering::Less, Ordering::Equal]),
         Test::Above(amount) => compares(reading, amount, &[Ordering::Greater]),

@@ -7,6 +7,7 @@ use ::master::{
 use wire::{AlState, Emergency, SdoTarget};
 
 use super::asked_sdo::AskedSdo;
+use super::given_up::OrderNumber;
 use super::last_sdo::SdoNumber;
 use super::raw::RawNumber;
 use super::reach::Reach;
@@ -24,6 +25,8 @@ pub(crate) struct Operation {
     is_part: bool,
     /// The step with the order requests only an SDO.
     ordered_sdo: Option<SdoNumber>,
+    /// The order of a step to which it belongs; none: the master does it by itself.
+    pub(super) order: Option<OrderNumber>,
 }
 
 #[derive(Clone, Debug)]
@@ -53,7 +56,7 @@ const fn look() -> RegisterRead {
 
 impl Operation {
     const fn new(unit: usize, what: What) -> Self {
-        Self { unit, what, is_part: false, ordered_sdo: None }
+        Self { unit, what, is_part: false, ordered_sdo: None, order: None }
     }
 
     pub(crate) const fn take(unit: usize, target: AlState) -> Self {
@@ -125,6 +128,11 @@ impl Operation {
     /// The same as part of a larger order, whose remaining operations are dropped if it fails.
     pub(crate) fn within_an_order(self) -> Self {
         Self { is_part: true, ..self }
+    }
+
+    /// The same as part of the order with this number.
+    pub(super) fn of_order(self, order: Option<OrderNumber>) -> Self {
+        Self { order, ..self }
     }
 
     /// The same as the SDO with this number.

@@ -5,16 +5,17 @@
 use ::master::Reading;
 use time::Instant;
 
-use super::Master;
 use super::operation::{MailboxChannels, Operation};
 use super::raw::Kind;
 use super::sdo_service::SdoService;
 use super::slave::Slave;
+use super::{GivenUp, Master};
 use crate::model::{MasterOrder, UnitSet, WhichUnit};
 
 impl Master {
     /// Accepts an order.
     pub(crate) fn order(&mut self, order: MasterOrder, now: Instant) {
+        self.given_up.order();
         match order {
             MasterOrder::Take { units, state } => {
                 self.process_data.allow();
@@ -102,7 +103,9 @@ impl Master {
                 let mut flights = core::mem::take(&mut self.flights);
                 flights.forget(|_| true);
                 let raw = self.raw.restarted();
-                *self = Self { flights, raw, task, ..Self::new(devices, cycle, phase) };
+                let mut given_up = core::mem::take(&mut self.given_up);
+                given_up.start();
+                *self = Self { flights, raw, task, given_up, ..Self::new(devices, cycle, phase) };
             }
         }
     }
@@ -120,8 +123,7 @@ impl Master {
                 self.queue_of(unit, now, |unit| order(unit, channels).ordered_as(number));
             }
             None => {
-                let reason = format!("unit {} has no mailbox", unit.position() + 1);
-                self.fail(reason);
+                self.fail_without_mailbox(unit, now);
                 self.last_sdos.give_up(unit.position(), Some(number));
             }
         }
@@ -135,11 +137,16 @@ impl Master {
                 self.queue_of(unit, now, |unit| Operation::message(unit, channels, message.to_vec(), number))
             }
             None => {
-                let reason = format!("unit {} has no mailbox", unit.position() + 1);
-                self.fail(reason);
+                self.fail_without_mailbox(unit, now);
                 self.raw.give_up(number);
             }
         }
+    }
+
+    fn fail_without_mailbox(&mut self, unit: &WhichUnit, now: Instant) {
+        let at = unit.position();
+        let reason = format!("unit {} has no mailbox", at + 1);
+        self.fail(GivenUp { at: now, unit: at, order: self.given_up.last(), reason });
     }
 
     fn with_slave(&mut self, unit: &WhichUnit, change: impl FnOnce(&mut Slave)) {
@@ -154,7 +161,9 @@ impl Master {
 
     fn queue_for(&mut self, units: &UnitSet, now: Instant, operation: impl Fn(usize) -> Operation) {
         let was_idle = self.operations.is_empty();
-        self.operations.extend(units.positions(self.slaves.len()).map(operation));
+        let order = self.given_up.last();
+        let of_order = |operation: Operation| operation.of_order(order);
+        self.operations.extend(units.positions(self.slaves.len()).map(operation).map(of_order));
         if was_idle {
             self.begin(now);
         }

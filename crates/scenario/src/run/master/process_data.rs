@@ -120,7 +120,8 @@ impl ProcessData {
         if self.exchange.is_running() { self.exchange.counters().collect() } else { Vec::new() }
     }
 
+    /// None while nothing is exchanged, or nothing has returned.
     pub(crate) fn working_counter(&self, unit: usize) -> Option<u16> {
-        self.exchange.working_counter(unit)
+        self.exchange.working_counter(unit).filter(|_| self.exchange.is_running())
     }
 }

@@ -33,6 +33,11 @@ pub(crate) fn ends(order: &Order, condition: &Condition) -> bool {
     outcome(&effect(order), condition) == Outcome::False
 }
 
+/// Whether an order makes a master work that is expected to have nothing to do: it can be done in no virtual time.
+pub(crate) const fn is_work(order: &Order, condition: &Condition) -> bool {
+    matches!((order, condition), (Order::Master(_), Condition::MasterIdle))
+}
+
 fn outcome(effect: &Effect<'_>, condition: &Condition) -> Outcome {
     let part = |part: &Condition| outcome(effect, part);
     match about(condition) {
@@ -181,7 +186,8 @@ fn of_value(
             }
             Err(_) => Outcome::Open,
         },
-        Test::AtLeast(_)
+        Test::Equals(_)
+        | Test::AtLeast(_)
         | Test::AtMost(_)
         | Test::Above(_)
         | Test::Below(_)

@@ -9,7 +9,7 @@ use super::shared::Shared;
 use super::step::StepPlay;
 use super::verdict::{Looks, Origin, Progress, Verdict, Waits, failure};
 use super::wait::Wait;
-use crate::model::{Members, Repetition};
+use crate::model::{Members, Repetition, Trigger};
 use crate::run::observed::Observed;
 use crate::run::scenario::{PlayedStep, WrittenGroup, WrittenStep};
 use crate::run::stage::Stage;
@@ -41,6 +41,8 @@ impl<'a> Sequence<'a> {
                 Some(play) => play,
                 None => match self.rest.next() {
                     Some(next) => {
+                        let (origin, trigger) = begin_of(next);
+                        shared.findings.begin(origin, trigger, stage.now());
                         let following = following(self.rest.as_slice(), &self.behind);
                         self.current.insert(Play::of(next, following, stage.now()))
                     }
@@ -65,6 +67,14 @@ impl<'a> Play<'a> {
             PlayedStep::Step(step) => Self::Step(StepPlay::of(step, following, now)),
             PlayedStep::Group(group) => Self::Group(GroupPlay::of(group, following, now)),
         }
+    }
+}
+
+/// Where a step or a group is written, and when it is due.
+fn begin_of(entry: &PlayedStep) -> (Origin<'_>, &Trigger) {
+    match entry {
+        PlayedStep::Step(step) => (step.into(), &step.step.trigger),
+        PlayedStep::Group(group) => (group.into(), &group.trigger),
     }
 }
 

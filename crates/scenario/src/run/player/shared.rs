@@ -2,9 +2,10 @@
 
 use time::{Duration, Instant};
 
+use super::findings::Findings;
 use super::verdict::{Looks, Verdict, Waits, failure};
 use super::watch::{Watch, Watched};
-use crate::model::Repetition;
+use crate::model::{Order, Repetition};
 use crate::run::dice::Dice;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
@@ -23,6 +24,10 @@ pub(super) struct Shared<'a> {
     pub(super) performed: u64,
     /// The expectations whose conditions were true before orders that end them.
     changes: Vec<Change<'a>>,
+    /// What it finds although nothing fails.
+    pub(super) findings: Findings<'a>,
+    /// The time of the last step if it was an order.
+    ordered_at: Option<Instant>,
     /// The time at which the play must have ended.
     pub(super) limit: Instant,
 }
@@ -43,8 +48,22 @@ impl<'a> Shared<'a> {
             last: None,
             performed: 0,
             changes: Vec::new(),
+            findings: Findings::new(),
+            ordered_at: None,
             limit,
         }
+    }
+
+    /// A step is carried out. Before the first of several orders of the same time a mark is set.
+    pub(super) fn perform(&mut self, step: &'a WrittenStep, stage: &mut impl Stage) {
+        let now = Some(stage.now());
+        let is_order = !matches!(step.step.order, Order::Expect(_));
+        if is_order && self.ordered_at != now {
+            stage.mark();
+        }
+        self.ordered_at = now.filter(|_| is_order);
+        self.performed += 1;
+        self.last = Some(step);
     }
 
     /// Notes a change, in place of an earlier one for the same expectation.

@@ -2,12 +2,12 @@
 
 use time::Instant;
 
-use super::change::ends;
+use super::change::{ends, is_work};
 use super::shared::{Change, Shared};
 use super::verdict::{Progress, Verdict, Waits, failure};
 use super::wait::{UntilThen, Wait};
 use super::watch::{Wanted, Watch};
-use crate::model::{Condition, Expectation, Mode, Order};
+use crate::model::{Condition, Expectation, LineOrder, Mode, Order};
 use crate::run::observed::Observed;
 use crate::run::scenario::WrittenStep;
 use crate::run::stage::Stage;
@@ -66,19 +66,26 @@ impl<'a> StepPlay<'a> {
                     self.wait = Wait::Time(stage.now() + shared.period(repetition));
                     self.phase = Phase::Due;
                 }
-                (Phase::Doing, _) => return Ok(Progress::Done),
+                (Phase::Doing, _) => {
+                    if let Order::Expect(expectation) = &self.step.step.order {
+                        shared.findings.fulfilled(&expectation.condition, stage.now());
+                    }
+                    return Ok(Progress::Done);
+                }
             }
         }
     }
 
     /// Carries the step out once, and returns what it waits for then.
     fn perform(&mut self, stage: &mut impl Stage, shared: &mut Shared<'a>) -> Verdict<Wait<'a>> {
+        shared.perform(self.step, stage);
         self.note_changes(stage, shared);
-        shared.performed += 1;
-        shared.last = Some(self.step);
         match &self.step.step.order {
             Order::Master(order) => {
                 self.act(stage, shared, |stage| stage.master_order(order))?;
+                if let Some(number) = stage.last_order() {
+                    shared.findings.order(self.step, number);
+                }
                 Ok(Wait::Time(stage.now()))
             }
             Order::Unit(order) => self.act(stage, shared, |stage| stage.unit_order(order)),
@@ -87,6 +94,11 @@ impl<'a> StepPlay<'a> {
                 stage.note_step(&self.step.text);
                 let ordered = stage.line_order(order);
                 ordered.map_err(|refusal| failure(self.step, stage.now(), refusal.to_string().into()))?;
+                if let (LineOrder::Disturb(disturbance), Some(fault)) = (order, stage.last_fault())
+                    && !disturbance.frames.choice.is_chance()
+                {
+                    shared.findings.fault(self.step, fault);
+                }
                 shared.look(stage).map(|()| Wait::Over)
             }
             Order::Expect(expectation) => self.expect(expectation, stage, shared),
@@ -97,10 +109,15 @@ impl<'a> StepPlay<'a> {
     fn note_changes(&self, stage: &mut impl Stage, shared: &mut Shared<'a>) {
         for expectation in &self.following {
             let Some(condition) = within(expectation) else { continue };
-            if stage.check(condition, &mut Observed::default()).is_err() {
+            let is_true = stage.check(condition, &mut Observed::default()).is_ok();
+            if !is_true {
                 let _ = shared.take_change(expectation);
             } else if ends(&self.step.step.order, condition) {
                 shared.note_change(Change { order: self.step, expectation });
+            }
+            if !matches!(self.step.step.order, Order::Expect(_)) {
+                let is_fulfilled = is_true && !is_work(&self.step.step.order, condition);
+                shared.findings.before_order(self.step, expectation, is_fulfilled);
             }
         }
     }
@@ -133,8 +150,15 @@ impl<'a> StepPlay<'a> {
                 Ok(Wait::Over)
             }
             Mode::Within(limit) => Ok(match shared.take_change(step) {
-                Some(change) => Wait::AfterChange(condition, now + *limit, &change.order.text),
-                None => Wait::Within(condition, now + *limit),
+                Some(change) => {
+                    shared.findings.first_look(step, false);
+                    Wait::AfterChange(condition, now + *limit, &change.order.text)
+                }
+                None => {
+                    let is_true = stage.check(condition, &mut Observed::default()).is_ok();
+                    shared.findings.first_look(step, is_true);
+                    Wait::Within(condition, now + *limit)
+                }
             }),
             Mode::For(span) => {
                 stage.check(condition, &mut self.observed).map_err(|seen| failure(step, now, seen))?;

@@ -6,6 +6,7 @@ use time::{Duration, Instant};
 use super::{Looks, Next, Player};
 use crate::model::{Condition, CpuOrder, LineOrder, MasterOrder, Step, UnitOrder};
 use crate::run::check::Seen;
+use crate::run::master::OrderNumber;
 use crate::run::observed::Observed;
 use crate::run::scenario::{PlayedStep, WrittenStep};
 use crate::run::stage::Stage;
@@ -58,6 +59,16 @@ impl Stage for Desk {
 
     fn shows_until(&mut self) -> Instant {
         self.now()
+    }
+
+    fn mark(&mut self) {}
+
+    fn last_order(&self) -> Option<OrderNumber> {
+        None
+    }
+
+    fn last_fault(&self) -> Option<u32> {
+        None
     }
 
     fn note_step(&mut self, words: &str) {

@@ -40,7 +40,7 @@ pub(super) fn judge_never(checked: Result<(), Seen>) -> Result<(), Seen> {
     match checked {
         Err(seen) if seen.is_false() => Ok(()),
         Err(seen) => Err(seen),
-        Ok(()) => Err("it does hold".to_owned().into()),
+        Ok(()) => Err("it holds, and `never` expects that it does not".to_owned().into()),
     }
 }
 

@@ -19,9 +19,10 @@ struct Ends<'a> {
 impl World {
     /// A frame is sent by its master and gets the faults of the line.
     pub(super) fn transmit(&mut self, sent: Sent) {
-        let Self { network, line, recording, master, recorded, now, .. } = self;
+        let Self { network, line, recording, master, recorded, met_faults, now, .. } = self;
         let Sent { ticket, frame } = sent;
         let met = line.meet(*now, &frame, network);
+        met_faults.extend(met.iter().map(|met| met.number));
         let mut ends = Ends { recording, master, recorded };
         line.send(*now, ticket, frame, met, network, &mut ends);
         line.poll(*now, network, &mut ends);

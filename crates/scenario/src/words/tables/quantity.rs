@@ -25,7 +25,7 @@ pub const QUANTITIES: &[Sentence<Quantity>] = &[
         "a variable that the user program in Structured Text declares",
         |name, controller| ProgramVariable { controller, name }),
     row!("the working counter of {unit}", "the working counter of unit 1",
-        "of its last process data that returned",
+        "of its process data in the last cycle; none if they have not returned, or are not exchanged",
         |unit| WorkingCounter { unit }),
     row!("the number of records of {event} by {unit}", "the number of records of 85000000 by unit 1",
         "how often the unit has recorded the event since it was switched on",

@@ -107,6 +107,7 @@ pub(super) fn about(condition: &Condition) -> About<'_> {
         Condition::WorkingCounter { unit, value } => Subject::WorkingCounter { unit, value: *value },
         Condition::EveryWorkingCounterExpected => Subject::EveryWorkingCounter,
         Condition::Recorded { .. }
+        | Condition::RecordedAgain { .. }
         | Condition::HasError { .. }
         | Condition::DiagnosisConsistent { .. }
         | Condition::NewMessages { available: true, .. }
@@ -133,6 +134,7 @@ pub(super) fn about(condition: &Condition) -> About<'_> {
         | Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp
+        | Condition::MasterGaveUpAgain
         | Condition::SdoRefused { .. }
         | Condition::SdoGave { .. }
         | Condition::SdoTaken { .. }
