@@ -6,12 +6,12 @@ use std::sync::atomic::AtomicBool;
 use device::{Device, Network};
 use link::{FrameFate, Responder};
 use plant::line::{ActiveFault, LineOrder, LineRefusal};
-use plant::{Observer, Powered};
+use plant::{HappeningKind, Observer, Powered};
 use plc::CpuUnits;
 #[cfg(any(feature = "modbus", feature = "opcua"))]
 use plc::outside::{self, OutsideEnd};
 use scenario::model::Order;
-use scenario::{Bench, Brought, KnownLine, Lent, Notes, Records, Refused};
+use scenario::{Bench, Brought, KnownLine, Lent, Notes, Records, Refused, Witness};
 use storage::ChangesLost;
 use time::{Duration, Instant};
 use unit_model::ModelUnit;
@@ -100,6 +100,7 @@ impl Twin {
             disturbed: Disturbed::new(),
             records,
             keepers,
+            witness: Witness::default(),
             observed: None,
         };
         let (cpus, known, error_reset) =
@@ -142,7 +143,9 @@ impl Twin {
     /// Lends everything that orders act on and conditions look at.
     pub(crate) fn with_bench<T>(&mut self, brought: &Brought, act: impl FnOnce(&mut Bench<'_>) -> T) -> T {
         let Self { line, cpus, supply, now, .. } = self;
-        act(&mut line.bench(cpus, brought, supply, &mut NoNotes, *now))
+        let done = act(&mut line.bench(cpus, brought, supply, &mut NoNotes, *now));
+        line.witness(*now);
+        done
     }
 
     /// Carries out an order that has been checked.
@@ -252,6 +255,8 @@ pub(crate) struct Line {
     records: Vec<Records>,
     /// For each unit, who stores its memory in a file, if anybody does.
     keepers: Vec<Option<Keeper>>,
+    /// What the master has done, as far as conditions ask for it.
+    witness: Witness,
     /// Its observer, if there is one.
     observed: Option<Observed>,
 }
@@ -282,8 +287,8 @@ impl Line {
         now: Instant,
     ) -> Bench<'a> {
         self.is_lent(now);
-        let Self { network, disturbed, records, .. } = self;
-        Lent { network, cpus, line: disturbed, records, brought, supply, notes, now }.into()
+        let Self { network, disturbed, records, witness, .. } = self;
+        Lent { network, cpus, line: disturbed, records, witness, brought, supply, notes, now }.into()
     }
 
     /// Takes who stores the memory of the unit at this position: it leaves the line, and its changes have been passed on.
@@ -331,8 +336,21 @@ impl Line {
         if let (Some((position, source)), Some(observed)) = (replacement, &mut self.observed) {
             observed.is_replaced(position, UnitName::of(source.file.section()));
         }
+        if let Some(position) = replaced_place(order) {
+            self.witness.is_replaced(position);
+        }
         self.compare_frame_faults();
         Ok(())
+    }
+
+    /// Conditions have been looked at: what the master does from now on is counted, if they ask for it.
+    pub(crate) fn witness(&mut self, now: Instant) {
+        if self.observed.is_none() && !self.witness.is_idle() {
+            let observer = Observer::beginning_with(&mut self.network, now);
+            // The counts come from the observer; nobody takes its records.
+            let (_, observed, _) = Happenings::of(Vec::new(), observer, now);
+            self.observed = Some(observed);
+        }
     }
 
     /// The random faults begin with this seed; all faults and frames that wait are gone.
@@ -368,7 +386,12 @@ impl Line {
             let mut no_records = Records::default();
             let records = self.records.get_mut(position).unwrap_or(&mut no_records);
             match &mut self.observed {
-                Some(observed) => observed.unit(position, device, esc, |event| records.record(event)),
+                Some(observed) => observed.unit(position, device, esc, |happening| {
+                    if let HappeningKind::Event(recorded) = &happening.kind {
+                        records.record(recorded.code);
+                    }
+                    self.witness.happening(happening);
+                }),
                 None => {
                     let unit = device.unit_mut();
                     while let Some(event) = unit.take_event() {
@@ -405,14 +428,24 @@ impl Responder for Line {
         if let Some(observed) = &mut self.observed {
             observed.frame(now);
         }
-        if self.disturbed.is_quiet() {
-            return self.network.frame(now, frame);
+        if !self.witness.is_idle() {
+            self.witness.frame(now, frame, &self.network);
         }
-        self.disturbed.frame(now, frame, &mut self.network)
+        let fate = match self.disturbed.is_quiet() {
+            true => self.network.frame(now, frame),
+            false => self.disturbed.frame(now, frame, &mut self.network),
+        };
+        if !self.witness.is_idle() && fate == FrameFate::Returned {
+            self.witness.answer(frame);
+        }
+        fate
     }
 
     fn take_late_answer(&mut self, into: &mut [u8]) -> Option<usize> {
         let answer = self.disturbed.take_answer()?;
+        if !self.witness.is_idle() {
+            self.witness.answer(&answer);
+        }
         let length_bytes = answer.len().min(into.len());
         into.get_mut(..length_bytes)?.copy_from_slice(answer.get(..length_bytes)?);
         Some(length_bytes)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use coe_kit::indicators::Pattern;
 use nx_ect101::{Event, Fault, Outage};
 use scenario::pool::{GROUPS, MARKS};
-use scenario::words::{CONDITIONS, CPU, LINE, MASTER, Place, QUANTITIES, Sentence, UNIT};
+use scenario::words::{ACTS, CONDITIONS, CPU, LINE, MASTER, Place, QUANTITIES, Sentence, UNIT};
 
 /// If this variable is set, the test writes the page instead of comparing it.
 const BLESS: &str = "ECTWIN_BLESS";
@@ -251,6 +251,9 @@ fn reference() -> String {
     );
     let opening = "What has a value: the placeholder `{quantity}` of conditions. A variable with brackets is an element.";
     sentences(&mut page, "quantities", opening, QUANTITIES);
+    let opening = "What a master can do to a unit: the placeholder `{act}` of conditions. It is seen by frames and by what units report, whichever \
+                   master it is; frames that a fault of the line loses count as sent.";
+    sentences(&mut page, "acts", opening, ACTS);
     places(&mut page);
     faults(&mut page);
     patterns(&mut page);

@@ -17,7 +17,7 @@ mod words;
 pub use dice::Dice;
 pub use file::UnitFile;
 pub use happening::{Happening, HappeningKind, Mapping};
-pub use observer::{MASTER_GONE_AFTER, Observer, of_line, port_condition};
+pub use observer::{MASTER_GONE_AFTER, Observer, mappings, of_line, port_condition};
 pub use powered::{PowerConditions, Powered};
 pub use registry::{
     ErrorLog, Fault, Indicators, Lights, LogRecord, default_model, error_log, indicators, models, unit_file,

@@ -15,6 +15,7 @@ use unit_model::ModelUnit;
 use crate::happening::{Happening, HappeningKind};
 pub use indicators::port_condition;
 use known::Known;
+pub use mapping::of as mappings;
 
 /// The slaves of a line.
 type Units = Network<Box<dyn ModelUnit>>;

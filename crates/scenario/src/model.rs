@@ -3,6 +3,7 @@
 //! No sentences are read here, and the model is independent of the world that its values describe. Units and
 //! cables are identified by their numbers, from 1, units also by their names; faults, patterns, variables and programs by their names.
 
+mod act;
 mod amount;
 mod bytes;
 mod calendar;
@@ -27,6 +28,7 @@ pub use plant::line::{
     Choice, Delay, Direction, Disturbance, FaultName, FrameFault, FrameKind, Frames, LineOrder, Way,
 };
 
+pub use act::MasterAct;
 pub use amount::Amount;
 pub(crate) use amount::Number;
 pub(crate) use bytes::hex;

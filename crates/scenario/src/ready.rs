@@ -1,5 +1,6 @@
 //! What a script needs before it can run: its units and programs, and steps that refer to existing names.
 
+mod acts;
 mod certain;
 mod error;
 mod fault_names;

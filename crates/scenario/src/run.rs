@@ -24,6 +24,7 @@ mod stack_codes;
 mod stage;
 mod virtual_stage;
 mod warning;
+mod witness;
 mod world;
 
 pub use bench::{Bench, Lent, LineHands, Notes, Supply};
@@ -47,3 +48,4 @@ pub use scenario::{
 };
 pub(crate) use scenario::{Replacement, each_step};
 pub use warning::Warning;
+pub use witness::Witness;

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use proptest::test_runner::TestRunner;
 use scenario::model::{Condition, ConductOrder, CpuOrder, FrameFault, LineOrder, MasterOrder, UnitOrder};
-use scenario::words::{Place, QUANTITIES, Spoken};
+use scenario::words::{ACTS, Place, QUANTITIES, Spoken};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -153,7 +153,7 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "file" => one_of(&["units/a.toml", "a.bin"]).boxed(),
         "size" => (1..=1486_u16).prop_map(|n| n.to_string()).boxed(),
         "length" => (14..=1513_u16).prop_map(|n| n.to_string()).boxed(),
-        "bytes" => bytes()
+        "bytes" | "first-bytes" => bytes()
             .prop_map(|bytes| bytes.iter().map(|byte| format!("0x{byte:x}")).collect::<Vec<_>>().join(" "))
             .boxed(),
         "entry" => entry().boxed(),
@@ -217,6 +217,9 @@ fn words(place: &str) -> BoxedStrategy<String> {
         "quantity" => select(QUANTITIES.iter().map(|row| row.pattern).collect::<Vec<_>>())
             .prop_flat_map(sentences)
             .boxed(),
+        "act" => {
+            select(ACTS.iter().map(|row| row.pattern).collect::<Vec<_>>()).prop_flat_map(sentences).boxed()
+        }
         "condition" => one_of(&["(unit 1 is in OP)", "( not (100 cycles are done) )"]).boxed(),
         "conditions" => one_of(&[
             "(unit 1 is in OP)",

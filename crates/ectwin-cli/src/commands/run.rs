@@ -4,6 +4,7 @@ mod events_file;
 mod frame_log;
 mod judged;
 mod observers;
+mod proof;
 mod servers;
 mod show;
 
@@ -29,6 +30,7 @@ use events_file::EventsFile;
 use frame_log::FrameLog;
 use judged::{Judged, Judging, VerdictFiles};
 use observers::Observers;
+use proof::Proof;
 use show::Show;
 
 /// Emulates the units until SIGINT, SIGTERM, SIGHUP, the end of the link, or that of stdin if this is asked for.
@@ -78,9 +80,11 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     // The port is open: a frame that arrives from now on waits in it and is answered.
     People::beside(args.events.as_deref())
         .print_text(&format!("{}\n", ready(&link, units, socket.as_ref(), modbus.as_ref())))?;
+    let (mut seen, frames) = judged.is_some().then(frame_log::frame_log).unzip();
     let mut observers = Observers::default();
     observers.add(recorder.as_mut());
     observers.add(frame_log.as_mut().and_then(Option::as_mut));
+    observers.add(seen.as_mut());
     let observer = observers.as_one();
     let runtime = Runtime::start(twin, clock, stop).map_err(Failure::LinkLost)?;
     let serve = |socket| servers::serve_control(socket, &runtime.handle(), link.to_string());
@@ -90,8 +94,10 @@ pub(crate) fn run(args: &RunArgs) -> Result<(), Failure> {
     if args.until_stdin_closes {
         signals::stop_when_stdin_closes(runtime.handle()).map_err(Failure::LinkLost)?;
     }
+    let judged = judged.zip(frames.map(|frames| Proof::of(frames, args.pcap.is_some())));
     let judging =
-        judged.map(|judged| judged.start(args, &link, verdict_files, runtime.handle())).transpose()?;
+        judged.map(|(judged, proof)| judged.start(args, &link, verdict_files, proof, runtime.handle()));
+    let judging = judging.transpose()?;
     let ended = runtime.answer(&mut port, observer);
 
     let recorded = recorder.map_or(Ok(()), |recorder| finish(recorder, args));

@@ -8,11 +8,13 @@ mod started;
 mod udp_master;
 
 use std::fs;
+use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
-use std::process::Output;
+use std::process::{Output, Stdio};
 use std::thread;
 
-use ectwin::master::Habits;
+use ectwin::master::{Counter, Habits, MailboxConduct};
+use ectwin::wire::{Command as DatagramCommand, datagrams};
 use serde_json::Value;
 use started::{Started, command, folder_of, free_link};
 use udp_master::UdpMaster;
@@ -29,27 +31,36 @@ fn folder_with(test: &str, scenario: &str) -> PathBuf {
 
 /// Plays a scenario to its end, against this master.
 fn play(folder: &Path, more: &[&str], master: impl FnOnce(UdpMaster) + Send + 'static) -> Output {
-    let link = free_link();
-    let arguments: Vec<&str> = ["run", "--link", &link, "--scenario", "judge.toml"]
-        .into_iter()
-        .chain(more.iter().copied())
-        .collect();
-    let run = command(folder, "", &arguments)
-        .stdout(std::process::Stdio::piped())
-        .stderr(std::process::Stdio::piped())
-        .spawn()
-        .unwrap();
-    let master = thread::spawn(move || master(UdpMaster::new(&link, Habits::default())));
-    let output = run.wait_with_output().unwrap();
-    master.join().unwrap();
-    output
+    play_file(folder, "judge.toml", more, Habits::default(), master)
 }
 
-/// Units come after a moment: a port that nobody has opened yet refuses frames.
+/// Plays a scenario to its end, against a master with these habits.
+fn play_file(
+    folder: &Path,
+    scenario: &str,
+    more: &[&str],
+    habits: Habits,
+    master: impl FnOnce(UdpMaster) + Send + 'static,
+) -> Output {
+    let link = free_link();
+    let arguments: Vec<&str> =
+        ["run", "--link", &link, "--scenario", scenario].into_iter().chain(more.iter().copied()).collect();
+    let mut run =
+        command(folder, "", &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut stdout = BufReader::new(run.stdout.take().unwrap());
+    let mut ready = String::new();
+    stdout.read_line(&mut ready).unwrap();
+    let master =
+        ready.starts_with("ready ").then(|| thread::spawn(move || master(UdpMaster::new(&link, habits))));
+    let errors = thread::spawn(move || run.wait_with_output().unwrap());
+    let mut printed = ready.into_bytes();
+    stdout.read_to_end(&mut printed).unwrap();
+    let output = errors.join().unwrap();
+    master.into_iter().for_each(|master| master.join().unwrap());
+    Output { stdout: printed, ..output }
+}
+
 fn right_master(mut master: UdpMaster) {
-    while !master.step() {
-        thread::yield_now();
-    }
     if let Some(taken) = master.take_to_op() {
         taken.unwrap();
         master.run_to_the_end();
@@ -215,4 +226,72 @@ fn a_signal_ends_the_run_without_a_verdict_and_the_files_say_so() {
     let junit = fs::read_to_string(folder.join("v.xml")).unwrap();
     assert!(junit.contains("errors=\"1\"") && junit.contains("type=\"interrupted\""), "{junit}");
     assert_eq!(fs::read_to_string(folder.join("v.json")).unwrap(), "");
+}
+
+/// The scenario for masters that the project ships.
+const SHIPPED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenarios/judge/start-and-recovery.judge");
+
+/// Plays the shipped scenario against a master with these habits, which sends all frames but those that are left out.
+fn shipped(
+    test: &str,
+    habits: Habits,
+    leaves_out: fn(&[u8]) -> bool,
+    after_op: impl FnOnce(&mut UdpMaster) + Send + 'static,
+) -> Output {
+    let folder = folder_with(test, "");
+    play_file(&folder, SHIPPED, &["unit.toml", "--pcap", "frames.pcapng"], habits, move |mut master| {
+        master.leaves_out = leaves_out;
+        if master.take_to_op().is_some() {
+            after_op(&mut master);
+        }
+    })
+}
+
+const NOTHING: fn(&[u8]) -> bool = |_| false;
+
+fn recovers(master: &mut UdpMaster) {
+    let _units_are_gone = master.keep_in_op();
+}
+
+#[test]
+fn a_right_master_passes_the_shipped_scenario() {
+    let output = shipped("shipped_right", Habits::default(), NOTHING, recovers);
+    assert_eq!(output.status.code(), Some(0), "{}{}", text(&output.stdout), text(&output.stderr));
+}
+
+/// The verdict names the mistake, and has the frames that prove it.
+fn is_failed_by(output: &Output, words: &[&str]) {
+    let stdout = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{stdout}{}", text(&output.stderr));
+    for words in words.iter().chain(&["        frame   ", " in the capture: "]) {
+        assert!(stdout.contains(words), "`{words}` is not in {stdout}");
+    }
+}
+
+#[test]
+fn a_master_that_never_acknowledges_is_named() {
+    let output = shipped("shipped_silent", Habits::default(), NOTHING, UdpMaster::run_to_the_end);
+    let step = "`the master has acknowledged the error of unit 1`";
+    is_failed_by(&output, &[step, "seen    the master has not done so", "LRW"]);
+}
+
+#[test]
+fn a_master_without_outputs_before_op_is_named() {
+    let has_outputs = |frame: &[u8]| {
+        let mut all = datagrams(frame);
+        all.any(|datagram| [DatagramCommand::Lrw, DatagramCommand::Lwr].contains(&datagram.header.command))
+    };
+    let output = shipped("shipped_outputs", Habits::default(), has_outputs, recovers);
+    let step = "`the master has sent outputs to unit 1 before it has requested OP of unit 1`";
+    let seen = "`requested OP of unit 1`: the master has done so once, at ";
+    is_failed_by(&output, &[step, "`sent outputs to unit 1`: the master has not done so", seen]);
+}
+
+#[test]
+fn a_master_with_a_wrong_mailbox_counter_is_named() {
+    let counter = Counter { last: 0, fixed: Some(3) };
+    let mailbox = MailboxConduct { counter, ..MailboxConduct::default() };
+    let habits = Habits { mailbox, ..Habits::default() };
+    let output = shipped("shipped_counter", habits, NOTHING, recovers);
+    is_failed_by(&output, &["`the master has sent a wrong mailbox counter to unit 1`", "it does hold"]);
 }

@@ -5,8 +5,10 @@ use std::net::UdpSocket;
 use std::time::{Duration, Instant as WallInstant};
 
 use ectwin::master::{Failure, Habits, Master, Outcome, RequestId};
+use ectwin::wire::SdoTarget;
 use ectwin::{AlState, Instant};
 
+const AL_STATUS: u16 = 0x0130;
 /// UDP carries a frame without it.
 const ETHERNET_HEADER: [u8; 14] = [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 2, 0, 0, 0, 0, 1, 0x88, 0xA4];
 /// The longest wait for one answer, so that what is due is sent.
@@ -19,6 +21,8 @@ pub(crate) struct UdpMaster {
     began: WallInstant,
     frame: Vec<u8>,
     answer: Vec<u8>,
+    /// Frames that a mistaken master does not send.
+    pub(crate) leaves_out: fn(&[u8]) -> bool,
 }
 
 impl UdpMaster {
@@ -27,7 +31,8 @@ impl UdpMaster {
         let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
         socket.connect(link.strip_prefix("udp:").unwrap()).unwrap();
         let (frame, answer) = (Vec::with_capacity(1_518), vec![0; 1_600]);
-        Self { master: Master::new(habits), socket, began: WallInstant::now(), frame, answer }
+        let leaves_out = |_: &[u8]| false;
+        Self { master: Master::new(habits), socket, began: WallInstant::now(), frame, answer, leaves_out }
     }
 
     pub(crate) fn now(&self) -> Instant {
@@ -37,6 +42,9 @@ impl UdpMaster {
     /// Sends what is due, and takes an answer if one comes soon. False: the units are gone.
     pub(crate) fn step(&mut self) -> bool {
         while let Some(_ticket) = self.master.transmit(self.now(), &mut self.frame) {
+            if (self.leaves_out)(&self.frame) {
+                continue;
+            }
             if self.socket.send(&self.frame[ETHERNET_HEADER.len()..]).is_err() {
                 return false;
             }
@@ -72,12 +80,38 @@ impl UdpMaster {
         results.last()
     }
 
-    /// Finds the units and takes the first one to OP.
+    /// Finds the units, reads something by SDO, and takes the first one to OP.
     pub(crate) fn take_to_op(&mut self) -> Option<Result<Outcome, Failure>> {
         let search = self.master.search(self.now());
         self.complete(search)?.unwrap();
-        let taken = self.master.take_to(self.now(), 0, AlState::Op);
+        self.take_to(AlState::PreOp)?.unwrap();
+        for sub in [1, 2, 4] {
+            let read = self.master.upload(self.now(), 0, SdoTarget::entry(0x1018, sub));
+            // A mistaken master gets no answers.
+            let _answer = self.complete(read)?;
+        }
+        self.take_to(AlState::Op)
+    }
+
+    fn take_to(&mut self, state: AlState) -> Option<Result<Outcome, Failure>> {
+        let taken = self.master.take_to(self.now(), 0, state);
         self.complete(taken)
+    }
+
+    /// Exchanges process data, and takes the unit back to OP whenever it is not there, until the units are gone.
+    pub(crate) fn keep_in_op(&mut self) -> Option<()> {
+        loop {
+            let read = self.master.read(self.now(), 0, AL_STATUS, 2);
+            let is_in_op =
+                matches!(self.complete(read)?, Ok(Outcome::Data(status)) if status.first() == Some(&8));
+            if !is_in_op {
+                let _result = self.take_to(AlState::Op)?;
+            }
+            let end = WallInstant::now() + Duration::from_millis(10);
+            while WallInstant::now() < end {
+                self.step().then_some(())?;
+            }
+        }
     }
 
     /// Exchanges process data until the units are gone.

@@ -9,7 +9,7 @@ use esc::Esc;
 use plant::line::ActiveFault;
 use plant::{Happening, HappeningKind, Observer};
 use time::Instant;
-use unit_model::{EventCode, ModelUnit};
+use unit_model::ModelUnit;
 
 use super::names::UnitName;
 use super::queue::{Report, Reporter};
@@ -66,20 +66,18 @@ impl Observed {
         self.observer.frame(now, |happening| queue.push(happening));
     }
 
-    /// A unit that may have changed. `record` gets its events.
+    /// A unit that may have changed. `record` gets what has happened to it.
     #[inline]
     pub(crate) fn unit(
         &mut self,
         position: usize,
         device: &mut Device<Box<dyn ModelUnit>>,
         esc: &Esc,
-        mut record: impl FnMut(EventCode),
+        mut record: impl FnMut(&Happening),
     ) {
         let queue = &self.queue;
         self.observer.unit(self.now, position, device, esc, |happening| {
-            if let HappeningKind::Event(recorded) = &happening.kind {
-                record(recorded.code);
-            }
+            record(&happening);
             queue.push(happening);
         });
     }

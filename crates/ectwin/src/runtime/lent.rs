@@ -31,6 +31,7 @@ impl Shared {
         lent.line.is_lent(now);
         lent.react();
         let done = act(&mut lent);
+        lent.line.witness(now);
         let keepers = lent.keepers;
         drop((line, cpus));
         self.changes.announce();

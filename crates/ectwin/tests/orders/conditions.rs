@@ -21,11 +21,13 @@ const OF_THE_MASTER: &[&str] = &[
     "user-defined error 16#101 at the master",
     "user-defined error 16#101 2 times at the master",
     "no user-defined error at the master",
-    "the working counter of",
+    "the working counter of every",
     "100 cycles are done",
     "the number of cycles",
     "the number of emergencies",
-    "the master has",
+    "the master has nothing to do",
+    "the master has given up",
+    "the master has received emergency",
     "the last SDO",
     "the last register",
     "the last mailbox",
@@ -37,13 +39,21 @@ const OF_THE_MASTER: &[&str] = &[
 ];
 
 /// Nothing has changed since the beginning of a look that is the only one.
-const NOT_THERE: &[&str] = &["the outputs of unit 1 change", "object 10F3:02 of unit 1 changes"];
+const NOT_THERE: &[&str] = &[
+    "the outputs of unit 1 change",
+    "object 10F3:02 of unit 1 changes",
+    "the master has acknowledged the error of unit 1 in this step",
+];
 
 #[test]
 fn each_condition_is_checked_or_is_one_of_the_master_in_both_times() {
     let mut lines = Line::both();
     let mut wrong = Vec::new();
-    let compared = QUANTITIES.iter().map(|quantity| format!("{} is at least 1", quantity.example));
+    let amount = |example: &str| if example.contains(" period ") { "T#1ms" } else { "1" };
+    let compared = QUANTITIES.iter().map(|quantity| {
+        let example = quantity.example;
+        format!("{example} is at least {}", amount(example))
+    });
     let examples = CONDITIONS.iter().map(|row| row.example.to_owned()).chain(compared);
     for example in examples {
         let begins = |known: &&str| example.starts_with(*known);

@@ -14,7 +14,7 @@ const FMMUS: u16 = 0x0600;
 const FMMU_BYTES: usize = 16;
 
 /// The SyncManagers in buffered mode that are enabled, with the FMMUs that map to their first byte.
-pub(super) fn of(esc: &Esc, now: Instant) -> impl Iterator<Item = Mapping> + '_ {
+pub fn of(esc: &Esc, now: Instant) -> impl Iterator<Item = Mapping> + '_ {
     (0..SYNC_MANAGERS_MAX).filter_map(move |index| {
         let mut bytes = [0; SYNC_MANAGER_BYTES];
         esc.look(SYNC_MANAGERS + u16::from(index) * bytes.len() as u16, &mut bytes, now);

@@ -1,12 +1,14 @@
 //! Conditions: what can be true.
 
 use serde::{Deserialize, Serialize};
+use time::Duration;
 use wire::AlState;
 
+use super::act::MasterAct;
 use super::bytes::{Bytes, Entry};
 use super::names::{IndicatorName, Position, state};
 use super::numbers::{EventCode, Hex, UserErrorCode};
-use super::spelling::nothing;
+use super::spelling::{nothing, text};
 use super::unit::EventLog;
 use super::units::{Controller, UnitSet, WhichUnit};
 use super::value::{Quantity, Test};
@@ -233,6 +235,24 @@ pub enum Condition {
     DiagnosisMessages {
         units: UnitSet,
         count: u64,
+    },
+    /// Since the beginning. Without times: at least once.
+    MasterHas {
+        act: MasterAct,
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        times: Option<u64>,
+    },
+    /// The first time of the one is before the first time of the other, or the other has not come.
+    MasterHasBefore {
+        first: MasterAct,
+        then: MasterAct,
+    },
+    /// The mean of the last periods, with this deviation.
+    ProcessDataCome {
+        unit: WhichUnit,
+        #[serde(with = "text")]
+        period: Duration,
+        percent: u8,
     },
     #[serde(with = "nothing")]
     CaptureReplayed,

@@ -44,7 +44,13 @@ impl Quantity {
                 name: name.clone(),
                 value: text.to_owned(),
             },
-            Self::WorkingCounter { .. } | Self::Records { .. } | Self::Emergencies { .. } | Self::Cycles => {
+            Self::WorkingCounter { .. }
+            | Self::Records { .. }
+            | Self::Acts { .. }
+            | Self::MeanPeriod { .. }
+            | Self::LongestPeriod { .. }
+            | Self::Emergencies { .. }
+            | Self::Cycles => {
                 return text.parse::<Amount>().map(|amount| Same::Number(amount.number()));
             }
         }))

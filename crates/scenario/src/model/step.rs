@@ -41,6 +41,17 @@ pub enum Trigger {
     When(Condition),
 }
 
+impl Trigger {
+    /// What it waits for.
+    #[must_use]
+    pub const fn condition(&self) -> Option<&Condition> {
+        match self {
+            Self::When(condition) => Some(condition),
+            Self::AtOnce | Self::At(_) | Self::After(_) => None,
+        }
+    }
+}
+
 /// A step that is executed several times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Repetition {
@@ -93,6 +104,17 @@ pub enum Mode {
     NeverUntil(Condition),
     /// At every time at which this condition is true, from now to the end. It must be true at some time.
     While(Condition),
+}
+
+impl Mode {
+    /// The condition that limits the time.
+    #[must_use]
+    pub const fn condition(&self) -> Option<&Condition> {
+        match self {
+            Self::Until(condition) | Self::NeverUntil(condition) | Self::While(condition) => Some(condition),
+            Self::Now | Self::Within(_) | Self::Never | Self::For(_) => None,
+        }
+    }
 }
 
 /// A group of steps.

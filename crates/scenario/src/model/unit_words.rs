@@ -13,6 +13,7 @@ use super::value::Quantity;
 /// The units that a value names.
 pub(crate) enum UnitWords<'v> {
     One(&'v mut WhichUnit),
+    Two([&'v mut WhichUnit; 2]),
     Set(&'v mut UnitSet),
 }
 
@@ -21,6 +22,7 @@ impl<'v> UnitWords<'v> {
     pub(crate) fn each(self) -> Vec<&'v mut WhichUnit> {
         match self {
             Self::One(unit) | Self::Set(UnitSet::One(unit)) => vec![unit],
+            Self::Two(units) => units.into(),
             Self::Set(UnitSet::All) => Vec::new(),
             Self::Set(UnitSet::Several(spans)) => {
                 let one = |span: &'v mut UnitSpan| match span {
@@ -36,6 +38,10 @@ impl<'v> UnitWords<'v> {
     pub(crate) fn set(&self) -> UnitSet {
         match self {
             Self::One(unit) => UnitSet::One(WhichUnit::clone(unit)),
+            Self::Two([one, other]) if one == other => UnitSet::One(WhichUnit::clone(one)),
+            Self::Two(units) => {
+                UnitSet::Several(units.iter().map(|unit| UnitSpan::One(WhichUnit::clone(unit))).collect())
+            }
             Self::Set(units) => UnitSet::clone(units),
         }
     }
@@ -167,7 +173,12 @@ impl Condition {
             | Self::Inputs { unit, .. }
             | Self::DiagnosisMessage { unit, .. }
             | Self::DiagnosisMessageBytes { unit, .. }
+            | Self::ProcessDataCome { unit, .. }
             | Self::WorkingCounter { unit, .. } => Some(UnitWords::One(unit)),
+            Self::MasterHas { act, .. } => Some(UnitWords::One(act.unit_mut())),
+            Self::MasterHasBefore { first, then } => {
+                Some(UnitWords::Two([first.unit_mut(), then.unit_mut()]))
+            }
             Self::Emergency { unit, .. }
             | Self::SdoRefused { unit, .. }
             | Self::SdoGave { unit, .. }
@@ -220,7 +231,10 @@ impl Quantity {
             | Self::Outputs { unit }
             | Self::Inputs { unit }
             | Self::WorkingCounter { unit }
+            | Self::MeanPeriod { unit }
+            | Self::LongestPeriod { unit }
             | Self::Records { unit, .. } => Some(UnitWords::One(unit)),
+            Self::Acts { act } => Some(UnitWords::One(act.unit_mut())),
             Self::ProgramVariable { controller, .. } => controller.unit_words(),
             Self::Variable { .. } | Self::Emergencies { .. } | Self::Cycles => None,
         }

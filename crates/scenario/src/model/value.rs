@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::act::MasterAct;
 use super::amount::Amount;
 use super::bytes::{Bytes, Entry};
 use super::numbers::{EventCode, Hex};
@@ -53,6 +54,18 @@ pub enum Quantity {
         unit: WhichUnit,
         event: EventCode,
     },
+    /// How often the master has done something.
+    Acts {
+        act: MasterAct,
+    },
+    /// The mean of the last periods of the process data of a unit.
+    MeanPeriod {
+        unit: WhichUnit,
+    },
+    /// The longest of them.
+    LongestPeriod {
+        unit: WhichUnit,
+    },
     /// How many emergencies the master has received; without a code all of them.
     Emergencies {
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -75,7 +88,10 @@ impl Quantity {
             | Self::Outputs { unit }
             | Self::Inputs { unit }
             | Self::WorkingCounter { unit }
+            | Self::MeanPeriod { unit }
+            | Self::LongestPeriod { unit }
             | Self::Records { unit, .. } => Some(UnitSet::One(unit.clone())),
+            Self::Acts { act } => Some(UnitSet::One(act.unit().clone())),
             Self::Variable { .. }
             | Self::ProgramVariable { .. }
             | Self::Emergencies { .. }

@@ -9,7 +9,6 @@ pub(super) fn is_of_master(condition: &Condition) -> Option<&Condition> {
         Condition::AllOf(parts) | Condition::AnyOf(parts) => return parts.iter().find_map(is_of_master),
         // The inputs are those that the master has received.
         Condition::Inputs { .. }
-        | Condition::WorkingCounter { .. }
         | Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp
@@ -34,7 +33,11 @@ pub(super) fn is_of_master(condition: &Condition) -> Option<&Condition> {
         | Condition::ProgramError { controller, .. }
         | Condition::NoProgramError { controller } => is_master(controller),
         Condition::Value { of, .. } => has_masters_value(of),
-        Condition::State { .. }
+        Condition::MasterHas { .. }
+        | Condition::MasterHasBefore { .. }
+        | Condition::ProcessDataCome { .. }
+        | Condition::WorkingCounter { .. }
+        | Condition::State { .. }
         | Condition::Recorded { .. }
         | Condition::RecordedAgain { .. }
         | Condition::RecordedNothing { .. }
@@ -70,11 +73,14 @@ fn has_masters_value(of: &Quantity) -> bool {
     match of {
         Quantity::InputByte { .. }
         | Quantity::Inputs { .. }
-        | Quantity::WorkingCounter { .. }
         | Quantity::Emergencies { .. }
         | Quantity::Cycles => true,
         Quantity::ProgramVariable { controller, .. } => is_master(controller),
         Quantity::Object { .. }
+        | Quantity::Acts { .. }
+        | Quantity::MeanPeriod { .. }
+        | Quantity::LongestPeriod { .. }
+        | Quantity::WorkingCounter { .. }
         | Quantity::Register { .. }
         | Quantity::OutputByte { .. }
         | Quantity::Outputs { .. }

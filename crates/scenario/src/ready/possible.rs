@@ -31,7 +31,7 @@ impl Maker<'_> {
         }
     }
 
-    fn check_mailbox(&mut self, unit: &WhichUnit, part: Part) -> Option<()> {
+    pub(super) fn check_mailbox(&mut self, unit: &WhichUnit, part: Part) -> Option<()> {
         let is_known = Box::new(|unit: &dyn UnitSection| unit.shape().mailbox);
         self.check_words(
             &Needed { units: UnitSet::from(unit.clone()), words: "mailbox".to_owned(), is_known },
@@ -90,6 +90,14 @@ impl Maker<'_> {
                 let is_ordered = self.ordered.sends_frame;
                 self.check_ordered(is_ordered, "sends a frame", "send the frame …", part)
             }
+            Condition::MasterHas { act, .. } | Condition::Value { of: Quantity::Acts { act }, .. } => {
+                self.check_act(act, part)
+            }
+            Condition::MasterHasBefore { first, then } => {
+                self.check_act(first, part)?;
+                self.check_act(then, part)
+            }
+            Condition::ProcessDataCome { percent, .. } => self.check_deviation(*percent, part),
             Condition::DiagnosisMessage { number: None, .. }
             | Condition::EventLogHas { times: None, .. }
             | Condition::Recorded { .. }
@@ -155,7 +163,13 @@ impl Maker<'_> {
     }
 
     /// Whether bytes from an address on begin and end in registers or RAM of the unit.
-    fn check_register(&mut self, unit: &WhichUnit, first: u16, length: usize, part: Part) -> Option<()> {
+    pub(super) fn check_register(
+        &mut self,
+        unit: &WhichUnit,
+        first: u16,
+        length: usize,
+        part: Part,
+    ) -> Option<()> {
         let first = usize::from(first);
         let last = first + length.max(1) - 1;
         let end = if last < REGISTER_BYTES { REGISTER_BYTES } else { self.memory_bytes(unit)? };

@@ -59,6 +59,9 @@ pub(super) fn subject(condition: &Condition) -> Subject<'_> {
         | Condition::SdoRefused { unit: Some(_), .. }
         | Condition::SdoGave { unit: Some(_), .. }
         | Condition::SdoTaken { unit: Some(_) }
+        | Condition::MasterHas { .. }
+        | Condition::MasterHasBefore { .. }
+        | Condition::ProcessDataCome { .. }
         | Condition::WorkingCounter { .. } => Subject::Units,
         Condition::ProgramVariable { controller, .. }
         | Condition::UserDefinedError { controller, .. }

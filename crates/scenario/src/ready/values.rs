@@ -137,8 +137,13 @@ impl Maker<'_> {
                 self.program_variable(controller, name, part, lasting)
             }
             Quantity::WorkingCounter { .. } => Some(Values::count(u16::MAX.into())),
-            Quantity::Records { .. } | Quantity::Emergencies { .. } | Quantity::Cycles => {
-                Some(Values::count(u64::MAX))
+            Quantity::Records { .. }
+            | Quantity::Acts { .. }
+            | Quantity::Emergencies { .. }
+            | Quantity::Cycles => Some(Values::count(u64::MAX)),
+            Quantity::MeanPeriod { .. } | Quantity::LongestPeriod { .. } => {
+                let words = "a time such as T#1ms".to_owned();
+                Some(Values { words, numbers: Numbers::Time, size_bytes: None })
             }
         }
     }

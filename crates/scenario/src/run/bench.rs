@@ -18,7 +18,8 @@ use super::recorded::Recorded;
 use super::recording::Recording;
 use super::records::Records;
 use super::scenario::{Brought, UnitSource};
-use crate::model::Order;
+use super::witness::Witness;
+use crate::model::{Condition, Order};
 use crate::refused::{Reason, Refused};
 
 pub(crate) use looks::state_words;
@@ -30,6 +31,8 @@ pub struct Bench<'a> {
     pub(crate) line: &'a mut dyn LineHands,
     /// What each unit has recorded.
     pub(crate) records: &'a mut [Records],
+    /// What the master has done.
+    pub(crate) witness: &'a mut Witness,
     pub(crate) brought: &'a Brought,
     pub(crate) supply: &'a dyn Supply,
     pub(crate) notes: &'a mut dyn Notes,
@@ -50,6 +53,8 @@ pub struct Lent<'a> {
     pub line: &'a mut dyn LineHands,
     /// What each unit has recorded.
     pub records: &'a mut [Records],
+    /// What the master has done.
+    pub witness: &'a mut Witness,
     /// What the order brings to the line.
     pub brought: &'a Brought,
     /// Gives power to units that it brings.
@@ -62,9 +67,10 @@ pub struct Lent<'a> {
 
 impl<'a> From<Lent<'a>> for Bench<'a> {
     fn from(lent: Lent<'a>) -> Self {
-        let Lent { network, cpus, line, records, brought, supply, notes, now } = lent;
+        let Lent { network, cpus, line, records, witness, brought, supply, notes, now } = lent;
         let without_effect = Vec::new();
-        Self { network, cpus, line, records, brought, supply, notes, masters: None, now, without_effect }
+        let masters = None;
+        Self { network, cpus, line, records, witness, brought, supply, notes, masters, now, without_effect }
     }
 }
 
@@ -78,6 +84,12 @@ impl Bench<'_> {
     /// Orders are given: what is recorded from now on is new.
     pub(crate) fn mark(&mut self) {
         self.records.iter_mut().for_each(Records::mark);
+    }
+
+    /// Counts from now on what these conditions ask for.
+    pub(crate) fn watch<'c>(&mut self, conditions: impl IntoIterator<Item = &'c Condition>) {
+        let Self { network, witness, now, .. } = self;
+        conditions.into_iter().for_each(|condition| witness.watch(condition, network, *now));
     }
 
     /// Carries out an order that has been checked for this line.

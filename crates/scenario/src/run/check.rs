@@ -4,6 +4,7 @@
 
 #![deny(clippy::wildcard_enum_match_arm)]
 
+mod acts;
 mod diagnosis;
 mod emergency;
 mod logic;
@@ -79,6 +80,11 @@ pub(super) fn check(
         }
         Condition::WorkingCounter { unit, value } => {
             of_unit(unit, world, |world, at| unit::working_counter(world, at, *value))
+        }
+        Condition::MasterHas { act, times } => acts::has(world, act, *times),
+        Condition::MasterHasBefore { first, then } => acts::has_before(world, first, then),
+        Condition::ProcessDataCome { unit, period, percent } => {
+            of_unit(unit, world, |world, at| acts::process_data_come(world, at, *period, *percent))
         }
         Condition::VariableBytes { variable, bytes } => program::variable_bytes(world, variable, bytes),
         Condition::VariableValue { variable, value } => program::variable_value(world, variable, value),

@@ -18,8 +18,9 @@ impl Look {
     ///
     /// # Errors
     /// A program has no such variable, or the variable no such value.
-    pub fn of(mut condition: Condition, bench: &Bench<'_>) -> Result<Self, Refused> {
+    pub fn of(mut condition: Condition, bench: &mut Bench<'_>) -> Result<Self, Refused> {
         resolve(&mut condition, bench)?;
+        bench.watch([&condition]);
         Ok(Self { condition, observed: Observed::default() })
     }
 

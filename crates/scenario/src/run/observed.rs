@@ -2,6 +2,8 @@
 
 use core::cmp::Ordering;
 
+use time::Duration;
+
 use crate::model::{Number, Quantity, hex};
 
 /// A value as it was read.
@@ -27,6 +29,12 @@ impl Reading {
 
     pub(in crate::run) fn count(count: u64) -> Self {
         Self { bytes: Vec::new(), number: Some(Number::Whole(count.into())), words: count.to_string() }
+    }
+
+    /// A time, compared by its nanoseconds.
+    pub(in crate::run) fn time(time: Duration) -> Self {
+        let number = Some(Number::Whole(time.as_nanos().into()));
+        Self { bytes: Vec::new(), number, words: time.to_string() }
     }
 
     pub(in crate::run) fn compare(&self, other: Number) -> Option<Ordering> {

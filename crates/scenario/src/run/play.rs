@@ -8,8 +8,9 @@ use super::player::{Next, Player};
 use super::recording::Recording;
 use super::report::{Failure, Report};
 use super::running_line::{OnLine, RunningLine};
-use super::scenario::{PlayedStep, Scenario};
+use super::scenario::{PlayedStep, Scenario, conditions};
 use super::warning::Warning;
+use crate::model::Condition;
 
 /// A scenario that is being played against another master than that of scenarios.
 pub struct Play<'a> {
@@ -17,6 +18,8 @@ pub struct Play<'a> {
     seed: u64,
     /// The warnings of the file.
     warnings: Vec<Warning>,
+    /// What they ask for is watched from the first turn on.
+    conditions: Vec<Condition>,
     /// The time of the line at which it has begun.
     begun: Instant,
     recording: Recording,
@@ -40,14 +43,17 @@ impl<'a> Play<'a> {
     #[must_use]
     pub fn of(scenario: &Scenario, steps: &'a [PlayedStep], seed: u64, begun: Instant) -> Self {
         let player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
+        let conditions = conditions(steps).into_iter().cloned().collect();
         let recording = Recording::new(true, false);
         let warnings = scenario.all_warnings(Vec::new());
-        Self { player, seed, warnings, begun, recording, waited: BTreeSet::new(), taken: 0 }
+        Self { player, seed, warnings, conditions, begun, recording, waited: BTreeSet::new(), taken: 0 }
     }
 
     /// Takes the steps that are due, and checks the expectations. All of it happens at one moment of the line.
     pub fn turn(&mut self, line: &mut dyn RunningLine) -> Turn {
-        let Self { player, begun, recording, waited, .. } = self;
+        let Self { player, conditions, begun, recording, waited, .. } = self;
+        let conditions = core::mem::take(conditions);
+        line.bench(recording).watch(&conditions);
         let now = Instant::ZERO + line.now().saturating_since(*begun);
         match player.advance(&mut OnLine { line, recording, begun: *begun }) {
             Ok(Next::Wait { until, line, text, .. }) => {

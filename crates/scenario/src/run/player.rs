@@ -22,7 +22,7 @@ use super::dice::{DICE_OF_STEPS, Dice};
 use super::master::GivenUp;
 use super::recording::Recording;
 use super::report::{Failure, Report};
-use super::scenario::{PlayedStep, Scenario};
+use super::scenario::{PlayedStep, Scenario, conditions};
 use super::stage::Stage;
 use super::virtual_stage::{advance, pass};
 use super::warning::Warning;
@@ -45,6 +45,7 @@ pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recordi
             return Report::before_steps(seed, failure, unused);
         }
     };
+    world.bench().watch(conditions(steps));
     let mut player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
     let failure = match caught(|| player.play(&mut world)) {
         Ok(verdict) => verdict.err(),

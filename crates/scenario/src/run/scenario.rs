@@ -11,7 +11,7 @@ use super::master::MasterProgram;
 use super::programs::{LoadedProgram, ProgramFile, SiiImage};
 use super::recorded::{NotReplayable, RecordedFrames};
 use super::warning::Warning;
-use crate::model::{Calendar, Members, Step, Trigger};
+use crate::model::{Calendar, Condition, Expectation, Members, Order, Step, Trigger};
 use crate::random::ReadyDraws;
 
 /// A scenario, ready to be replayed.
@@ -200,6 +200,30 @@ pub(crate) fn each_step(entries: &[PlayedStep]) -> Vec<&WrittenStep> {
     let mut steps = Vec::new();
     add_steps(entries, &mut steps);
     steps
+}
+
+/// All conditions of the steps, and of the groups around them.
+pub(crate) fn conditions(entries: &[PlayedStep]) -> Vec<&Condition> {
+    let mut conditions = Vec::new();
+    add_conditions(entries, &mut conditions);
+    conditions
+}
+
+fn add_conditions<'s>(entries: &'s [PlayedStep], conditions: &mut Vec<&'s Condition>) {
+    for entry in entries {
+        match entry {
+            PlayedStep::Step(WrittenStep { step, .. }) => {
+                conditions.extend(step.trigger.condition());
+                if let Order::Expect(Expectation { condition, mode }) = &step.order {
+                    conditions.extend([condition].into_iter().chain(mode.condition()));
+                }
+            }
+            PlayedStep::Group(group) => {
+                conditions.extend(group.trigger.condition());
+                group.members.sequences().iter().for_each(|steps| add_conditions(steps, conditions));
+            }
+        }
+    }
 }
 
 fn add_steps<'s>(entries: &'s [PlayedStep], steps: &mut Vec<&'s WrittenStep>) {

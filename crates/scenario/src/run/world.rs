@@ -21,6 +21,7 @@ use super::recorded::Recorded;
 use super::recording::Recording;
 use super::records::Records;
 use super::scenario::{Brought, Scenario, UnitSource};
+use super::witness::Witness;
 use crate::model::{CpuOrder, LineOrder, UnitOrder};
 use supply::{SeededSupply, powered};
 
@@ -34,6 +35,7 @@ pub(crate) struct World {
     now: Instant,
     observer: Observer,
     records: Vec<Records>,
+    witness: Witness,
     brought: Brought,
     supply: SeededSupply,
     /// The numbers of the faults that a frame has met.
@@ -74,6 +76,7 @@ impl World {
             now,
             observer: Observer::new(count),
             records: (0..count).map(|_| Records::default()).collect(),
+            witness: Witness::default(),
             brought: scenario.brought.clone(),
             supply: SeededSupply { seed, calendar_ns },
             met_faults: BTreeSet::new(),
@@ -95,6 +98,7 @@ impl World {
             cpus: &mut self.cpus,
             line: &mut self.line,
             records: &mut self.records,
+            witness: &mut self.witness,
             brought: &self.brought,
             supply: &self.supply,
             notes: &mut self.recording,
@@ -177,6 +181,7 @@ impl World {
         self.bench().unit_order(order);
         if let UnitOrder::Replace { unit, .. } = order {
             self.observer.is_replaced(unit.position());
+            self.witness.is_replaced(unit.position());
         }
         self.happen();
     }
@@ -196,11 +201,12 @@ impl World {
 
     /// Records the changes.
     fn watch(&mut self) {
-        let Self { network, observer, records, recording, now, .. } = self;
+        let Self { network, observer, records, witness, recording, now, .. } = self;
         while let Some((at, device, esc)) = network.take_changed() {
             let (model, records) = (device.unit().model(), &mut records[at]);
             observer.unit(*now, at, device, esc, |happening| {
                 watch_unit(recording, *now, at, model, records, &happening.kind);
+                witness.happening(&happening);
             });
         }
         for abort_code in self.master.take_refusals() {

@@ -14,7 +14,7 @@ use frames::{
 };
 use group::group;
 use read::{
-    bytes, controller, duration, entries, entry, event, fault, fitting_bytes, fitting_entries,
+    bytes, controller, duration, entries, entry, event, fault, first_bytes, fitting_bytes, fitting_entries,
     fitting_indicator, fitting_numbers, indicator, limited, number, numbers, one, pattern, position,
     requested, state, times, transition, user_error,
 };
@@ -23,6 +23,9 @@ use units::{fitting_unit, fitting_units, unit, units};
 
 /// The place that is a sentence of the table of quantities.
 pub(super) const QUANTITY: &str = "quantity";
+
+/// The place that is a sentence of the table of acts.
+pub(super) const ACT: &str = "act";
 
 /// The place of a number of times.
 pub(super) const TIMES_PLACE: &str = "times";
@@ -125,6 +128,7 @@ const PLACES: &[Place] = &[
         duration(words, |pause| !pause.is_zero() && TIMES.contains(&pause))
     }),
     Place { name: "bytes", meaning: "bytes such as 01 FF, hexadecimal", read: bytes, fitting: fitting_bytes },
+    place("first-bytes", "bytes such as 01 FF, hexadecimal, before the next word", first_bytes),
     place("entry", "an entry of an object such as 10F3:05", |words| one(words, entry)),
     Place {
         name: "entries",
@@ -219,6 +223,7 @@ const PLACES: &[Place] = &[
         (!words.is_empty()).then(|| (Value::Text(words.join(" ")), words.len()))
     }),
     // The rows of the sentence have its words.
+    place(ACT, "what a master can do to a unit, by one of the [acts](#acts)", |_| None),
     place(QUANTITY, "what has a value, by one of the [quantities](#quantities)", |_| None),
     place("condition", "a condition in parentheses such as (unit 1 is in OP), at most 16 deep", |words| {
         group(words)

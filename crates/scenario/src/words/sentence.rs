@@ -5,9 +5,9 @@
 
 use core::fmt;
 
-use super::place::{NOT_NAMES, Place, QUANTITY, TIMES_PLACE};
+use super::place::{ACT, NOT_NAMES, Place, QUANTITY, TIMES_PLACE};
 use super::value::Value;
-use crate::model::{Quantity, UnitSet};
+use crate::model::{MasterAct, Quantity, UnitSet};
 
 /// A row of a table: a sentence of the language.
 pub struct Sentence<T> {
@@ -21,6 +21,8 @@ pub struct Sentence<T> {
     pub is_old: bool,
     /// The sentences of its place `{quantity}`.
     pub(super) quantities: &'static [Sentence<Quantity>],
+    /// The sentences of its places `{act}`.
+    pub(super) acts: &'static [Sentence<MasterAct>],
     /// The typed value, from the values of its places, in their order.
     pub(super) build: fn(&[Value]) -> Result<T, Unbuilt>,
     /// The values of its places for a typed value; none if the value has another sentence.
@@ -49,6 +51,7 @@ macro_rules! row {
             meaning: $meaning,
             is_old: false,
             quantities: &[],
+            acts: &[],
             build: |values| match values {
                 [$($field),*] => {
                     $(let $field = $crate::words::value::Field::of($field)
@@ -163,6 +166,7 @@ fn fill<T>(row: &Sentence<T>, values: &[Value]) -> Option<String> {
         };
         match (name, value) {
             (_, Value::Quantity(quantity)) => say(row.quantities, quantity),
+            (_, Value::Act(act)) => say(row.acts, act),
             (TIMES_PLACE, Value::Number(count)) => Some(user_file::times(*count)),
             (_, value) => Some(value.to_string()),
         }
@@ -411,7 +415,8 @@ fn fit_start<'a, T>(row: &Sentence<T>, words: &[&'a str]) -> Fitted<'a, (Vec<Val
             None => return Err((at, Problem::Expected { word: part, found: rest.first().copied() })),
             Some(name) => {
                 let read = match name {
-                    QUANTITY => quantity(row.quantities, rest),
+                    QUANTITY => nested(row.quantities, rest, QUANTITY, Value::Quantity),
+                    ACT => nested(row.acts, rest, ACT, Value::Act),
                     _ => {
                         Place::named(name).read(rest).map_err(|(fitting, why)| (fitting, Problem::Place(why)))
                     }
@@ -425,14 +430,19 @@ fn fit_start<'a, T>(row: &Sentence<T>, words: &[&'a str]) -> Fitted<'a, (Vec<Val
     Ok((values, at))
 }
 
-/// What has a value, by the row that takes most of the words.
-fn quantity<'a>(table: &[Sentence<Quantity>], words: &[&'a str]) -> Fitted<'a, (Value, usize)> {
+/// A sentence inside a sentence, at a place with this name: by the row that takes most of the words.
+fn nested<'a, T>(
+    table: &[Sentence<T>],
+    words: &[&'a str],
+    name: &str,
+    value: fn(T) -> Value,
+) -> Fitted<'a, (Value, usize)> {
     let mut longest: Option<(Value, usize)> = None;
-    let mut furthest = (0, Problem::Place(format!("expected {}", Place::named(QUANTITY).meaning)));
+    let mut furthest = (0, Problem::Place(format!("expected {}", Place::named(name).meaning)));
     for row in table {
         match fit_start(row, words) {
             Ok((values, length)) if longest.as_ref().is_none_or(|(_, other)| length > *other) => {
-                let read = (row.build)(&values).ok().map(|quantity| (Value::Quantity(quantity), length));
+                let read = (row.build)(&values).ok().map(|built| (value(built), length));
                 longest = read.or(longest);
             }
             Ok(_) => {}

@@ -1,5 +1,6 @@
 //! The language of steps: the orders of each addressee. Each table is also the reference of its sentences.
 
+mod act;
 mod condition;
 mod cpu;
 mod line;
@@ -7,6 +8,7 @@ mod master;
 mod quantity;
 mod unit;
 
+pub use act::ACTS;
 pub use condition::CONDITIONS;
 pub use cpu::CPU;
 pub use line::LINE;

@@ -7,7 +7,8 @@ use wire::AlState;
 
 use crate::model::{
     Amount, Bytes, CableNumber, Choice, Controller, Delay, Direction, Entry, EventCode, FaultName, FrameKind,
-    Frames, Hex, IndicatorName, Position, Quantity, StateName, UnitSet, UserErrorCode, Way, WhichUnit,
+    Frames, Hex, IndicatorName, MasterAct, Position, Quantity, StateName, UnitSet, UserErrorCode, Way,
+    WhichUnit,
 };
 
 /// The value of a place.
@@ -67,6 +68,8 @@ pub enum Value {
     Amount(Amount),
     /// `object 2002:01 of unit 1`, what has a value. Its row has the words.
     Quantity(Quantity),
+    /// `sent outputs to unit 1`, what a master has done. Its row has the words.
+    Act(MasterAct),
     /// `(unit 1 is in OP; unit 2 is in OP)`: sentences inside a sentence.
     Group(Vec<String>),
 }
@@ -113,6 +116,7 @@ impl fmt::Display for Value {
             Self::Position(position) => position.fmt(formatter),
             Self::Amount(amount) => amount.fmt(formatter),
             Self::Quantity(quantity) => write!(formatter, "{quantity:?}"),
+            Self::Act(act) => write!(formatter, "{act:?}"),
             Self::Group(sentences) => write!(formatter, "({})", sentences.join("; ")),
         }
     }
@@ -223,6 +227,7 @@ fields! {
     Position: Position;
     Amount: Amount;
     Quantity: Quantity;
+    MasterAct: Act;
 }
 
 macro_rules! numbers {

@@ -348,7 +348,7 @@ pub(crate) fn quantities() -> Vec<ConditionRow> {
     const WRITE: &str = r#"{ cpu = "write N1_UINTs_01_C_to_M[0] as 5" }"#;
     let program =
         condition("program variable n of unit 1 is at least 5", &[FORCE_5], &[], "5ms").with(PROGRAM);
-    vec![
+    let first = vec![
         condition("object 2002:01 of unit 1 is above 0", &[BROKEN], &[], "10ms"),
         condition("register 0x0130 of unit 1 is at least 8", &[OP], &[PRE_OP], "100ms"),
         condition("output byte 2 of unit 1 is not 00", &[OUTPUTS, OP], &[OP], "100ms"),
@@ -362,10 +362,13 @@ pub(crate) fn quantities() -> Vec<ConditionRow> {
             "100ms",
         ),
         condition("the number of records of 94B80000 by unit 1 is not 0", &[RESTART], &[], "10ms"),
+    ];
+    let last = vec![
         condition("the number of emergencies is at least 1", WITH_AN_EMERGENCY, &[PRE_OP], "50ms"),
         condition("the number of emergencies 0xFF20 changes", WITH_AN_EMERGENCY, &[PRE_OP], "50ms"),
         condition("the number of cycles is between 20 and 60", &[OP], &[], "100ms"),
-    ]
+    ];
+    [first, crate::acts::quantities(), last].concat()
 }
 
 fn logic() -> Vec<ConditionRow> {

@@ -2,6 +2,7 @@
 //!
 //! The tables determine the list: a sentence without a row here fails this test.
 
+mod acts;
 mod conditions;
 mod cpu;
 mod line;
@@ -13,7 +14,7 @@ mod unit;
 
 use rows::{ConditionRow, OrderRow};
 use scenario::model::{Condition, CpuOrder, LineOrder, MasterOrder, UnitOrder};
-use scenario::words::{QUANTITIES, Spoken, row_of};
+use scenario::words::{ACTS, QUANTITIES, Spoken, row_of};
 
 /// The sentences of a table without a row.
 fn missing<T: Spoken>(rows: &[&str]) -> Vec<&'static str> {
@@ -64,10 +65,22 @@ const ORACLES: [&str; 2] =
 
 #[test]
 fn each_condition_holds_and_fails() {
-    let rows = [conditions::rows(), messages::conditions(), raw::conditions()].concat();
+    let rows =
+        [conditions::rows(), messages::conditions(), raw::conditions(), acts::acts(), acts::conditions()]
+            .concat();
     let sentences: Vec<&str> = rows.iter().map(|row| row.sentence).chain(ORACLES).collect();
     assert_eq!(missing::<Condition>(&sentences), [""; 0], "conditions without a row");
     all_are_right(rows.iter().map(ConditionRow::try_out));
+}
+
+#[test]
+fn each_act_of_a_master_has_a_row() {
+    let rows = acts::acts();
+    assert_eq!(rows.len(), ACTS.len(), "one row for each");
+    for (act, row) in ACTS.iter().zip(&rows) {
+        let verb = act.pattern.split_whitespace().next().unwrap_or_default();
+        assert!(row.sentence.contains(verb), "{} is not {}", row.sentence, act.pattern);
+    }
 }
 
 #[test]

@@ -99,6 +99,7 @@ mod tests {
             file: file.to_owned(),
             parameters: None,
             command: None,
+            frames: Vec::new(),
             met: None,
             title: String::new(),
             seed,

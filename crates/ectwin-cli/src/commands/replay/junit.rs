@@ -212,6 +212,7 @@ mod tests {
             trace_differences: Vec::new(),
             trace: failure_trace,
             command: None,
+            frames: Vec::new(),
             met: None,
         }
     }

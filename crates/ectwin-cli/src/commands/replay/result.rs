@@ -56,6 +56,9 @@ pub(crate) struct CaseResult {
     /// The command that repeats it, unless it is `ectwin replay`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) command: Option<String>,
+    /// The last frames before a failure with a real master, as text; left out if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) frames: Vec<String>,
     /// What the case has met; left out unless the coverage is asked for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) met: Option<Vec<String>>,
@@ -148,6 +151,7 @@ impl CaseResult {
             trace_differences: report.trace_differences.iter().map(ToString::to_string).collect(),
             trace: None,
             command: None,
+            frames: Vec::new(),
             met: None,
         }
     }

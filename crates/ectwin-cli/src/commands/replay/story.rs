@@ -42,7 +42,8 @@ pub(super) fn failure(result: &CaseResult) -> String {
         result.seed,
         repeat(result)
     );
-    told + &warnings(result) + &trace_differences(result) + &differences(result)
+    let frames: String = result.frames.iter().map(|frame| format!("        frame   {frame}\n")).collect();
+    told + &frames + &warnings(result) + &trace_differences(result) + &differences(result)
 }
 
 /// The end of the totals, if cases have warnings.

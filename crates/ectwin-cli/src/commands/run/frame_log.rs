@@ -17,6 +17,8 @@ const FRAMES_MAX: usize = 4_096;
 #[derive(Clone, Copy)]
 pub(crate) struct FrameNote {
     pub(crate) at: Instant,
+    /// The number of its request among all packets, from 1, as in a capture of them.
+    pub(crate) number: u64,
     length_bytes: usize,
     named: [Option<(DatagramHeader, u16)>; NAMED],
     /// Number of its datagrams.
@@ -35,6 +37,8 @@ enum Fate {
 /// The frame thread's end.
 pub(crate) struct FrameLog {
     notes: SyncSender<FrameNote>,
+    /// Number of packets so far: requests and answers.
+    packets: u64,
     /// Those that had no room since the last one that had.
     lost: u64,
     all_lost: Arc<AtomicU64>,
@@ -52,7 +56,7 @@ pub(crate) struct FrameLines {
 pub(crate) fn frame_log() -> (FrameLog, FrameLines) {
     let (sender, notes) = sync_channel(FRAMES_MAX);
     let all_lost = Arc::new(AtomicU64::new(0));
-    let log = FrameLog { notes: sender, lost: 0, all_lost: Arc::clone(&all_lost) };
+    let log = FrameLog { notes: sender, packets: 0, lost: 0, all_lost: Arc::clone(&all_lost) };
     (log, FrameLines { notes, all_lost, logged_lost: 0 })
 }
 
@@ -66,8 +70,11 @@ impl FrameLog {
             }
             count += 1;
         }
+        let number = self.packets + 1;
+        self.packets += if matches!(fate, Fate::Returned) { 2 } else { 1 };
         let note = FrameNote {
             at,
+            number,
             length_bytes: frame.len(),
             named,
             datagrams: count,
@@ -97,6 +104,19 @@ impl Observer for FrameLog {
     }
 }
 
+impl FrameNote {
+    /// Whether it has only process data and the time of distributed clocks, as most frames of a cycle.
+    pub(super) fn is_cyclic(&self) -> bool {
+        let is_cyclic = |(header, _): &(DatagramHeader, u16)| {
+            matches!(
+                header.command,
+                Command::Lrd | Command::Lwr | Command::Lrw | Command::Frmw | Command::Armw
+            )
+        };
+        self.datagrams <= NAMED && self.named.iter().flatten().all(is_cyclic)
+    }
+}
+
 impl FrameLines {
     /// Takes the frames that wait, and not those that come meanwhile, so that this ends on a fast link.
     pub(crate) fn take(&mut self) -> Vec<FrameNote> {
@@ -122,7 +142,8 @@ impl FrameLines {
     }
 }
 
-fn words(note: &FrameNote) -> String {
+/// A frame in one line.
+pub(super) fn words(note: &FrameNote) -> String {
     let (seconds, micros) = (note.at.as_nanos() / 1_000_000_000, note.at.as_nanos() / 1_000 % 1_000_000);
     let mut parts: Vec<String> =
         note.named.iter().flatten().map(|(header, counter)| datagram(header, *counter)).collect();

@@ -18,6 +18,8 @@ use crate::later_output::{LaterOutput, ResultOut};
 use crate::output::{self, People};
 use crate::privileges::LaterUse;
 
+use super::proof::Proof;
+
 /// A scenario for the line of this command.
 pub(super) struct Judged {
     path: PathBuf,
@@ -40,7 +42,7 @@ pub(super) struct Judging {
     /// The command that repeats it.
     again: String,
     interrupt: Interrupt,
-    player: JoinHandle<Option<Report>>,
+    player: JoinHandle<(Option<Report>, Vec<String>)>,
 }
 
 /// The run ends with the thread that has this, also by its panic.
@@ -77,6 +79,7 @@ impl Judged {
         args: &RunArgs,
         link: &LinkSpec,
         files: VerdictFiles,
+        mut proof: Proof,
         handle: Handle,
     ) -> Result<Judging, Failure> {
         let interrupt = Interrupt::watch()?;
@@ -86,7 +89,12 @@ impl Judged {
         let (scenario, seed) = (self.scenario.clone(), self.scenario.seed);
         let play = move || {
             let run = EndsWith(handle);
-            run.0.play(&scenario, seed, |lines| drop(People::Stderr.print_text(lines)))
+            let report = run.0.play(&scenario, seed, |lines| {
+                // What is printed on stderr cannot fail.
+                let _ = People::Stderr.print_text(lines);
+                proof.look();
+            });
+            (report, proof.lines())
         };
         let player = thread::Builder::new().name("scenario".to_owned()).spawn(play);
         let player = player.map_err(Failure::System)?;
@@ -140,11 +148,12 @@ impl Judging {
     pub(super) fn end(self) -> Result<(), Failure> {
         let Self { judged, files, people, again, interrupt, player } = self;
         let panicked = || io::Error::other("the thread of the scenario panicked: a mistake of ours");
-        let report = player.join().map_err(|_| Failure::System(panicked()))?;
+        let (report, frames) = player.join().map_err(|_| Failure::System(panicked()))?;
         let Some(report) = report else { return without_verdict(&judged, files, &interrupt) };
         let mut result = CaseResult::new(&judged.case(), Partition::WHOLE, &report);
         result.command = Some(again);
         if result.verdict == Verdict::Failed {
+            result.frames = frames;
             result.keep_trace(report.recording.trace().unwrap_or_default());
         }
         files.write(&result)?;

@@ -151,6 +151,7 @@ fn test_case(
         trace_differences: Vec::new(),
         trace: None,
         command: None,
+        frames: Vec::new(),
         met: None,
     }
 }

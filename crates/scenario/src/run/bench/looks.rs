@@ -10,10 +10,11 @@ use unit_model::{EventCode, EventLevel, ModelUnit, SlaveView};
 use wire::{AlStatus, AlStatusCode, DataType, ObjectIndex, SdoAbort, SubIndex};
 
 use super::Bench;
-use crate::model::{IndicatorName, StateName};
+use crate::model::{IndicatorName, MasterAct, StateName};
 use crate::run::ledger::{Ledger, emergency_code};
 use crate::run::master::Master;
 use crate::run::recorded::Recorded;
+use crate::run::witness::{Done, Exchange};
 
 /// The two levels of current errors, the more severe first.
 const CURRENT: [EventLevel; 2] = [EventLevel::MinorFault, EventLevel::Observation];
@@ -158,7 +159,20 @@ impl Bench<'_> {
     }
 
     pub(crate) fn working_counter(&self, at: usize) -> Option<u16> {
-        self.master()?.working_counter(at)
+        match self.master() {
+            Some(master) => master.working_counter(at),
+            None => self.exchange(at)?.working_counter,
+        }
+    }
+
+    /// The process data of a unit as they come; none: nobody has asked for them before.
+    pub(crate) fn exchange(&self, at: usize) -> Option<&Exchange> {
+        self.witness.exchange(at)
+    }
+
+    /// How often the master has done something; none: nobody has asked for it before.
+    pub(crate) fn done(&self, act: &MasterAct) -> Option<&Done> {
+        self.witness.done(act)
     }
 
     /// The pattern of an indicator; none if the unit has no indicator with this name.

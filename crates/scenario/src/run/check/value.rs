@@ -4,6 +4,7 @@ use core::cmp::Ordering;
 
 use wire::{DataType, ObjectIndex, SubIndex};
 
+use super::acts;
 use super::master::scripted;
 use super::seen::{Seen, holds, lie_at};
 use super::unit;
@@ -35,7 +36,7 @@ pub(super) fn value(
         return is_not(of, text, &reading, |condition| holds_now(condition, observed, world));
     }
     let before = observed.since_the_beginning(of, &reading);
-    holds(*before != reading, || format!("it is still {}", reading.words))
+    holds(*before != reading, || unchanged(of, &reading))
 }
 
 /// Whether a value passes a test; none: the test compares with another condition or with an earlier value.
@@ -56,6 +57,15 @@ pub(in crate::run) fn passes(test: &Test, reading: &Reading) -> Option<Check> {
         }
         Test::IsNot(_) | Test::Changes => return None,
     })
+}
+
+fn unchanged(of: &Quantity, reading: &Reading) -> String {
+    match of {
+        Quantity::Acts { .. } => {
+            format!("the master has not done so, and before the step {} times", reading.words)
+        }
+        _ => format!("it is still {}", reading.words),
+    }
 }
 
 fn is_not(
@@ -140,6 +150,15 @@ fn read(of: &Quantity, world: &mut Bench<'_>) -> Result<Reading, Seen> {
             let at = there(unit, world)?;
             unit::is_readable(world, at)?;
             Ok(Reading::count(world.recorded_times(at, unit_model::EventCode(event.0))))
+        }
+        Quantity::Acts { act } => acts::count(world, act),
+        Quantity::MeanPeriod { unit } => {
+            let at = there(unit, world)?;
+            acts::mean_period(world, at).map(Reading::time)
+        }
+        Quantity::LongestPeriod { unit } => {
+            let at = there(unit, world)?;
+            acts::longest_period(world, at).map(Reading::time)
         }
         Quantity::Emergencies { code } => Ok(Reading::count(emergencies(world, *code)?)),
         Quantity::Cycles => Ok(Reading::count(scripted(world)?.cycles())),

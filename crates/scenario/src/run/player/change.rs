@@ -215,6 +215,9 @@ const fn working_counter_of(of: &Quantity) -> Option<&WhichUnit> {
         | Quantity::Variable { .. }
         | Quantity::ProgramVariable { .. }
         | Quantity::Records { .. }
+        | Quantity::Acts { .. }
+        | Quantity::MeanPeriod { .. }
+        | Quantity::LongestPeriod { .. }
         | Quantity::Emergencies { .. }
         | Quantity::Cycles => None,
     }

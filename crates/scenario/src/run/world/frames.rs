@@ -8,30 +8,35 @@ use super::World;
 use crate::run::master::{Master, Sent, Ticket};
 use crate::run::recorded::Recorded;
 use crate::run::recording::Recording;
+use crate::run::witness::Witness;
 
 /// The masters of the line, and the observer of its frames.
 struct Ends<'a> {
     recording: &'a mut Recording,
     master: &'a mut Master,
     recorded: &'a mut Recorded,
+    witness: &'a mut Witness,
 }
 
 impl World {
     /// A frame is sent by its master and gets the faults of the line.
     pub(super) fn transmit(&mut self, sent: Sent) {
-        let Self { network, line, recording, master, recorded, met_faults, now, .. } = self;
+        let Self { network, line, recording, master, recorded, met_faults, witness, now, .. } = self;
         let Sent { ticket, frame } = sent;
+        if !witness.is_idle() {
+            witness.frame(*now, &frame, network);
+        }
         let met = line.meet(*now, &frame, network);
         met_faults.extend(met.iter().map(|met| met.number));
-        let mut ends = Ends { recording, master, recorded };
+        let mut ends = Ends { recording, master, recorded, witness };
         line.send(*now, ticket, frame, met, network, &mut ends);
         line.poll(*now, network, &mut ends);
     }
 
     /// Frames that have waited long enough pass.
     pub(super) fn pass_late_frames(&mut self) {
-        let Self { network, line, recording, master, recorded, now, .. } = self;
-        line.poll(*now, network, &mut Ends { recording, master, recorded });
+        let Self { network, line, recording, master, recorded, witness, now, .. } = self;
+        line.poll(*now, network, &mut Ends { recording, master, recorded, witness });
     }
 }
 
@@ -54,6 +59,9 @@ impl LineEnds<Ticket> for Ends<'_> {
 
     fn returns(&mut self, now: Instant, ticket: Ticket, answer: Vec<u8>, met: &[Met]) {
         self.recording.returned(now, &answer, comment(met).as_deref());
+        if !self.witness.is_idle() {
+            self.witness.answer(&answer);
+        }
         match ticket {
             Ticket::Recorded(number) => self.recorded.receive(number, &answer),
             Ticket::Scripted(ticket) => self.master.receive(ticket, answer, now),

@@ -81,6 +81,11 @@ pub(super) fn bytes(words: &[&str]) -> Option<(Value, usize)> {
     Some((Value::Bytes(bytes), words.len()))
 }
 
+/// The bytes at the start, before other words.
+pub(super) fn first_bytes(words: &[&str]) -> Option<(Value, usize)> {
+    words.get(..fitting_bytes(words)).and_then(bytes)
+}
+
 /// Number of words at the start that are bytes.
 pub(super) fn fitting_bytes(words: &[&str]) -> usize {
     words.iter().take_while(|word| hexadecimal(word, 2).is_some()).count()

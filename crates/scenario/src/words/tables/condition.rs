@@ -5,6 +5,7 @@ use core::slice;
 use crate::model::Condition::{self, *};
 use crate::model::{DataDirection, EventLog, Quantity, Test};
 use crate::words::sentence::{Sentence, row};
+use crate::words::tables::act::ACTS;
 use crate::words::tables::quantity::QUANTITIES;
 
 /// All of them.
@@ -115,6 +116,21 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
     row!("the number of cycles is {amount}", "the number of cycles is 100",
         "exactly this number of process data sent",
         |amount| Value { of: Quantity::Cycles, test: Test::Equals(amount) }),
+    about_acts(row!("the master has {act} before it has {act}", "the master has sent outputs to unit 1 before it has requested OP of unit 1",
+        "since the beginning, the first time of the one is before the first time of the other; it holds as long as the other has not come at all",
+        |first, then| MasterHasBefore { first, then })),
+    about_acts(row!("the master has {act} {times}", "the master has read SDO 1018:04 of unit 1 2 times",
+        "exactly this number of times since the beginning",
+        |act, times| MasterHas { act, times: Some(times) })),
+    about_acts(row!("the master has {act} in this step", "the master has acknowledged the error of unit 1 in this step",
+        "at least once since the step began, which is when the one before it had ended; for `within`, `never`, `when` and `until`",
+        |act| Value { of: Quantity::Acts { act }, test: Test::Changes })),
+    about_acts(row!("the master has {act}", "the master has acknowledged the error of unit 1",
+        "at least once since the beginning, as with `has recorded`; for what comes after the step before, add `in this step`",
+        |act| MasterHas { act, times: None })),
+    row!("the process data of {unit} come every {period} ± {byte} %", "the process data of unit 1 come every 1ms ± 20 %",
+        "the mean of the last 100 periods, from frame to frame with process data of the unit, differs from this one by at most so much; false before there are as many, and when the master stops",
+        |unit, period, percent| ProcessDataCome { unit, period, percent }),
     // Before the sentence whose value takes all words.
     comparison(row!("{quantity} is not {other}", "object 2002:01 of unit 1 is not 20",
         "it has a value, and another one than the sentence with `is` says. While it has none, as in a unit without power, the condition is false",
@@ -210,7 +226,7 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         "the pattern of the indicator",
         |indicator, units, pattern| Indicator { indicator, units, pattern }),
     row!("the working counter of {unit} is {word}", "the working counter of unit 1 is 3",
-        "of its process data in the last cycle; none if they have not returned, or are not exchanged",
+        "of its process data in the last cycle; none if they have not returned, or are not exchanged. With a real master that of the whole datagram, which can be for several units",
         |unit, value| WorkingCounter { unit, value }),
     row!("one cycle is done", "one cycle is done",
         "process data sent, counted from the beginning",
@@ -371,6 +387,7 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         meaning: "the condition is false. A condition on what is not there, such as a byte beyond the process data, is neither true nor false, and so is its `not`",
         is_old: false,
         quantities: &[],
+        acts: &[],
         build: |values| logic::one(values).map(Not),
         take_apart: |condition| if let Not(part) = condition { Some(logic::said(slice::from_ref(part))) } else { None },
     },
@@ -380,6 +397,7 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         meaning: "every one of them is true at the same moment",
         is_old: false,
         quantities: &[],
+        acts: &[],
         build: |values| logic::several(values).map(AllOf),
         take_apart: |condition| if let AllOf(parts) = condition { Some(logic::said(parts)) } else { None },
     },
@@ -389,10 +407,16 @@ pub const CONDITIONS: &[Sentence<Condition>] = &[
         meaning: "at least one of them is true; the others may be true, false, or about what is not there",
         is_old: false,
         quantities: &[],
+        acts: &[],
         build: |values| logic::several(values).map(AnyOf),
         take_apart: |condition| if let AnyOf(parts) = condition { Some(logic::said(parts)) } else { None },
     },
 ];
+
+/// A row with places `{act}`.
+const fn about_acts(row: Sentence<Condition>) -> Sentence<Condition> {
+    Sentence { acts: ACTS, ..row }
+}
 
 /// A row with the place `{quantity}`.
 const fn comparison(row: Sentence<Condition>) -> Sentence<Condition> {

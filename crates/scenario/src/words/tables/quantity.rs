@@ -2,6 +2,7 @@
 
 use crate::model::Quantity::{self, *};
 use crate::words::sentence::{Sentence, row};
+use crate::words::tables::act::ACTS;
 
 /// All of them.
 #[rustfmt::skip]
@@ -30,6 +31,15 @@ pub const QUANTITIES: &[Sentence<Quantity>] = &[
     row!("the number of records of {event} by {unit}", "the number of records of 85000000 by unit 1",
         "how often the unit has recorded the event since it was switched on",
         |event, unit| Records { unit, event }),
+    Sentence { acts: ACTS, ..row!("the number of times the master has {act}", "the number of times the master has read SDO 1018:04 of unit 1",
+        "how often it has done so since the beginning",
+        |act| Acts { act }) },
+    row!("the mean period of the process data of {unit}", "the mean period of the process data of unit 1",
+        "a time: the mean of the last 100 periods from frame to frame with process data of the unit; it has no value before there are as many, and a master that stops makes it longer",
+        |unit| MeanPeriod { unit }),
+    row!("the longest period of the process data of {unit}", "the longest period of the process data of unit 1",
+        "a time: the longest of the last 100 periods, the present one included",
+        |unit| LongestPeriod { unit }),
     row!("the number of emergencies", "the number of emergencies",
         "that the master has received, from any unit",
         || Emergencies { code: None }),

@@ -131,6 +131,9 @@ pub(super) fn about(condition: &Condition) -> About<'_> {
                 | IndicatorName::TsRed,
             ..
         }
+        | Condition::MasterHas { .. }
+        | Condition::MasterHasBefore { .. }
+        | Condition::ProcessDataCome { .. }
         | Condition::Cycles { .. }
         | Condition::MasterIdle
         | Condition::MasterGaveUp

@@ -104,6 +104,9 @@ impl BytesAt<'_> {
                 | Quantity::ProgramVariable { .. }
                 | Quantity::WorkingCounter { .. }
                 | Quantity::Records { .. }
+                | Quantity::Acts { .. }
+                | Quantity::MeanPeriod { .. }
+                | Quantity::LongestPeriod { .. }
                 | Quantity::Emergencies { .. }
                 | Quantity::Cycles,
                 _,
