@@ -2,8 +2,10 @@
 //!
 //! [`messages`] are the lines themselves: requests, answers, and the records of a subscription. A [`Socket`] is the place
 //! where clients find the twin. [`serve`] answers them on two threads of its own: one moves lines, and never waits for a
-//! client or the twin; the other carries out requests, one after the other, through the trait [`Twin`].
+//! client or the twin; the other carries out requests, one after the other, through the trait [`Twin`]. A
+//! [`client::Client`] is the other end.
 
+pub mod client;
 pub mod messages;
 mod server;
 mod socket;
