@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 mod check;
+mod ctl;
 #[cfg(feature = "ethercrab")]
 mod demo;
 mod exec;
@@ -32,6 +33,7 @@ pub(crate) fn run(command: Command, verbose: u8) -> Result<(), Failure> {
         #[cfg(feature = "ethercrab")]
         Command::Demo => demo::run(),
         Command::Run(args) => run::run(&args),
+        Command::Ctl(args) => ctl::run(&args),
         Command::Log(args) => log::run(&args),
         Command::Exec(args) => exec::run(&args, verbose),
         Command::ExecInside(args) => exec::run_inside(&args, verbose),

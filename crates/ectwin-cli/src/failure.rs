@@ -31,6 +31,10 @@ pub(crate) enum Failure {
     ProgramWrong(FileProblems),
     /// A case of a campaign failed. This has already been printed.
     CasesFailed,
+    /// A condition was not true. This has already been printed.
+    NotHeld,
+    /// No twin answers.
+    NoTwin { message: String, help: String },
     /// A run has ended before its scenario.
     NoVerdict { message: String, help: String },
     /// A signal has ended a campaign or a search.
@@ -78,6 +82,7 @@ impl Failure {
             | Self::ProgramWrong(_)
             | Self::RulesBroken
             | Self::CasesFailed
+            | Self::NotHeld
             | Self::Command(_) => message,
             _ => format!("error: {}\n", escaped(&message)),
         };
@@ -134,6 +139,7 @@ impl Failure {
             | Self::ProgramWrong(_)
             | Self::RulesBroken
             | Self::CasesFailed
+            | Self::NotHeld
             | Self::NoVerdict { .. }
             | Self::LinkLost(_)
             | Self::System(_) => 1,
@@ -144,7 +150,7 @@ impl Failure {
             | Self::Unreadable { .. }
             | Self::FolderUnreadable { .. }
             | Self::Unwritable { .. } => 2,
-            Self::Link(_) | Self::Modbus { .. } | Self::Control(_) => 3,
+            Self::Link(_) | Self::Modbus { .. } | Self::Control(_) | Self::NoTwin { .. } => 3,
             #[cfg(feature = "opcua")]
             Self::OpcUa { .. } => 3,
         }
@@ -184,9 +190,10 @@ impl Failure {
         match self {
             Self::Unexplained(reason) => (reason.to_string(), Some(reason.help().to_owned())),
             Self::BadFile(problems) | Self::ProgramWrong(problems) => (problems.pictures(), None),
-            Self::RulesBroken | Self::CasesFailed | Self::Command(_) => (String::new(), None),
+            Self::RulesBroken | Self::CasesFailed | Self::NotHeld | Self::Command(_) => (String::new(), None),
             Self::Exec(cause) => cause.message_and_help(),
             Self::Refused { message, help }
+            | Self::NoTwin { message, help }
             | Self::NoVerdict { message, help }
             | Self::Interrupted { message, help, .. } => (message.clone(), Some(help.clone())),
             Self::Unreadable { path, source } => {

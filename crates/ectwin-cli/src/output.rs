@@ -47,14 +47,26 @@ fn no_json(error: serde_json::Error) -> Failure {
     Failure::Unwritable { path: PathBuf::from("stdout"), source: io::Error::from(error) }
 }
 
+/// Whether anybody reads stdout.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Reader {
+    There,
+    /// The pipe is closed, as by `| head`.
+    Gone,
+}
+
 /// Prints a result immediately. If the reader closes the pipe (`| head`), that is not an error.
 pub(crate) fn print(result: &[u8]) -> Result<(), Failure> {
+    print_to_reader(result).map(drop)
+}
+
+/// The same, for a command that need not continue without a reader.
+pub(crate) fn print_to_reader(result: &[u8]) -> Result<Reader, Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(result).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Failure::Unwritable { path: PathBuf::from("stdout"), source: error })
-        }
-        _ => Ok(()),
+        Ok(()) => Ok(Reader::There),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Reader::Gone),
+        Err(source) => Err(Failure::Unwritable { path: PathBuf::from("stdout"), source }),
     }
 }
 
@@ -85,7 +97,8 @@ fn coloured(line: &str) -> String {
     }
 }
 
-fn for_terminals(text: &str) -> String {
+/// A text for display, safe for a terminal.
+pub(crate) fn for_terminals(text: &str) -> String {
     text.split_inclusive('\n').map(|line| cut(&escaped(line))).collect()
 }
 

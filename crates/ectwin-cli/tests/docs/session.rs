@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use tempfile::TempDir;
 use testbed::{Process, ip, python_with, skip};
 
 use crate::pages::top_folder;
@@ -17,6 +18,8 @@ const FOLDERS: [&str; 3] = ["scenarios", "tests", "units"];
 pub(crate) struct Session {
     test: &'static str,
     folder: PathBuf,
+    /// Where twins make their sockets: no other twin of this user is there.
+    runtime: TempDir,
     path: OsString,
     has_pysoem: bool,
     has_pymodbus: bool,
@@ -47,6 +50,7 @@ impl Session {
         Self {
             test,
             folder,
+            runtime: must(tempfile::tempdir(), Path::new("a folder of sockets")),
             path,
             has_pysoem,
             has_pymodbus,
@@ -154,7 +158,7 @@ impl Session {
     fn shell(&self, command: &str) -> Command {
         let mut shell = Command::new("sh");
         shell.args(["-c", command]).current_dir(&self.folder).env("PATH", &self.path).env("NO_COLOR", "1");
-        shell.env_remove("RUST_LOG");
+        shell.env("XDG_RUNTIME_DIR", self.runtime.path()).env_remove("ECTWIN_CONTROL").env_remove("RUST_LOG");
         shell
     }
 }

@@ -6,6 +6,7 @@ mod control;
 mod kept;
 mod left;
 mod masters;
+mod steered;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
