@@ -8,6 +8,7 @@
 mod events;
 mod faults;
 mod import;
+mod judge;
 mod modbus;
 mod programs;
 mod run;

@@ -113,6 +113,11 @@ impl Line {
         MasterSide::start(&self.master_interface, &master)
     }
 
+    /// Waits for the end of the command by itself. Returns its exit code.
+    pub(crate) fn wait(mut self) -> Option<i32> {
+        self.ectwin.wait().code()
+    }
+
     /// Sends a signal to the command. Returns its exit code; none if the signal has killed it.
     pub(crate) fn end(mut self, signal: &str) -> Option<i32> {
         // The `kill` of the shell: not every machine has the program of that name.
