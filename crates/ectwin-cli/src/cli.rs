@@ -56,6 +56,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Print the I/O map of a unit: variables, types, positions, Modbus addresses
     Map(MapArgs),
+    /// Check an ESI file: what is wrong in it, by rule, line and correction
+    Lint(LintArgs),
     /// Write the ESI file (XML) of a unit, for the configuration tool of a master
     Esi(ExportArgs),
     /// Write the SII image (EEPROM) of a unit
@@ -246,6 +248,19 @@ pub(crate) struct CheckArgs {
     /// The unit file
     #[arg(value_name = "FILE")]
     pub(crate) unit: PathBuf,
+    /// One JSON document instead of text
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct LintArgs {
+    /// The ESI file; dictionaries that it names are read beside it
+    #[arg(value_name = "FILE.xml")]
+    pub(crate) esi: PathBuf,
+    /// Check this SII image (EEPROM) too, and compare it with the device of the file that has its identity
+    #[arg(long, value_name = "IMAGE")]
+    pub(crate) sii: Option<PathBuf>,
     /// One JSON document instead of text
     #[arg(long)]
     pub(crate) json: bool,

@@ -8,6 +8,7 @@ mod exec;
 mod explain;
 mod export;
 mod import;
+mod lint;
 mod list_events;
 mod list_indicators;
 mod list_nx_objects;
@@ -39,6 +40,7 @@ pub(crate) fn run(command: Command, verbose: u8) -> Result<(), Failure> {
         Command::ExecInside(args) => exec::run_inside(&args, verbose),
         Command::ExecProgram { command } => exec::run_command(&command),
         Command::Check(args) => check::run(&args),
+        Command::Lint(args) => lint::run(&args),
         Command::Esi(args) => export::esi(&args),
         Command::Sii(args) => export::sii(&args),
         Command::Map(args) => map::run(&args),

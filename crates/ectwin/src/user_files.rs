@@ -30,6 +30,7 @@ const fn limit_bytes(wanted: Wanted) -> u64 {
     match wanted {
         Wanted::UnitFile | Wanted::Scenario | Wanted::Program => 4 * MIB,
         Wanted::SiiImage => 8 * MIB,
+        Wanted::Esi => 64 * MIB,
         Wanted::Capture | Wanted::Results | Wanted::Trace => 256 * MIB,
     }
 }
@@ -217,6 +218,7 @@ const fn not_found(wanted: Wanted) -> &'static str {
         Wanted::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
         Wanted::Results => "give the files that the parts have written by `ectwin replay --json`",
         Wanted::SiiImage => "`ectwin sii FILE.toml` writes the image of a unit",
+        Wanted::Esi => "give the path of an ESI file, such as one in the folder units/esi",
         Wanted::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
     }
 }

@@ -30,6 +30,21 @@ pub enum Transition {
 }
 
 impl Transition {
+    /// All of them.
+    pub const ALL: [Self; 11] = [
+        Self::Ip,
+        Self::Pi,
+        Self::Ps,
+        Self::Sp,
+        Self::Si,
+        Self::So,
+        Self::Os,
+        Self::Op,
+        Self::Oi,
+        Self::Ib,
+        Self::Bi,
+    ];
+
     /// Its letters.
     #[must_use]
     pub const fn letters(self) -> &'static str {

@@ -22,6 +22,8 @@ pub enum Wanted {
     Trace,
     /// The image of an EEPROM.
     SiiImage,
+    /// An ESI file.
+    Esi,
 }
 
 impl Wanted {
@@ -34,6 +36,9 @@ impl Wanted {
             Self::Capture => "give a capture of master and units, as `ectwin run --pcap` writes it",
             Self::Results => "give the files that the parts of a campaign wrote with `ectwin replay --json`",
             Self::SiiImage => "an SII image is binary, as `ectwin sii` writes it",
+            Self::Esi => {
+                "an ESI file is XML, from the vendor of a device or from `ectwin esi`; units/esi has some"
+            }
             Self::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
         }
     }
@@ -83,8 +88,8 @@ const KINDS: &[Kind] = &[
     Kind {
         name: "an ESI file, the description of slaves for the configuration tool of a master",
         is: |file| file.is_xml_of("EtherCATInfo"),
-        wanted_as: &[],
-        help: "`ectwin esi FILE.toml` writes the ESI file of a unit, and no command reads one",
+        wanted_as: &[Wanted::Esi],
+        help: "`ectwin lint FILE.xml` checks it; `ectwin esi FILE.toml` writes the one of a unit",
     },
     Kind {
         name: "an ENI file, the configuration of a network for a master",
@@ -208,7 +213,7 @@ fn is_sii(bytes: &[u8]) -> bool {
 mod tests {
     use super::*;
 
-    const ALL: [Wanted; 7] = [
+    const ALL: [Wanted; 8] = [
         Wanted::UnitFile,
         Wanted::Scenario,
         Wanted::Program,
@@ -216,6 +221,7 @@ mod tests {
         Wanted::Results,
         Wanted::Trace,
         Wanted::SiiImage,
+        Wanted::Esi,
     ];
 
     /// The header words of a real device, with its checksum 0x40 (reference 4.2).

@@ -57,7 +57,7 @@ const FLOORS: &[Row] = &[
     row("user-file", 2, Only(&["time", "wire"])),
     row("segment", 3, Only(&["time", "wire", "esc"])),
     row("mailbox", 3, Only(&["wire", "objects"])),
-    row("esi", 3, Only(&["wire", "objects"])),
+    row("esi", 3, Only(&["wire", "objects", "user-file"])),
     row("device", 4, AnyFloorBelow),
     row("coe-kit", 4, Only(&["time", "wire", "objects", "esi"])),
     row(

@@ -10,6 +10,7 @@ const BLESS: &str = "ECTWIN_BLESS";
 /// The tests, by package: each compares files with the contents that it would write.
 const TESTS: &[(&str, &str)] = &[
     ("ectwin-nx-ect101", "allocation_page"),
+    ("ectwin-esi", "rules_page"),
     ("ectwin", "event_pages"),
     ("ectwin", "scenario_reference"),
     ("ectwin-scenario", "values_page"),

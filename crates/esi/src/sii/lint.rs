@@ -5,7 +5,7 @@ use core::fmt;
 use super::contents::{Header, SiiContents};
 use super::layout::{self, category};
 use super::{SiiError, checksum, parse};
-use crate::{DeviceDescription, MailboxArea, MailboxProtocols, PortPhysics, SyncManagerType};
+use crate::{DeviceDescription, MailboxArea, MailboxProtocols, Pdo, PdoEntry, PortPhysics, SyncManagerType};
 
 /// One defect of an image: a fact with its numbers.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -43,7 +43,8 @@ pub fn lint(image: &[u8]) -> Vec<Finding> {
     findings
 }
 
-/// Findings in which the image differs from the image of `description`: identity, mailbox, sizes, categories.
+/// Findings in which the image differs from the image of `description`: identity, mailbox, sizes, categories. Texts are
+/// compared, not their numbers; what only names a text differs without effect on a master.
 #[must_use]
 pub fn compare(image: &[u8], description: &DeviceDescription) -> Vec<Finding> {
     let (actual, expected) = match (parse(image), super::try_image(description)) {
@@ -58,12 +59,46 @@ pub fn compare(image: &[u8], description: &DeviceDescription) -> Vec<Finding> {
             findings.push(finding(check, place, "differs", "as in the description".into()));
         }
     };
-    same("C027", "general category", actual.general == expected.general);
+    let (actual, expected) = (actual.description(), expected.description());
+    same("C027", "general category", general(&actual) == general(&expected));
     same("C027", "FMMU category", actual.fmmus == expected.fmmus);
     same("C027", "SyncM category", actual.sync_managers == expected.sync_managers);
-    same("C027", "TxPDO category", actual.tx_pdos == expected.tx_pdos);
-    same("C027", "RxPDO category", actual.rx_pdos == expected.rx_pdos);
+    compare_pdos("TxPDO", &actual.tx_pdos, &expected.tx_pdos, &mut findings);
+    compare_pdos("RxPDO", &actual.rx_pdos, &expected.rx_pdos, &mut findings);
     findings
+}
+
+/// What category 30 says of a device.
+fn general(description: &DeviceDescription) -> impl PartialEq {
+    (
+        [description.order_code.clone(), description.name.clone(), description.group.group_type.clone()],
+        (description.ports, description.general_flags, description.identification_offset),
+        (description.ebus_current_ma, description.mailbox.as_ref().map(|mailbox| mailbox.coe_details)),
+    )
+}
+
+/// Each PDO that differs, is missing, or is there in addition.
+fn compare_pdos(kind: &str, actual: &[Pdo], expected: &[Pdo], findings: &mut Vec<Finding>) {
+    let of = |pdos: &'_ [Pdo], index| pdos.iter().find(|pdo| pdo.index == index).map(outline);
+    let known = expected.iter().map(|pdo| pdo.index);
+    let added = actual.iter().map(|pdo| pdo.index).filter(|index| of(expected, *index).is_none());
+    for index in known.chain(added) {
+        let [found, wanted] = [actual, expected].map(|pdos| of(pdos, index));
+        if found != wanted {
+            let place = format!("{kind} {index}");
+            let [found, wanted] = [found, wanted].map(|outline| outline.unwrap_or_else(|| "missing".into()));
+            findings.push(finding("C027", &place, found, wanted));
+        }
+    }
+}
+
+/// A PDO as a master sees it.
+fn outline(pdo: &Pdo) -> String {
+    let entry = |entry: &PdoEntry| format!("{:04X}:{} {} bits", entry.index.0, entry.sub, entry.bit_length);
+    let entries: Vec<String> = pdo.entries.iter().map(entry).collect();
+    let place =
+        pdo.sync_manager.map_or_else(|| "not assigned".into(), |number| format!("SyncManager {number}"));
+    format!("{place}, {}", if entries.is_empty() { "empty".into() } else { entries.join(", ") })
 }
 
 fn compare_headers(actual: &Header, expected: &Header, findings: &mut Vec<Finding>) {

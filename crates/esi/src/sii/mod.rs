@@ -1,6 +1,7 @@
-//! The SII EEPROM: image, reader, checksum, lint (ETG.1000.6, SII coding; ETG.2010).
+//! The SII EEPROM: image, reader, description, checksum, lint (ETG.1000.6, SII coding; ETG.2010).
 
 mod contents;
+mod describe;
 mod image;
 mod image_error;
 mod layout;

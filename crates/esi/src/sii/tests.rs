@@ -121,11 +121,13 @@ fn compare_names_what_differs() {
     description.revision = 0x20000;
     description.esc_configuration[0] = 0;
     description.fmmus.pop();
+    description.tx_pdos[1].entries[0].bit_length = 16;
     let findings: Vec<String> = compare(&image, &description).iter().map(ToString::to_string).collect();
     insta::assert_snapshot!(findings.join("\n"), @"
     revision number: 0x10000, expected 0x20000 (C023)
     words 0 to 6: 800E00CC8813FF00020100000000, expected 000000CC8813FF00020100000000 (C026)
     FMMU category: differs, expected as in the description (C027)
+    TxPDO 0x1A01: not assigned, 6000:02 8 bits, expected not assigned, 6000:02 16 bits (C027)
     ");
 }
 
@@ -134,6 +136,30 @@ fn a_blank_eeprom_is_empty_of_categories() {
     let blank = [0xFF; 2048];
     assert_eq!(parse(&blank).unwrap().categories, []);
     assert!(lint(&blank).iter().any(|finding| finding.check == "C022"));
+}
+
+/// The image of the description of an image is that image: there is one writer.
+#[test]
+fn an_image_is_made_again_from_its_description() {
+    let mut description = small_device();
+    for mailbox in [description.mailbox.clone(), None] {
+        description.mailbox = mailbox;
+        let image = image(&description);
+        assert_eq!(try_image(&parse(&image).unwrap().description()), Ok(image));
+    }
+}
+
+#[test]
+fn a_description_has_what_the_image_has() {
+    let description = small_device();
+    let read = parse(&image(&description)).unwrap().description();
+    assert_eq!(read.vendor.id, description.vendor.id);
+    assert_eq!(read.group.group_type, description.group.group_type);
+    assert_eq!((&read.order_code, &read.name), (&description.order_code, &description.name));
+    assert_eq!(read.mailbox, description.mailbox);
+    assert_eq!((&read.rx_pdos, &read.tx_pdos), (&description.rx_pdos, &description.tx_pdos));
+    assert_eq!(read.fmmus, description.fmmus);
+    assert_eq!(read.esc_configuration, description.esc_configuration);
 }
 
 proptest! {
@@ -154,7 +180,7 @@ proptest! {
             image[at] = value;
         }
         image.truncate(length);
-        let _ = parse(&image);
+        let _ = parse(&image).map(|contents| contents.description());
         let _ = lint(&image);
     }
 

@@ -2,10 +2,11 @@
 
 use objects::ObjectTable;
 
+use super::dictionary;
 use super::document::{Document, ENGLISH};
 use super::hex::{hex_binary, hex8, hex16, hex32};
-use super::{dictionary, types};
 use crate::sii;
+use crate::type_names;
 use crate::{
     CoeDetails, DeviceDescription, FmmuUsage, GeneralFlags, Mailbox, MailboxProtocols, Pdo, PortPhysics,
     SyncManager, SyncManagerType,
@@ -181,7 +182,7 @@ fn write_pdo(document: &mut Document, element: &str, pdo: &Pdo) {
                 document.text("SubIndex", &entry.sub.0.to_string());
                 document.text("BitLen", &entry.bit_length.to_string());
                 document.text("Name", &entry.name);
-                document.text("DataType", &types::name(entry.data_type, entry.bit_length.into()));
+                document.text("DataType", &type_names::name(entry.data_type, entry.bit_length.into()));
             });
         }
     });

@@ -7,7 +7,7 @@ use wire::SubIndex;
 
 use super::document::Document;
 use super::hex::{hex_binary, hex16};
-use super::types::{self, Shape};
+use crate::type_names::{self, Shape};
 
 /// Sub item 0 takes two bytes, as in a complete access (ETG.1000.6).
 const FIRST_ENTRY_BITS: u32 = 16;
@@ -34,7 +34,7 @@ fn simple_types(table: &ObjectTable) -> BTreeMap<String, (Shape, u16)> {
     // Sub item 0 and the elements of arrays always need these two.
     found.insert("USINT".to_owned(), (Shape::Base, 8));
     for entry in table.iter().flat_map(|object| &object.entries) {
-        let shape = types::shape(entry.data_type, entry.bit_length);
+        let shape = type_names::shape(entry.data_type, entry.bit_length);
         if let Shape::Array { base, element_bits } = shape {
             found.insert(base.to_owned(), (Shape::Base, element_bits));
         }
@@ -44,7 +44,7 @@ fn simple_types(table: &ObjectTable) -> BTreeMap<String, (Shape, u16)> {
 }
 
 fn type_name(entry: &Entry) -> String {
-    types::name(entry.data_type, entry.bit_length)
+    type_names::name(entry.data_type, entry.bit_length)
 }
 
 fn simple_type(document: &mut Document, name: &str, shape: Shape, bit_length: u16) {

@@ -6,9 +6,6 @@ mod document;
 mod hex;
 #[cfg(test)]
 mod tests;
-mod types;
-
-pub use types::element_type;
 
 use objects::ObjectTable;
 

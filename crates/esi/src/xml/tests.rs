@@ -1,8 +1,9 @@
 use objects::{AccessRights, Entry, ObjectTable};
 use roxmltree::{Document, Node};
 
-use super::{types, xml};
+use super::xml;
 use crate::tests::{small_device, small_table};
+use crate::type_names;
 use crate::{DeviceDescription, Pdo, PortPhysics};
 
 #[test]
@@ -127,7 +128,7 @@ impl From<&Pdo> for PdoRow {
         let entries = pdo.entries.iter().map(|entry| {
             let name = match entry.is_padding() {
                 true => String::new(),
-                false => types::name(entry.data_type, entry.bit_length.into()),
+                false => type_names::name(entry.data_type, entry.bit_length.into()),
             };
             (entry.index.0.into(), entry.sub.0.into(), entry.bit_length.into(), name)
         });
@@ -149,7 +150,7 @@ type Row = (u32, u8, String, String, u32, AccessRights, Vec<u8>);
 
 fn rows_of_table(table: &ObjectTable) -> Vec<Row> {
     let row = |index: u16, entry: &Entry| {
-        let name = types::name(entry.data_type, entry.bit_length);
+        let name = type_names::name(entry.data_type, entry.bit_length);
         let bits = entry.bit_length.into();
         (index.into(), entry.sub.0, entry.name.clone(), name, bits, entry.access, entry.default.clone())
     };
