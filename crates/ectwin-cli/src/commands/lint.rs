@@ -94,7 +94,7 @@ fn read(path: &Path) -> Result<EsiFile, Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let beside = |name: &str| {
         let is_below = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-        user_files::bytes(&folder.join(name), Wanted::Esi).ok().filter(|_| is_below)
+        if is_below { user_files::bytes(&folder.join(name), Wanted::Esi).ok() } else { None }
     };
     EsiFile::read(&bytes, &beside).map_err(|error| Failure::BadFile(problem(path, &bytes, &error).into()))
 }
