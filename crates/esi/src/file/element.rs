@@ -22,8 +22,9 @@ pub(super) struct Element<'a> {
 }
 
 impl<'a> Element<'a> {
-    pub(super) const fn new(node: Node<'a, 'a>, reading: &'a Reading<'a>) -> Self {
-        Self { node, reading }
+    /// The root element of a document.
+    pub(super) fn root(reading: &'a Reading<'a>) -> Self {
+        Self { node: reading.root(), reading }
     }
 
     /// Its name, without a prefix.

@@ -42,9 +42,10 @@ impl EsiFile {
         let document = reading::parse(&text.text)?;
         let reading = Reading::new(&document, None);
         if text.is_misdeclared {
-            reading.root().report(rules::CHARACTER_SET, "the file is not UTF-8; read as ISO 8859-1".into());
+            Element::root(&reading)
+                .report(rules::CHARACTER_SET, "the file is not UTF-8; read as ISO 8859-1".into());
         }
-        let (devices, modules, more) = elements(reading.root(), external)?;
+        let (devices, modules, more) = elements(Element::root(&reading), external)?;
         lint_all(&devices, &modules, &reading);
         let mut findings = reading.into_findings();
         findings.append(more);
@@ -156,7 +157,7 @@ impl<'a> DictionaryFiles<'a> {
         let text = text::decode(&bytes).map_err(|error| error.to_string())?;
         let document = reading::parse(&text.text).map_err(|error| error.to_string())?;
         let reading = Reading::new(&document, Some(name.to_owned()));
-        let root = reading.root();
+        let root = Element::root(&reading);
         let element = match root.name() {
             "Dictionary" => Some(root),
             _ => root.child("Dictionary"),

@@ -4,7 +4,6 @@ use core::cell::RefCell;
 
 use roxmltree::{Document, Node};
 
-use super::element::Element;
 use super::place::{Place, Places};
 use super::read_error::ReadError;
 use crate::lint::finding::{Finding, Findings, Report};
@@ -65,8 +64,8 @@ impl<'a> Reading<'a> {
         Self { document, places, file, findings: RefCell::default() }
     }
 
-    pub(super) fn root(&'a self) -> Element<'a> {
-        Element::new(self.document.root_element(), self)
+    pub(super) fn root(&self) -> Node<'a, 'a> {
+        self.document.root_element()
     }
 
     pub(super) fn place(&self, byte: usize) -> Place {
