@@ -25,8 +25,8 @@ pub use refused::{Reason, Refused};
 pub use run::{
     Aspect, Bench, Brought, DifferenceKind, Fact, FactKind, Failure, FailureKind, Lent, LineHands, Look,
     MasterProgram, Met, NotReplayable, Notes, Play, PlayedStep, ProgramFile, RandomPart, RecordedFrames,
-    Recording, Records, Report, RunningLine, Scenario, Supply, Turn, UnitSource, UserProgram, Warning, Witness,
-    WrittenGroup, WrittenStep,
+    Recording, Records, Report, RunningLine, Scenario, Supply, Turn, UnitSource, UserProgram, Warning,
+    Witness, WrittenGroup, WrittenStep,
 };
 pub use search::{Found, Search, Trial};
 pub use trace_difference::{TraceDifference, trace_differences};
