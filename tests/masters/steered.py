@@ -17,6 +17,7 @@ FRAMES = 10
 VALUE = 4660
 FORCED = "N1_UINTs_01_C_to_M[0]"
 PATIENCE_S = 20
+CYCLE_S = 0.001
 
 
 def main(interface, ectwin):
@@ -105,9 +106,8 @@ class Steered:
     def ctl(self, *arguments):
         """Runs `ectwin ctl`, with process data beside it."""
         command = subprocess.Popen([self.ectwin, "ctl", *arguments], stdout=subprocess.PIPE, text=True)
-        while command.poll() is None:
+        while not has_ended(command):
             self.exchange()
-            time.sleep(0.001)
         if command.returncode != 0:
             raise bench.Failure(f"ctl {arguments}: exit code {command.returncode}: {command.stdout.read()}")
 
@@ -124,6 +124,15 @@ class Steered:
         counter = self.master.receive_processdata(LOST_US)
         self.lost += counter < self.master.expected_wkc
         return counter
+
+
+def has_ended(command):
+    """Whether a process has ended, or ends within a cycle."""
+    try:
+        command.wait(CYCLE_S)
+        return True
+    except subprocess.TimeoutExpired:
+        return False
 
 
 bench.run(main)

@@ -39,7 +39,7 @@ fn each_request_has_a_new_id_and_gets_its_answer() {
     assert_eq!(held, Answered { at_ns: 8, content: Held { held: true, seen: None } });
     let requests = twin.join().unwrap();
     assert_eq!(requests[0], json!({"id": 1, "do": "unplug cable 1"}));
-    assert_eq!(requests[1], json!({"id": 2, "expect": "unit 1 is in OP", "within": "1500ms"}));
+    assert_eq!(requests[1], json!({"id": 2, "expect": "unit 1 is in OP", "within": "1.5s"}));
 }
 
 #[test]

@@ -2,18 +2,17 @@
 
 mod faults;
 mod sentences;
+mod shown;
 mod status;
 mod steer;
 mod twin;
 mod variables;
 mod watch;
 
-use serde::Serialize;
-
 use crate::cli::{Action, CtlArgs};
 use crate::failure::Failure;
 use crate::failure_document::or_document;
-use crate::output;
+use shown::Shown;
 
 /// Does what is asked for.
 pub(crate) fn run(args: &CtlArgs) -> Result<(), Failure> {
@@ -31,21 +30,5 @@ pub(crate) fn run(args: &CtlArgs) -> Result<(), Failure> {
         Action::Object { unit, entry } => print(variables::object(args, unit, entry)),
         Action::Faults => print(faults::list(args)),
         Action::Clear { fault } => print(faults::clear(args, &fault.join(" "))),
-    }
-}
-
-/// A result in its two forms.
-struct Shown {
-    document: String,
-    text: String,
-}
-
-impl Shown {
-    fn of(document: &impl Serialize, text: String) -> Result<Self, Failure> {
-        Ok(Self { document: output::json(document)?, text })
-    }
-
-    fn print(&self, json: bool) -> Result<(), Failure> {
-        if json { output::print(self.document.as_bytes()) } else { output::print_text(&self.text) }
     }
 }

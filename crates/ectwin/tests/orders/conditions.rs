@@ -35,6 +35,7 @@ const OF_THE_MASTER: &[&str] = &[
     "the capture is replayed",
     "every answer is as captured",
     "at most 3 answers differ",
+    "one cycle is done",
     "all of (unit 1 is in OP; 100 cycles are done)",
 ];
 

@@ -163,6 +163,7 @@ impl<S> Members<S> {
 
 /// An entry of the list of steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(clippy::large_enum_variant, reason = "nearly all of them are steps")]
 pub enum ScriptStep {
     /// A step.
     Step(Step),

@@ -164,6 +164,7 @@ impl UserProgram {
 
 /// An entry of the executable steps.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[expect(clippy::large_enum_variant, reason = "nearly all of them are steps")]
 pub enum PlayedStep {
     /// A step.
     Step(WrittenStep),

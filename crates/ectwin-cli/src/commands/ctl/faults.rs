@@ -4,7 +4,8 @@ use control::client::Answered;
 use control::messages::{ActiveFault, Faults, Verb};
 use ectwin::happenings::time_words;
 
-use super::{Shown, twin};
+use super::shown::Shown;
+use super::twin;
 use crate::cli::CtlArgs;
 use crate::failure::Failure;
 

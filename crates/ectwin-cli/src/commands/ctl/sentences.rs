@@ -3,7 +3,8 @@
 use control::client::Answered;
 use control::messages::{SentenceRow, Sentences, Verb};
 
-use super::{Shown, twin};
+use super::shown::Shown;
+use super::twin;
 use crate::cli::CtlArgs;
 use crate::failure::Failure;
 

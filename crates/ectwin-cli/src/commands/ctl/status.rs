@@ -5,7 +5,8 @@ use control::messages::{Status, UnitError, UnitReport, Verb};
 use ectwin::happenings::time_words;
 use serde::Serialize;
 
-use super::{Shown, twin};
+use super::shown::Shown;
+use super::twin;
 use crate::cli::CtlArgs;
 use crate::failure::Failure;
 

@@ -4,7 +4,8 @@ use control::client::Answered;
 use control::messages::{ObjectReport, VariableReport, Variables, Verb};
 use serde_json::Value;
 
-use super::{Shown, twin};
+use super::shown::Shown;
+use super::twin;
 use crate::cli::CtlArgs;
 use crate::failure::Failure;
 
@@ -67,7 +68,7 @@ fn assignment(argument: &str) -> Result<(String, Value), Failure> {
         message: format!("`{argument}` gives no value"),
         help: "write NAME=VALUE, such as N1_UINTs_01_C_to_M[0]=5".to_owned(),
     })?;
-    Ok((name.trim_end().trim_end_matches(':').to_owned(), value_of(value.trim())))
+    Ok((name.trim_end_matches(':').trim_end().to_owned(), value_of(value.trim())))
 }
 
 fn value_of(text: &str) -> Value {

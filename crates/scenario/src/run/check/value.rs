@@ -64,7 +64,20 @@ fn unchanged(of: &Quantity, reading: &Reading) -> String {
         Quantity::Acts { .. } => {
             format!("the master has not done so, and before the step {} times", reading.words)
         }
-        _ => format!("it is still {}", reading.words),
+        Quantity::Object { .. }
+        | Quantity::Register { .. }
+        | Quantity::OutputByte { .. }
+        | Quantity::InputByte { .. }
+        | Quantity::Outputs { .. }
+        | Quantity::Inputs { .. }
+        | Quantity::Variable { .. }
+        | Quantity::ProgramVariable { .. }
+        | Quantity::WorkingCounter { .. }
+        | Quantity::Records { .. }
+        | Quantity::MeanPeriod { .. }
+        | Quantity::LongestPeriod { .. }
+        | Quantity::Emergencies { .. }
+        | Quantity::Cycles => format!("it is still {}", reading.words),
     }
 }
 
