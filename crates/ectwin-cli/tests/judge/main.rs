@@ -293,5 +293,11 @@ fn a_master_with_a_wrong_mailbox_counter_is_named() {
     let mailbox = MailboxConduct { counter, ..MailboxConduct::default() };
     let habits = Habits { mailbox, ..Habits::default() };
     let output = shipped("shipped_counter", habits, NOTHING, recovers);
-    is_failed_by(&output, &["`the master has sent a wrong mailbox counter to unit 1`", "it holds, and `never` expects that it does not"]);
+    is_failed_by(
+        &output,
+        &[
+            "`the master has sent a wrong mailbox counter to unit 1`",
+            "it holds, and `never` expects that it does not",
+        ],
+    );
 }
