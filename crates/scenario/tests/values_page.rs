@@ -130,14 +130,26 @@ const VALUES: &str = r##"
 | `by` of a delay | `"1ms"`, `"1ms to 3ms"`, `"2ms ± 1ms"` or `"2ms ± 1ms normal"`; `+-` is read as `±` |
 
 A value without fields has an empty table, such as `{ "behave": {} }`: a text is always a sentence.
+
+The conditions are on [a page of their own](scenario-values-of-conditions.md).
 "##;
 
-fn page() -> String {
+const HEAD_OF_CONDITIONS: &str = "<!-- Generated: cargo xtask bless -->\n\
+    # Typed values of conditions\n\
+    What `expect`, `never`, `until`, `while` and `when` can check, as a sentence and as data. \
+    [Typed values of scenarios](scenario-values.md) has the orders, the values and how to use them from TOML, JSON and Rust.\n";
+
+fn page_of_orders() -> String {
     let mut page = format!("{HEAD}```rust\n{IN_RUST}```\n{VALUES}");
     values(&mut page, "master", MASTER);
     values(&mut page, "unit", UNIT);
     values(&mut page, "cpu", CPU);
     values(&mut page, "line", LINE);
+    page
+}
+
+fn page_of_conditions() -> String {
+    let mut page = HEAD_OF_CONDITIONS.to_owned();
     values(&mut page, "conditions", CONDITIONS);
     page
 }
@@ -150,15 +162,21 @@ fn values<T: Spoken + Serialize>(page: &mut String, heading: &str, table: &[Sent
     }
 }
 
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user/scenario-values.md")
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/user").join(name)
 }
 
 #[test]
-fn the_page_is_what_the_types_say() {
-    if std::env::var_os(BLESS).is_some() {
-        fs::write(path(), page()).unwrap_or_else(|error| panic!("{error}"));
+fn the_pages_are_what_the_types_say() {
+    let pages = [
+        ("scenario-values.md", page_of_orders()),
+        ("scenario-values-of-conditions.md", page_of_conditions()),
+    ];
+    for (name, page) in pages {
+        if std::env::var_os(BLESS).is_some() {
+            fs::write(path(name), &page).unwrap_or_else(|error| panic!("{error}"));
+        }
+        let written = fs::read_to_string(path(name)).unwrap_or_else(|error| panic!("{error}"));
+        assert!(written == page, "{name}: cargo xtask bless");
     }
-    let written = fs::read_to_string(path()).unwrap_or_else(|error| panic!("{error}"));
-    assert!(written == page(), "cargo xtask bless");
 }
