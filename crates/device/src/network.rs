@@ -66,9 +66,10 @@ impl<U: Unit> Network<U> {
         self.segment.frame_from_cable(now, frame, cable)
     }
 
-    /// A frame on its way outward has a bit error on this cable: the slaves behind it count an error.
-    pub fn count_bit_error(&mut self, now: Instant, cable: usize) {
-        self.segment.count_bit_error(now, cable);
+    /// A frame that has come to the first of two cables gets a bit error on the second one: the slaves behind that
+    /// count an error.
+    pub fn corrupted_frame_between(&mut self, now: Instant, frame: &mut [u8], cables: Range<usize>) {
+        self.segment.corrupted_frame_between(now, frame, cables);
     }
 
     /// A frame on its way back has a bit error on this cable: the slaves before it count an error.

@@ -56,6 +56,23 @@ fn a_pulled_cable_shortens_the_line_and_counts_lost_links() {
     assert_eq!(read(&mut line, 2, 0x0310, 2), [1, 0]);
 }
 
+/// The port closes with the end of the frame, which has passed it by then.
+#[test]
+fn a_frame_that_closes_a_port_has_its_bit_error_behind_that_port() {
+    const LOOP_PORT_1_CLOSED: u8 = 0x0C;
+    let mut line = line(3);
+    let mut closes = FrameBuilder::new().physical(Command::Bwr, 0, 0x0101, &[LOOP_PORT_1_CLOSED]).finish();
+    assert_eq!(line.corrupted_frame(Instant::ZERO, &mut closes, 1), FrameFate::Destroyed);
+    assert_eq!(count(&mut line), 1, "the port is closed");
+    let errors = |position: usize, register: u16| {
+        let mut errors = [0];
+        line.esc(position).unwrap().look(register, &mut errors, Instant::ZERO);
+        errors[0]
+    };
+    assert_eq!([errors(0, 0x0300), errors(1, 0x0300), errors(2, 0x0300)], [0, 1, 0]);
+    assert_eq!([errors(0, 0x0308), errors(1, 0x0308), errors(2, 0x0308)], [0, 0, 1]);
+}
+
 #[test]
 fn without_the_cable_to_the_master_nothing_comes_back() {
     let mut line = line(2);

@@ -134,11 +134,11 @@ impl<T: Copy, U: Unit, E: LineEnds<T>> Passing<'_, T, U, E> {
             });
         };
         let cable = met.cable();
-        self.units.frame_between(now, frame, from..cable);
         if let FrameFault::Corrupt { .. } = met.fault {
-            self.units.count_bit_error(now, cable);
+            self.units.corrupted_frame_between(now, frame, from..cable);
             return Outward::Ends(FrameFate::Destroyed);
         }
+        self.units.frame_between(now, frame, from..cable);
         if met.delay.is_some() { Outward::Waits(cable, met) } else { Outward::IsLost(met) }
     }
 

@@ -58,20 +58,25 @@ impl Segment {
     /// forwarded error, and none of these accepts it. It does not return: its FCS is wrong. A frame that does not get to
     /// that cable has no bit error.
     pub fn corrupted_frame(&mut self, now: Instant, frame: &mut [u8], position: usize) -> FrameFate {
-        if !self.frame_between(now, frame, 0..position) {
+        if !self.reaches_cable(position) {
             return self.frame(now, frame);
         }
-        self.count_bit_error(now, position);
+        self.corrupted_frame_between(now, frame, 0..position);
         FrameFate::Destroyed
     }
 
-    /// A frame on its way outward has a bit error on this cable: the ESC behind it counts an invalid frame, the
-    /// others behind count a forwarded error, at port 0.
-    pub fn count_bit_error(&mut self, now: Instant, cable: usize) {
+    /// A frame that has come to the first of two cables gets a bit error on the second one: the ESCs between them
+    /// process it, the one behind counts an invalid frame, the others behind count a forwarded error, at port 0. All of
+    /// them are on the way that the frame has met: a port that it closes does so with its end. A frame that does not
+    /// get to the second cable does nothing.
+    pub fn corrupted_frame_between(&mut self, now: Instant, frame: &mut [u8], cables: Range<usize>) {
         self.settle();
-        let (reach, cables) = (self.way.reach, self.way.cables);
-        self.activity.over(cable.min(cables)..cables, now);
-        let behind = self.escs[..reach].get_mut(cable..);
+        let (first_behind, met) = (cables.end, self.way);
+        if !self.frame_between(now, frame, cables) {
+            return;
+        }
+        self.activity.over(first_behind..met.cables, now);
+        let behind = self.escs[..met.reach].get_mut(first_behind..);
         if let Some((first, others)) = behind.and_then(<[Esc]>::split_first_mut) {
             first.count_invalid_frame(Port::In);
             others.iter_mut().for_each(|esc| esc.count_forwarded_error(Port::In));
