@@ -2,7 +2,7 @@
 //!
 //! A [`DeviceDescription`] is plain data and independent of unit models. [`sii::image`] makes the EEPROM image
 //! from it, [`xml`] the ESI file; both agree, because both are made from the same description and, for the
-//! dictionary, from the same [`objects::ObjectTable`] that answers online. [`file`] reads the ESI files of vendors, and
+//! dictionary, from the same [`objects::ObjectTable`] that answers online. [`mod@file`] reads the ESI files of vendors, and
 //! makes both from them.
 
 mod describe;

@@ -61,6 +61,7 @@ const ARRAY_TYPES: [(u16, &str, u16); 6] = [
 ];
 
 /// The contents of a data type.
+#[cfg(feature = "write")]
 pub(crate) enum Shape {
     /// Only bits.
     Base,
@@ -74,6 +75,7 @@ pub(crate) enum Shape {
 }
 
 /// Name of a data type for an entry of `bit_length` bits: `UINT`, `STRING(20)`, `ARRAY [0..9] OF BYTE`.
+#[cfg(feature = "write")]
 pub(crate) fn name(data_type: DataType, bit_length: u16) -> String {
     if let Some((_, name, _)) = BASE_TYPES.iter().find(|(code, ..)| *code == data_type.0) {
         return (*name).into();
@@ -98,6 +100,7 @@ pub fn element_type(data_type: DataType, bit_length: u16) -> Option<(&'static st
 }
 
 /// The contents of `data_type`. Whole bytes of an unknown type are bytes.
+#[cfg(feature = "write")]
 pub(crate) fn shape(data_type: DataType, bit_length: u16) -> Shape {
     let known = |code: u16| BASE_TYPES.iter().any(|(base, ..)| *base == code);
     if known(data_type.0) || data_type == DataType::VISIBLE_STRING {

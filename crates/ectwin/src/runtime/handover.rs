@@ -51,6 +51,7 @@ impl<T> Handover<T> {
     }
 
     /// The time for which borrowers had the value, in all.
+    #[cfg(feature = "control")]
     pub(super) fn lent_ns(&self) -> u64 {
         self.lent_ns.load(Ordering::Relaxed)
     }

@@ -14,6 +14,7 @@ mod tests;
 pub use contents::{
     Category, General, Header, PdoContents, PdoEntryContents, SiiContents, SyncManagerContents,
 };
+#[cfg(feature = "write")]
 pub(crate) use image::{area_words, configuration};
 pub use image::{image, try_image};
 pub use image_error::ImageError;
