@@ -38,7 +38,8 @@ programs `"builtin:copy"`, `"builtin:messages"` and `"builtin:pulse"`, or files 
 
 ## Preludes
 `use = "common.toml"` names a prelude: a file with the keys of a scenario, none of which is required. They apply where the scenario itself does
-not set them (`units` as a whole); if several preludes set a key, the first of them counts. The steps of preludes come first, in the order of the list.
+not set them (`units` as a whole); if several preludes set a key, the first of them counts. The steps of preludes come first, in the order of the list;
+a prelude that is twice in the list has its steps twice.
 Paths in a prelude are relative to it, and preludes can use preludes, up to 16 in a row and 100 in all. The texts of a prelude can use the
 [parameters](#parameters) of the scenario. A prelude has no parameters and no random steps of its own. A failed step of a prelude is shown with the
 line of `use` and its place in the prelude, such as `common.toml:5: all units are in OP`.
@@ -138,7 +139,7 @@ A file can pass and still test less than it seems to. `ectwin replay` prints a w
 - an expectation with `within` whose condition was true before the orders directly before it, and still was after them. In rounds it is named only if
   this is so each time. An event that was recorded once stays recorded: `has recorded … again` and `has given up again` count only what has come since
   the orders directly before the step;
-- a fault of frames that no frame has met, unless a probability selects them;
+- a fault of frames that no frame has met, with or without a name, unless a probability selects them;
 - an order that the master has given up, if no later expectation is about this unit or about the orders of the master;
 - a step with `at` that comes later than its time, because the steps before it have lasted until then;
 - an order that finds nothing to do: `be quiet` without a fault, a mode, a task or I/O refreshing that is so already, `stop process data` twice, `release`
@@ -155,7 +156,7 @@ A group is a step with steps of its own. `at`, `after` and `when` say when it be
 | `{ steps = [a, b] }` | the steps one after the other |
 | `{ repeat = 20, every = "100ms", steps = [a, b] }` | 20 rounds. Each begins 100 ms after the beginning of the one before; a round that has not ended by then is a failure. With `jitter`, at most half of `every`, each round but the first is earlier or later than its time by at most this. The next step waits for the end of the last round |
 | `{ together = [a, [b, c], d] }` | three sequences that begin at the same time; a list is a sequence. The next step waits for the last of them |
-| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers, the name of a unit and the value of a parameter: `for.unit = [2, { from = 4, to = 6 }, "Conveyor", "{first}"]`. At most 10,000 steps |
+| `{ for.unit = [2, 3], steps = [a, b] }` | the steps for each value: `{unit}` in a text is replaced by it. With several names (`for.unit = [2, 3], for.cable = [1, 2]`) for each combination. Together with `repeat` each round has all of them; with `together` the sequences of all values begin at the same time. A value can be a range of numbers, the name of a unit and the value of a parameter, which a range can have too: `for.unit = [2, { from = 4, to = "{last}" }, "Conveyor", "{first}"]`. At most 10,000 steps |
 
 ```toml groups.toml
 title = "contacts of two cables are loose at the same time, ten times"

@@ -12,7 +12,6 @@ mod said;
 mod steps;
 mod values;
 
-use core::cell::Cell;
 use std::collections::BTreeSet;
 
 use user_file::{Problem, Reader, Section, Wanted, read_toml};
@@ -24,7 +23,7 @@ use crate::ready::{
 use crate::run::{Scenario, UnitSource};
 use names::{Named, Names};
 use parameters::{CASES_MAX, Parameters, USE};
-use preludes::{Here, Whole, read_whole};
+use preludes::{Here, Read, Whole, read_whole};
 
 impl Scenario {
     /// Reads the text of a scenario file that is one case. `files` returns the text of a unit file or of a user program, by
@@ -151,13 +150,9 @@ fn cases<T>(
         let refused = reader.refused();
         let named = parameters.case(number);
         let whole =
-            read_whole((text, reader), file, &Names::of(&named), files, &Here::scenario(&Cell::new(0)));
-        if file.get(USE).is_some() && reader.refused() == refused {
+            read_whole((text, reader), file, &Names::of(&named), files, &Here::scenario(&Read::default()));
+        if file.get(USE).is_some() && whole.draft.is_whole {
             refuse_missing(reader, &whole);
-        }
-        if file.get(USE).is_some() && reader.refused() > refused {
-            // Without a prelude it is unknown which units there are.
-            return None;
         }
         let Whole { draft, places, .. } = whole;
         let case = (!named.is_empty()).then(|| words(&named));
@@ -165,9 +160,9 @@ fn cases<T>(
         let mut told = BTreeSet::new();
         for problem in problems {
             let place = places.of(problem.part);
-            // The values of a `for` can make the same mistake several times.
-            if told.insert((place.start, problem.message.clone())) {
-                let message = places.in_prelude(problem.part).unwrap_or_default() + &problem.message;
+            let message = places.in_prelude(problem.part).unwrap_or_default() + &problem.message;
+            // The values of a `for`, and a prelude that is used twice, can make the same mistake several times.
+            if told.insert((place.start, message.clone())) {
                 reader.refuse(place, Problem::new(message, "").with_help(problem.help));
             }
         }

@@ -10,6 +10,7 @@ mod ledger;
 mod look;
 mod master;
 mod met;
+mod named_units;
 mod observed;
 mod play;
 mod player;

@@ -150,3 +150,30 @@ steps = [
     let scenario = Scenario::cases(text, &mut NoFiles).unwrap_or_else(|errors| panic!("{errors}")).remove(0);
     assert_eq!(scenario.replay(1, Recording::new(false, false)).failure, None);
 }
+
+#[test]
+fn each_part_of_a_condition_has_its_mistake_and_none_has_two() {
+    for (condition, expected) in [
+        (
+            "any of (unit 8 is in OP; unit 9 is in OP)",
+            ["unit 8 does not exist", "unit 9 does not exist"].as_slice(),
+        ),
+        ("any of (unit 9 is in OP; not (unit 9 is in OP))", &["unit 9 does not exist"]),
+        ("any of (unit 9 is in OP; unit 9 is in INIT)", &["unit 9 does not exist"]),
+        ("object 9999:00 of unit 1 changes", &["unit 1 has no object 9999:00"]),
+    ] {
+        let told = said(&format!("{{ expect = \"{condition}\" }}"));
+        let messages: Vec<&str> =
+            told.lines().filter_map(|line| line.strip_prefix("line 3, column 12: ")).collect();
+        assert_eq!(messages, expected, "{condition}");
+    }
+}
+
+#[test]
+fn a_list_of_units_where_a_sentence_belongs_has_a_way_out() {
+    let told = said("{ unit = [1, 2], expect = \"unit 1 is in OP\" }");
+    assert!(told.contains("`unit` is an array"), "{told}");
+    assert!(told.contains("a sentence names its units, such as `restart units 1, 2`"), "{told}");
+    let typed = said("{ master = { read_sdo = { unit = [1, 2], entry = \"1018:04\" } } }");
+    assert!(typed.contains("`master.read_sdo.unit` is an array"), "{typed}");
+}

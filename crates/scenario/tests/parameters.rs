@@ -251,3 +251,30 @@ steps = [
         Scenario::parse(&unknown, |_| Err(String::new())).map(drop).map_err(|errors| errors.to_string());
     assert!(errors.as_ref().is_err_and(|errors| errors.contains("second")), "{errors:?}");
 }
+
+#[test]
+fn the_ranges_of_for_can_have_the_values_of_parameters() {
+    let file = |values: &str| {
+        let units = "{ model = \"nx-ect101\" }, { model = \"nx-ect101\" }, { model = \"nx-ect101\" }";
+        let steps =
+            format!("{{ for.unit = {values}, steps = [{{ expect = \"unit {{unit}} is in INIT\" }}] }}");
+        format!("title = \"t\"\nwith = {{ last = [2, 3] }}\nunits = [{units}]\nsteps = [{steps}]")
+    };
+    for values in
+        ["{ from = 1, to = \"{last}\" }", "[1, { from = 2, to = 3 }]", "[{ from = 1, to = \"{last}\" }]"]
+    {
+        let cases = cases(&file(values));
+        if values.contains("last") {
+            let steps: Vec<_> = cases
+                .unwrap_or_else(|errors| panic!("{errors}"))
+                .iter()
+                .map(|case| case.each_step().len())
+                .collect();
+            assert_eq!(steps, [2, 3], "{values}");
+        } else {
+            assert!(errors(&file(values)).contains("`{last}` is not in any text"), "{values}");
+        }
+    }
+    assert!(errors(&file("{ from = 1, to = \"{lst}\" }")).contains("nothing has the name `{lst}`"));
+    assert!(errors(&file("{ from = \"{last}\", to = 2 }")).contains("one value is `[2]`"));
+}

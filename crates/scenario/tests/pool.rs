@@ -108,6 +108,16 @@ fn own_sentences_and_weights_say_what_is_drawn() {
 }
 
 #[test]
+fn every_sentence_of_the_pool_is_an_own_sentence_too() {
+    for row in ROWS {
+        let random =
+            format!("{{ random = {{ steps = 3, from = [\"{}\"] }}, within = \"3ms\" }}", row.sentence);
+        let drawing = scenario(LINE, &random).unwrap_or_else(|errors| panic!("{}: {errors:?}", row.sentence));
+        assert_eq!(steps(&drawing, 1).len(), 3, "{}", row.sentence);
+    }
+}
+
+#[test]
 fn several_pools_are_drawn_one_after_the_other() {
     let random = "{ random = { steps = 5, from = [\"cpu\"] }, within = \"5ms\" },\n  \
                   { line = \"be quiet\" },\n  { random = { steps = 5, from = [\"state\"] }, within = \"5ms\" }";
@@ -131,6 +141,16 @@ fn a_wrong_pool_is_refused_with_a_way_out() {
             "{ steps = 3, from = [\"brek Processing of unit #\"] }",
             "nor a sentence",
             "`break Processing of unit #`?",
+        ),
+        (
+            "{ steps = 3, from = [\"break <fualt> of unit #\"] }",
+            "nor a sentence",
+            "`<fualt>` is no mark: did you mean `<fault>`?",
+        ),
+        (
+            "{ steps = 3, from = [\"restart unit <whatever>\"] }",
+            "nor a sentence",
+            "`<whatever>` is no mark: the marks are #, @, ~, <percent>,",
         ),
         ("{ steps = 3, from = [\"stand on the cable\"] }", "nor a sentence", "the groups are everyday, line"),
         (

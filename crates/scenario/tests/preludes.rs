@@ -28,6 +28,10 @@ const SHELF: &[(&str, &str)] = &[
     ("circle-b.toml", "use = \"./x/../circle-a.toml\""),
     ("wrong.toml", "limt = \"5s\"\nsteps = [\n  { line = \"unplg cable 1\" },\n]"),
     ("far.toml", "steps = [\n  { line = \"be quiet\" },\n  { line = \"unplug cable 9\" },\n]"),
+    ("far-again.toml", "use = \"far.toml\""),
+    ("wrong-again.toml", "use = \"wrong.toml\""),
+    ("farther.toml", "steps = [\n  { line = \"unplug cable 9\" },\n  { line = \"plug cable 9\" },\n]"),
+    ("idle.toml", "steps = [{ expect = \"unit 1 is in INIT\" }]"),
     ("dice.toml", "steps = [{ random = 3, within = \"1s\" }]"),
     ("with.toml", "with = { a = [1] }"),
     ("keys.toml", "title = \"from the prelude\"\nlimit = \"2s\""),
@@ -118,4 +122,38 @@ fn mistakes_of_preludes_are_told_with_their_place() {
     let unused =
         errors("title = \"t\"\nuse = \"keys.toml\"\nwith = { a = [1] }\nsteps = [{ line = \"be quiet\" }]");
     assert!(unused.contains("`{a}` is not in any text"), "{unused}");
+}
+
+#[test]
+fn mistakes_of_the_file_and_of_its_preludes_are_found_in_one_run() {
+    let lines = |text: &str| errors(text).lines().filter(|line| line.starts_with("line ")).count();
+    let own = "{ expect = \"unit 1 is in OPP\" }, { expect = \"unit 1 is in OP\", within = \"5\" }";
+    // A prelude with names that do not exist, and one that cannot be read.
+    for (prelude, mistakes) in [("far.toml", 1), ("wrong.toml", 2), ("missing.toml", 1)] {
+        let text = format!("title = \"t\"\nuse = \"{prelude}\"\nsteps = [{own}]");
+        assert_eq!(lines(&text), 2 + mistakes, "{}", errors(&text));
+    }
+}
+
+#[test]
+fn the_mistake_of_a_prelude_is_reported_once() {
+    for (used, expected) in [
+        ("\"wrong.toml\", \"wrong-again.toml\"", ["unknown key `limt`", "`unplg cable 1`"].as_slice()),
+        ("\"far.toml\", \"far-again.toml\"", &["far.toml:3:12: cable 9 does not exist"]),
+        // The same words at two places are two mistakes.
+        ("\"farther.toml\"", &["farther.toml:2:12: cable 9", "farther.toml:3:12: cable 9"]),
+    ] {
+        let text = format!(
+            "title = \"t {{a}}\"\nuse = [{used}]\nwith = {{ a = [1, 2] }}\nsteps = [{{ line = \"be quiet\" }}]"
+        );
+        let told = errors(&text);
+        assert_eq!(told.lines().filter(|line| line.starts_with("line ")).count(), expected.len(), "{told}");
+        assert!(expected.iter().all(|words| told.contains(words)), "{told}");
+    }
+}
+
+#[test]
+fn a_prelude_that_is_twice_in_the_list_has_its_steps_twice() {
+    let text = "title = \"t\"\nuse = [\"idle.toml\", \"./idle.toml\"]\nsteps = [{ line = \"be quiet\" }]";
+    assert_eq!(one(text).each_step().len(), 3);
 }

@@ -267,3 +267,21 @@ fn a_name_means_the_place_of_the_unit_at_the_beginning() {
     let told = Scenario::parse(&text.replace("unit K4 is", "unit Other is"), |_| Ok(other.to_owned()));
     assert!(told.expect_err("a new name").to_string().contains("no unit is named Other"));
 }
+
+#[test]
+fn what_is_seen_names_a_unit_as_its_step_does() {
+    for (step, expected) in [
+        ("{ expect = \"unit Conveyor is in OP\" }", "unit Conveyor is in INIT"),
+        ("{ expect = \"unit 2 is in OP\" }", "unit 2 is in INIT"),
+        (
+            "{ expect = \"unit conveyor has recorded 85000000\" }",
+            "unit Conveyor has recorded it 0 times; nothing is recorded",
+        ),
+        (
+            "{ expect = \"any of (unit Conveyor is in OP; unit 3 is in OP)\" }",
+            "`unit Conveyor is in OP`: unit Conveyor is in INIT; `unit 3 is in OP`: unit 3 is in INIT",
+        ),
+    ] {
+        assert_eq!(failure(step).as_deref(), Some(expected), "{step}");
+    }
+}

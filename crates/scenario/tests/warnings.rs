@@ -102,6 +102,12 @@ fn a_fault_that_no_frame_has_met_is_named() {
         "lose number 9999 of the frames for 20ms",
         "no frame",
     );
+    let named = r#"{ line = "lose all BRD frames called storm" }, { after = "10ms", line = "end storm" }"#;
+    assert_warned(
+        &format!("{OP}, {named}, {{ expect = \"unit 1 is in OP\" }}"),
+        "lose all BRD frames called storm",
+        "no frame has met it",
+    );
     assert_silent(&lose("number 3 of the frames"));
     assert_silent(&lose("0 % of the frames"));
     assert_silent(&lose("1 % of the BRD frames"));

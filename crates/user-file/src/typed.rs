@@ -113,6 +113,8 @@ impl Wrong {
     fn other(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
         let found = match found {
             Unexpected::Str(text) => format!("\"{}\"", shown(text)),
+            Unexpected::Seq => "an array".to_owned(),
+            Unexpected::Map => "a table".to_owned(),
             found => found.to_string(),
         };
         Self::Other { found, expected: expected.to_string() }

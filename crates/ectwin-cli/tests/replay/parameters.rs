@@ -52,6 +52,8 @@ fn one_case_is_replayed_by_its_values() {
     let told = refused.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(told.contains("no file has a case of these values"), "{told}");
     assert!(told.contains("such as --case 'state = PRE-OP, loss = 2'"), "{told}");
+    let told = replay(" ").stderr;
+    assert!(told.contains("--case has no value") && told.contains("such as --case 'state = "), "{told}");
 }
 
 /// The golden trace of a file has the traces of all of its cases, each behind its name.

@@ -175,7 +175,7 @@ impl<'d, 'n, 'i> GroupReader<'_, 'd, 'n, 'i> {
             file.reader.refuse_by(value.span(), || wrong_type(FOR, value.get_ref(), expected));
             return None;
         };
-        let list = parameters(file.reader, &section)?;
+        let list = parameters(file.reader, &section, self.scope.names)?;
         if let Some(Parameter { name, .. }) = list.iter().find(|other| self.scope.names.has(other.name.value))
         {
             let message = format!("`{{{}}}` has a value here already", name.value);

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use user_file::{DeValue, Located, Problem, Reader, Section, Value, wrong_type};
 
-use super::names::{Named, is_name, written};
+use super::names::{Named, Names, is_name, written};
 use super::places::Span;
 
 /// The key of the parameters.
@@ -43,7 +43,7 @@ impl<'d, 'i> Parameters<'d, 'i> {
             reader.refuse_by(value.span(), || wrong_type(WITH, value.get_ref(), expected));
             return None;
         };
-        let list = parameters(reader, &section)?;
+        let list = parameters(reader, &section, &Names::default())?;
         if list.is_empty() {
             let help = "such as `with = { loss = [0, 1, 5] }`";
             reader.refuse(value.span(), Problem::new("`with` has no parameter", "").with_help(help));
@@ -75,10 +75,11 @@ impl<'d, 'i> Parameters<'d, 'i> {
     }
 }
 
-/// The names of a table, each with its list of values; none if there is a mistake.
+/// The names of a table, each with its list of values; none if there is a mistake. The ranges of numbers can use `names`.
 pub(super) fn parameters<'d, 'i>(
     reader: &mut Reader<'_>,
     section: &Section<'d, 'i>,
+    names: &Names<'_, 'i>,
 ) -> Option<Vec<Parameter<'d, 'i>>> {
     let refused = reader.refused();
     let mut list = Vec::new();
@@ -88,7 +89,7 @@ pub(super) fn parameters<'d, 'i>(
             let message = format!("`{}` cannot be in braces", name.value);
             reader.refuse(name.span.clone().unwrap_or_default(), Problem::new(message, "").with_help(help));
         }
-        if let Some(values) = values(reader, &section.place_of(name.value), value) {
+        if let Some(values) = values(reader, &section.place_of(name.value), value, names) {
             list.push(Parameter { name, values, span: value.span() });
         }
     }
@@ -96,7 +97,12 @@ pub(super) fn parameters<'d, 'i>(
 }
 
 /// The values of a parameter: a list of numbers, ranges of numbers, texts and truth values, none of them twice; or one range.
-fn values<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Option<Vec<DeValue<'i>>> {
+fn values<'i>(
+    reader: &mut Reader<'_>,
+    place: &str,
+    value: &Value<'i>,
+    names: &Names<'_, 'i>,
+) -> Option<Vec<DeValue<'i>>> {
     let values = match value.get_ref() {
         DeValue::Array(array) => &array[..],
         DeValue::Table(_) => core::slice::from_ref(value),
@@ -113,7 +119,7 @@ fn values<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Option
     let mut seen = std::collections::BTreeSet::new();
     let mut all = Vec::new();
     for value in values {
-        for one in elements(reader, place, value)? {
+        for one in elements(reader, place, value, names)? {
             let text = written(&one);
             if !seen.insert(text.clone()) {
                 let message = format!("`{place}` has the value {text} twice");
@@ -137,7 +143,12 @@ struct Numbers {
 }
 
 /// One value, or the numbers of a range.
-fn elements<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Option<Vec<DeValue<'i>>> {
+fn elements<'i>(
+    reader: &mut Reader<'_>,
+    place: &str,
+    value: &Value<'i>,
+    names: &Names<'_, 'i>,
+) -> Option<Vec<DeValue<'i>>> {
     match value.get_ref() {
         DeValue::Array(_) => {
             let expected = "a number, a text, true, false, or a range such as { from = 3, to = 5 }";
@@ -145,6 +156,7 @@ fn elements<'i>(reader: &mut Reader<'_>, place: &str, value: &Value<'i>) -> Opti
             None
         }
         DeValue::Table(_) => {
+            let value = &names.replaced(reader, value)?;
             let Numbers { from, to } = reader.typed(place, value)?;
             if from < to && to - from < CASES_MAX as u64 && to <= NUMBER_MAX {
                 return Some((from..=to).filter_map(integer).collect());

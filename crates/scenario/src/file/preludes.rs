@@ -1,6 +1,7 @@
 //! Preludes: `use = "common.toml"` takes the keys that a file leaves out from another file, and steps before its own.
 
-use core::cell::Cell;
+use core::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
@@ -38,13 +39,21 @@ pub(super) struct Whole {
 pub(super) struct Here<'h> {
     /// The preludes that use it, the outermost first, and the file itself; empty for the scenario.
     stack: &'h [String],
-    /// Number of preludes that the scenario has read.
-    read: &'h Cell<usize>,
+    read: &'h Read,
+}
+
+/// What a scenario has read of its preludes.
+#[derive(Default)]
+pub(super) struct Read {
+    /// Number of preludes.
+    count: Cell<usize>,
+    /// Their mistakes, each with its place: one of a prelude that is used several times is reported once.
+    mistakes: RefCell<BTreeSet<String>>,
 }
 
 impl<'h> Here<'h> {
-    /// The scenario itself, which counts its preludes in `read`.
-    pub(super) const fn scenario(read: &'h Cell<usize>) -> Self {
+    /// The scenario itself, which notes its preludes in `read`.
+    pub(super) const fn scenario(read: &'h Read) -> Self {
         Self { stack: &[], read }
     }
 
@@ -76,13 +85,20 @@ pub(super) fn read_whole<'i>(
     let used = reader.value(file, USE, values::paths).map(|paths| paths.value);
     let span = span_of(file, USE);
     let line = LineNumbers::of(text).line(span.start);
+    // Without a prelude it is unknown which units there are.
+    whole.draft.is_whole &= used.is_some() || file.get(USE).is_none();
     let mut before = 0;
     for path in used.iter().flat_map(|paths| paths.list()) {
+        let path = normal(&here.folder().join(path));
         match read_prelude(path, names, files, here) {
             Ok(prelude) => before = whole.add(prelude, before, &span, line),
-            Err(mistakes) => mistakes.into_iter().for_each(|message| {
-                reader.refuse(span.clone(), Problem::new(message, ""));
-            }),
+            Err(mistakes) => {
+                whole.draft.is_whole = false;
+                let is_new = |message: &String| here.read.mistakes.borrow_mut().insert(message.clone());
+                for message in mistakes.into_iter().filter(is_new) {
+                    reader.refuse(span.clone(), Problem::new(message, ""));
+                }
+            }
         }
     }
     whole
@@ -98,12 +114,11 @@ fn refuse_parameters(reader: &mut Reader<'_>, prelude: &Section<'_, '_>) {
 
 /// Reads a prelude; otherwise its mistakes, each with its place there.
 fn read_prelude<'i>(
-    path: &str,
+    path: String,
     names: &Names<'_, 'i>,
     files: &mut dyn Files,
     here: &Here<'_>,
 ) -> Result<Whole, Vec<String>> {
-    let path = normal(&here.folder().join(path));
     if here.stack.contains(&path) {
         let circle = here.stack.iter().chain([&path]).map(String::as_str).collect::<Vec<_>>();
         return Err(vec![format!("preludes use each other in a circle: {}", circle.join(", "))]);
@@ -111,7 +126,7 @@ fn read_prelude<'i>(
     if here.stack.len() == DEPTH_MAX {
         return Err(vec![format!("{path}: more than {DEPTH_MAX} preludes use each other in a row")]);
     }
-    if here.read.replace(here.read.get() + 1) >= PRELUDES_MAX {
+    if here.read.count.replace(here.read.count.get() + 1) >= PRELUDES_MAX {
         return Err(vec![format!("{path}: a scenario uses at most {PRELUDES_MAX} preludes, and theirs")]);
     }
     let text = files.text(&path, Wanted::Scenario);

@@ -25,10 +25,20 @@ pub(super) fn said<T: Spoken + DeserializeOwned>(
         },
         DeValue::Table(_) => reader.typed(key, value),
         other => {
-            let expected = "a sentence, or a table with one key, its typed form";
-            reader.refuse_by(value.span(), || wrong_type(key, other, expected));
+            reader.refuse_by(value.span(), || no_sentence(key, other));
             None
         }
+    }
+}
+
+/// A list of units is most often meant for the sentence, or for the steps of each of them.
+fn no_sentence(key: &str, value: &DeValue<'_>) -> Problem {
+    let problem = wrong_type(key, value, "a sentence, or a table with one key, its typed form");
+    match value {
+        DeValue::Array(_) if key == "unit" => problem.with_help(
+            "a sentence names its units, such as `restart units 1, 2`; `for.unit = [1, 2]` and `steps` make steps for each",
+        ),
+        _ => problem,
     }
 }
 

@@ -67,7 +67,7 @@ impl KnownUnit {
     pub(crate) fn example() -> Self {
         let entry = Entry { index: 0x2000, sub: 1 };
         Self {
-            faults: vec!["Fault"],
+            faults: plant::models().iter().flat_map(|model| model.faults()).copied().take(1).collect(),
             readable: vec![entry],
             writable: vec![(entry, 1)],
             parameters: vec![(entry, 1)],

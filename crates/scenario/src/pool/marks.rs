@@ -34,6 +34,7 @@ pub const MARKS: &[Mark] = &[
     mark("<percent>", "1 to 30", |drawing| Some((drawing.dice.below(30) + 1).to_string())),
     mark("<time>", "1 ms to 300 ms", |drawing| drawing.one_of(&["1ms", "2ms", "5ms", "20ms", "100ms", "300ms"]).map(|time| (*time).to_owned())),
     mark("<byte>", "a byte", |drawing| Some(format!("{:02X}", drawing.dice.below(256)))),
+    mark("<control>", "the control byte of a SyncManager, such as 0x24", |drawing| Some(format!("0x{:02X}", drawing.dice.below(256)))),
     mark("<length>", "a number of bytes, 0 to 1,499, or a small one", |drawing| Some(drawing.length().to_string())),
     mark("<state>", "a state, or a number that is none", |drawing| Some(drawing.state())),
     mark("<fault>", "a fault of the unit's model", |drawing| { let known = drawing.unit; drawing.one_of(&known.faults).map(|fault| (*fault).to_owned()) }),

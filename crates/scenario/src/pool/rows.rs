@@ -140,7 +140,7 @@ pub const ROWS: &[PoolRow] = &[
     row("mapping", "master", "take unit # to PRE-OP", 2),
     row("mapping", "master", "take unit # to OP", 3),
     row("sync-manager", "master", "give SyncManager <channel> of unit # <length> bytes", 2),
-    row("sync-manager", "master", "give SyncManager <channel> of unit # control <byte>", 2),
+    row("sync-manager", "master", "give SyncManager <channel> of unit # control <control>", 2),
     row("sync-manager", "master", "behave", 1),
     row("sync-manager", "master", "take unit # to INIT", 1),
     row("sync-manager", "master", "take unit # to OP", 3),

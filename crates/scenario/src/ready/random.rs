@@ -8,7 +8,7 @@ use super::steps::{Ground, ReadySteps, STEPS_MAX};
 use super::unit_names::UnitNames;
 use super::written::Written;
 use crate::model::{Disturbance, Draws, LineOrder, Order, RandomSteps};
-use crate::pool::{Drawing, GROUPS, Group, KnownUnit};
+use crate::pool::{Drawing, GROUPS, Group, KnownUnit, MARKS};
 use crate::random::{Draw, DrawnRow, ReadyDraws, order};
 use crate::run::{Dice, RandomPart};
 
@@ -192,8 +192,19 @@ fn order_of(sentence: &str) -> Option<(&'static str, Order)> {
     KEYS.into_iter().find_map(|key| Some((key, order(key, &text).ok()?)))
 }
 
-/// The nearest group of one word, or the nearest sentence of the pool of several.
+/// Whether a word is written as the marks are, and is none.
+fn is_unknown_mark(word: &str) -> bool {
+    word.starts_with('<') && word.ends_with('>') && !MARKS.iter().any(|mark| mark.word == word)
+}
+
+/// The nearest mark if there is a wrong one; else the nearest group of one word, or the nearest sentence of the pool of several.
 fn way_out(from: &str) -> String {
+    if let Some(word) = from.split_whitespace().find(|word| is_unknown_mark(word)) {
+        let marks: Vec<&str> = MARKS.iter().map(|mark| mark.word).collect();
+        let meant =
+            nearest(word, &marks).map_or_else(|| format!("the marks are {}", marks.join(", ")), did_you_mean);
+        return format!("`{word}` is no mark: {meant}");
+    }
     let groups: Vec<&str> = GROUPS.iter().map(|group| group.name).collect();
     let near = if from.contains(' ') {
         let sentences = GROUPS.iter().flat_map(|group| group.rows().map(|row| row.sentence));

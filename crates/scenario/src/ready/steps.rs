@@ -110,8 +110,10 @@ impl Maker<'_> {
                 if let Some(repetition) = step.repetition {
                     self.check_repetition(at, repetition);
                 }
+                let problems = self.problems.len();
                 self.check_step(at, &mut step, ground);
-                if place.depth == 0 && ground == Ground::Firm {
+                let is_right = self.problems.len() == problems;
+                if place.depth == 0 && ground == Ground::Firm && is_right {
                     self.check_does_something(&step.order, Part::Step(at, StepPart::Order));
                 }
                 let Written { line, text, .. } = own;
@@ -175,11 +177,15 @@ impl Maker<'_> {
         let part = Part::Step(at, StepPart::Order);
         match &mut step.order {
             Order::Expect(expectation) => {
+                let problems = self.problems.len();
                 let Expectation { condition, mode } = expectation;
                 self.condition(condition, part, ground, Lasting::of(mode));
-                self.check_can_change(condition, mode, part);
                 self.check_mode(at, mode, ground);
-                self.check_can_fail(at, expectation);
+                // What a wrong condition says of every state is unknown.
+                if self.problems.len() == problems {
+                    self.check_can_change(&expectation.condition, &expectation.mode, part);
+                    self.check_can_fail(at, expectation);
+                }
             }
             order @ (Order::Master(_) | Order::Unit(_) | Order::Cpu(_) | Order::Line(_)) => {
                 self.order(order, part, ground);
@@ -278,10 +284,10 @@ impl Maker<'_> {
         match condition {
             Condition::Not(inner) => return self.condition_there(inner, part, lasting),
             Condition::AllOf(inner) | Condition::AnyOf(inner) => {
-                return inner
-                    .iter_mut()
-                    .try_for_each(|inner| self.condition_there(inner, part, lasting).ok_or(()))
-                    .ok();
+                // The mistakes of all parts are reported.
+                let there: Vec<_> =
+                    inner.iter_mut().map(|inner| self.condition_there(inner, part, lasting)).collect();
+                return there.into_iter().collect();
             }
             _ => {}
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use time::Instant;
 
+use super::named_units::NamedUnits;
 use super::player::{Next, Player};
 use super::recording::Recording;
 use super::report::{Failure, Report};
@@ -16,6 +17,7 @@ use crate::model::Condition;
 pub struct Play<'a> {
     player: Player<'a>,
     seed: u64,
+    names: NamedUnits,
     /// The warnings of the file.
     warnings: Vec<Warning>,
     /// What they ask for is watched from the first turn on.
@@ -45,13 +47,23 @@ impl<'a> Play<'a> {
         let player = Player::new(steps, seed, Instant::ZERO + scenario.limit);
         let conditions = conditions(steps).into_iter().cloned().collect();
         let recording = Recording::new(true, false);
-        let warnings = scenario.all_warnings(Vec::new());
-        Self { player, seed, warnings, conditions, begun, recording, waited: BTreeSet::new(), taken: 0 }
+        let (names, warnings) = (NamedUnits::of(scenario), scenario.all_warnings(Vec::new()));
+        Self {
+            player,
+            seed,
+            names,
+            warnings,
+            conditions,
+            begun,
+            recording,
+            waited: BTreeSet::new(),
+            taken: 0,
+        }
     }
 
     /// Takes the steps that are due, and checks the expectations. All of it happens at one moment of the line.
     pub fn turn(&mut self, line: &mut dyn RunningLine) -> Turn {
-        let Self { player, conditions, begun, recording, waited, .. } = self;
+        let Self { player, names, conditions, begun, recording, waited, .. } = self;
         let conditions = core::mem::take(conditions);
         line.bench(recording).watch(&conditions);
         let now = Instant::ZERO + line.now().saturating_since(*begun);
@@ -63,7 +75,7 @@ impl<'a> Play<'a> {
                 Turn::Wait(*begun + until.saturating_since(Instant::ZERO))
             }
             Ok(Next::End) => Turn::Ended(None),
-            Err(failure) => Turn::Ended(Some(failure)),
+            Err(failure) => Turn::Ended(Some(names.in_failure(failure))),
         }
     }
 

@@ -20,6 +20,7 @@ use time::Instant;
 use super::caught::caught;
 use super::dice::{DICE_OF_STEPS, Dice};
 use super::master::GivenUp;
+use super::named_units::NamedUnits;
 use super::recording::Recording;
 use super::report::{Failure, Report};
 use super::scenario::{PlayedStep, Scenario, conditions};
@@ -51,6 +52,7 @@ pub(crate) fn play(scenario: &Scenario, steps: &[PlayedStep], seed: u64, recordi
         Ok(verdict) => verdict.err(),
         Err(panicked) => Some(Failure::of_panic(player.shared.current, world.now(), panicked)),
     };
+    let failure = failure.map(|failure| NamedUnits::of(scenario).in_failure(failure));
     let lasted = world.now().saturating_since(Instant::ZERO);
     if let Some(failure) = &failure {
         let now = world.now();

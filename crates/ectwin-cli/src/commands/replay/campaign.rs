@@ -192,7 +192,10 @@ fn keep_case(scenarios: &mut Vec<Loaded>, wanted: &str) -> Result<(), Failure> {
     if !scenarios.is_empty() {
         return Ok(());
     }
-    let message = format!("--case {wanted}: no file has a case of these values");
+    let message = match wanted.trim() {
+        "" => "--case has no value".to_owned(),
+        wanted => format!("--case {wanted}: no file has a case of these values"),
+    };
     let help = match names.as_slice() {
         [] => "only a file with parameters (`with`) has cases".to_owned(),
         [first, ..] => {
