@@ -130,7 +130,7 @@ impl Twin for Steered {
     }
 
     fn sentences(&self) -> Vec<SentenceRow> {
-        sentences::all(&mut self.handle.known())
+        sentences::all()
     }
 }
 

@@ -3,6 +3,7 @@
 use std::io::{self, Read};
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use rustix::event::PollFlags;
 
@@ -14,6 +15,8 @@ use crate::messages::{Answer, LINE_BYTES_MAX, Refusal, Request, Unread, Verb, to
 
 /// Expectations of a client that wait at the same time.
 const EXPECTATIONS_MAX: usize = 64;
+/// Expectations of all clients that wait at the same time.
+pub(super) const EXPECTATIONS_OF_ALL_MAX: usize = 1_024;
 /// Bytes that are received at once.
 const PIECE_BYTES: usize = 16 * 1024;
 /// Lines of a client that are looked at before it is the turn of the next one.
@@ -32,14 +35,19 @@ pub(super) struct Client {
     expectations: usize,
     /// Nothing more is received from it.
     has_ended: bool,
-    /// Nobody is there to receive anything.
-    is_gone: bool,
+    /// Whether somebody is there to receive anything; the thread of the requests looks at it too.
+    is_there: Arc<AtomicBool>,
 }
 
 /// What becomes of a line.
 pub(super) enum Asked {
     /// It is handed on.
-    Request(Request),
+    Request {
+        /// The request.
+        request: Request,
+        /// Whether its client is still there.
+        is_there: Arc<AtomicBool>,
+    },
     /// It has been refused.
     Refused(Refusal),
 }
@@ -55,7 +63,7 @@ impl Client {
             is_served: false,
             expectations: 0,
             has_ended: false,
-            is_gone: false,
+            is_there: Arc::new(AtomicBool::new(true)),
         }
     }
 
@@ -69,7 +77,7 @@ impl Client {
         if !self.outbox.is_empty() {
             awaited |= PollFlags::OUT;
         }
-        let has_received_all = self.has_ended && !self.is_gone;
+        let has_received_all = self.has_ended && !self.is_gone();
         (!awaited.is_empty() || has_received_all).then_some(awaited)
     }
 
@@ -77,7 +85,16 @@ impl Client {
     pub(super) fn is_done(&self) -> bool {
         let waits = self.is_served || self.has_lines();
         let receives = self.expectations > 0 || !self.subscription.is_empty() || !self.outbox.is_empty();
-        self.has_ended && !waits && (self.is_gone || !receives)
+        self.has_ended && !waits && (self.is_gone() || !receives)
+    }
+
+    fn is_gone(&self) -> bool {
+        !self.is_there.load(Ordering::Relaxed)
+    }
+
+    /// Its expectations that wait.
+    pub(super) const fn expectations(&self) -> usize {
+        self.expectations
     }
 
     /// Whether it has lines that can be looked at now.
@@ -106,16 +123,17 @@ impl Client {
         self.lines.end();
     }
 
-    /// Nobody is at the other end. What it has asked before is carried out.
+    /// Nobody is at the other end. What it has ordered before is carried out, and its expectations end.
     pub(super) fn leave(&mut self) {
         self.end();
-        self.is_gone = true;
+        self.is_there.store(false, Ordering::Relaxed);
         self.outbox.clear();
         self.subscription = Subscription::default();
     }
 
-    /// The next requests: at most one beside expectations, so that a client is served in its order.
-    pub(super) fn requests(&mut self, mut ask: impl FnMut(ClientNumber, Asked)) {
+    /// The next requests: at most one beside expectations, so that a client is served in its order. `room` is how many more
+    /// expectations of all clients can wait.
+    pub(super) fn requests(&mut self, mut room: usize, mut ask: impl FnMut(ClientNumber, Asked)) {
         for _ in 0..LINES_IN_A_TURN {
             if self.is_served || self.outbox.is_full() {
                 return;
@@ -125,8 +143,12 @@ impl Client {
                 Line::Whole(line) => Request::read(&line),
                 Line::TooLong => Err(Unread { id: serde_json::Value::Null, refusal: too_long() }),
             };
-            match read.and_then(|request| self.admit(request)) {
-                Ok(request) => ask(self.number, Asked::Request(request)),
+            let before = self.expectations;
+            match read.and_then(|request| self.admit(request, room)) {
+                Ok(request) => {
+                    room = room.saturating_sub(self.expectations - before);
+                    ask(self.number, Asked::Request { request, is_there: Arc::clone(&self.is_there) });
+                }
                 Err(Unread { id, refusal }) => {
                     let line = Answer::refused(id, refusal.clone()).line();
                     self.send(line.into());
@@ -136,15 +158,21 @@ impl Client {
         }
     }
 
-    fn admit(&mut self, request: Request) -> Result<Request, Unread> {
+    fn admit(&mut self, request: Request, room: usize) -> Result<Request, Unread> {
         if !matches!(request.verb, Verb::Expect { within: Some(_), .. }) {
             self.is_served = true;
             return Ok(request);
         }
+        let refused = |message, help: &str| {
+            Err(Unread { id: request.id.clone(), refusal: Refusal::new(message, help) })
+        };
         if self.expectations >= EXPECTATIONS_MAX {
             let message = format!("{EXPECTATIONS_MAX} expectations of this client wait already");
-            let refusal = Refusal::new(message, "wait for an answer, or connect once more");
-            return Err(Unread { id: request.id, refusal });
+            return refused(message, "wait for an answer, or connect once more");
+        }
+        if room == 0 {
+            let message = format!("{EXPECTATIONS_OF_ALL_MAX} expectations of all clients wait already");
+            return refused(message, "wait until one of them has its answer");
         }
         self.expectations += 1;
         Ok(request)
@@ -156,7 +184,7 @@ impl Client {
             Ends::Request => self.is_served = false,
             Ends::Expectation => self.expectations = self.expectations.saturating_sub(1),
         }
-        if let Some(subscription) = subscription.filter(|_| !self.is_gone) {
+        if let Some(subscription) = subscription.filter(|_| !self.is_gone()) {
             self.subscription = subscription;
         }
         self.send(line);
@@ -177,7 +205,7 @@ impl Client {
 
     /// A record of a variable that it has subscribed.
     pub(super) fn own_record(&mut self, line: Arc<str>) {
-        if !self.is_gone {
+        if !self.is_gone() {
             self.outbox.record(line);
         }
     }
@@ -190,7 +218,7 @@ impl Client {
     }
 
     fn send(&mut self, line: Arc<str>) {
-        if !self.is_gone {
+        if !self.is_gone() {
             self.outbox.answer(line);
         }
     }
@@ -229,7 +257,7 @@ mod tests {
                 client.receive();
             }
             let before = asked;
-            client.requests(|_, _| asked += 1);
+            client.requests(EXPECTATIONS_OF_ALL_MAX, |_, _| asked += 1);
             if asked > before {
                 client.answer(Arc::clone(&answer), Ends::Request, None);
             }

@@ -1,11 +1,14 @@
 //! Conditions that clients wait for.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration as Wait, Instant as Now};
 
 use serde_json::Value;
 use time::Instant;
 
+use super::pace::Pace;
 use super::postbox::{ClientNumber, Ends, Post};
 use crate::messages::{Answer, Held};
 use crate::twin::Twin;
@@ -23,26 +26,33 @@ pub(super) struct Waiting<L> {
     pub(super) look: L,
     /// When it is given up.
     pub(super) end: Instant,
+    /// Whether its client is still there.
+    pub(super) is_there: Arc<AtomicBool>,
 }
 
 /// All of them.
 pub(super) struct Expectations<L> {
     /// The one that is looked at next is the first.
     waiting: VecDeque<Waiting<L>>,
+    /// Their share of the time is their own: however many wait, no request waits for them.
+    pace: Pace,
+    /// Before this time the pace permits no look.
+    rests_until: Now,
     next_look: Now,
 }
 
 impl<L> Default for Expectations<L> {
     fn default() -> Self {
-        Self { waiting: VecDeque::new(), next_look: Now::now() }
+        let now = Now::now();
+        Self { waiting: VecDeque::new(), pace: Pace::of_expectations(now), rests_until: now, next_look: now }
     }
 }
 
 impl<L> Expectations<L> {
-    /// A new one is looked at at once.
+    /// A new one is looked at first.
     pub(super) fn add(&mut self, waiting: Waiting<L>) {
         self.waiting.push_front(waiting);
-        self.next_look = Now::now();
+        self.next_look = self.rests_until;
     }
 
     /// Nobody waits for those of this client any more.
@@ -57,10 +67,11 @@ impl<L> Expectations<L> {
 
     /// Looks at the next ones. The answers of those that are true, or whose time has passed.
     pub(super) fn look<T: Twin<Look = L>>(&mut self, twin: &mut T) -> Vec<Post> {
+        self.waiting.retain(|waiting| waiting.is_there.load(Ordering::Relaxed));
         let count = self.waiting.len().min(LOOKS_AT_ONCE);
         let mut those: Vec<Waiting<L>> = self.waiting.drain(..count).collect();
         let mut looks: Vec<&mut L> = those.iter_mut().map(|waiting| &mut waiting.look).collect();
-        let (at, looked) = twin.look(&mut looks);
+        let (at, looked) = self.pace.measured(twin, |twin| twin.look(&mut looks));
         let mut answers = Vec::new();
         for (waiting, looked) in those.into_iter().zip(looked) {
             if looked.is_err() && at < waiting.end {
@@ -72,7 +83,9 @@ impl<L> Expectations<L> {
             let client = waiting.client;
             answers.push(Post::Answer { client, line, ends: Ends::Expectation, subscription: None });
         }
-        self.next_look = Now::now() + LOOK_AGAIN;
+        let now = Now::now();
+        self.rests_until = now + self.pace.pause(now);
+        self.next_look = self.rests_until.max(now + LOOK_AGAIN);
         answers
     }
 }

@@ -3,8 +3,12 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// Frames wait at most for one part in so many of the time.
-const ONE_IN: u32 = 100;
+use crate::twin::Twin;
+
+/// Frames wait for requests at most for one part in so many of the time.
+const REQUESTS_ONE_IN: u32 = 100;
+/// The same for expectations, whose share is their own: they never make a request wait.
+const EXPECTATIONS_ONE_IN: u32 = 200;
 /// Requests of so much time are carried out at once, so that people and scripts do not notice any of this.
 const AT_ONCE: Duration = Duration::from_millis(2);
 /// The longest pause: a machine that is busy makes short requests take long.
@@ -13,14 +17,30 @@ const PAUSE_MAX: Duration = Duration::from_millis(20);
 /// The time that requests may take. What they take more is made up by a pause.
 #[derive(Debug)]
 pub(super) struct Pace {
+    one_in: u32,
     left: Duration,
     owed: Duration,
     at: Instant,
 }
 
 impl Pace {
-    pub(super) fn new(now: Instant) -> Self {
-        Self { left: AT_ONCE, owed: Duration::ZERO, at: now }
+    /// The pace of the requests of clients.
+    pub(super) const fn of_requests(now: Instant) -> Self {
+        Self { one_in: REQUESTS_ONE_IN, left: AT_ONCE, owed: Duration::ZERO, at: now }
+    }
+
+    /// The pace of the looks at what clients wait for.
+    pub(super) const fn of_expectations(now: Instant) -> Self {
+        Self { one_in: EXPECTATIONS_ONE_IN, left: AT_ONCE, owed: Duration::ZERO, at: now }
+    }
+
+    /// Asks the twin, and counts for how long frames have waited for that.
+    pub(super) fn measured<T: Twin, R>(&mut self, twin: &mut T, ask: impl FnOnce(&mut T) -> R) -> R {
+        let before = twin.time_taken();
+        let answer = ask(twin);
+        let taken = twin.time_taken().as_nanos().saturating_sub(before.as_nanos());
+        self.take(Duration::from_nanos(taken));
+        answer
     }
 
     /// A request has taken this time.
@@ -31,11 +51,11 @@ impl Pace {
 
     /// The pause until the next request.
     pub(super) fn pause(&mut self, now: Instant) -> Duration {
-        let earned = now.saturating_duration_since(self.at) / ONE_IN;
+        let earned = now.saturating_duration_since(self.at) / self.one_in;
         self.at = now;
         self.left = (self.left + earned.saturating_sub(self.owed)).min(AT_ONCE);
-        self.owed = self.owed.saturating_sub(earned).min(PAUSE_MAX / ONE_IN);
-        self.owed * ONE_IN
+        self.owed = self.owed.saturating_sub(earned).min(PAUSE_MAX / self.one_in);
+        self.owed * self.one_in
     }
 
     /// Waits until the next request may be carried out.
@@ -56,7 +76,7 @@ mod tests {
     #[test]
     fn a_few_requests_are_carried_out_at_once_and_many_take_one_percent_of_the_time() {
         let mut now = Instant::now();
-        let mut pace = Pace::new(now);
+        let mut pace = Pace::of_requests(now);
         for _ in 0..40 {
             assert_eq!(pace.pause(now), Duration::ZERO);
             pace.take(MS / 20);

@@ -11,7 +11,7 @@ use std::time::Duration;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::Errno;
 
-use super::client::{Asked, Client};
+use super::client::{Asked, Client, EXPECTATIONS_OF_ALL_MAX};
 use super::notices::Notices;
 use super::postbox::{ClientNumber, Post, Postbox};
 use super::work::Job;
@@ -161,16 +161,22 @@ impl Sockets {
     /// Hands on the requests of the clients.
     fn hand_on(&mut self) {
         let Self { clients, jobs, notices, .. } = self;
+        let mut waiting: usize = clients.values().map(Client::expectations).sum();
         for client in clients.values_mut() {
-            client.requests(|client, asked| match asked {
+            let before = client.expectations();
+            let room = EXPECTATIONS_OF_ALL_MAX.saturating_sub(waiting);
+            client.requests(room, |client, asked| match asked {
                 // At the end of the twin nobody takes it.
-                Asked::Request(request) => drop(jobs.send(Job::Request { client, request })),
+                Asked::Request { request, is_there } => {
+                    drop(jobs.send(Job::Request { client, request, is_there }));
+                }
                 Asked::Refused(refusal) => {
                     if notices.may_show() {
                         tracing::warn!("control: client {client}: {refusal}");
                     }
                 }
             });
+            waiting += client.expectations() - before;
         }
     }
 

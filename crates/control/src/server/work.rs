@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError};
 use std::time::{Duration as Wait, Instant as Now};
 
@@ -26,7 +27,14 @@ const UNITS_AT_ONCE: usize = 16;
 /// What the thread of the lines asks for.
 pub(super) enum Job {
     /// A client asks for something.
-    Request { client: ClientNumber, request: Request },
+    Request {
+        /// The client.
+        client: ClientNumber,
+        /// What it asks for.
+        request: Request,
+        /// Whether it is still there: nobody waits for the expectations of one that is not.
+        is_there: Arc<AtomicBool>,
+    },
     /// A client has left.
     Gone { client: ClientNumber },
 }
@@ -73,7 +81,7 @@ impl<T: Twin> Work<T> {
             subscriptions: BTreeMap::new(),
             expectations: Expectations::default(),
             variables: VariableWatch::default(),
-            pace: Pace::new(Now::now()),
+            pace: Pace::of_requests(Now::now()),
             notices: Notices::default(),
         }
     }
@@ -86,7 +94,7 @@ impl<T: Twin> Work<T> {
                 Some(wait) => self.jobs.recv_timeout(wait),
             };
             match job {
-                Ok(Job::Request { client, request }) => self.request(client, request),
+                Ok(Job::Request { client, request, is_there }) => self.request(client, request, &is_there),
                 Ok(Job::Gone { client }) => self.forget(client),
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return,
@@ -104,7 +112,7 @@ impl<T: Twin> Work<T> {
     fn look(&mut self) {
         let now = Now::now();
         if self.expectations.due().is_some_and(|due| due <= now) {
-            let answers = paced(&mut self.pace, &mut self.twin, |twin| self.expectations.look(twin));
+            let answers = self.expectations.look(&mut self.twin);
             self.postbox.post(answers);
         }
         if self.variables.due().is_some_and(|due| due <= now) {
@@ -119,13 +127,17 @@ impl<T: Twin> Work<T> {
         self.variables.forget(client);
     }
 
-    fn request(&mut self, client: ClientNumber, Request { id, verb }: Request) {
+    fn request(&mut self, client: ClientNumber, Request { id, verb }: Request, is_there: &Arc<AtomicBool>) {
         if let Verb::Expect { condition, within: Some(within) } = &verb {
+            if !is_there.load(Ordering::Relaxed) {
+                return;
+            }
             let look = paced(&mut self.pace, &mut self.twin, |twin| twin.look_for(condition, *within));
             match look {
                 Ok(look) => {
                     let end = self.twin.now() + *within;
-                    self.expectations.add(Waiting { client, id, look, end });
+                    let is_there = Arc::clone(is_there);
+                    self.expectations.add(Waiting { client, id, look, end, is_there });
                 }
                 Err(refusal) => self.answer(client, id, Err(refusal), Ends::Expectation),
             }
@@ -276,11 +288,7 @@ impl<T: Twin> Work<T> {
 /// Asks the twin, but not too often.
 fn paced<T: Twin, R>(pace: &mut Pace, twin: &mut T, ask: impl FnOnce(&mut T) -> R) -> R {
     pace.keep();
-    let before = twin.time_taken();
-    let answer = ask(twin);
-    let taken = twin.time_taken().as_nanos().saturating_sub(before.as_nanos());
-    pace.take(Wait::from_nanos(taken));
-    answer
+    pace.measured(twin, ask)
 }
 
 fn changes(values: Vec<(String, Value)>, change: fn(Value) -> Change) -> Vec<(String, Change)> {

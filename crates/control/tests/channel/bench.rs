@@ -30,6 +30,9 @@ pub(crate) struct Table {
     pub(crate) faults: BTreeSet<String>,
     /// Conditions that were looked at.
     pub(crate) looks: u64,
+    /// For how long frames have waited, and for how long they wait for a look.
+    pub(crate) taken: Duration,
+    pub(crate) look_takes: Duration,
 }
 
 struct TableTwin(Arc<Mutex<Table>>);
@@ -54,7 +57,7 @@ impl Twin for TableTwin {
     }
 
     fn time_taken(&self) -> Duration {
-        Duration::ZERO
+        self.table().taken
     }
 
     fn link(&self) -> &str {
@@ -89,6 +92,7 @@ impl Twin for TableTwin {
         let at = self.next();
         let mut table = self.table();
         table.looks += 1;
+        table.taken = table.taken + table.look_takes;
         let seen = |look: &&mut String| {
             if table.holds.contains(&***look) { Ok(()) } else { Err("not made".to_owned()) }
         };

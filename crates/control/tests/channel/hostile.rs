@@ -6,6 +6,7 @@ use std::thread;
 use control::CLIENTS_MAX;
 use control::messages::LINE_BYTES_MAX;
 use serde_json::json;
+use time::Duration;
 
 use crate::bench::Bench;
 
@@ -124,4 +125,50 @@ fn there_is_room_for_so_many_expectations_and_those_of_a_client_that_has_left_ar
         bench.table.lock().unwrap().looks - before
     };
     assert!((0..100).any(|_| looks_while_busy() == 0), "those of the client that has left are looked at");
+}
+
+/// Looks that take long have a share of the time of their own: requests do not wait until it is made up.
+#[test]
+fn expectations_that_take_long_delay_no_request() {
+    let bench = Bench::new("long-looks");
+    bench.table.lock().unwrap().look_takes = Duration::from_millis(10);
+    let mut waits = bench.client();
+    for id in 0..64 {
+        waits.request(&json!({ "id": id, "expect": "x", "within": "1000s" }));
+    }
+    let mut other = bench.client();
+    // After each look there is a pause of 20 ms, in which requests are carried out.
+    let mut looks_while_busy = || {
+        let before = bench.table.lock().unwrap().looks;
+        (0..5).for_each(|id| assert_eq!(other.answer(&json!({ "id": id, "do": "make z" }))["ok"], true));
+        bench.table.lock().unwrap().looks - before
+    };
+    assert!((0..100).any(|_| looks_while_busy() == 0), "each request waits for a look");
+}
+
+/// Each client has room for 64, and all together for 1,024.
+#[test]
+fn there_is_room_for_so_many_expectations_of_all_clients() {
+    let bench = Bench::new("all-expectations");
+    let mut clients: Vec<_> = (0..17).map(|_| bench.client()).collect();
+    for client in &mut clients[..16] {
+        for id in 0..64 {
+            client.request(&json!({ "id": id, "expect": "x", "within": "1000s" }));
+        }
+        // The answer shows that those before have been taken.
+        assert_eq!(client.answer(&json!({ "id": "now", "expect": "x" }))["held"], false);
+    }
+    let one_more = json!({ "id": 1, "expect": "x", "within": "1000s" });
+    let refused = clients[16].answer(&one_more);
+    assert_eq!(refused["error"]["message"], "1024 expectations of all clients wait already");
+    drop(clients.remove(0));
+    let mut last = clients.remove(15);
+    // There is room as soon as the server has noticed that one has left: then only the order is answered.
+    loop {
+        last.request(&one_more);
+        if last.answer(&json!({ "id": 2, "do": "make it" }))["id"] == 2 {
+            return;
+        }
+        assert_eq!(last.line()["id"], 2);
+    }
 }

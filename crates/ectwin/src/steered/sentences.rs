@@ -5,11 +5,11 @@ use scenario::KnownLine;
 use scenario::words::{CONDITIONS, CPU, LINE, Sentence, UNIT};
 
 /// All of them, without those of the scripted master of scenarios and without old spellings.
-pub(super) fn all(known: &mut KnownLine) -> Vec<SentenceRow> {
+pub(super) fn all() -> Vec<SentenceRow> {
     let orders = rows(UNIT, AboutSentence::Unit)
         .chain(rows(CPU, AboutSentence::Cpu))
         .chain(rows(LINE, AboutSentence::Line));
-    let conditions = CONDITIONS.iter().filter(|row| !row.is_old && !known.is_of_scripted_master(row));
+    let conditions = CONDITIONS.iter().filter(|row| !row.is_old && !KnownLine::is_of_scripted_master(row));
     let conditions: Vec<SentenceRow> = conditions.map(|row| said(row, AboutSentence::Condition)).collect();
     orders.chain(conditions).collect()
 }

@@ -13,7 +13,7 @@ use super::unit_names::UnitNames;
 use crate::model::{Condition, Mode, Order, UnitWords};
 use crate::refused::{Reason, Refused};
 use crate::run::{Brought, UnitSource, UserProgram};
-use crate::words::{Say, nearest_conditions, nearest_orders};
+use crate::words::{Say, Spoken, nearest_conditions, nearest_orders};
 
 /// What is known about the units of a line that runs.
 #[derive(Clone, Debug)]
@@ -33,6 +33,15 @@ pub struct ReadyOrder {
     pub brought: Brought,
 }
 
+/// The nearest conditions that a line can have with another master than the scripted one.
+fn possible_conditions(text: &str) -> Vec<String> {
+    let mut nearest = nearest_conditions(text);
+    nearest.retain(|example| {
+        Condition::from_sentence(example).is_ok_and(|condition| is_of_master(&condition).is_none())
+    });
+    nearest
+}
+
 pub(super) const PART: Part = Part::Step(0, StepPart::Order);
 
 impl KnownLine {
@@ -49,9 +58,11 @@ impl KnownLine {
     /// # Errors
     /// [`Refused`]: it is no order that this line can carry out.
     pub fn order(&mut self, order: impl Say<Order>, files: &mut dyn Files) -> Result<ReadyOrder, Refused> {
-        let nearest = order.text().map(nearest_orders).unwrap_or_default();
+        let text = order.text().map(str::to_owned);
+        // Many sentences are compared for that: only a refused one needs it.
+        let nearest = || text.as_deref().map(nearest_orders).unwrap_or_default();
         let mut order = order.value().map_err(|wrong| {
-            Refused::new(Reason::NoSentence, wrong.message, wrong.help).with_nearest(nearest.clone())
+            Refused::new(Reason::NoSentence, wrong.message, wrong.help).with_nearest(nearest())
         })?;
         match &order {
             Order::Unit(_) | Order::Cpu(_) | Order::Line(_) => {}
@@ -60,11 +71,11 @@ impl KnownLine {
                     "`{order}` is an order to the scripted master of a scenario, and another master is here"
                 );
                 let help = "units, CPU Units and the line take orders here; the master acts by itself";
-                return Err(Refused::new(Reason::ScriptedMaster, message, help).with_nearest(nearest));
+                return Err(Refused::new(Reason::ScriptedMaster, message, help).with_nearest(nearest()));
             }
             Order::Expect(expectation) => {
                 let message = format!("`{}` is a condition, and no order", expectation.condition);
-                return Err(Refused::new(Reason::NoSentence, message, "expect it").with_nearest(nearest));
+                return Err(Refused::new(Reason::NoSentence, message, "expect it").with_nearest(nearest()));
             }
         }
         self.number(order.unit_words())?;
@@ -83,15 +94,16 @@ impl KnownLine {
         condition: impl Say<Condition>,
         within: Duration,
     ) -> Result<Condition, Refused> {
-        let nearest = condition.text().map(nearest_conditions).unwrap_or_default();
+        let text = condition.text().map(str::to_owned);
+        let nearest = || text.as_deref().map(possible_conditions).unwrap_or_default();
         let mut condition = condition.value().map_err(|wrong| {
-            Refused::new(Reason::NoSentence, wrong.message, wrong.help).with_nearest(nearest.clone())
+            Refused::new(Reason::NoSentence, wrong.message, wrong.help).with_nearest(nearest())
         })?;
         if let Some(part) = is_of_master(&condition) {
             let message =
                 format!("`{part}` is about the scripted master of a scenario, and another master is here");
             let help = "conditions of units, CPU Units and variables are checked here";
-            return Err(Refused::new(Reason::ScriptedMaster, message, help).with_nearest(nearest));
+            return Err(Refused::new(Reason::ScriptedMaster, message, help).with_nearest(nearest()));
         }
         self.number_condition(&mut condition)?;
         let mode = if within.is_zero() { Mode::Now } else { Mode::Within(within) };

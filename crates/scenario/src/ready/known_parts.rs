@@ -1,13 +1,13 @@
 //! Variables, objects and sentences of a line that runs, for those who name them without a sentence.
 
 use plc::DeviceVariables;
-use time::Duration;
 use user_file::nearest;
 
 use super::known_line::{KnownLine, NoFiles, PART};
+use super::masters_words::is_of_master;
 use crate::model::{Condition, Entry, UnitWords, WhichUnit};
 use crate::refused::{Reason, Refused};
-use crate::words::Sentence;
+use crate::words::{Sentence, Spoken};
 
 impl KnownLine {
     /// The names of the units at the beginning, by which sentences name their places.
@@ -56,8 +56,7 @@ impl KnownLine {
 
     /// Whether a condition of the tables is about the scripted master of a scenario, which is not here.
     #[must_use]
-    pub fn is_of_scripted_master(&mut self, row: &Sentence<Condition>) -> bool {
-        let refused = self.condition(row.example, Duration::ZERO).err();
-        refused.is_some_and(|refused| refused.reason == Reason::ScriptedMaster)
+    pub fn is_of_scripted_master(row: &Sentence<Condition>) -> bool {
+        Condition::from_sentence(row.example).is_ok_and(|condition| is_of_master(&condition).is_some())
     }
 }
