@@ -161,6 +161,8 @@ mod tests {
         cpus.get_mut(0).expect("the first CPU Unit").next = after(3);
         assert_eq!(cpus.deadline(), after(2));
         assert_eq!(run(&mut cpus, after(3)), [0, 1]);
+        cpus.get_mut(1).expect("the second CPU Unit").next = after(9);
+        assert_eq!(cpus.deadline(), after(7), "the earlier time of the lent one counts no more");
         assert!(cpus.get_mut(2).is_none());
     }
 }
