@@ -23,7 +23,7 @@ const START_UP: Duration = Duration::ZERO;
 
 /// The keys at the top of a file.
 pub(crate) fn all_keys() -> Vec<&'static str> {
-    ["model"].into_iter().chain(KEYS).chain(keys::KEYS).chain(["cpu"]).collect()
+    ["model"].into_iter().chain(KEYS).chain(keys::KEYS).chain(["cpu", "behaviour", "loopback"]).collect()
 }
 
 /// The contents of a terminal's unit file.

@@ -40,7 +40,7 @@ pub(crate) fn read(path: &Path, programs: &[PathBuf]) -> Result<Setup, Failure> 
     let setup = if programs.is_empty() {
         Setup::from_toml_in(&text, folder_of(path))
     } else {
-        Setup::from_toml_with_programs(&text, programs)
+        Setup::from_toml_with_programs(&text, folder_of(path), programs)
     };
     setup.map_err(|error| Failure::BadFile(problems(path, &text, &error)))
 }
@@ -118,9 +118,9 @@ fn problems(path: &Path, text: &str, error: &SetupError) -> FileProblems {
             let list = errors.iter().map(|error| FileProblem::of_unit_file(path, text, error));
             FileProblems::new(list, errors.more())
         }
-        SetupError::ProgramUnreadable { span: Some(span), .. } | SetupError::Storage { span, .. } => {
-            seen_from(span)
-        }
+        SetupError::ProgramUnreadable { span: Some(span), .. }
+        | SetupError::Behaviour { span, .. }
+        | SetupError::Storage { span, .. } => seen_from(span),
         SetupError::ProgramUnreadable { span: None, help, .. } => FileProblem::of_file(&message, help).into(),
         SetupError::Builtin { refused, span: Some(span) } => {
             FileProblem::in_text(path, text, span.clone(), &message, &refused.help()).into()

@@ -17,7 +17,7 @@ use crate::happenings::UnitName;
 use crate::memory_file::{self, MemoryFile};
 use crate::program_file::{ProgramFileError, ProgramText};
 use crate::supply::Supply;
-use crate::user_files;
+use crate::user_files::{self, Wanted};
 use crate::watched_program::{self, Stamps, WatchedProgram};
 
 pub use error::SetupError;
@@ -71,7 +71,7 @@ impl Setup {
     /// # Errors
     /// The mistakes in the program, with their places.
     pub fn from_unit_file(file: UnitFile) -> Result<Self, SetupError> {
-        Self::without_program(file).with_program_of_file(None)
+        Self::without_program(file).with_behaviours(None)?.with_program_of_file(None)
     }
 
     /// Takes a unit of a scenario, with its program, which is not read again when its files change. Its memory is not stored.
@@ -82,13 +82,18 @@ impl Setup {
         Self { program: started, known_program: program, ..Self::without_program(file) }
     }
 
-    /// Reads the text of a unit file, and the user program in these files and folders instead of the one in the text.
+    /// Reads the text of a unit file in this folder, and the user program in these files and folders instead of the one in
+    /// the text.
     ///
     /// # Errors
     /// The mistakes in it or in the program, with their places.
-    pub fn from_toml_with_programs(text: &str, programs: &[PathBuf]) -> Result<Self, SetupError> {
+    pub fn from_toml_with_programs(
+        text: &str,
+        folder: &Path,
+        programs: &[PathBuf],
+    ) -> Result<Self, SetupError> {
         let file = UnitFile::parse(text).map_err(SetupError::UnitFile)?;
-        Self::without_program(file).with_program_files(programs)
+        Self::without_program(file).with_behaviours(Some(folder))?.with_program_files(programs)
     }
 
     /// Sets another user program for the CPU Unit, such as `|io: &mut Io| { … }`.
@@ -147,10 +152,11 @@ impl Setup {
     /// non-volatile memory, which is neither made nor changed nor claimed.
     #[must_use]
     pub fn mistakes_in_files(file: UnitFile, folder: &Path) -> Vec<SetupError> {
-        let setup = Self::without_program(file);
+        let setup = Self::without_program(file.clone());
         let storage = setup.on_storage(folder, |path| memory_file::check(path, setup.file.section())).err();
         let program = setup.with_program_of_file(Some(folder)).err();
-        program.into_iter().chain(storage).collect()
+        let behaviours = Self::without_program(file).with_behaviours(Some(folder)).err();
+        program.into_iter().chain(behaviours).chain(storage).collect()
     }
 
     /// Does something with the file of the memory; nothing if the memory is in no file.
@@ -251,7 +257,25 @@ impl Setup {
 
     fn read(text: &str, folder: Option<&Path>) -> Result<Self, SetupError> {
         Self::without_program(UnitFile::parse(text).map_err(SetupError::UnitFile)?)
+            .with_behaviours(folder)?
             .with_program_of_file(folder)
+    }
+
+    /// Reads the tables over time that behaviours name.
+    fn with_behaviours(mut self, folder: Option<&Path>) -> Result<Self, SetupError> {
+        let read = |path: &Path| match folder {
+            Some(folder) => {
+                user_files::text(&folder.join(path), Wanted::Csv).map_err(|error| error.to_string())
+            }
+            None => Err("a text has no folder to find it in: `Setup::from_toml_in` knows the folder".into()),
+        };
+        let done = self.file.behaviours_mut().read_csv(read);
+        done.map_err(|(path, reason)| SetupError::Behaviour {
+            path: path.value.display().to_string(),
+            reason: reason.to_string(),
+            span: path.span.unwrap_or_default(),
+        })?;
+        Ok(self)
     }
 
     fn with_program_of_file(self, folder: Option<&Path>) -> Result<Self, SetupError> {

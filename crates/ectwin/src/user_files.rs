@@ -30,7 +30,7 @@ const fn limit_bytes(wanted: Wanted) -> u64 {
     match wanted {
         Wanted::UnitFile | Wanted::Scenario | Wanted::Program => 4 * MIB,
         Wanted::SiiImage => 8 * MIB,
-        Wanted::Esi => 64 * MIB,
+        Wanted::Esi | Wanted::Csv => 64 * MIB,
         Wanted::Capture | Wanted::Results | Wanted::Trace => 256 * MIB,
     }
 }
@@ -219,6 +219,7 @@ const fn not_found(wanted: Wanted) -> &'static str {
         Wanted::Results => "give the files that the parts have written by `ectwin replay --json`",
         Wanted::SiiImage => "`ectwin sii FILE.toml` writes the image of a unit",
         Wanted::Esi => "give the path of an ESI file, such as one in the folder units/esi",
+        Wanted::Csv => "give the path of a table of values over time",
         Wanted::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
     }
 }

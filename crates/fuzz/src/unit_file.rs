@@ -99,7 +99,7 @@ fn terminal(text: &str) -> Result<bool, String> {
 const WORDS: &[&str] = &[
     "model", "name", "unit_number", "serial", "id_switch", "alias", "device_type", "unit_version", "lot_number",
     "hardware_version", "software_version", "timing", "start_up", "refresh_phase", "outputs_before_op", "blank_sii",
-    "times", "refuse", "storage", "io_allocation", "pdo", "event_levels", "cpu", "m_to_c", "c_to_m", "uints", "bytes",
+    "times", "refuse", "storage", "io_allocation", "pdo", "event_levels", "cpu", "behaviour", "loopback", "hold", "ramp", "sine", "square", "random", "counter", "csv", "period", "every", "m_to_c", "c_to_m", "uints", "bytes",
     "udint", "assign", "mapping", "rx", "tx", "1601", "1A01", "transitions", "sii", "mailbox", "PS", "SO", "init",
     "pre_op", "safe_op", "op", "acknowledge", "inputs", "outputs", "ports", "\"digital\"", "task_period",
     "task_phase", "mode", "fail_soft", "program", "statement_budget", "\"nx-ect101\"", "\"exact\"", "\"fast\"",

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use plc::behaviour::BehaviourSection;
 use plc::{CpuSection, DeviceVariables, WithCpu};
 use unit_model::{UnitFiles, UnitSection};
 use user_file::{FileErrors, Problem, Reader, Section, Wanted, read_toml, values};
@@ -17,6 +18,7 @@ pub struct UnitFile {
     section: Arc<dyn UnitSection>,
     cpu: CpuSection,
     variables: DeviceVariables,
+    behaviours: BehaviourSection,
     is_named: bool,
 }
 
@@ -64,7 +66,8 @@ impl UnitFile {
         let WithCpu { unit: section, cpu } =
             WithCpu::read(reader, table, |reader, table| model.read(reader, table))?;
         let variables = DeviceVariables::of(section.variables());
-        Some(Self { section, cpu, variables, is_named: table.get(NAME).is_some() })
+        let behaviours = BehaviourSection::read(reader, table, &variables);
+        Some(Self { section, cpu, variables, behaviours, is_named: table.get(NAME).is_some() })
     }
 
     /// The part that its model has read.
@@ -95,6 +98,17 @@ impl UnitFile {
     #[must_use]
     pub const fn variables(&self) -> &DeviceVariables {
         &self.variables
+    }
+
+    /// What variables do by themselves.
+    #[must_use]
+    pub const fn behaviours(&self) -> &BehaviourSection {
+        &self.behaviours
+    }
+
+    /// The same, to read the files that it names. One that is not read has no effect.
+    pub const fn behaviours_mut(&mut self) -> &mut BehaviourSection {
+        &mut self.behaviours
     }
 }
 

@@ -1,6 +1,7 @@
 //! A unit and its CPU Unit get power.
 
 use device::DeviceConfig;
+use plc::behaviour::Behaviours;
 use plc::{CpuSettings, CpuUnit, Program};
 use time::{Duration, Instant};
 use unit_model::{ModelUnit, PowerOn, PoweredUnit};
@@ -14,6 +15,8 @@ pub struct PowerConditions {
     pub unit: PowerOn,
     /// From power-on to the first task period, where the file does not name it.
     pub task_phase: Duration,
+    /// Decides the numbers of random behaviours.
+    pub seed: u64,
     /// System time at power-on in nanoseconds since 1970-01-01 00:00:00; none: the CPU Unit has no system time.
     pub system_time_ns: Option<u64>,
 }
@@ -45,7 +48,10 @@ impl UnitFile {
             task_phase: cpu.task_phase.as_ref().map_or(conditions.task_phase, |phase| phase.value),
             ..CpuSettings::from_section(cpu)
         };
-        let cpu = CpuUnit::power_on(now, settings, self.variables().clone(), bus, program);
+        let mut cpu = CpuUnit::power_on(now, settings, self.variables().clone(), bus, program);
+        if let Some(behaviours) = Behaviours::of(self.behaviours(), conditions.seed) {
+            cpu.attach(Box::new(behaviours));
+        }
         Powered { config, unit, cpu }
     }
 }

@@ -3,6 +3,7 @@
 //! [`CpuUnit`] does no I/O and reads no clock: its owner calls [`CpuUnit::cycle`] when [`CpuUnit::deadline`] is
 //! reached. A user program is a [`Program`] that only has access to [`Io`].
 
+pub mod behaviour;
 mod builtin;
 mod cpu_event;
 mod cpu_section;

@@ -20,11 +20,11 @@ impl Scenario {
 }
 
 impl UnitSource {
-    /// Whether its phases are random.
+    /// Whether its phases are random, or values of its variables.
     fn has_dice(&self) -> bool {
         let section = self.file.section();
         let has_refresh_phase = section.refresh_period().is_some() && !section.names_refresh_phase();
-        has_refresh_phase || self.file.cpu().task_phase.is_none()
+        has_refresh_phase || self.file.cpu().task_phase.is_none() || self.file.behaviours().is_random()
     }
 }
 

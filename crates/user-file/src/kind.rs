@@ -24,6 +24,8 @@ pub enum Wanted {
     SiiImage,
     /// An ESI file.
     Esi,
+    /// A table of values over time.
+    Csv,
 }
 
 impl Wanted {
@@ -39,6 +41,7 @@ impl Wanted {
             Self::Esi => {
                 "an ESI file is XML, from the vendor of a device or from `ectwin esi`; units/esi has some"
             }
+            Self::Csv => "a table of values over time is text: times in seconds in the first column",
             Self::Trace => "`ectwin replay SCENARIO --bless` writes the trace of the scenario",
         }
     }

@@ -7,6 +7,7 @@
 mod error;
 mod modbus;
 mod names;
+mod number;
 mod place;
 mod table;
 #[cfg(test)]
@@ -17,6 +18,7 @@ mod variable;
 pub use error::VariableError;
 pub use modbus::ModbusAddress;
 pub use names::{at_specification, variable_name};
+pub use number::Numeric;
 pub use place::{Area, Place, STATUS_BYTES};
 pub use table::{BusUnit, StatusWord, VariableTable};
 pub use text::{TextProblem, ValueText, ValueTextError};

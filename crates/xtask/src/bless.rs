@@ -16,6 +16,7 @@ const TESTS: &[(&str, &str)] = &[
     ("ectwin-scenario", "values_page"),
     ("ectwin", "structured_text_reference"),
     ("ectwin", "kinds_page"),
+    ("ectwin", "behaviours_page"),
     ("ectwin-control", "page"),
 ];
 

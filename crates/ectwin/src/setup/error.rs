@@ -41,6 +41,15 @@ pub enum SetupError {
         /// Its problem.
         reason: String,
     },
+    /// The file of a behaviour cannot be used.
+    Behaviour {
+        /// The path.
+        path: String,
+        /// The problem.
+        reason: String,
+        /// Its bytes in the unit file.
+        span: Range<usize>,
+    },
     /// The file of its non-volatile memory cannot be used.
     Storage {
         /// The path.
@@ -68,6 +77,7 @@ impl fmt::Display for SetupError {
             Self::Builtin { refused, .. } => write!(formatter, "the user program cannot be used: {refused}"),
             Self::ProgramWrong { problems } => problems.fmt(formatter),
             Self::WebAssemblyWrong { path, reason } => write!(formatter, "{path}: {reason}"),
+            Self::Behaviour { path, reason, .. } => write!(formatter, "{path} cannot be used: {reason}"),
             Self::Storage { path, reason, .. } => {
                 write!(formatter, "the non-volatile memory {path} cannot be used: {reason}")
             }

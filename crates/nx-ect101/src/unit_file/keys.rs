@@ -9,7 +9,7 @@ use crate::events::{Event, EventCode};
 pub(super) const SHAPE: Shape = Shape { mailbox: true, boot: false };
 
 /// Keys and sections of the file itself.
-pub(super) const UNIT: [&str; 23] = [
+pub(super) const UNIT: [&str; 25] = [
     "model",
     "name",
     "unit_number",
@@ -33,6 +33,8 @@ pub(super) const UNIT: [&str; 23] = [
     "pdo",
     "event_levels",
     "cpu",
+    "behaviour",
+    "loopback",
 ];
 
 /// The keys at the top of a file.

@@ -28,6 +28,7 @@ pub(super) fn rebase(script: &mut Script, folder: &Path) {
             ScriptUnit::Keys(table) => {
                 let program = table.get_mut("cpu").and_then(|cpu| cpu.get_mut("program"));
                 program.into_iter().for_each(|program| each_text(program, seen));
+                each_csv_file(table, seen);
             }
         }
     }
@@ -42,6 +43,15 @@ fn each_path(paths: &mut Paths, seen: impl Fn(&mut String)) {
     match paths {
         Paths::One(path) => seen(path),
         Paths::Several(paths) => paths.iter_mut().for_each(seen),
+    }
+}
+
+/// The files of behaviours.
+fn each_csv_file(unit: &mut toml::Table, seen: impl Fn(&mut String) + Copy) {
+    let behaviours = unit.get_mut("behaviour").and_then(toml::Value::as_table_mut);
+    for (_, behaviour) in behaviours.into_iter().flatten() {
+        let file = behaviour.get_mut("csv").and_then(|csv| csv.get_mut("file"));
+        file.into_iter().for_each(|file| each_text(file, seen));
     }
 }
 

@@ -95,7 +95,7 @@ impl Maker<'_> {
     }
 
     fn unit_text(&mut self, text: &str, part: Part, origin: Origin<'_>) -> Option<UnitSource> {
-        let file = match UnitFile::parse(text) {
+        let mut file = match UnitFile::parse(text) {
             Ok(file) => file,
             Err(errors) => {
                 for error in errors.iter() {
@@ -112,6 +112,16 @@ impl Maker<'_> {
                 return None;
             }
         };
+        let read = file.behaviours_mut().read_csv(|path| {
+            let seen = seen_from_scenario(origin.path, path).display().to_string();
+            self.files.text(&seen, Wanted::Csv)
+        });
+        if let Err((path, reason)) = read {
+            let message =
+                format!("the file {} of a behaviour cannot be used: {reason}", path.value.display());
+            self.refuse(part, message, "");
+            return None;
+        }
         let program = match (origin.program, &file.cpu().program) {
             (Some(own), _) => self.user_program(own, part, &file)?,
             (None, Some(named)) => {

@@ -36,6 +36,7 @@ pub(super) fn powered(source: &UnitSource, mut dice: Dice, now: Instant, calenda
     let conditions = PowerConditions {
         unit: PowerOn { refresh_phase, ..PowerOn::default() },
         task_phase: dice.phase(task_period),
+        seed: if file.behaviours().is_random() { dice.next() } else { 0 },
         system_time_ns: Some(calendar_ns.saturating_add(now.as_nanos())),
     };
     file.power_on(now, &conditions, program)
