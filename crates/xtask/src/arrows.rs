@@ -69,6 +69,7 @@ const FLOORS: &[Row] = &[
     row("st", 5, Only(&["iec-types"])),
     row("nx-ect101", 6, UNIT_MODEL),
     row("digital", 6, UNIT_MODEL),
+    row("esi-device", 6, UNIT_MODEL),
     row("plc", 7, Only(&["time", "wire", "st", "nx-bus", "variables", "user-file"])),
     row("plant", 8, AnyFloorBelow),
     row("scenario", 9, AnyFloorBelow),
