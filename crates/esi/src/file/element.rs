@@ -81,6 +81,17 @@ impl<'a> Element<'a> {
         self.value_of(name)?.number()
     }
 
+    /// The 16 bits in the first element of this name; network files have them negative too.
+    pub(super) fn wrapping_16(self, name: &'static str) -> Option<u16> {
+        self.value_of(name)?.wrapping_16()
+    }
+
+    /// The 32 bits in the first element of this name; network files have them negative too.
+    pub(super) fn wrapping_32(self, name: &'static str) -> Option<u32> {
+        let value = self.value_of(name)?;
+        if value.is_negative() { value.number::<i32>().map(i32::cast_unsigned) } else { value.number() }
+    }
+
     /// An attribute; blanks around its text do not matter.
     pub(super) fn attribute(self, name: &'static str) -> Option<Value<'a>> {
         let found = self.node.attributes().find(|attribute| attribute.name() == name)?;
@@ -145,6 +156,15 @@ impl Value<'_> {
             self.report(rules::NUMBER_AS_IN_C, "is a hexadecimal number as in C; read as such");
         }
         Some(value)
+    }
+
+    fn is_negative(self) -> bool {
+        self.text.starts_with('-')
+    }
+
+    /// Its 16 bits; network files have them negative too.
+    pub(super) fn wrapping_16(self) -> Option<u16> {
+        if self.is_negative() { self.number::<i16>().map(i16::cast_unsigned) } else { self.number() }
     }
 
     /// Whether it is true: `1` or `true`.

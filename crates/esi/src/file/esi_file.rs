@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::device::DeviceElement;
 use super::dictionary::DictionaryElement;
+use super::document;
 use super::element::Element;
 use super::profile::ProfileElement;
 use super::read_error::ReadError;
@@ -14,6 +15,9 @@ use super::text;
 use crate::lint::finding::{Findings, Report};
 use crate::lint::{self, Modules, rules};
 use crate::{Group, Vendor};
+
+/// The root element of most files.
+const ROOT: &str = "EtherCATInfo";
 
 /// Maximum number of devices of a file.
 const DEVICES_MAX: usize = 10_000;
@@ -35,19 +39,11 @@ pub type External<'a> = dyn Fn(&str) -> Option<Vec<u8>> + 'a;
 impl EsiFile {
     /// Reads a file. `external` has the contents of further files: dictionaries.
     pub fn read(bytes: &[u8], external: &External<'_>) -> Result<Self, ReadError> {
-        if bytes.len() > ReadError::LENGTH_BYTES_MAX {
-            return Err(ReadError::TooLong { length_bytes: bytes.len() });
-        }
-        let text = text::decode(bytes)?;
-        let document = reading::parse(&text.text)?;
-        let reading = Reading::new(&document, None);
-        if text.is_misdeclared {
-            Element::root(&reading)
-                .report(rules::CHARACTER_SET, "the file is not UTF-8; read as ISO 8859-1".into());
-        }
-        let (devices, modules, more) = elements(Element::root(&reading), external)?;
-        lint_all(&devices, &modules, &reading);
-        let mut findings = reading.into_findings();
+        let ((devices, modules, more), mut findings) = document::read(bytes, |reading| {
+            let (devices, modules, more) = elements(Element::root(reading), external)?;
+            lint_all(&devices, &modules, reading);
+            Ok((devices, modules, more))
+        })?;
         findings.append(more);
         Ok(Self { devices, modules, findings: findings.sorted() })
     }
@@ -60,7 +56,13 @@ fn elements(
     let infos: Vec<Element<'_>> = match root.name() {
         "EtherCATInfo" | "EtherCATModule" => vec![root],
         "EtherCATInfoList" => root.all("EtherCATInfo").collect(),
-        other => return Err(ReadError::AnotherRoot { place: root.place(), root: other.to_owned() }),
+        other => {
+            return Err(ReadError::AnotherRoot {
+                place: root.place(),
+                root: other.to_owned(),
+                expected: ROOT,
+            });
+        }
     };
     let (mut devices, mut modules, mut files) = (Vec::new(), Vec::new(), DictionaryFiles::new(external));
     for info in infos {

@@ -61,7 +61,7 @@ pub struct InitCommandElement {
 }
 
 /// The protocols by the names of their elements.
-const PROTOCOLS: [(&str, MailboxProtocols); 6] = [
+pub(super) const PROTOCOLS: [(&str, MailboxProtocols); 6] = [
     ("AoE", MailboxProtocols::AOE),
     ("EoE", MailboxProtocols::EOE),
     ("CoE", MailboxProtocols::COE),
@@ -112,15 +112,9 @@ impl InitCommandElement {
             element.report(rules::INIT_COMMAND_UNUSABLE, "the init command has no index; dropped".into());
             return None;
         };
-        let mut transitions = Vec::new();
-        for transition in element.all("Transition").filter_map(transition) {
-            if !transitions.contains(&transition) {
-                transitions.push(transition);
-            }
-        }
         Some(Self {
             place: element.place(),
-            transitions,
+            transitions: transitions(element, &[]),
             index: ObjectIndex(index),
             depends_on_slot: element.child("Index").is_some_and(|index| index.flag("DependOnSlot")),
             sub: SubIndex(element.number_of("SubIndex").unwrap_or(0)),
@@ -130,6 +124,18 @@ impl InitCommandElement {
             comment: element.localized("Comment"),
         })
     }
+}
+
+/// The transitions of a command, each once; those in `others` are no transitions from state to state, and are left out.
+pub(super) fn transitions(command: Element<'_>, others: &[&str]) -> Vec<Transition> {
+    let mut transitions = Vec::new();
+    let texts = command.all("Transition").filter(|element| !others.contains(&element.text()));
+    for transition in texts.filter_map(transition) {
+        if !transitions.contains(&transition) {
+            transitions.push(transition);
+        }
+    }
+    transitions
 }
 
 fn transition(element: Element<'_>) -> Option<Transition> {

@@ -8,11 +8,13 @@ mod channels;
 mod clock;
 mod device;
 mod dictionary;
+mod document;
 mod eeprom;
 mod element;
 mod esi_file;
 mod info;
 mod mailbox;
+mod network;
 mod number;
 mod pdo;
 mod place;
@@ -32,6 +34,10 @@ pub use eeprom::EepromElement;
 pub use esi_file::{EsiFile, External};
 pub use info::InfoElement;
 pub use mailbox::{CoeElement, InitCommandElement, MailboxElement};
+pub use network::{
+    Attachment, CoeCommand, ExplicitIdentification, MailboxBuffer, NetworkClock, NetworkFile, NetworkMailbox,
+    NetworkSlave, NetworkSyncManager, PreviousPort, RegisterCommand, Target,
+};
 pub use pdo::{EntryElement, Oversampling, PdoElement, SlotIndex};
 pub use place::Place;
 pub use profile::ProfileElement;

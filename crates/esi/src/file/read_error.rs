@@ -35,6 +35,8 @@ pub enum ReadError {
         place: Place,
         /// Its name.
         root: String,
+        /// The name of the one that is read.
+        expected: &'static str,
     },
 }
 
@@ -63,6 +65,9 @@ impl ReadError {
             Self::AnotherRoot { root, .. } => match root.as_str() {
                 "EtherCATConfig" => {
                     "this is the configuration of a network (ENI), made from ESI files: use those"
+                }
+                "EtherCATInfo" => {
+                    "these are descriptions of devices (ESI), and not the configuration of a network"
                 }
                 "EtherCATDict" => {
                     "this is a dictionary: use the ESI file whose element DictionaryFile names it"
@@ -93,8 +98,8 @@ impl fmt::Display for ReadError {
                     "the file has too many elements and attributes for its {length_bytes} bytes"
                 )
             }
-            Self::AnotherRoot { root, .. } => {
-                write!(formatter, "the root element is `{}`, expected `EtherCATInfo`", user_file::shown(root))
+            Self::AnotherRoot { root, expected, .. } => {
+                write!(formatter, "the root element is `{}`, expected `{expected}`", user_file::shown(root))
             }
         }
     }

@@ -10,6 +10,7 @@ pub mod finding;
 mod identity;
 mod mailbox;
 mod modules;
+mod network;
 mod pdos;
 pub mod rules;
 mod sync_managers;
@@ -20,6 +21,7 @@ use finding::Report;
 pub(crate) use dictionary::check as check_dictionary;
 pub(crate) use identity::check_all as check_identities;
 pub(crate) use modules::Modules;
+pub(crate) use network::check as check_network;
 
 /// The rules for one device.
 pub(crate) fn check_device(device: &DeviceElement, modules: &Modules<'_>, report: &dyn Report) {

@@ -218,6 +218,32 @@ rules! {
         "make the image again from the device", "ETG.1000.6, SII";
     EMULATION "E906" Warning "a controller that follows each request by itself has no mailbox",
         "clear bit 8 of word 0 of ConfigData", "ETG.1000.4, 0x0141, device emulation";
+
+    // Network files.
+    TOO_MANY_SLAVES "N101" Error "a network has at most 65,535 slaves",
+        "remove the others", "ETG.1000.4, position addressing";
+    NETWORK_IDENTITY "N102" Error "a slave of a network has vendor ID and product code",
+        "add VendorId and ProductCode to Info", "ETG.2100, Slave/Info";
+    STATION_ADDRESS "N103" Error "a slave of a network has a station address of its own, other than 0",
+        "correct PhysAddr", "ETG.2100, Slave/Info; ETG.1000.4, 0x0010";
+    POSITION "N104" Warning "AutoIncAddr is the place of the slave in the file: 0, 65535, 65534 and so on",
+        "correct AutoIncAddr, or move the slave", "ETG.2100, Slave/Info";
+    IDENTIFICATION_TWICE "N105" Error "the number by which a slave is known again occurs once for a register",
+        "give one of them another number", "ETG.2100, Slave/Info/Identification";
+    PREVIOUS_SLAVE "N201" Error "a slave is connected to a slave that is before it in the file",
+        "correct PhysAddr of PreviousPort, or move the slave", "ETG.2100, Slave/PreviousPort";
+    PREVIOUS_LETTER "N202" Error "a port is A, B, C or D",
+        "write the letter of the port", "ETG.2100, Slave/PreviousPort";
+    PORT_TWICE "N203" Error "one slave is connected to a port",
+        "correct Port of one of them", "ETG.2100, Slave/PreviousPort";
+    NETWORK_COMMAND "N301" Error "an init command says what is sent, and to which address or index",
+        "add Cmd with Adp and Ado or with Addr; for an SDO add Index", "ETG.2100, InitCmd";
+    NETWORK_MAILBOX "N302" Error "a mailbox has Send and Recv with start and length",
+        "add Start and Length", "ETG.2100, Slave/Mailbox";
+    PDO_NOT_THERE "N303" Error "a PDO that is assigned to a SyncManager is one of the slave",
+        "add the RxPdo or TxPdo, or correct the element Pdo", "ETG.2100, Slave/ProcessData";
+    NETWORK_LENGTH "N304" Warning "the length of a SyncManager is that of the PDOs that are assigned to it",
+        "correct DefaultSize, or the list of Pdo", "ETG.2100, Slave/ProcessData; ETG.1000.6, 0x001D and 0x001E";
 }
 
 #[cfg(test)]

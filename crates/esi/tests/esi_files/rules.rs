@@ -151,11 +151,15 @@ fn a_pdo_of_too_many_entries_is_found() {
     assert!(found.contains("E408"), "{found:?}");
 }
 
+/// Those of network files have `tests/network_files.rs`.
 #[test]
 fn every_rule_has_a_file_that_breaks_it() {
     let elsewhere = ["E101", "E108", "E408"];
     let covered: BTreeSet<&str> = CASES.iter().map(|(code, ..)| *code).chain(elsewhere).collect();
-    assert_eq!(covered, RULES.iter().map(|rule| rule.code).collect());
+    assert_eq!(
+        covered,
+        RULES.iter().filter(|rule| rule.code.starts_with('E')).map(|rule| rule.code).collect()
+    );
 }
 
 /// The codes of the findings that a change adds.
