@@ -5,6 +5,7 @@
 
 mod acts;
 mod exchange;
+mod mailbox;
 mod unit;
 
 use device::Network;

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use device::Network;
 use esc::Esc;
-use mailbox::{MessageNote, SdoDirection, SdoEnd, SdoNote};
+use mailbox::{SdoDirection, SdoEnd, SdoNote};
 use plant::{Happening, HappeningKind, Mapping, mappings};
 use time::Instant;
 use unit_model::ModelUnit;
@@ -12,6 +12,7 @@ use wire::{AlState, Command, DatagramView, SdoAccess};
 
 use super::acts::{Acts, Moments};
 use super::exchange::Exchange;
+use super::mailbox::Counters;
 use crate::model::{Bytes, Entry, MasterAct};
 
 /// The address by which datagrams with a station address find the unit.
@@ -37,8 +38,7 @@ pub(super) struct WatchedUnit {
     /// Logical addresses of its process data.
     outputs: Option<Range<u32>>,
     inputs: Option<Range<u32>>,
-    /// Mailbox counter and contents of the message before.
-    message: Option<(u8, u32)>,
+    counters: Counters,
     sii: SiiCommand,
 }
 
@@ -66,7 +66,7 @@ impl WatchedUnit {
             has_error: status.error,
             outputs: None,
             inputs: None,
-            message: None,
+            counters: Counters::default(),
             sii: SiiCommand::default(),
         };
         if [AlState::SafeOp, AlState::Op].contains(&status.state) {
@@ -78,7 +78,7 @@ impl WatchedUnit {
     /// Another unit is at its place.
     pub(super) fn begin_again(&mut self) {
         self.has_error = false;
-        self.message = None;
+        self.counters.begin_again();
         self.sii = SiiCommand::default();
         self.is_not_mapped();
     }
@@ -101,9 +101,8 @@ impl WatchedUnit {
             }
             return;
         }
-        if !network.esc(self.position).is_some_and(|esc| self.is_addressed(datagram, esc, now)) {
-            return;
-        }
+        let esc = network.esc(self.position).filter(|esc| self.is_addressed(datagram, esc, now));
+        let Some(esc) = esc else { return };
         let offset = datagram.header.offset;
         if reads {
             let has = |register: u16| byte_of(datagram.data, offset, register).is_some();
@@ -112,8 +111,12 @@ impl WatchedUnit {
                 moments,
                 |act| matches!(act, MasterAct::ReadRegister { register, .. } if has(register.0)),
             );
+            self.counters.read(datagram, esc, now);
         }
         if writes {
+            if self.counters.are_wrong(datagram.data, offset, esc, now) {
+                self.acts.are_done(now, moments, |act| matches!(act, MasterAct::MiscountMailbox { .. }));
+            }
             self.write(now, datagram.data, offset, moments);
         }
     }
@@ -135,6 +138,10 @@ impl WatchedUnit {
             | MasterAct::SendOutputs { .. }
             | MasterAct::MiscountMailbox { .. } => false,
         });
+        if requested == Some(AlState::Init) {
+            // Also if the line loses the request.
+            self.counters.begin_again();
+        }
         self.sii.write(data, offset);
     }
 
@@ -152,7 +159,7 @@ impl WatchedUnit {
 
     /// A datagram as it returns.
     pub(super) fn answer(&mut self, datagram: &DatagramView<'_>) {
-        let Some(addresses) = logical(datagram) else { return };
+        let Some(addresses) = logical(datagram) else { return self.counters.answer(datagram) };
         if overlap(&addresses, self.outputs.as_ref()) || overlap(&addresses, self.inputs.as_ref()) {
             self.exchange.working_counter = Some(datagram.working_counter);
         }
@@ -164,7 +171,7 @@ impl WatchedUnit {
                 self.has_error = status.error;
                 if status.state == AlState::Init {
                     // The mailbox counts from its beginning with PRE-OP.
-                    self.message = None;
+                    self.counters.begin_again();
                 }
                 if ![AlState::SafeOp, AlState::Op].contains(&status.state) {
                     self.is_not_mapped();
@@ -173,7 +180,7 @@ impl WatchedUnit {
             HappeningKind::Power { on: false } => self.begin_again(),
             HappeningKind::Mapping(mapping) => self.is_mapped(mapping),
             HappeningKind::Sdo(note) => self.sdo(happening.at, note, moments),
-            HappeningKind::MessageReceived(note) => self.message(happening.at, note, moments),
+            HappeningKind::MessageReceived(note) => self.counters.is_taken(note),
             HappeningKind::Power { on: true }
             | HappeningKind::Event(_)
             | HappeningKind::Emergency(_)
@@ -202,16 +209,6 @@ impl WatchedUnit {
             }
             _ => false,
         });
-    }
-
-    fn message(&mut self, at: Instant, note: &MessageNote, moments: &mut Moments) {
-        let own = (note.counter, note.contents);
-        let before = self.message.replace(own);
-        let is_right = note.counter != 0
-            && before.is_none_or(|before| note.counter == before.0 % 7 + 1 || own == before);
-        if !is_right {
-            self.acts.are_done(at, moments, |act| matches!(act, MasterAct::MiscountMailbox { .. }));
-        }
     }
 
     fn is_mapped(&mut self, mapping: &Mapping) {

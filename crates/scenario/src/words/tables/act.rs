@@ -37,6 +37,6 @@ pub const ACTS: &[Sentence<MasterAct>] = &[
         "a frame with output data of the unit, in SAFE-OP or OP",
         |unit| SendOutputs { unit }),
     row!("sent a wrong mailbox counter to {unit}", "sent a wrong mailbox counter to unit 1",
-        "a mailbox message whose counter is not the one after that of the message before, 1 after 7; the same message again has the same counter",
+        "a mailbox message, as the master sends it, whose counter is not the one after that of the message before, 1 after 7; only a message without an answer may come again, with its counter",
         |unit| MiscountMailbox { unit }),
 ];
