@@ -4,6 +4,7 @@
 
 mod patient_master;
 
+use std::collections::VecDeque;
 use std::fs;
 use std::io::{self, Read, Write};
 use std::os::unix::net::UnixStream;
@@ -37,6 +38,8 @@ struct Bench {
     ticks: Interval,
     client: UnixStream,
     received: Vec<u8>,
+    /// Those that came before an answer, and that no test has looked at.
+    records: VecDeque<Value>,
     folder: PathBuf,
 }
 
@@ -69,6 +72,7 @@ impl Bench {
             ticks,
             client,
             received,
+            records: VecDeque::new(),
             folder,
         }
     }
@@ -99,7 +103,8 @@ impl Bench {
         panic!("no line in {CYCLES_MAX} cycles");
     }
 
-    /// The answer. Records come between: those of the start also, which the server may not have handed out yet.
+    /// The answer. Records come between, those of the start also, which the server may not have handed out yet: they are
+    /// kept.
     async fn answer(&mut self, request: Value) -> Value {
         self.client.write_all(format!("{request}\n").as_bytes()).unwrap();
         loop {
@@ -107,13 +112,17 @@ impl Bench {
             if line.get("kind").is_none() {
                 return line;
             }
+            self.records.push_back(line);
         }
     }
 
     /// The record of unit 1 that leaves a state.
     async fn leaves(&mut self, state: &str) -> Value {
         loop {
-            let line = self.line().await;
+            let line = match self.records.pop_front() {
+                Some(record) => record,
+                None => self.line().await,
+            };
             if line["kind"] == "state" && line["from"] == state {
                 return line;
             }
