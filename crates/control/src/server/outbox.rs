@@ -104,7 +104,7 @@ impl Outbox {
 mod tests {
     use super::*;
 
-    /// A client that takes so many bytes at most.
+    /// A client that takes at most this number of bytes.
     struct Slow {
         taken: Vec<u8>,
         room: usize,

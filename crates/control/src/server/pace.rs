@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use crate::twin::Twin;
 
-/// Frames wait for requests at most for one part in so many of the time.
+/// Frames wait for requests at most for one part in this number of the time.
 const REQUESTS_ONE_IN: u32 = 100;
 /// The same for expectations, whose share is their own: they never make a request wait.
 const EXPECTATIONS_ONE_IN: u32 = 200;

@@ -20,7 +20,7 @@ use super::there::{There, there};
 const PATIENCE: Duration = Duration::from_secs(5);
 const TRY_AGAIN: Duration = Duration::from_millis(5);
 
-/// The folder in which a twin makes its socket if it is not told where: `$XDG_RUNTIME_DIR/ectwin`. Without such a folder of
+/// The folder in which a twin makes its socket unless a path is given: `$XDG_RUNTIME_DIR/ectwin`. Without such a folder of
 /// the user it is `ectwin-UID` in the folder for temporary files. It need not exist.
 #[must_use]
 pub fn default_folder() -> PathBuf {

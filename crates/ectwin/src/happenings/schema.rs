@@ -39,7 +39,7 @@ fn definition(kind: &KindRow) -> String {
 
 fn property(field: &FieldRow, kind: &KindRow) -> String {
     let constraint = match field.form {
-        // The field that tells the kinds apart.
+        // The field that distinguishes the kinds.
         _ if field.name == "kind" => format!("\"const\": {}", Quoted(kind.name)),
         Form::Number => "\"type\": \"integer\", \"minimum\": 0".to_owned(),
         Form::Text => "\"type\": \"string\"".to_owned(),

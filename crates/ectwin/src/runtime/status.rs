@@ -44,7 +44,7 @@ impl UnitStatus {
 pub(super) struct Published(Box<[AtomicU64]>);
 
 impl Published {
-    /// The status of so many units that have not been published yet.
+    /// The status of this number of units, before the first one is published.
     pub(super) fn of(units: usize) -> Self {
         Self((0..units).map(|_| AtomicU64::new(0)).collect())
     }

@@ -109,7 +109,7 @@ impl<T: Copy, U: Unit, E: LineEnds<T>> Passing<'_, T, U, E> {
         self.pass_from(0, flight);
     }
 
-    /// A frame goes on from this cable, and the units react.
+    /// A frame continues from this cable, and the units react.
     fn pass_from(&mut self, from: usize, mut flight: Flight<T>) {
         let outward = self.go_outward(from, &mut flight);
         self.units.poll(self.now);

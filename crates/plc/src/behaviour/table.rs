@@ -7,7 +7,7 @@ pub struct BehaviourRow {
     pub name: &'static str,
     /// What the value does.
     pub meaning: &'static str,
-    /// The keys of its table; none: its value stands alone.
+    /// The keys of its table; none: it has a value and no table.
     pub keys: &'static [BehaviourKey],
     /// An example in a unit file.
     pub example: &'static str,

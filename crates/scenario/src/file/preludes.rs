@@ -147,7 +147,7 @@ fn read_prelude<'i>(
 }
 
 impl Whole {
-    /// Its own steps are told with their place in the prelude.
+    /// Its own steps are reported with their place in the prelude.
     fn tell_origin(&mut self, path: &str, text: &str) {
         let origin = Rc::new(Origin { path: path.to_owned(), text: text.to_owned() });
         for (places, written) in self.places.steps.iter_mut().zip(&mut self.draft.written) {

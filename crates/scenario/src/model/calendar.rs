@@ -94,7 +94,7 @@ fn read(text: &str) -> Option<Calendar> {
     Some(Calendar { seconds: days * SECONDS_OF_DAY + hour * 3600 + minute * 60 + second })
 }
 
-/// Three numbers with so many digits.
+/// Three numbers with these numbers of digits.
 fn numbers(text: &str, between: char, digits: [usize; 3]) -> Option<[u64; 3]> {
     let parts: Vec<&str> = text.split(between).collect();
     let parts: [&str; 3] = parts.try_into().ok()?;

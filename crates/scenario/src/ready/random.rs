@@ -60,7 +60,7 @@ impl Maker<'_> {
         let rows = self.rows(EVERYDAY, part)?;
         let units: Vec<KnownUnit> =
             self.units.iter().map(|unit| KnownUnit::of(unit.file.section())).collect();
-        // One unit of each kind stands for the others.
+        // One unit of each kind represents the others.
         let kinds: Vec<usize> =
             (0..units.len()).filter(|&position| !units[..position].contains(&units[position])).collect();
         let can_all =

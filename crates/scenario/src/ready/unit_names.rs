@@ -110,7 +110,7 @@ fn listed(numbers: &[usize]) -> String {
     UnitSet::Several(spans.collect()).to_string()
 }
 
-/// Whether the units exist in a line of so many, each of them once; otherwise the mistake and the remedy.
+/// Whether the units exist in a line of `count`, each of them once; otherwise the mistake and the remedy.
 fn are_there(units: &UnitSet, count: usize) -> Result<(), (String, String)> {
     let spans = match units {
         UnitSet::All => return Ok(()),

@@ -17,7 +17,7 @@ pub(crate) fn emergency_code(model: &dyn Model, event: EventCode) -> Option<u16>
     row.emergency.map(|emergency| emergency.code)
 }
 
-/// Of so many records the oldest are forgotten, a whole round of the history at a time.
+/// The most records that are kept: then the oldest are forgotten, a whole round of the history at a time.
 const RECORDS_MAX: usize = 3 * MESSAGES;
 
 /// The records of a history since its last clear.

@@ -1,6 +1,6 @@
 //! What the master of a line has done, as far as conditions ask for it: by its frames, and by what units report.
 //!
-//! It is told of each frame before the units and of each answer behind them. Without a question it costs a frame one
+//! It sees each frame before the units, and each answer behind them. Without a question it costs a frame one
 //! comparison, and it allocates only when a condition begins to ask.
 
 mod acts;

@@ -251,7 +251,7 @@ impl<T> Misfit<'_, T> {
         misfits.filter(move |(row, (reached, _))| *reached > 0 && has_verb_of(row.pattern, words))
     }
 
-    /// The words that the sentences have behind so many words.
+    /// The words that the sentences have behind the first `reached` words.
     fn expected(&self, words: &[&str], reached: usize) -> Vec<&'static str> {
         let mut expected = Vec::new();
         for (_, (_, problem)) in self.misfits(words).filter(|(_, (other, _))| *other == reached) {
@@ -334,7 +334,7 @@ fn is_number(word: &str) -> bool {
     word.starts_with(|first: char| first.is_ascii_digit())
 }
 
-/// Words of so many sentences that they make none of them likely.
+/// Words that are in too many sentences to make one of them likely.
 const COMMON_WORDS: &[&str] = &["all", "are", "is", "of", "the", "to", "unit", "units"];
 
 /// Whether a text has a word of a sentence's example that is not in most sentences.

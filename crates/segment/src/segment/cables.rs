@@ -30,7 +30,7 @@ impl Segment {
         true
     }
 
-    /// A frame that has come to a cable goes on from there: the ESCs behind it process it, and it returns, if it can.
+    /// A frame that has come to a cable continues from there: the ESCs behind it process it, and it returns, if it can.
     pub fn frame_from_cable(&mut self, now: Instant, frame: &mut [u8], cable: usize) -> FrameFate {
         self.settle();
         if cable >= self.way.cables {

@@ -12,7 +12,7 @@ use crate::output;
 const CAPTURE: &str = "capture.pcapng";
 const EVENTS: &str = "events.jsonl";
 const REPORT: &str = "command.txt";
-/// A folder of so many failures is not looked through any more.
+/// A folder with this number of failures is not searched any further.
 const FOLDERS_MAX: u32 = 100_000;
 
 /// A new folder for one run. It is removed if the command does not fail.

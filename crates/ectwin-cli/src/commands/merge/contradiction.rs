@@ -1,4 +1,4 @@
-//! What a result, and the results of one file, cannot be: a line that was changed after it was written is told.
+//! What a result, and the results of one file, cannot be: a line that was changed after it was written is reported.
 
 use std::collections::BTreeMap;
 

@@ -29,7 +29,7 @@ pub(super) struct OnFailure {
 
 impl OnFailure {
     /// Makes the folder, and removes what an earlier run of the cases of this part has left in it. What other campaigns
-    /// have left stays, and is told.
+    /// have left stays, and is reported.
     pub(super) fn make(folder: PathBuf, campaign: &Campaign, partition: Partition) -> Result<Self, Failure> {
         let inputs = campaign.inputs().to_vec();
         let cleared = fs::create_dir_all(&folder).and_then(|()| remove_earlier(&folder, campaign, partition));
