@@ -149,7 +149,7 @@ impl WatchedUnit {
     pub(super) fn end_of_frame(&mut self, now: Instant, moments: &mut Moments) {
         let Some(word) = self.sii.take_read() else { return };
         // One command reads two words.
-        let is_read = |wanted: u16| (word..=word + 1).contains(&u32::from(wanted));
+        let is_read = |wanted: u16| (word..=word.saturating_add(1)).contains(&u32::from(wanted));
         self.acts.are_done(
             now,
             moments,
