@@ -313,14 +313,7 @@ fn note_of(header: Option<MailboxHeader>, message: &[u8], again: bool) -> Messag
         (protocol, _) => MessageContent::Other(protocol),
     };
     let (counter, length_bytes) = header.map_or((0, 0), |header| (header.counter, header.length_bytes));
-    let contents = header.map_or(0, |header| contents_of(body, header.length_bytes));
-    MessageNote { content, counter, length_bytes, again, contents }
-}
-
-/// A number of the contents of a message (FNV-1a).
-fn contents_of(body: &[u8], length_bytes: u16) -> u32 {
-    let contents = body.get(..length_bytes.into()).unwrap_or(body);
-    contents.iter().fold(0x811C_9DC5, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193))
+    MessageNote { content, counter, length_bytes, again }
 }
 
 /// INIT has no mailbox.

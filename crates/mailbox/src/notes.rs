@@ -30,8 +30,6 @@ pub struct MessageNote {
     pub length_bytes: u16,
     /// Whether it is the message before, again: the master repeats a request, or has asked for a repetition.
     pub again: bool,
-    /// A number that two messages with different contents do not share, as good as always.
-    pub contents: u32,
 }
 
 /// The contents of a mailbox message.

@@ -63,7 +63,7 @@ fn abort_words(abort: SdoAbort) -> String {
 
 /// A mailbox message in this direction.
 pub(super) fn message(at: Instant, message: &MessageNote, direction: &'static str) -> Record {
-    let MessageNote { content, counter, length_bytes, again, contents: _ } = *message;
+    let MessageNote { content, counter, length_bytes, again } = *message;
     // By definition an abort is a request too.
     let is_abort = direction == "to_master" && content == MessageContent::Coe(CoeService::SdoRequest);
     let service = if is_abort { "SDO abort".to_owned() } else { service(content) };
