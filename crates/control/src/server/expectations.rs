@@ -55,11 +55,6 @@ impl<L> Expectations<L> {
         self.next_look = self.rests_until;
     }
 
-    /// Nobody waits for those of this client any more.
-    pub(super) fn forget(&mut self, client: ClientNumber) {
-        self.waiting.retain(|waiting| waiting.client != client);
-    }
-
     /// When the next ones are looked at; none: there are none.
     pub(super) fn due(&self) -> Option<Now> {
         (!self.waiting.is_empty()).then_some(self.next_look)
@@ -68,6 +63,9 @@ impl<L> Expectations<L> {
     /// Looks at the next ones. The answers of those that are true, or whose time has passed.
     pub(super) fn look<T: Twin<Look = L>>(&mut self, twin: &mut T) -> Vec<Post> {
         self.waiting.retain(|waiting| waiting.is_there.load(Ordering::Relaxed));
+        if self.waiting.is_empty() {
+            return Vec::new();
+        }
         let count = self.waiting.len().min(LOOKS_AT_ONCE);
         let mut those: Vec<Waiting<L>> = self.waiting.drain(..count).collect();
         let mut looks: Vec<&mut L> = those.iter_mut().map(|waiting| &mut waiting.look).collect();

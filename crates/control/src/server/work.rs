@@ -123,7 +123,6 @@ impl<T: Twin> Work<T> {
 
     fn forget(&mut self, client: ClientNumber) {
         self.subscriptions.remove(&client);
-        self.expectations.forget(client);
         self.variables.forget(client);
     }
 
