@@ -44,9 +44,15 @@ fn devices() -> Vec<DeviceElement> {
         fs::read_dir(&folder).expect("the folder").map(|entry| entry.expect("an entry").path()).collect();
     files.sort();
     let external = |name: &str| fs::read(folder.join(name)).ok();
-    let of = |path: PathBuf| EsiFile::read(&fs::read(path).expect("a file"), &external);
-    // A file with another root has a dictionary only.
-    files.into_iter().filter_map(|path| of(path).ok()).flat_map(|file| file.devices).collect()
+    // It has a dictionary only, for another file.
+    files.retain(|path| !path.ends_with("sensor-dictionary.xml"));
+    let of = |path: PathBuf| {
+        let file = EsiFile::read(&fs::read(&path).expect("a file"), &external);
+        let devices = file.expect("an ESI file").devices;
+        assert!(!devices.is_empty(), "{}: no device", path.display());
+        devices
+    };
+    files.into_iter().flat_map(of).collect()
 }
 
 /// The bits that the PDOs of a direction use, SyncManager by SyncManager, counted from the elements of the file.

@@ -2,9 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test ends where something is not as it should be")]
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use esi::file::{Attachment, EsiFile, NetworkFile};
+use esi::lint::rules::RULES;
 
 fn machine() -> String {
     let units = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../units");
@@ -101,28 +103,43 @@ fn identities(network: &NetworkFile) -> Vec<(Option<u32>, Option<u16>)> {
     network.slaves.iter().map(|slave| (slave.vendor_id, slave.position)).collect()
 }
 
+/// A change of the machine, and the rules that it breaks.
+const CHANGES: &[(&str, &str, &[&str])] = &[
+    ("<VendorId>3966763008</VendorId>", "", &["N102"]),
+    ("<PhysAddr>1020</PhysAddr>", "<PhysAddr>1019</PhysAddr>", &["N103"]),
+    ("<PhysAddr>1020</PhysAddr>", "<PhysAddr>0</PhysAddr>", &["N103"]),
+    ("<AutoIncAddr>65535</AutoIncAddr>", "<AutoIncAddr>65530</AutoIncAddr>", &["N104"]),
+    ("<PhysAddr>1001</PhysAddr>\n      </PreviousPort>", "<PhysAddr>9</PhysAddr></PreviousPort>", &["N201"]),
+    ("<Port>C</Port>", "<Port>E</Port>", &["N202"]),
+    ("<Port>C</Port>", "<Port>B</Port>", &["N203"]),
+    ("<Cmd>5</Cmd>", "", &["N301"]),
+    ("<Ccs>1</Ccs>", "<Ccs>1</Ccs><Index/>", &["N301", "E102"]),
+    ("<DefaultSize>1</DefaultSize>", "<DefaultSize>3</DefaultSize>", &["N304"]),
+    ("<Pdo>", "<Pdo>1</Pdo><Pdo>", &["N303"]),
+    ("<Transition>PS</Transition>", "<Transition>PX</Transition>", &["E502"]),
+];
+
 #[test]
 fn a_change_breaks_its_rule() {
-    for (before, after, codes) in [
-        ("<VendorId>3966763008</VendorId>", "", &["N102"][..]),
-        ("<PhysAddr>1020</PhysAddr>", "<PhysAddr>1019</PhysAddr>", &["N103"]),
-        ("<PhysAddr>1020</PhysAddr>", "<PhysAddr>0</PhysAddr>", &["N103"]),
-        ("<AutoIncAddr>65535</AutoIncAddr>", "<AutoIncAddr>65530</AutoIncAddr>", &["N104"]),
-        (
-            "<PhysAddr>1001</PhysAddr>\n      </PreviousPort>",
-            "<PhysAddr>9</PhysAddr></PreviousPort>",
-            &["N201"],
-        ),
-        ("<Port>C</Port>", "<Port>E</Port>", &["N202"]),
-        ("<Port>C</Port>", "<Port>B</Port>", &["N203"]),
-        ("<Cmd>5</Cmd>", "", &["N301"]),
-        ("<Ccs>1</Ccs>", "<Ccs>1</Ccs><Index/>", &["N301", "E102"]),
-        ("<DefaultSize>1</DefaultSize>", "<DefaultSize>3</DefaultSize>", &["N304"]),
-        ("<Pdo>", "<Pdo>1</Pdo><Pdo>", &["N303"]),
-        ("<Transition>PS</Transition>", "<Transition>PX</Transition>", &["E502"]),
-    ] {
-        assert_eq!(codes_with(before, after), codes, "{before} -> {after}");
+    for (before, after, codes) in CHANGES {
+        assert_eq!(codes_with(before, after), *codes, "{before} -> {after}");
     }
+}
+
+#[test]
+fn every_rule_of_networks_has_a_file_that_breaks_it() {
+    // Those that take more than one change have tests of their own.
+    let elsewhere = ["N101", "N105", "N302"];
+    let of_changes = CHANGES.iter().flat_map(|(_, _, codes)| *codes).copied();
+    let broken: BTreeSet<&str> = of_changes.chain(elsewhere).filter(|code| code.starts_with('N')).collect();
+    let rules = RULES.iter().map(|rule| rule.code).filter(|code| code.starts_with('N'));
+    assert_eq!(broken, rules.collect());
+}
+
+/// Together with the rules of devices these are all.
+#[test]
+fn a_rule_is_about_devices_or_about_networks() {
+    assert!(RULES.iter().all(|rule| rule.code.starts_with(['E', 'N'])));
 }
 
 #[test]
