@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use plc::behaviour::{BEHAVIOURS, BehaviourRow};
+use plc::behaviour::{BEHAVIOURS, BehaviourRow, LeftOut};
 
 const BLESS: &str = "ECTWIN_BLESS";
 const BEGIN: &str = "<!-- behaviours: begin -->\n";
@@ -12,9 +12,9 @@ const END: &str = "<!-- behaviours: end -->\n";
 fn table() -> String {
     let mut table = String::from("| behaviour | the value | keys | example |\n|---|---|---|---|\n");
     for BehaviourRow { name, meaning, keys, example } in BEHAVIOURS {
-        let keys = keys.iter().map(|key| match key.default {
-            "" => format!("`{}`: {}", key.name, key.values),
-            default => format!("`{}`: {}; left out: {default}", key.name, key.values),
+        let keys = keys.iter().map(|key| match key.left_out {
+            LeftOut::Required => format!("`{}`: {}", key.name, key.values),
+            left_out => format!("`{}`: {}; left out: {left_out}", key.name, key.values),
         });
         let keys = keys.collect::<Vec<_>>().join("<br>");
         table += &format!("| `{name}` | {meaning} | {keys} | `{example}` |\n");

@@ -13,4 +13,4 @@ pub use course::{CSV_BYTES_MAX, Course, CsvProblem};
 pub use player::Behaviours;
 pub use section::{BEHAVIOUR_KEYS, Behaviour, BehaviourSection, CsvKeys, Does, Loop};
 pub use signal::Signal;
-pub use table::{BEHAVIOURS, BehaviourKey, BehaviourRow};
+pub use table::{BEHAVIOURS, BehaviourKey, BehaviourRow, LeftOut};

@@ -37,6 +37,8 @@ pub struct Io {
     now: Instant,
     system_time_ns: Option<u64>,
     pub(crate) nx_bus_reset: NxBusReset,
+    /// Number of times that the CPU Unit was powered on again. It wraps.
+    power_cycles: u32,
     /// The running program has reported that it stops.
     has_stopped: bool,
     /// The owner of the CPU Unit sets it to end a scan early.
@@ -58,6 +60,7 @@ impl Io {
             now: Instant::ZERO,
             system_time_ns: None,
             nx_bus_reset: NxBusReset::None,
+            power_cycles: 0,
             has_stopped: false,
             switch_off: Arc::default(),
             scan: Arc::default(),
@@ -217,9 +220,15 @@ impl Io {
     /// for theirs.
     pub(crate) fn power_on(&mut self) {
         self.memory = Memory::new(&self.variables);
+        self.power_cycles = self.power_cycles.wrapping_add(1);
         self.nx_bus_reset = NxBusReset::None;
         self.now = Instant::ZERO;
         self.take_inputs(UnitHeader::default(), IoRefreshing::GoesOn, &[]);
+    }
+
+    /// Another number after each power-on: for what begins again with it.
+    pub(crate) const fn power_cycles(&self) -> u32 {
+        self.power_cycles
     }
 
     /// A task period begins, at this time after power-on.

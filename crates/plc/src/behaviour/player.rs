@@ -17,7 +17,8 @@ use crate::program::Program;
 pub struct Behaviours {
     signals: Vec<Playing>,
     loops: Vec<Loop>,
-    last: Instant,
+    /// The power-on with which the signals began.
+    power_cycles: u32,
 }
 
 #[derive(Clone, Debug)]
@@ -63,7 +64,7 @@ impl Behaviours {
             let (target, numeric) = (behaviour.target, behaviour.numeric);
             Some(Playing { target, numeric, signal, seed, next: Some(Duration::ZERO) })
         });
-        Some(Self { signals: signals.collect(), loops: section.loops.clone(), last: Instant::ZERO })
+        Some(Self { signals: signals.collect(), loops: section.loops.clone(), power_cycles: 0 })
     }
 }
 
@@ -108,13 +109,11 @@ fn fitting(course: Course, numeric: Numeric) -> Result<Course, CsvProblem> {
 
 impl Program for Behaviours {
     fn scan(&mut self, io: &mut Io) {
-        let now = io.now();
-        if now < self.last {
-            // The CPU Unit was powered on again.
+        if self.power_cycles != io.power_cycles() {
+            self.power_cycles = io.power_cycles();
             self.signals.iter_mut().for_each(|playing| playing.next = Some(Duration::ZERO));
         }
-        self.last = now;
-        let at = now.saturating_since(Instant::ZERO);
+        let at = io.now().saturating_since(Instant::ZERO);
         for playing in self.signals.iter_mut().filter(|playing| playing.next.is_some_and(|next| next <= at)) {
             let value = playing.signal.value(at, playing.seed, playing.numeric.is_whole());
             // The reader of the unit file has checked the variable.

@@ -1,5 +1,6 @@
 //! The keys `behaviour` and `loopback` of a unit file, for every model with variables.
 
+use core::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 
 use time::Duration;
@@ -9,7 +10,7 @@ use user_file::{
 use variables::{Numeric, Target, VariableTable, variable_name};
 
 use super::signal::Signal;
-use super::table::{BEHAVIOURS, BehaviourRow};
+use super::table::{BEHAVIOURS, BehaviourRow, DURATION, LeftOut};
 use crate::device_variables::DeviceVariables;
 
 /// The keys at the top of a unit file.
@@ -229,8 +230,7 @@ fn behaviour(
         return None;
     };
     reader.only(&keys, &row.keys.iter().map(|key| key.name).collect::<Vec<_>>());
-    let mut keys = Keys { reader, keys, numeric, span: value.span() };
-    keys.of(row)
+    Keys { reader, row, keys, numeric, span: value.span() }.read()
 }
 
 fn row(name: &str) -> Option<&'static BehaviourRow> {
@@ -240,18 +240,17 @@ fn row(name: &str) -> Option<&'static BehaviourRow> {
 /// The keys of one behaviour.
 struct Keys<'r, 't, 'd, 'i> {
     reader: &'r mut Reader<'t>,
+    row: &'static BehaviourRow,
     keys: Section<'d, 'i>,
     numeric: Numeric,
-    span: core::ops::Range<usize>,
+    span: Range<usize>,
 }
 
 impl Keys<'_, '_, '_, '_> {
-    fn of(&mut self, row: &BehaviourRow) -> Option<Does> {
-        // Both are read, so that both mistakes are reported.
-        let signal = match row.name {
+    fn read(mut self) -> Option<Does> {
+        let signal = match self.row.name {
             "ramp" => {
-                let (from, to, period) =
-                    (self.number("from", Some(0.0)), self.number("to", self.one()), self.time("period"));
+                let (from, to, period) = (self.number("from"), self.number("to"), self.time("period"));
                 Signal::Ramp { from: from?, to: to?, period: period? }
             }
             "sine" => {
@@ -261,20 +260,11 @@ impl Keys<'_, '_, '_, '_> {
             }
             "square" => {
                 let (limits, period) = (self.limits(), self.time("period"));
-                let duty = self.reader.value(&self.keys, "duty", |place, value| {
-                    let expected = "0 to 100 percent of the period";
-                    let percent = float(value).ok_or_else(|| wrong_type(place, value, expected))?;
-                    let is_part = (0.0..=100.0).contains(&percent);
-                    is_part
-                        .then_some(percent)
-                        .ok_or_else(|| Problem::new(format!("`{place}` is {percent}"), expected))
+                let duty_percent = self.number_of("duty", |place, value| {
+                    number_in(place, value, 0.0..=100.0, "0 to 100 percent of the period")
                 });
-                if duty.is_none() && self.keys.get("duty").is_some() {
-                    return None;
-                }
                 let (low, high) = limits?;
-                let duty_percent = duty.map_or(50.0, |duty| duty.value);
-                Signal::Square { low, high, period: period?, duty_percent }
+                Signal::Square { low, high, period: period?, duty_percent: duty_percent? }
             }
             "random" => {
                 let (limits, every) = (self.limits(), self.time("every"));
@@ -289,17 +279,10 @@ impl Keys<'_, '_, '_, '_> {
     }
 
     fn counter(&mut self) -> Option<Signal> {
-        let most = Some(*self.numeric.range().end());
-        let (from, to, every) = (self.number("from", Some(0.0)), self.number("to", most), self.time("every"));
-        let step = match self.keys.get("step") {
-            None => Some(1.0),
-            Some(_) => {
-                let step = self.reader.value(&self.keys, "step", |place, value| {
-                    float(value).ok_or_else(|| wrong_type(place, value, "a number"))
-                });
-                step.map(|step| step.value)
-            }
-        };
+        let (from, to, every) = (self.number("from"), self.number("to"), self.time("every"));
+        let step = self.number_of("step", |place, value| {
+            number_in(place, value, f64::MIN..=f64::MAX, "not 0, towards `to`")
+        });
         let (from, to, step) = (from?, to?, step?);
         if step == 0.0 || (to - from) * step < 0.0 {
             let message = format!("`{}` counts by {step} from {from} to {to}", self.keys.place_of("step"));
@@ -310,7 +293,7 @@ impl Keys<'_, '_, '_, '_> {
         Some(Signal::Counter { from, to, step, every: every? })
     }
 
-    fn csv(&mut self) -> Option<Does> {
+    fn csv(self) -> Option<Does> {
         self.reader.require(&self.keys, "file", "the path of a CSV file");
         let file = self.reader.value(&self.keys, "file", values::path);
         let column = self.reader.value(&self.keys, "column", |place, value| match value.as_integer() {
@@ -328,7 +311,7 @@ impl Keys<'_, '_, '_, '_> {
     }
 
     fn limits(&mut self) -> Option<(f64, f64)> {
-        let (low, high) = (self.number("low", Some(0.0)), self.number("high", self.one()));
+        let (low, high) = (self.number("low"), self.number("high"));
         let (low, high) = (low?, high?);
         if low > high {
             let message = format!("`{}` is {high}", self.keys.place_of("high"));
@@ -339,28 +322,42 @@ impl Keys<'_, '_, '_, '_> {
         Some((low, high))
     }
 
-    /// The default of what is required unless the variable is BOOL.
-    fn one(&self) -> Option<f64> {
-        (*self.numeric.range().end() == 1.0).then_some(1.0)
+    /// A number of the type.
+    fn number(&mut self, key: &str) -> Option<f64> {
+        let numeric = self.numeric;
+        self.number_of(key, |place, value| number(place, value, numeric))
     }
 
-    fn number(&mut self, key: &str, default: Option<f64>) -> Option<f64> {
-        if self.keys.get(key).is_none() {
-            if default.is_none() {
-                self.reader.require(&self.keys, key, "a number of the type");
-            }
-            return default;
+    /// A number; the one of the table if the key is left out.
+    fn number_of(
+        &mut self,
+        key: &str,
+        read: impl FnOnce(&str, &DeValue<'_>) -> Result<f64, Problem>,
+    ) -> Option<f64> {
+        if self.keys.get(key).is_some() {
+            return self.reader.value(&self.keys, key, read).map(|read| read.value);
         }
-        let numeric = self.numeric;
-        let read = self.reader.value(&self.keys, key, |place, value| number(place, value, numeric));
-        read.map(|read| read.value)
+        let default = self.default_of(key);
+        if default.is_none() {
+            self.reader.require(&self.keys, key, "a number of the type");
+        }
+        default
+    }
+
+    fn default_of(&self, key: &str) -> Option<f64> {
+        let most = *self.numeric.range().end();
+        match self.row.keys.iter().find(|row| row.name == key)?.left_out {
+            LeftOut::Number(number) => Some(number),
+            LeftOut::Greatest => Some(most),
+            LeftOut::OneOfBool => (most == 1.0).then_some(1.0),
+            LeftOut::Required | LeftOut::FirstColumn | LeftOut::No => None,
+        }
     }
 
     fn time(&mut self, key: &str) -> Option<Duration> {
-        let expected = "a duration of at least 1us, such as \"100ms\"";
-        self.reader.require(&self.keys, key, expected);
+        self.reader.require(&self.keys, key, DURATION);
         let read = self.reader.value(&self.keys, key, |place, value| {
-            values::duration(place, value, |duration| duration >= SHORTEST, expected)
+            values::duration(place, value, |duration| duration >= SHORTEST, DURATION)
         });
         read.map(|read| read.value)
     }
@@ -381,8 +378,17 @@ fn float(value: &DeValue<'_>) -> Option<f64> {
 fn number(place: &str, value: &DeValue<'_>, numeric: Numeric) -> Result<f64, Problem> {
     let (least, most) = (*numeric.range().start(), *numeric.range().end());
     let expected = if most == 1.0 { "true, false, 1 or 0".into() } else { format!("{least} to {most}") };
+    number_in(place, value, least..=most, &expected)
+}
+
+fn number_in(
+    place: &str,
+    value: &DeValue<'_>,
+    range: RangeInclusive<f64>,
+    expected: &str,
+) -> Result<f64, Problem> {
     let number = float(value).ok_or_else(|| wrong_type(place, value, &format!("a number, {expected}")))?;
-    if !(least..=most).contains(&number) {
+    if !range.contains(&number) {
         return Err(Problem::new(format!("`{place}` is {number}"), expected));
     }
     Ok(number)
