@@ -81,29 +81,12 @@ impl BehaviourSection {
             let Does::Csv(keys) = &behaviour.does else { continue };
             let unusable = |problem| (keys.file.clone(), problem);
             let text = read(&keys.file.value).map_err(|error| unusable(CsvUnusable::Unreadable(error)))?;
-            let course = Course::from_csv(&text, keys.column.as_deref(), keys.repeats)
-                .and_then(|course| fitting(course, behaviour.numeric))
+            let range = behaviour.numeric.range();
+            let course = Course::from_csv(&text, keys.column.as_deref(), keys.repeats, &range)
                 .map_err(|problem| unusable(CsvUnusable::Wrong(problem)))?;
             behaviour.does = Does::Signal(Signal::Csv(course));
         }
         Ok(())
-    }
-}
-
-/// The course, if the type has all its values.
-fn fitting(course: Course, numeric: Numeric) -> Result<Course, CsvProblem> {
-    let range = numeric.range();
-    let beyond = course.values().find(|value| !range.contains(value));
-    match beyond {
-        None => Ok(course),
-        Some(value) => Err(CsvProblem {
-            line: None,
-            message: format!(
-                "the value {value} is beyond the variable: {} to {}",
-                range.start(),
-                range.end()
-            ),
-        }),
     }
 }
 

@@ -1,6 +1,6 @@
 use std::path::PathBuf;
 
-use super::super::section::tests::{parse, variables};
+use super::super::read::tests::{parse, variables};
 use super::*;
 
 struct Bench {
@@ -60,6 +60,13 @@ fn a_value_follows_its_behaviour_and_a_loop_its_output() {
             (1, 1, 9),
         ]
     );
+}
+
+#[test]
+fn an_array_is_looped_back_as_a_whole() {
+    let mut bench = Bench::of("loopback.Copy = \"Raw\"\nbehaviour.\"Raw[1]\" = { hold = 258 }");
+    bench.scan(0);
+    assert_eq!(bench.value("K1_Copy"), [0, 0, 2, 1]);
 }
 
 #[test]
@@ -128,5 +135,8 @@ fn a_csv_file_is_read_once_and_its_values_fit_the_variable() {
     };
     assert_eq!(refused(Err("it is not there")), "it is not there");
     assert_eq!(refused(Ok("0,1\n")), "there is no column `level`: the first line has no names");
-    assert_eq!(refused(Ok("s,level\n0,99999\n")), "the value 99999 is beyond the variable: -32768 to 32767");
+    assert_eq!(
+        refused(Ok("s,level\n0,99999\n")),
+        "line 2: 99999 is not a value of the variable: -32768 to 32767"
+    );
 }

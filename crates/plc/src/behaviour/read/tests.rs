@@ -1,6 +1,10 @@
+use time::Duration;
 use user_file::{FileErrors, Wanted, read_toml};
-use variables::{Area, BusUnit, Place, StatusWord, Variable, VariableAccess, VariableType};
+use variables::{Area, BusUnit, Place, StatusWord, Variable, VariableAccess, VariableTable, VariableType};
 
+use super::super::section::Does;
+use super::super::signal::Signal;
+use super::super::table::BEHAVIOURS;
 use super::*;
 use crate::Elementary;
 
@@ -27,13 +31,14 @@ pub(in crate::behaviour) fn variables() -> DeviceVariables {
         variable("K1_Input_2", bit, set, Place::bit(Area::CToM, 1)),
         variable("K1_Channel_1_Level", int, set, Place::whole(Area::CToM, 1, 2)),
         variable("K1_Raw", VariableType::array(Elementary::Uint, 2), set, Place::whole(Area::CToM, 3, 4)),
+        variable("K1_Copy", VariableType::array(Elementary::Uint, 2), set, Place::whole(Area::CToM, 15, 4)),
         variable("K1_Delay", VariableType::single(Elementary::Time), set, Place::whole(Area::CToM, 7, 8)),
     ];
     let unit = BusUnit {
         device_name: "K1".into(),
         unit_number: 1,
         m_to_c_bytes: 1,
-        c_to_m_bytes: 15,
+        c_to_m_bytes: 19,
         status: StatusWord::default(),
     };
     DeviceVariables::of(VariableTable::new(unit, rows))
@@ -107,6 +112,11 @@ fn what_is_wrong_is_refused_with_its_place() {
         "behaviour.Channel_1_Level = { csv = { column = 0, repeat = 1 } }",
         "behaviour.Input_1 = { hold = true }\nbehaviour.K1_Input_1 = { hold = false }",
         "behaviour.Input_1 = { hold = true }\nloopback.Input_1 = \"Output_1\"",
+        "behaviour.\"Raw[2]\" = { hold = true }",
+        "behaviour.\"Rav[1]\" = { hold = true }",
+        "behaviour.\"Raw[1]\" = { hold = 1 }\nloopback.Raw = \"Raw\"",
+        "loopback.Input_1 = \"Input_1\"",
+        "loopback.Input_1 = \"Input_2\"\nloopback.Input_2 = \"Input_1\"",
         "loopback.Input_1 = \"Output_3\"",
         "loopback.Input_1 = 3",
         "loopback.Channel_1_Level = \"Output_1\"",
